@@ -1,0 +1,2 @@
+//! Creepage.
+fn main() {}

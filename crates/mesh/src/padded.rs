@@ -1,0 +1,42 @@
+//! The nodal vector of the kernels.
+
+use std::ops::{Index, IndexMut};
+
+/// A vector `[x, y, z, 0]` on a 32-byte boundary: one aligned load per node in the kernels.
+///
+/// The fourth entry is padding. It is zero unless the owner of an array says otherwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(32))]
+pub struct Padded(pub [f64; 4]);
+
+impl Padded {
+    /// The zero vector.
+    pub const ZERO: Self = Self([0.0; 4]);
+
+    /// The padded form of `v`.
+    #[inline(always)]
+    pub const fn new(v: [f64; 3]) -> Self {
+        Self([v[0], v[1], v[2], 0.0])
+    }
+
+    /// The three components.
+    #[inline(always)]
+    pub const fn xyz(self) -> [f64; 3] {
+        [self.0[0], self.0[1], self.0[2]]
+    }
+}
+
+impl Index<usize> for Padded {
+    type Output = f64;
+    #[inline(always)]
+    fn index(&self, i: usize) -> &f64 {
+        &self.0[i]
+    }
+}
+
+impl IndexMut<usize> for Padded {
+    #[inline(always)]
+    fn index_mut(&mut self, i: usize) -> &mut f64 {
+        &mut self.0[i]
+    }
+}

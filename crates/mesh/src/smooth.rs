@@ -1,0 +1,69 @@
+//! The exact surfaces that generated face nodes lie on.
+
+/// An exact undeformed surface, for the analytic curvature correction of faceted contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SmoothSurface {
+    /// Outside of a disk that turns about the line through `centre` parallel to `y`.
+    Tread {
+        /// Centre of the disk (m); its `y` is that of the crown's apex.
+        centre: [f64; 3],
+        /// Rolling radius at the apex (m).
+        radius: f64,
+        /// Transverse radius of the crown (m); `None` for a straight tread.
+        crown: Option<f64>,
+    },
+    /// Top of a bar along `x`.
+    Top {
+        /// Height `z` of the apex, which lies at `y = 0` (m).
+        apex: f64,
+        /// Transverse radius of the crown (m); `None` for a flat top.
+        crown: Option<f64>,
+    },
+}
+
+impl SmoothSurface {
+    /// Distance (m) from a point near the surface to it, along the outward normal: positive when
+    /// the point lies inside the body.
+    pub fn offset(&self, p: [f64; 3]) -> f64 {
+        match *self {
+            Self::Tread { centre, radius, crown } => {
+                let rho = (p[0] - centre[0]).hypot(p[2] - centre[2]);
+                match crown {
+                    None => radius - rho,
+                    Some(c) => c - (rho - (radius - c)).hypot(p[1] - centre[1]),
+                }
+            }
+            Self::Top { apex, crown } => match crown {
+                None => apex - p[2],
+                Some(c) => c - (p[2] - (apex - c)).hypot(p[1]),
+            },
+        }
+    }
+
+    /// Outward unit normal at the foot of a point near the surface, the negative gradient of
+    /// [`offset`](Self::offset).
+    pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
+        match *self {
+            Self::Tread { centre, radius, crown } => {
+                let (dx, dz) = (p[0] - centre[0], p[2] - centre[2]);
+                let rho = dx.hypot(dz);
+                match crown {
+                    None => [dx / rho, 0.0, dz / rho],
+                    Some(c) => {
+                        let (a, b) = (rho - (radius - c), p[1] - centre[1]);
+                        let d = a.hypot(b);
+                        [a / d * dx / rho, b / d, a / d * dz / rho]
+                    }
+                }
+            }
+            Self::Top { apex, crown } => match crown {
+                None => [0.0, 0.0, 1.0],
+                Some(c) => {
+                    let (a, b) = (p[2] - (apex - c), p[1]);
+                    let d = a.hypot(b);
+                    [0.0, b / d, a / d]
+                }
+            },
+        }
+    }
+}
