@@ -1,1 +1,35 @@
-//! case
+//! A case file becomes a run.
+//!
+//! A case is a TOML file ([`schema`]); it is read with its `extends` and `--set` layers
+//! ([`load`]), checked against the table of keys ([`keys`]) and against itself, and resolved so
+//! that every default is written out. [`mod@run`] then takes the resolved case to its results.
+
+pub mod bench;
+mod bodies;
+mod check;
+pub mod error;
+pub mod folder;
+mod forms;
+pub mod hertz;
+pub mod json_schema;
+pub mod keys;
+mod layers;
+pub mod load;
+pub mod mesh_report;
+mod model;
+pub mod progress;
+mod record;
+pub mod run;
+pub mod schema;
+mod start;
+mod sense;
+#[cfg(test)]
+mod tests;
+
+pub use bench::bench;
+pub use error::{CaseError, KeyError};
+pub use json_schema::json_schema;
+pub use mesh_report::mesh_report;
+pub use progress::{Progress, Stage};
+pub use run::{RunError, RunOptions, run};
+pub use schema::Case;

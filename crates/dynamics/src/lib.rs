@@ -1,1 +1,26 @@
-//! dynamics
+//! Explicit dynamics of the disk on the bar.
+//!
+//! Central difference with half-step velocities v^{n-1/2} and lumped mass. A step reads as the
+//! method does: internal force, boundary and damping force, contact (which sees the trial
+//! motion), hub, then velocity and position of every node in one pass, with the energy ledger in
+//! the form that the scheme conserves.
+
+mod guard;
+mod hub;
+mod ledger;
+mod nodes;
+mod quiet;
+mod relax;
+mod rolling;
+mod simulation;
+
+pub use guard::{Cause, Diagnosis, Place};
+pub use hub::{Hub, HubState, Spin, Vertical, smoothstep};
+pub use ledger::{Energies, Ledger};
+pub use quiet::QuietEnd;
+pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
+pub use rolling::{RollingField, rolling_field};
+pub use simulation::{Setup, Simulation, StepReport, Timers};
+
+#[cfg(test)]
+mod tests;

@@ -3,11 +3,32 @@
 //! SI units; `x` is the rolling direction, `y` lateral, `z` up. The apex of the bar's top is
 //! `z = 0`; the undeformed disk touches it at the origin with its centre at `(0, 0, R)`.
 
+mod bar;
+mod check;
+mod disk;
+mod error;
+mod grading;
+mod grid;
+mod hex;
+mod join;
+mod near;
 mod padded;
+mod quality;
+mod ring;
 mod smooth;
+mod zone;
 
+pub use bar::{Bar, bar};
+pub use check::check;
+pub use disk::{Disk, disk};
+pub use error::{MAX_ELEMENTS, MeshError};
+pub use grid::block;
+pub use hex::HEX_FACES;
+pub use join::join;
 pub use padded::Padded;
+pub use quality::{Quality, quality};
 pub use smooth::SmoothSurface;
+pub use zone::FineZone;
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,1 +1,45 @@
-//! output
+//! The on-disk form of a run: VTKHDF fields and contact surfaces, history, summary.
+//!
+//! | file | written by |
+//! |---|---|
+//! | `fields.vtkhdf`, `contact.vtkhdf` | [`TransientGrid`] |
+//! | `history.h5` | [`History`] |
+//! | `summary.json` | [`write_json_atomically`] of a [`summary::Summary`] |
+//!
+//! Every HDF5 file is created with its mesh and metadata and closed; each snapshot then opens it,
+//! appends and closes. Between snapshots the file is complete, so any reader can open it while the
+//! run goes on, and a killed process loses at most the snapshot that it was writing. The counts
+//! `NSteps` (grids) and `rows` (history) are written after the data that they count and are the
+//! truth about how much is valid. No file is locked: a viewer that holds one cannot end a run.
+//!
+//! Contents depend on the data alone, apart from the `created` attribute: the same run gives the
+//! same bits.
+
+mod background;
+mod error;
+mod grid;
+mod hdf5;
+mod history;
+mod json;
+mod reader;
+pub mod summary;
+mod vtu;
+
+pub use background::{BackgroundWriter, RunFiles};
+pub use error::OutputError;
+pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
+pub use history::{Column, History};
+pub use json::write_json_atomically;
+pub use reader::{FieldInfo, GridFile, HistoryFile};
+pub use vtu::write_vtu;
+
+/// Where a file comes from: the root attributes of every HDF5 file of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Provenance {
+    /// Version of the program that wrote the file.
+    pub creepage_version: String,
+    /// Hash of the resolved case.
+    pub case_hash: String,
+    /// When the run started, ISO 8601 in UTC. The only content that differs between equal runs.
+    pub created: String,
+}

@@ -1,0 +1,229 @@
+//! Each key of a case against the table of keys: it exists, has the right type and lies in range.
+
+use toml::{Table, Value};
+
+use crate::error::{CaseError, KeyError};
+use crate::keys::{self, Form, KEYS, Key, STIFFNESS, number};
+use crate::layers::{Layers, get, join, key_error_in};
+
+/// Checks every key: it exists, has the right type and lies in its range; none is missing.
+pub fn keys(layers: &Layers) -> Result<(), CaseError> {
+    let mut errors = Vec::new();
+    check_table(layers, &layers.table, "", "", &mut errors);
+    check_needed(layers, &mut errors);
+    raise(errors)
+}
+
+/// The errors as one, if there are any.
+pub fn raise(mut errors: Vec<KeyError>) -> Result<(), CaseError> {
+    if errors.is_empty() {
+        return Ok(());
+    }
+    let mut first = errors.remove(0);
+    first.others = errors;
+    Err(CaseError::Key(Box::new(first)))
+}
+
+/// Walks a table; `path` holds indices, `pattern` holds `[]` in their place.
+fn check_table(
+    layers: &Layers,
+    table: &Table,
+    path: &str,
+    pattern: &str,
+    errors: &mut Vec<KeyError>,
+) {
+    for (name, value) in table {
+        let (path, pattern) = (join(path, name), join(pattern, name));
+        let section = format!("{pattern}.");
+        let list = format!("{pattern}[].");
+        let mistake = |problem: &str, remedy: &str| {
+            layers.key_error(layers.origins.get(&path), &path, problem, remedy)
+        };
+        if name.contains('.') {
+            errors.push(unknown(layers, &path, &pattern));
+        } else if let Some(key) = keys::find(&pattern) {
+            if let Some(problem) = refused(key, value) {
+                errors.push(mistake(&problem, key.remedy));
+            }
+        } else if KEYS.iter().any(|key| key.path.starts_with(&section)) {
+            match value {
+                Value::Table(inner) => check_table(layers, inner, &path, &pattern, errors),
+                other => errors.push(mistake(
+                    &format!("{} must be a section", show(other)),
+                    &format!("write a section [{path}] with its keys: {}", siblings(&section)),
+                )),
+            }
+        } else if KEYS.iter().any(|key| key.path.starts_with(&list)) {
+            let remedy = format!("write sections [[{path}]] with the keys: {}", siblings(&list));
+            let Value::Array(items) = value else {
+                let problem = format!("{} must be a list of sections", show(value));
+                errors.push(mistake(&problem, &remedy));
+                continue;
+            };
+            for (i, item) in items.iter().enumerate() {
+                let (path, pattern) = (format!("{path}[{i}]"), format!("{pattern}[]"));
+                match item {
+                    Value::Table(inner) => {
+                        check_table(layers, inner, &path, &pattern, errors);
+                        for key in KEYS.iter().filter(|k| k.needed && k.path.starts_with(&list)) {
+                            let name = &key.path[list.len()..];
+                            if !inner.contains_key(name) {
+                                errors.push(missing(layers, &path, name, key));
+                            }
+                        }
+                    }
+                    other => errors.push(layers.key_error(
+                        layers.origins.get(&path),
+                        &path,
+                        &format!("{} must be a section", show(other)),
+                        &remedy,
+                    )),
+                }
+            }
+        } else {
+            errors.push(unknown(layers, &path, &pattern));
+        }
+    }
+}
+
+fn check_needed(layers: &Layers, errors: &mut Vec<KeyError>) {
+    for key in KEYS.iter().filter(|key| key.needed && !key.path.contains("[]")) {
+        let Some((section, name)) = key.path.rsplit_once('.') else {
+            continue;
+        };
+        // A section that is no table has had its message.
+        let no_section = get(&layers.table, section).is_some_and(|value| !value.is_table());
+        if !no_section && get(&layers.table, key.path).is_none() {
+            errors.push(missing(layers, section, name, key));
+        }
+    }
+}
+
+fn missing(layers: &Layers, section: &str, name: &str, key: &Key) -> KeyError {
+    let path = join(section, name);
+    let message = format!("{path} is missing: it must be given, {}", key.form.allowed(key.unit));
+    let help = format!("in [{section}] {}", key.remedy);
+    match layers.origins.get(section) {
+        Some(origin) => {
+            let source = layers.sources[origin.source].clone();
+            key_error_in(source, origin.key.clone(), &path, &message, &help)
+        }
+        None => layers.error_nowhere(&path, &message, &help),
+    }
+}
+
+/// Why a value does not suit its key, if it does not: the value, then what is allowed.
+fn refused(key: &Key, value: &Value) -> Option<String> {
+    let allowed = key.form.allowed(key.unit);
+    let not_allowed = || Some(format!("{} must be {allowed}", show(value)));
+    let fine = match (&key.form, value) {
+        (Form::Number(range) | Form::Crown(range), value) if float(value).is_some() => {
+            float(value).is_some_and(|x| range.holds(x))
+        }
+        (Form::Crown(_), Value::String(word)) => word == "flat",
+        (Form::Count(low, high), Value::Integer(n)) => {
+            u64::try_from(*n).is_ok_and(|n| (*low..=*high).contains(&n))
+        }
+        (Form::Flag, Value::Boolean(_)) | (Form::Text, Value::String(_)) => true,
+        (Form::Word(words), Value::String(word)) => words.contains(&word.as_str()),
+        (Form::Stiffness, Value::Table(table)) => {
+            table.len() == 1
+                && STIFFNESS.iter().any(|(name, range, _)| {
+                    table.get(*name).and_then(float).is_some_and(|x| range.holds(x))
+                })
+        }
+        (Form::Stiffness, value) => float(value).is_some_and(|x| STIFFNESS[0].1.holds(x)),
+        (Form::Points, Value::Array(points)) => points.iter().all(|point| {
+            point.as_array().is_some_and(|pair| {
+                pair.len() == 2
+                    && pair.iter().all(|x| float(x).is_some_and(|x| (-10.0..=10.0).contains(&x)))
+            })
+        }),
+        _ => false,
+    };
+    if fine { None } else { not_allowed() }
+}
+
+fn float(value: &Value) -> Option<f64> {
+    match value {
+        Value::Float(x) => Some(*x),
+        Value::Integer(n) => Some(*n as f64),
+        _ => None,
+    }
+}
+
+/// A value as it would be written, shortened.
+fn show(value: &Value) -> String {
+    let text = match value {
+        Value::Float(x) => number(*x),
+        other => other.to_string(),
+    };
+    if text.chars().count() <= 60 {
+        return text;
+    }
+    let head: String = text.chars().take(57).collect();
+    format!("{head}...")
+}
+
+/// The keys and sections right below a prefix that ends in a dot.
+fn siblings(prefix: &str) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for key in KEYS {
+        if let Some(rest) = key.path.strip_prefix(prefix) {
+            let name = rest.split(['.', '[']).next().unwrap_or(rest);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    names.join(", ")
+}
+
+fn unknown(layers: &Layers, path: &str, pattern: &str) -> KeyError {
+    let (section, name) = match pattern.rsplit_once('.') {
+        Some((section, name)) => (format!("{section}."), name),
+        None => (String::new(), pattern),
+    };
+    let here = siblings(&section);
+    let near = here
+        .split(", ")
+        .map(|sibling| (distance(name, sibling), sibling))
+        .min()
+        .filter(|(distance, sibling)| *distance <= 1 + sibling.len() / 4);
+    let elsewhere = KEYS.iter().find(|key| key.path.rsplit('.').next() == Some(name));
+    let place = if section.is_empty() {
+        "at the top level".to_owned()
+    } else {
+        format!("in [{}]", section.trim_end_matches('.'))
+    };
+    let help = match (near, elsewhere) {
+        (Some((_, sibling)), _) => format!("did you mean `{sibling}`? {place} there are: {here}"),
+        (None, Some(key)) => format!("did you mean `{}`? {place} there are: {here}", key.path),
+        (None, None) => format!("{place} there are: {here}"),
+    };
+    let value = get(&layers.table, path).map(|value| format!(" = {}", show(value)));
+    let message = format!("unknown key {path}{}", value.unwrap_or_default());
+    match layers.origins.get(path) {
+        Some(origin) => {
+            let source = layers.sources[origin.source].clone();
+            key_error_in(source, origin.key.clone(), path, &message, &help)
+        }
+        None => layers.error_nowhere(path, &message, &help),
+    }
+}
+
+/// Levenshtein's distance.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().take(64).enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

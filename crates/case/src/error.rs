@@ -1,0 +1,46 @@
+//! What can be wrong with a case file, and how it is told.
+
+use std::path::PathBuf;
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+use thiserror::Error;
+
+/// Why a case could not be loaded.
+#[derive(Debug, Error, Diagnostic)]
+pub enum CaseError {
+    /// A file that cannot be read at all.
+    #[error("{}: {problem}", path.display())]
+    #[diagnostic(help("{remedy}"))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// Something wrong at one place, or at several, of a file or of `--set`.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Key(#[from] Box<KeyError>),
+}
+
+/// One thing wrong at a place of a case file, with the others found in the same reading.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{message}")]
+pub struct KeyError {
+    /// Place, key, value and allowed range in one sentence.
+    pub message: String,
+    /// The key, dotted; empty for malformed TOML.
+    pub key: String,
+    #[source_code]
+    pub(crate) source_code: Option<NamedSource<String>>,
+    #[label("{label}")]
+    pub(crate) span: Option<SourceSpan>,
+    pub(crate) label: String,
+    #[help]
+    pub(crate) help: Option<String>,
+    /// Further problems.
+    #[related]
+    pub others: Vec<KeyError>,
+}

@@ -1,0 +1,78 @@
+//! Hertz's contact of two bodies with aligned principal curvatures: the scale of a case.
+
+use std::f64::consts::PI;
+
+use crate::schema::Case;
+
+/// Patch and pressure of Hertz's elliptic contact, or of its line contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hertz {
+    /// Half axis in the rolling direction (m).
+    pub a: f64,
+    /// Half axis across (m); half the common width for a line contact.
+    pub b: f64,
+    /// Largest pressure (Pa).
+    pub p0: f64,
+    /// Approach of the two bodies (m); zero for a line contact, where it is not defined.
+    pub approach: f64,
+}
+
+/// Hertz's contact of a case's disk on its bar under `load.normal`.
+pub fn hertz(case: &Case) -> Hertz {
+    let compliance = |m: crate::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
+    let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
+    let along = 1.0 / case.disk.radius;
+    let across = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
+    let load = case.load.normal;
+    if across <= 0.0 {
+        let width = case.disk.width.min(case.bar.width);
+        return line(load / width, along, modulus, width);
+    }
+    // Half the sum of the curvatures in each direction, the gap being A x^2 + B y^2.
+    let (gap_x, gap_y) = (along / 2.0, across / 2.0);
+    let ellipse = ellipse(load, gap_x.min(gap_y), gap_x.max(gap_y), modulus);
+    if gap_x <= gap_y { ellipse } else { Hertz { a: ellipse.b, b: ellipse.a, ..ellipse } }
+}
+
+/// Line contact (Johnson 1985, section 4.2): a^2 = 4 P R/(pi E*), p0 = 2 P/(pi a), P per width.
+fn line(load_per_width: f64, curvature: f64, modulus: f64, width: f64) -> Hertz {
+    let a = (4.0 * load_per_width / (PI * curvature * modulus)).sqrt();
+    Hertz { a, b: width / 2.0, p0: 2.0 * load_per_width / (PI * a), approach: 0.0 }
+}
+
+/// Elliptic contact with gap `low` x^2 + `high` y^2, `low <= high`, so that `a >= b`
+/// (Johnson 1985, Eqs 4.26 to 4.28), solved for the eccentricity by bisection.
+fn ellipse(load: f64, low: f64, high: f64, modulus: f64) -> Hertz {
+    // B/A = ((a/b)^2 E - K)/(K - E), from 1 for a circle to infinity for a line; in the modulus
+    // of the complete integrals m = e^2 = 1 - (b/a)^2.
+    let ratio = |m: f64| {
+        let (k, e) = elliptic(m);
+        (e / (1.0 - m) - k) / (k - e)
+    };
+    let (mut below, mut above) = (1e-9, 1.0 - 1e-12);
+    for _ in 0..200 {
+        let middle = 0.5 * (below + above);
+        if ratio(middle) < high / low { below = middle } else { above = middle }
+    }
+    let m = 0.5 * (below + above);
+    let (k, e) = elliptic(m);
+    // low = (p0/E*) b (K - E)/(m a^2) with p0 = 3 P/(2 pi a b): a^3 = 3 P (K - E)/(2 pi E* m low).
+    let a = (1.5 * load * (k - e) / (PI * modulus * m * low)).cbrt();
+    let b = a * (1.0 - m).sqrt();
+    let p0 = 1.5 * load / (PI * a * b);
+    Hertz { a, b, p0, approach: p0 / modulus * b * k }
+}
+
+/// Complete elliptic integrals K(m) and E(m) by the arithmetic-geometric mean.
+fn elliptic(m: f64) -> (f64, f64) {
+    let (mut x, mut y, mut power) = (1.0, (1.0 - m).sqrt(), 0.5);
+    let mut sum = 0.5 * m;
+    for _ in 0..40 {
+        let c = 0.5 * (x - y);
+        (x, y) = (0.5 * (x + y), (x * y).sqrt());
+        power *= 2.0;
+        sum += power * c * c;
+    }
+    let k = PI / (2.0 * x);
+    (k, k * (1.0 - sum))
+}

@@ -1,0 +1,95 @@
+//! The JSON Schema of a case file, for editors and for people.
+
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value, json};
+
+use crate::keys::{End, Form, KEYS, Key, Range};
+use crate::schema::Case;
+
+/// The JSON Schema (draft 2020-12) of a case file, with every key's unit and allowed range.
+pub fn json_schema() -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
+    let mut schema = settings.into_generator().into_root_schema_for::<Case>().to_value();
+    for key in KEYS {
+        if let Some(at) = locate(&mut schema, key.path) {
+            annotate(at, key);
+        }
+    }
+    allow_extending(&mut schema);
+    if let Some(top) = schema.as_object_mut() {
+        top.insert("title".into(), json!("Creepage case"));
+    }
+    schema
+}
+
+/// The schema of one key, by its path in the table of keys.
+fn locate<'a>(schema: &'a mut Value, path: &str) -> Option<&'a mut Map<String, Value>> {
+    let mut at = schema;
+    for segment in path.split('.') {
+        at = at.get_mut("properties")?.get_mut(segment.trim_end_matches("[]"))?;
+        if segment.ends_with("[]") {
+            at = at.get_mut("items")?;
+        }
+    }
+    at.as_object_mut()
+}
+
+fn annotate(schema: &mut Map<String, Value>, key: &Key) {
+    // TOML has no null: an optional key is left out.
+    if let Some(Value::Array(types)) = schema.get("type") {
+        let kept = types.iter().find(|name| *name != "null").cloned();
+        schema.insert("type".into(), kept.unwrap_or(Value::Null));
+    }
+    if schema.get("default") == Some(&Value::Null) {
+        schema.remove("default");
+    }
+    if !key.unit.is_empty() {
+        schema.insert("x-unit".into(), json!(key.unit));
+    }
+    if let Form::Number(range) = key.form {
+        limit(schema, range);
+    }
+    if let Form::Count(low, high) = key.form {
+        schema.insert("minimum".into(), json!(low));
+        schema.insert("maximum".into(), json!(high));
+    }
+    let said = schema.get("description").and_then(Value::as_str).unwrap_or_default();
+    let description = format!("{said}\nAllowed: {}.", key.form.allowed(key.unit));
+    schema.insert("description".into(), json!(description));
+}
+
+fn limit(schema: &mut Map<String, Value>, range: Range) {
+    match range.low {
+        End::Closed(end) => schema.insert("minimum".into(), json!(end)),
+        End::Open(end) => schema.insert("exclusiveMinimum".into(), json!(end)),
+    };
+    match range.high {
+        End::Closed(end) => schema.insert("maximum".into(), json!(end)),
+        End::Open(end) => schema.insert("exclusiveMaximum".into(), json!(end)),
+    };
+}
+
+/// Keys that a case must have may come from the file that it extends.
+fn allow_extending(schema: &mut Value) {
+    let mut required = Map::new();
+    for key in KEYS.iter().filter(|key| key.needed && !key.path.contains("[]")) {
+        let Some((section, name)) = key.path.rsplit_once('.') else {
+            continue;
+        };
+        let section = required.entry(section).or_insert_with(|| json!({ "required": [] }));
+        if let Some(names) = section.get_mut("required").and_then(Value::as_array_mut) {
+            names.push(json!(name));
+        }
+    }
+    for section in required.keys() {
+        if let Some(at) = locate(schema, section) {
+            at.remove("required");
+        }
+    }
+    let sections: Vec<_> = required.keys().cloned().collect();
+    if let Some(top) = schema.as_object_mut() {
+        top.remove("required");
+        top.insert("if".into(), json!({ "not": { "required": ["extends"] } }));
+        top.insert("then".into(), json!({ "required": sections, "properties": required }));
+    }
+}

@@ -1,0 +1,308 @@
+//! The table of keys: what each may hold, its unit, and what to do where it does not.
+
+use std::fmt;
+
+/// One end of a range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// The value itself is allowed.
+    Closed(f64),
+    /// The value itself is not allowed.
+    Open(f64),
+}
+
+/// A range of numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Lower end.
+    pub low: End,
+    /// Upper end.
+    pub high: End,
+}
+
+impl Range {
+    /// Whether `x` lies in the range; NaN lies in none.
+    pub fn holds(&self, x: f64) -> bool {
+        let low = match self.low {
+            End::Closed(end) => x >= end,
+            End::Open(end) => x > end,
+        };
+        let high = match self.high {
+            End::Closed(end) => x <= end,
+            End::Open(end) => x < end,
+        };
+        low && high
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.low {
+            End::Closed(end) => write!(f, "at least {}", number(end))?,
+            End::Open(end) => write!(f, "greater than {}", number(end))?,
+        }
+        match self.high {
+            End::Closed(end) => write!(f, " and at most {}", number(end)),
+            End::Open(end) => write!(f, " and less than {}", number(end)),
+        }
+    }
+}
+
+/// A number as a person would write it.
+pub fn number(x: f64) -> String {
+    let size = x.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) { format!("{x:e}") } else { format!("{x}") }
+}
+
+/// What kind of value a key holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A number in a range.
+    Number(Range),
+    /// A whole number from the first to the second.
+    Count(u64, u64),
+    /// `true` or `false`.
+    Flag,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// Any text.
+    Text,
+    /// `"flat"` or a radius in the range.
+    Crown(Range),
+    /// A penalty stiffness in one of its three forms.
+    Stiffness,
+    /// A list of pairs of numbers.
+    Points,
+}
+
+/// One key of a case file.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    /// Dotted path; `[]` stands for the index in an array of tables.
+    pub path: &'static str,
+    /// What it holds.
+    pub form: Form,
+    /// SI unit; `-` for dimensionless, empty where the value is no number.
+    pub unit: &'static str,
+    /// Whether a case must give it.
+    pub needed: bool,
+    /// What to do where the value is refused, or the key is missing.
+    pub remedy: &'static str,
+}
+
+/// Ranges of the three forms of a penalty stiffness: factor (-), areal (N/m^3), stability (-).
+pub const STIFFNESS: [(&str, Range, &str); 3] = [
+    ("", over(0.0, 100.0), "-"),
+    ("stiffness", over(0.0, 1e18), "N/m^3"),
+    ("stability", over(0.0, 2.0), "-"),
+];
+
+const fn over(low: f64, high: f64) -> Range {
+    Range { low: End::Open(low), high: End::Closed(high) }
+}
+
+const fn within(low: f64, high: f64) -> Range {
+    Range { low: End::Closed(low), high: End::Closed(high) }
+}
+
+const fn below(low: f64, high: f64) -> Range {
+    Range { low: End::Closed(low), high: End::Open(high) }
+}
+
+const fn key(path: &'static str, form: Form, unit: &'static str, remedy: &'static str) -> Key {
+    Key { path, form, unit, needed: false, remedy }
+}
+
+const fn needed(path: &'static str, form: Form, unit: &'static str, remedy: &'static str) -> Key {
+    Key { path, form, unit, needed: true, remedy }
+}
+
+use Form::{Count, Crown, Flag, Number, Points, Stiffness, Text, Word};
+
+const LENGTH: Form = Number(over(0.0, 10.0));
+const PLACE: Form = Number(within(-10.0, 10.0));
+const YOUNG: Form = Number(within(1e3, 1e13));
+const POISSON: Form = Number(below(0.0, 0.5));
+const DENSITY: Form = Number(within(1.0, 1e5));
+
+const METRES: &str = "give the length in metres: 0.06 for 60 mm";
+const YOUNG_REMEDY: &str = "give Young's modulus in pascal: 210e9 for steel";
+const POISSON_REMEDY: &str =
+    "an explicit solid needs a finite wave speed: steel has 0.3, rubber-like bodies up to 0.49";
+const DENSITY_REMEDY: &str = "give the density in kg/m^3: 7800 for steel";
+const INTERVAL: &str = "give a positive time in seconds: 5.7e-6 for 5.7 microseconds";
+
+/// Every key of a case file, in the order of the schema.
+pub const KEYS: &[Key] = &[
+    key("name", Text, "", "use letters, digits, '-', '_' and '.', as in a folder's name"),
+    key("title", Text, "", "give one line of text in quotes"),
+    key("extends", Text, "", "give the path of another case file, relative to this one"),
+    key("disk.radius", LENGTH, "m", METRES),
+    key("disk.hub_radius", LENGTH, "m", METRES),
+    key("disk.width", LENGTH, "m", METRES),
+    key("disk.crown_radius", Crown(over(0.0, 1e4)), "m", "give the radius in metres, or \"flat\""),
+    key(
+        "disk.lift",
+        Number(within(0.0, 0.1)),
+        "m",
+        "leave it out: the disk then touches the bar at the start",
+    ),
+    key("disk.material.young", YOUNG, "Pa", YOUNG_REMEDY),
+    key("disk.material.poisson", POISSON, "-", POISSON_REMEDY),
+    key("disk.material.density", DENSITY, "kg/m^3", DENSITY_REMEDY),
+    key("bar.length", LENGTH, "m", METRES),
+    key("bar.width", LENGTH, "m", METRES),
+    key("bar.height", LENGTH, "m", METRES),
+    key("bar.crown_radius", Crown(over(0.0, 1e4)), "m", "give the radius in metres, or \"flat\""),
+    key("bar.start", PLACE, "m", "give x of the bar's rear end, negative: rolling starts at x = 0"),
+    key("bar.ends", Word(&["quiet", "free"]), "", "choose one of the words"),
+    key("bar.material.young", YOUNG, "Pa", YOUNG_REMEDY),
+    key("bar.material.poisson", POISSON, "-", POISSON_REMEDY),
+    key("bar.material.density", DENSITY, "kg/m^3", DENSITY_REMEDY),
+    key("material.young", YOUNG, "Pa", YOUNG_REMEDY),
+    key("material.poisson", POISSON, "-", POISSON_REMEDY),
+    key("material.density", DENSITY, "kg/m^3", DENSITY_REMEDY),
+    key(
+        "mesh.growth",
+        Number(within(1.05, 3.0)),
+        "-",
+        "give the ratio of neighbouring element sizes: 1.35 grades gently",
+    ),
+    key("mesh.coarsest", LENGTH, "m", METRES),
+    key(
+        "mesh.zone.size",
+        Number(over(0.0, 0.1)),
+        "m",
+        "give the element size in metres: 1e-3 for 1 mm",
+    ),
+    key("mesh.zone.length", LENGTH, "m", METRES),
+    key("mesh.zone.width", LENGTH, "m", METRES),
+    key("mesh.zone.depth", LENGTH, "m", METRES),
+    key(
+        "mesh.zone.start",
+        PLACE,
+        "m",
+        "give x of the zone's rear end, negative: rolling starts at x = 0",
+    ),
+    key(
+        "element.hourglass",
+        Number(within(0.0, 1.0)),
+        "-",
+        "0.05 is usual; 0.01 to 0.1 is the sensible range",
+    ),
+    needed(
+        "load.normal",
+        Number(over(0.0, 1e8)),
+        "N",
+        "give the force that presses the disk down, positive, in newtons: `normal = 100e3`; a \
+         load upwards would lift the disk off the bar",
+    ),
+    key("load.mode", Word(&["load", "height"]), "", "choose one of the words"),
+    key("load.hub_mass", Number(within(0.0, 1e5)), "kg", "give a mass in kg; 0 for the disk alone"),
+    needed(
+        "drive.speed",
+        Number(over(0.0, 500.0)),
+        "m/s",
+        "give the rolling speed in +x in m/s: `speed = 38.89`",
+    ),
+    key("drive.mode", Word(&["creepage", "torque"]), "", "choose one of the words"),
+    key(
+        "drive.creepage",
+        Number(within(-0.5, 0.5)),
+        "-",
+        "give a plain ratio, not per cent or per mille: 2.4e-3 for 2.4 per mille",
+    ),
+    key("drive.torque", Number(within(-1e7, 1e7)), "N m", "give the torque in N m"),
+    key("drive.ramp", Number(within(0.0, 1.0)), "s", "give a time in seconds: 0.74e-3"),
+    key("friction.law", Word(&["coulomb", "exponential"]), "", "choose one of the words"),
+    needed(
+        "friction.static",
+        Number(within(0.0, 5.0)),
+        "-",
+        "give the coefficient of friction: `static = 0.5`",
+    ),
+    key("friction.dynamic", Number(within(0.0, 5.0)), "-", "give a coefficient of friction: 0.32"),
+    key("friction.decay", Number(within(0.0, 1e4)), "s/m", "give the decay in s/m: 6.0"),
+    key("contact.enforcement", Word(&["penalty"]), "", "penalty is what this version has"),
+    key("contact.curvature", Flag, "", "give true or false, without quotes"),
+    key("contact.penalty.normal", Stiffness, "-", STIFFNESS_REMEDY),
+    key("contact.penalty.tangential", Stiffness, "-", STIFFNESS_REMEDY),
+    key(
+        "contact.penalty.damping",
+        Number(within(0.0, 1.0)),
+        "-",
+        "give a fraction of critical, not per cent: 0.1",
+    ),
+    key("damping.bulk_linear", Number(within(0.0, 2.0)), "-", "0.06 is usual; 0 turns it off"),
+    key("damping.bulk_quadratic", Number(within(0.0, 20.0)), "-", "1.2 is usual; 0 turns it off"),
+    key(
+        "damping.kelvin_voigt",
+        Number(within(0.0, 1e-3)),
+        "s",
+        "give 0.1 to 1 time steps, about 1e-8 s; 0 turns it off",
+    ),
+    key("damping.mass", Number(within(0.0, 1e6)), "1/s", "give a rate in 1/s; 0 turns it off"),
+    key("preload.method", Word(&["relaxation", "none"]), "", "choose one of the words"),
+    key(
+        "preload.tolerance",
+        Number(over(0.0, 1e-2)),
+        "-",
+        "give the ratio of kinetic to internal energy: 1e-8",
+    ),
+    key("preload.max_iterations", Count(1, 100_000_000), "steps", "give a whole number: 40000"),
+    key(
+        "time.factor",
+        Number(over(0.0, 2.0)),
+        "-",
+        "0.67 is the default; up to 1 is stable, up to 2 is accepted to show a blow-up",
+    ),
+    key("time.roll", LENGTH, "m", "give the rolled distance in metres: 0.06"),
+    key("time.duration", Number(over(0.0, 10.0)), "s", "give the time in seconds: 1.5e-3"),
+    key("evaluate.last", LENGTH, "m", "give the rolled distance in metres: 0.02"),
+    key("output.fields_interval", Number(over(0.0, 10.0)), "s", INTERVAL),
+    key("output.stress", Flag, "", "give true or false, without quotes"),
+    key("output.contact_interval", Number(over(0.0, 10.0)), "s", INTERVAL),
+    key("output.history_interval", Count(1, 1_000_000), "steps", "give a whole number: 10"),
+    key("output.probes.bar", Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]"),
+    key("output.probes.disk", Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]"),
+    needed("output.window[].from", Number(within(0.0, 10.0)), "s", "give the start in seconds"),
+    needed("output.window[].to", Number(over(0.0, 10.0)), "s", "give the end in seconds"),
+    key("output.window[].every", Count(1, 1_000_000), "steps", "give a whole number: 1"),
+];
+
+const STIFFNESS_REMEDY: &str = "give a scale factor (0.1), an areal stiffness \
+     ({ stiffness = 3.5e13 }) or a fraction of the stability limit ({ stability = 0.5 })";
+
+/// The row of a key by its path, indices written as `[]`.
+pub fn find(path: &str) -> Option<&'static Key> {
+    KEYS.iter().find(|key| key.path == path)
+}
+
+impl Form {
+    /// What the form allows, as a noun phrase.
+    pub fn allowed(&self, unit: &str) -> String {
+        let unit = match unit {
+            "" | "-" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        match self {
+            Number(range) => format!("a number {range}{unit}"),
+            Count(low, high) => format!("a whole number from {low} to {high}"),
+            Flag => "true or false".into(),
+            Word(words) => {
+                let quoted: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                quoted.join(" or ")
+            }
+            Text => "text in quotes".into(),
+            Crown(range) => format!("\"flat\" or a number {range}{unit}"),
+            Stiffness => {
+                let [factor, areal, stability] = STIFFNESS;
+                format!(
+                    "a number {}, {{ stiffness = ... }} {} N/m^3, or {{ stability = ... }} {}",
+                    factor.1, areal.1, stability.1
+                )
+            }
+            Points => format!("a list of pairs of numbers between -10 and 10{unit}"),
+        }
+    }
+}

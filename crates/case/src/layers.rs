@@ -1,0 +1,389 @@
+//! A case file, the files that it extends and the `--set` options, laid over one another.
+//!
+//! Every key keeps the place where its value was written, so that a message about the merged
+//! case can still show the line.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use miette::{NamedSource, SourceSpan};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
+
+use crate::error::{CaseError, KeyError};
+use crate::keys;
+
+/// A case file larger than this is taken for something else.
+const LARGEST_FILE: u64 = 4 << 20;
+
+/// A text that keys came from: a file, or one `--set` option.
+#[derive(Clone, Debug)]
+pub struct Source {
+    pub name: String,
+    pub text: String,
+}
+
+/// Where a key was written.
+#[derive(Clone, Debug)]
+pub struct Origin {
+    pub source: usize,
+    pub key: Range<usize>,
+    pub value: Range<usize>,
+}
+
+/// The merged keys, and where each was written.
+#[derive(Clone, Debug, Default)]
+pub struct Layers {
+    pub table: Table,
+    pub origins: BTreeMap<String, Origin>,
+    pub sources: Vec<Source>,
+}
+
+/// Choosing the left (a key, and for some the word it is set to) takes the right back from the
+/// layers beneath: a file that extends a case with a creepage may set a torque instead.
+const TAKES_BACK: &[(&str, Option<&str>, &[&str])] = &[
+    ("time.roll", None, &["time.duration"]),
+    ("time.duration", None, &["time.roll"]),
+    ("drive.creepage", None, &["drive.torque"]),
+    ("drive.torque", None, &["drive.creepage"]),
+    ("drive.mode", Some("creepage"), &["drive.torque"]),
+    ("drive.mode", Some("torque"), &["drive.creepage"]),
+    ("friction.law", Some("coulomb"), &["friction.dynamic", "friction.decay"]),
+];
+
+impl Layers {
+    /// Reads a case file with everything that it extends.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let mut layers = Self::default();
+        layers.add_file(path, &mut Vec::new())?;
+        Ok(layers)
+    }
+
+    /// Reads a case from a text; `path` names it and is what `extends` is relative to.
+    pub fn from_text(text: &str, path: &Path) -> Result<Self, CaseError> {
+        let mut layers = Self::default();
+        layers.add_text(text.to_owned(), path, &mut vec![path.to_path_buf()])?;
+        Ok(layers)
+    }
+
+    fn add_file(&mut self, path: &Path, chain: &mut Vec<PathBuf>) -> Result<(), CaseError> {
+        let text = read_text(path)?;
+        chain.push(path.canonicalize().unwrap_or_else(|_| path.to_path_buf()));
+        self.add_text(text, path, chain)
+    }
+
+    fn add_text(
+        &mut self,
+        text: String,
+        path: &Path,
+        chain: &mut Vec<PathBuf>,
+    ) -> Result<(), CaseError> {
+        let (mut table, mut origins) = self.parse(path.display().to_string(), text)?;
+        let extends = table.remove("extends");
+        if let Some(extends) = extends {
+            let origin = origins.remove("extends");
+            let Some(base) = extends.as_str() else {
+                return Err(self.error(
+                    origin.as_ref(),
+                    "extends",
+                    &format!("{extends} must be text in quotes"),
+                    "give the path of another case file, relative to this one",
+                ));
+            };
+            let base = path.parent().unwrap_or(Path::new("")).join(base);
+            if base.canonicalize().is_ok_and(|base| chain.contains(&base)) {
+                return Err(self.error(
+                    origin.as_ref(),
+                    "extends",
+                    &format!("{extends} leads back to a file that extends this one"),
+                    "end the chain of `extends` at a file that extends nothing",
+                ));
+            }
+            self.add_file(&base, chain).map_err(|error| match error {
+                CaseError::File { problem, remedy, .. } => self.error(
+                    origin.as_ref(),
+                    "extends",
+                    &format!("{extends}: {}: {problem}", base.display()),
+                    &format!("{remedy}; the path is taken relative to this file"),
+                ),
+                other => other,
+            })?;
+        }
+        self.lay_over(table, origins);
+        Ok(())
+    }
+
+    /// Lays one `--set KEY=VALUE` over everything before.
+    pub fn add_set(&mut self, set: &str) -> Result<(), CaseError> {
+        let name = "--set".to_owned();
+        let refuse = |problem: &str, layers: &Self| {
+            layers.error_in(
+                Source { name: "--set".into(), text: set.into() },
+                0..set.len(),
+                "",
+                &format!("--set {set}: {problem}"),
+                "write --set KEY=VALUE with a dotted key, for example --set mesh.zone.size=2e-3",
+            )
+        };
+        let Some((key, value)) = set.split_once('=') else {
+            return Err(refuse("there is no '='", self));
+        };
+        let (key, value) = (key.trim(), value.trim());
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_.-".contains(c);
+        if key.is_empty() || !key.chars().all(plain) || key.split('.').any(str::is_empty) {
+            return Err(refuse("the part before '=' is not a dotted key", self));
+        }
+        if key == "extends" {
+            return Err(refuse("`extends` belongs in a file", self));
+        }
+        if value.is_empty() {
+            return Err(refuse("there is no value after '='", self));
+        }
+        let is_value = |value: &str| {
+            toml::from_str::<Table>(&format!("x = {value}")).is_ok_and(|table| table.len() == 1)
+        };
+        let text = if is_value(value) {
+            format!("{key} = {value}")
+        } else if value.chars().all(|c| plain(c) || c == '/' || c == ' ') {
+            format!("{key} = \"{value}\"")
+        } else {
+            return Err(refuse("the part after '=' is neither a TOML value nor a word", self));
+        };
+        let (table, origins) = self.parse(name, text)?;
+        self.lay_over(table, origins);
+        Ok(())
+    }
+
+    fn parse(
+        &mut self,
+        name: String,
+        text: String,
+    ) -> Result<(Table, BTreeMap<String, Origin>), CaseError> {
+        let source = Source { name, text };
+        let malformed = |layers: &Self, error: toml::de::Error| {
+            let span = error.span().unwrap_or(0..0);
+            let problem = error.message().trim().replace('\n', "; ");
+            layers.error_in(
+                source.clone(),
+                span,
+                "",
+                &format!("not well-formed TOML: {problem}"),
+                "a case file is TOML: sections [in.brackets], lines `key = value`, text in quotes",
+            )
+        };
+        let table = toml::from_str::<Table>(&source.text).map_err(|e| malformed(self, e))?;
+        let spans = DeTable::parse(&source.text).map_err(|e| malformed(self, e))?;
+        let mut origins = BTreeMap::new();
+        record(spans.get_ref(), "", self.sources.len(), &mut origins);
+        self.sources.push(source);
+        Ok((table, origins))
+    }
+
+    fn lay_over(&mut self, top: Table, origins: BTreeMap<String, Origin>) {
+        for (key, word, taken) in TAKES_BACK {
+            let chosen = get(&top, key)
+                .is_some_and(|value| word.is_none_or(|word| value.as_str() == Some(word)));
+            if chosen {
+                for path in taken.iter() {
+                    self.drop_key(path);
+                }
+            }
+        }
+        merge(&mut self.table, top, "", &mut self.origins);
+        self.origins.extend(origins);
+    }
+
+    fn drop_key(&mut self, path: &str) {
+        let Some((section, key)) = path.rsplit_once('.') else {
+            return;
+        };
+        if let Some(Value::Table(section)) = self.table.get_mut(section) {
+            section.remove(key);
+            forget(&mut self.origins, path);
+        }
+    }
+
+    /// An error at the place where a key was written.
+    pub fn error(
+        &self,
+        origin: Option<&Origin>,
+        key: &str,
+        problem: &str,
+        remedy: &str,
+    ) -> CaseError {
+        CaseError::Key(Box::new(self.key_error(origin, key, problem, remedy)))
+    }
+
+    /// The same, with place, key and problem joined into one sentence.
+    pub fn key_error(
+        &self,
+        origin: Option<&Origin>,
+        key: &str,
+        problem: &str,
+        remedy: &str,
+    ) -> KeyError {
+        let message = format!("{key} = {problem}");
+        match origin {
+            Some(origin) => {
+                let source = self.sources[origin.source].clone();
+                key_error_in(source, origin.value.clone(), key, &message, remedy)
+            }
+            None => self.error_nowhere(key, &message, remedy),
+        }
+    }
+
+    /// An error about a key that stands in no file: a default, or a missing key.
+    pub fn error_nowhere(&self, key: &str, message: &str, remedy: &str) -> KeyError {
+        // The case file itself is read first, before what it extends.
+        let file = self.sources.first().map_or("", |source| source.name.as_str());
+        KeyError {
+            message: format!("{file}: {message}"),
+            key: key.into(),
+            source_code: None,
+            span: None,
+            label: String::new(),
+            help: Some(remedy.into()),
+            others: Vec::new(),
+        }
+    }
+
+    fn error_in(
+        &self,
+        source: Source,
+        span: Range<usize>,
+        key: &str,
+        message: &str,
+        remedy: &str,
+    ) -> CaseError {
+        CaseError::Key(Box::new(key_error_in(source, span, key, message, remedy)))
+    }
+}
+
+/// An error with an excerpt of the text that it is about.
+pub fn key_error_in(
+    source: Source,
+    span: Range<usize>,
+    key: &str,
+    message: &str,
+    remedy: &str,
+) -> KeyError {
+    let start = span.start.min(source.text.len());
+    let line = source.text.as_bytes()[..start].iter().filter(|&&byte| byte == b'\n').count() + 1;
+    let message = if source.name == "--set" {
+        if message.starts_with("--set") { message.into() } else { format!("--set: {message}") }
+    } else {
+        format!("{}:{line}: {message}", source.name)
+    };
+    KeyError {
+        message,
+        key: key.into(),
+        span: Some(SourceSpan::new(start.into(), span.end.saturating_sub(start))),
+        label: "here".into(),
+        source_code: Some(NamedSource::new(source.name, source.text)),
+        help: Some(remedy.into()),
+        others: Vec::new(),
+    }
+}
+
+/// Reads a file of at most [`LARGEST_FILE`] bytes as UTF-8.
+fn read_text(path: &Path) -> Result<String, CaseError> {
+    let refuse = |problem: String, remedy: &str| CaseError::File {
+        path: path.to_path_buf(),
+        problem,
+        remedy: remedy.into(),
+    };
+    if path.is_dir() {
+        return Err(refuse("is a folder, not a case file".into(), "name the .toml file in it"));
+    }
+    let mut bytes = Vec::new();
+    let read = File::open(path)
+        .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+        .map_err(|cause| match cause.kind() {
+            io::ErrorKind::NotFound => {
+                refuse("there is no such file".into(), "check the path of the case file")
+            }
+            _ => refuse(format!("cannot be read: {cause}"), "check that you may read it"),
+        })?;
+    if read as u64 > LARGEST_FILE {
+        return Err(refuse("is larger than 4 MiB".into(), "name a case file"));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        refuse(
+            format!("is not UTF-8 text (line {line}, byte {at})"),
+            "a case file is TOML, saved as UTF-8",
+        )
+    })
+}
+
+/// Notes where every key of a table, at any depth, was written.
+fn record(table: &DeTable, prefix: &str, source: usize, origins: &mut BTreeMap<String, Origin>) {
+    for (key, value) in table {
+        let path = join(prefix, key.get_ref());
+        record_value(&path, key.span(), value, source, origins);
+    }
+}
+
+fn record_value(
+    path: &str,
+    key: Range<usize>,
+    value: &Spanned<DeValue>,
+    source: usize,
+    origins: &mut BTreeMap<String, Origin>,
+) {
+    origins.insert(path.to_owned(), Origin { source, key: key.clone(), value: value.span() });
+    match value.get_ref() {
+        DeValue::Table(table) => record(table, path, source, origins),
+        DeValue::Array(array) => {
+            for (i, item) in array.iter().enumerate() {
+                record_value(&format!("{path}[{i}]"), key.clone(), item, source, origins);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Lays `top` over `base`: tables key by key, everything else whole.
+fn merge(base: &mut Table, top: Table, prefix: &str, origins: &mut BTreeMap<String, Origin>) {
+    for (key, value) in top {
+        let path = join(prefix, &key);
+        // A key of the table of keys is one value even where it is written as a table.
+        let whole = keys::find(&path).is_some();
+        match (base.get_mut(&key), value) {
+            (Some(Value::Table(below)), Value::Table(above)) if !whole => {
+                merge(below, above, &path, origins);
+            }
+            (_, value) => {
+                forget(origins, &path);
+                base.insert(key, value);
+            }
+        }
+    }
+}
+
+fn forget(origins: &mut BTreeMap<String, Origin>, path: &str) {
+    origins.retain(|at, _| {
+        !at.strip_prefix(path)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
+    });
+}
+
+/// A dotted path.
+pub fn join(prefix: &str, key: &str) -> String {
+    if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") }
+}
+
+/// The value at a dotted path.
+pub fn get<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    let mut segments = path.split('.');
+    let mut value = table.get(segments.next()?)?;
+    for segment in segments {
+        value = value.as_table()?.get(segment)?;
+    }
+    Some(value)
+}

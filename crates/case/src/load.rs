@@ -1,0 +1,87 @@
+//! From files and options to a resolved case.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use crate::check;
+use crate::error::CaseError;
+use crate::layers::{Layers, get};
+use crate::schema::{Case, DriveMode, FrictionLaw};
+use crate::sense;
+
+impl Case {
+    /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
+    /// checks it and writes every default out.
+    pub fn load(path: &Path, sets: &[String]) -> Result<Self, CaseError> {
+        resolve(Layers::read(path)?, path, sets)
+    }
+
+    /// The same for a text; `path` gives the case its name and is what `extends` is relative to.
+    pub fn from_text(text: &str, path: &Path, sets: &[String]) -> Result<Self, CaseError> {
+        resolve(Layers::from_text(text, path)?, path, sets)
+    }
+
+    /// The resolved case as TOML; loading it again gives an equal case.
+    pub fn to_toml(&self) -> String {
+        // A case holds nothing that TOML cannot: the proof is the round-trip test.
+        toml::to_string(self).unwrap_or_default()
+    }
+
+    /// SHA-256 of [`Case::to_toml`], in hexadecimal.
+    pub fn hash(&self) -> String {
+        Sha256::digest(self.to_toml()).iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// What is allowed but deserves a warning, one sentence each.
+    pub fn warnings(&self) -> Vec<String> {
+        sense::warnings(self)
+    }
+}
+
+fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, CaseError> {
+    for set in sets {
+        layers.add_set(set)?;
+    }
+    check::keys(&layers)?;
+    // Rendered and read again, the merged keys go through serde's own strictness as well.
+    let merged = toml::to_string(&layers.table).unwrap_or_default();
+    let mut case: Case = toml::from_str(&merged).map_err(|error| {
+        let message = error.message().replace('\n', "; ");
+        let remedy = "see `creepage schema` for the keys and their forms";
+        CaseError::Key(Box::new(layers.error_nowhere("", &message, remedy)))
+    })?;
+    choose(&mut case, &layers);
+    if case.name.is_empty() && get(&layers.table, "name").is_none() {
+        case.name = name_from(path);
+    }
+    sense::check(&case, &layers)?;
+    write_defaults(&mut case);
+    Ok(case)
+}
+
+/// The choices that follow from which keys are given.
+fn choose(case: &mut Case, layers: &Layers) {
+    if get(&layers.table, "drive.mode").is_none() && case.drive.torque.is_some() {
+        case.drive.mode = DriveMode::Torque;
+    }
+}
+
+fn write_defaults(case: &mut Case) {
+    if case.friction.law == FrictionLaw::Exponential {
+        case.friction.dynamic.get_or_insert(sense::DYNAMIC);
+        case.friction.decay.get_or_insert(sense::DECAY);
+    }
+    if case.time.duration.is_none() {
+        case.time.roll = Some(case.rolled());
+    }
+    case.evaluate.last = Some(case.evaluate_last());
+    case.output.fields_interval = Some(case.fields_interval());
+}
+
+/// The file's stem, with whatever a folder's name should not have replaced.
+fn name_from(path: &Path) -> String {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();
+    let name: String = stem.chars().map(|c| if sense::in_a_name(c) { c } else { '-' }).collect();
+    if name.trim_matches('.').is_empty() { "case".into() } else { name }
+}

@@ -1,0 +1,141 @@
+//! A case's mesh, masses and sets: all that follows from geometry and material alone.
+
+use crate::run::RunError;
+use crate::schema::{Case, Ends};
+use contact::{
+    BodyMaterial, Coulomb, Exponential, FrictionLaw, PenaltyContact, PenaltySettings,
+    StabilityScale,
+};
+use mesh::{Face, FineZone, Mesh, Surface};
+use solid::{Element, Level, Material, Solid, Viscosity};
+
+/// Index of the disk among bodies and contact sides.
+pub(crate) const DISK: usize = 0;
+/// Index of the bar among bodies and contact sides.
+pub(crate) const BAR: usize = 1;
+
+/// The discretised bodies.
+pub(crate) struct Model {
+    pub(crate) mesh: Mesh,
+    pub(crate) materials: [Material; 2],
+    pub(crate) element: Element,
+    /// Lumped masses (kg).
+    pub(crate) mass: Vec<f64>,
+    /// The whole contact surfaces.
+    pub(crate) surfaces: [Surface; 2],
+    /// Their faces in the fine zone, which contact output records.
+    pub(crate) zones: [Vec<Face>; 2],
+    /// Nodes of the rigid hub.
+    pub(crate) hub: Vec<u32>,
+    /// Clamped nodes: the bar's bottom.
+    pub(crate) clamped: Vec<u32>,
+    /// End faces of the bar if they are quiet.
+    pub(crate) quiet: Vec<Surface>,
+}
+
+impl Model {
+    /// Builds the meshes of a case.
+    pub(crate) fn build(case: &Case) -> Result<Self, RunError> {
+        let zone = FineZone {
+            size: case.mesh.zone.size,
+            length: case.mesh.zone.length,
+            width: case.mesh.zone.width,
+            depth: case.mesh.zone.depth,
+            start: case.mesh.zone.start,
+            growth: case.mesh.growth,
+            coarsest: case.mesh.coarsest,
+        };
+        let disk = mesh::Disk {
+            radius: case.disk.radius,
+            hub_radius: case.disk.hub_radius,
+            width: case.disk.width,
+            crown: case.disk.crown_radius.radius(),
+        };
+        let bar = mesh::Bar {
+            length: case.bar.length,
+            width: case.bar.width,
+            height: case.bar.height,
+            crown: case.bar.crown_radius.radius(),
+            start: case.bar.start,
+        };
+        let mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+        let materials = [material(case.disk_material()), material(case.bar_material())];
+        let mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
+        let surface = |body: usize, name: &str| {
+            mesh.bodies[body].surfaces.get(name).cloned().unwrap_or_default()
+        };
+        let set = |body: usize, name: &str| {
+            mesh.bodies[body].node_sets.get(name).cloned().unwrap_or_default()
+        };
+        let quiet = match case.bar.ends {
+            Ends::Quiet => vec![surface(BAR, "rear"), surface(BAR, "front")],
+            Ends::Free => Vec::new(),
+        };
+        Ok(Self {
+            materials,
+            element: Element { hourglass: case.element.hourglass },
+            mass,
+            surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
+            zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
+            hub: set(DISK, "hub"),
+            clamped: set(BAR, "bottom"),
+            quiet,
+            mesh,
+        })
+    }
+
+    /// The elements, on the best instruction set of this machine.
+    pub(crate) fn solid(&self, case: &Case) -> Result<Solid, RunError> {
+        let viscosity = Viscosity {
+            bulk_linear: case.damping.bulk_linear,
+            bulk_quadratic: case.damping.bulk_quadratic,
+            kelvin_voigt: case.damping.kelvin_voigt,
+        };
+        let level = Level::detect();
+        Ok(Solid::new(&self.mesh, &self.materials, self.element, viscosity, level)?)
+    }
+
+    /// The contact of disk and bar.
+    pub(crate) fn contact(
+        &self,
+        case: &Case,
+        scale: StabilityScale,
+    ) -> Result<PenaltyContact, RunError> {
+        let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
+        let settings = PenaltySettings {
+            normal: stiffness(case.contact.penalty.normal),
+            tangential: stiffness(case.contact.penalty.tangential),
+            damping: case.contact.penalty.damping,
+            curvature: case.contact.curvature,
+        };
+        let sides = [
+            (&self.surfaces[DISK], body(self.materials[DISK])),
+            (&self.surfaces[BAR], body(self.materials[BAR])),
+        ];
+        Ok(PenaltyContact::new(&self.mesh, sides, &settings, Some(scale), law(case))?)
+    }
+}
+
+fn material(m: crate::schema::Material) -> Material {
+    Material { young: m.young, poisson: m.poisson, density: m.density }
+}
+
+fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {
+    match s {
+        crate::schema::Stiffness::Factor(v) => contact::Stiffness::Scale(v),
+        crate::schema::Stiffness::Areal(v) => contact::Stiffness::Areal(v),
+        crate::schema::Stiffness::Stability(v) => contact::Stiffness::StabilityFraction(v),
+    }
+}
+
+fn law(case: &Case) -> Box<dyn FrictionLaw> {
+    let friction = &case.friction;
+    match friction.law {
+        crate::schema::FrictionLaw::Coulomb => Box::new(Coulomb { mu: friction.static_ }),
+        crate::schema::FrictionLaw::Exponential => Box::new(Exponential {
+            mu_static: friction.static_,
+            mu_dynamic: friction.dynamic.unwrap_or(friction.static_),
+            decay: friction.decay.unwrap_or(0.0),
+        }),
+    }
+}

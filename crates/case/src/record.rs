@@ -1,0 +1,656 @@
+//! What a run writes while it rolls, and when.
+
+use crate::model::{BAR, DISK, Model};
+use crate::run::RunError;
+use crate::schema::{Case, Window};
+use contact::{NodalContact, patch};
+use dynamics::{Simulation, StepReport};
+use mesh::Face;
+use output::{
+    BackgroundWriter, Cells, Column, FieldSpec, GridSpec, History, Provenance, RunFiles,
+    StaticField, TransientGrid, Values,
+};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Columns of `history.h5`: name, units, meaning.
+const HISTORY: [(&str, &str, &str); 35] = [
+    ("time", "s", "time since the start of rolling"),
+    ("step", "1", "number of the full step"),
+    ("kinetic", "J", "kinetic energy, 1/2 v(n-1/2) M v(n+1/2)"),
+    ("internal", "J", "strain energy of the elements"),
+    ("hourglass", "J", "hourglass energy of the elements"),
+    ("contact_stored", "J", "energy in the contact springs"),
+    ("friction_dissipated", "J", "dissipated by friction so far"),
+    ("damping_dissipated", "J", "dissipated by damping of every kind so far"),
+    ("external_work", "J", "work of drive, load and constant end reactions so far"),
+    ("imbalance", "J", "sum of energies less external work less the initial sum"),
+    ("normal_force", "N", "force of the bar on the disk, z"),
+    ("tangential_force", "N", "force of the bar on the disk, x"),
+    ("lateral_force", "N", "force of the bar on the disk, y"),
+    ("traction_coefficient", "1", "tangential over normal force"),
+    ("creepage", "1", "(omega R_eff - V)/V"),
+    ("omega", "rad/s", "angular velocity of the hub about y"),
+    ("torque", "N m", "torque that the drive supplies about y"),
+    ("drive_force", "N", "force that the drive supplies in x"),
+    ("hub_x", "m", "displacement of the hub in x"),
+    ("hub_z", "m", "displacement of the hub in z"),
+    ("patch_half_length", "m", "half axis in x of the fit to the pressure on the bar"),
+    ("patch_half_width", "m", "half axis in y of the fit"),
+    ("patch_x", "m", "centre of the fit in x, relative to the hub"),
+    ("peak_pressure", "Pa", "largest pressure of the fit"),
+    ("peak_pressure_raw", "Pa", "largest nodal pressure on the bar"),
+    ("peak_shear", "Pa", "largest nodal shear traction on the bar"),
+    ("patch_area", "m2", "area of the bar's nodes in contact"),
+    ("stick_fraction", "1", "share of that area that sticks"),
+    ("slip_fraction", "1", "share of that area that slips"),
+    ("stick_border", "m", "rear end of the longest stick zone on y = 0, relative to patch_x"),
+    ("closed_pairs", "1", "pairs in contact, both passes"),
+    ("slipping_pairs", "1", "pairs that slip, both passes"),
+    ("max_penetration", "m", "largest penetration"),
+    ("cone_excess", "1", "largest (|shear| - mu pressure) over the Hertz peak pressure"),
+    ("resultant_mismatch", "1", "|sum of the contact forces on both bodies| over the normal force"),
+];
+
+/// Rows of the history gathered before they are handed to the writer.
+const HISTORY_BATCH: usize = 64;
+
+/// The contact quantities recorded per node.
+fn contact_fields() -> Vec<FieldSpec> {
+    let at = FieldSpec::at_points;
+    vec![
+        at("pressure", "Pa", 1, "contact pressure, positive in compression"),
+        at("shear", "Pa", 3, "shear traction on this surface"),
+        at("slip_velocity", "m/s", 3, "velocity of this surface relative to the other, over the last step"),
+        at("slip", "m", 3, "relative tangential motion since contact began"),
+        at("mu", "1", 1, "coefficient of friction that the algorithm used"),
+        at("state", "1", 1, "0 open, 1 stick, 2 slip").integer(),
+        at("gap", "m", 1, "gap, negative when penetrating"),
+        at("velocity", "m/s", 3, "velocity over the last step"),
+        at("displacement", "m", 3, "displacement"),
+    ]
+}
+
+/// Nodes of both contact zones and the motion copied from them before a step.
+struct Zones {
+    tables: [NodalContact; 2],
+    displacement: Vec<[f64; 3]>,
+    velocity: Vec<[f64; 3]>,
+}
+
+/// Writes fields, contact surfaces and history, and gathers the means of the window.
+pub(crate) struct Recorder {
+    writer: BackgroundWriter,
+    zones: Zones,
+    fields: Schedule,
+    contact_every: u64,
+    windows: Vec<(u64, u64, u64)>,
+    history_every: u64,
+    rows: Vec<f64>,
+    probes: Option<Probes>,
+    stress: Option<Vec<[f64; 6]>>,
+    points: [Vec<[f64; 3]>; 2],
+    centreline: Vec<usize>,
+    line: Vec<(f64, bool)>,
+    effective_radius: f64,
+    speed: f64,
+    hertz_pressure: f64,
+    evaluate_from: f64,
+    pub(crate) means: Means,
+    pub(crate) wall: Duration,
+}
+
+/// Steps at which snapshots of the fields are due: at least the asked interval apart.
+struct Schedule {
+    interval: f64,
+    next: f64,
+}
+
+/// Surface nodes recorded at every step.
+struct Probes {
+    history: History,
+    tables: [NodalContact; 2],
+    /// Side and row in that side's table.
+    rows: Vec<(usize, usize)>,
+    buffer: Vec<f64>,
+}
+
+/// Columns of `probes.h5` per probe.
+const PROBE: [(&str, &str, &str); 11] = [
+    ("pressure", "Pa", "contact pressure"),
+    ("shear_x", "Pa", "shear traction on this surface, x"),
+    ("shear_y", "Pa", "shear traction on this surface, y"),
+    ("shear_z", "Pa", "shear traction on this surface, z"),
+    ("slip_velocity_x", "m/s", "velocity relative to the other surface, x"),
+    ("slip_velocity_y", "m/s", "velocity relative to the other surface, y"),
+    ("slip_velocity_z", "m/s", "velocity relative to the other surface, z"),
+    ("slip_x", "m", "relative motion since contact began, x"),
+    ("mu", "1", "coefficient of friction used"),
+    ("state", "1", "0 open, 1 stick, 2 slip"),
+    ("gap", "m", "gap"),
+];
+
+/// Running mean and standard deviation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Mean {
+    count: f64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Mean {
+    /// Takes a sample in (Welford 1962); values that are not numbers are left out.
+    pub(crate) fn add(&mut self, x: f64) {
+        if x.is_finite() {
+            self.count += 1.0;
+            let away = x - self.mean;
+            self.mean += away / self.count;
+            self.squares += away * (x - self.mean);
+        }
+    }
+
+    /// The mean; zero without samples.
+    pub(crate) fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// The standard deviation; zero without samples.
+    pub(crate) fn deviation(&self) -> f64 {
+        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
+    }
+}
+
+/// Means over the evaluation window and extremes over the run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Means {
+    pub(crate) force: [Mean; 3],
+    pub(crate) traction: Mean,
+    pub(crate) creepage: Mean,
+    pub(crate) torque: Mean,
+    pub(crate) half_length: Mean,
+    pub(crate) half_width: Mean,
+    pub(crate) peak_pressure: Mean,
+    pub(crate) peak_shear: Mean,
+    pub(crate) area: Mean,
+    pub(crate) stick: Mean,
+    pub(crate) slip: Mean,
+    pub(crate) stick_border: Mean,
+    pub(crate) penetration: Mean,
+    pub(crate) hourglass_share: Mean,
+    pub(crate) worst_cone: f64,
+    pub(crate) worst_mismatch: f64,
+}
+
+/// What the recorder needs to know beside the case.
+pub(crate) struct Basis<'a> {
+    pub(crate) folder: &'a Path,
+    pub(crate) provenance: Provenance,
+    pub(crate) effective_radius: f64,
+    pub(crate) hertz_pressure: f64,
+}
+
+impl Recorder {
+    pub(crate) fn new(
+        case: &Case,
+        model: &Model,
+        simulation: &Simulation,
+        basis: &Basis<'_>,
+    ) -> Result<Self, RunError> {
+        let contact = simulation.contact().ok_or(RunError::NoContact)?;
+        let tables =
+            [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]));
+        let points = [DISK, BAR].map(|side| {
+            tables[side].nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>()
+        });
+        let files = RunFiles {
+            fields: create_fields(case, model, basis)?,
+            contact: create_contact(model, &tables, &points, basis)?,
+            history: History::create(
+                basis.folder.join("history.h5"),
+                &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
+                &basis.provenance,
+            )?,
+        };
+        let count = tables[DISK].nodes.len() + tables[BAR].nodes.len();
+        let size = case.mesh.zone.size;
+        let mut centreline: Vec<usize> =
+            (0..points[BAR].len()).filter(|&i| points[BAR][i][1].abs() < 0.5 * size).collect();
+        centreline.sort_by(|&i, &j| points[BAR][i][0].total_cmp(&points[BAR][j][0]));
+        let steps_in = |interval: f64| (interval / simulation.dt()).round().max(1.0) as u64;
+        let window = |w: &Window| {
+            let step = |t: f64| (t / simulation.dt()).round() as u64;
+            (step(w.from), step(w.to), w.every)
+        };
+        Ok(Self {
+            writer: BackgroundWriter::start(files),
+            probes: Probes::new(case, model, simulation, basis)?,
+            line: Vec::with_capacity(centreline.len()),
+            zones: Zones {
+                tables,
+                displacement: vec![[0.0; 3]; count],
+                velocity: vec![[0.0; 3]; count],
+            },
+            fields: Schedule { interval: case.fields_interval(), next: 0.0 },
+            contact_every: steps_in(case.output.contact_interval),
+            windows: case.output.window.iter().map(window).collect(),
+            history_every: case.output.history_interval,
+            rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.len()),
+            stress: case.output.stress.then(|| vec![[0.0; 6]; model.mesh.hexes.len()]),
+            points,
+            centreline,
+            effective_radius: basis.effective_radius,
+            speed: case.drive.speed,
+            hertz_pressure: basis.hertz_pressure,
+            evaluate_from: case.evaluate_from(),
+            means: Means::default(),
+            wall: Duration::ZERO,
+        })
+    }
+
+    /// Whether step `n` writes a row of the history, hence reads the energies.
+    pub(crate) fn reads(&self, n: u64) -> bool {
+        n.is_multiple_of(self.history_every)
+    }
+
+    fn records_contact(&self, n: u64) -> bool {
+        n.is_multiple_of(self.contact_every)
+            || self.windows.iter().any(|&(from, to, every)| {
+                (from..=to).contains(&n) && (n - from).is_multiple_of(every)
+            })
+    }
+
+    /// To be called with the state at t^n, before the step moves it on.
+    pub(crate) fn before_step(&mut self, simulation: &Simulation) -> Result<(), RunError> {
+        let clock = Instant::now();
+        let n = simulation.steps() as u64;
+        if simulation.time() >= self.fields.next {
+            self.write_fields(simulation)?;
+            while self.fields.next <= simulation.time() {
+                self.fields.next += self.fields.interval;
+            }
+        }
+        if self.records_contact(n) {
+            let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
+            for (row, &node) in nodes.enumerate() {
+                self.zones.displacement[row] = simulation.displacement()[node as usize].xyz();
+                self.zones.velocity[row] = simulation.velocity()[node as usize].xyz();
+            }
+        }
+        self.wall += clock.elapsed();
+        Ok(())
+    }
+
+    /// To be called after the step from t^n, with what it found at t^n.
+    pub(crate) fn after_step(
+        &mut self,
+        simulation: &Simulation,
+        report: &StepReport,
+    ) -> Result<(), RunError> {
+        let clock = Instant::now();
+        let n = report.step as u64;
+        let [tangential, lateral, normal] = report.contact.force[DISK];
+        let creepage = report.omega * self.effective_radius / self.speed - 1.0;
+        let other = report.contact.force[BAR];
+        let mismatch = (0..3)
+            .map(|i| (report.contact.force[DISK][i] + other[i]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+            / report.contact.normal_force.max(f64::MIN_POSITIVE);
+        if report.contact.closed > 0 {
+            self.means.worst_mismatch = self.means.worst_mismatch.max(mismatch);
+        }
+        let inside = report.time >= self.evaluate_from;
+        if inside {
+            for (mean, f) in self.means.force.iter_mut().zip([tangential, lateral, normal]) {
+                mean.add(f);
+            }
+            self.means.traction.add(tangential / normal);
+            self.means.creepage.add(creepage);
+            self.means.torque.add(report.drive[2]);
+            self.means.penetration.add(report.contact.max_penetration);
+        }
+        if let (Some(probes), Some(contact)) = (&mut self.probes, simulation.contact()) {
+            probes.record(contact, report)?;
+        }
+        let (reads, records) = (self.reads(n), self.records_contact(n));
+        if reads || records {
+            if let Some(contact) = simulation.contact() {
+                self.zones.tables.iter_mut().for_each(|t| contact.nodal(t));
+            }
+        }
+        if records {
+            self.write_contact(report.time)?;
+        }
+        if reads {
+            let e = report.energies.unwrap_or_default();
+            let bar = &self.zones.tables[BAR];
+            let hub = simulation.hub().map(|h| h.state).unwrap_or_default();
+            let fit = patch::fit(&self.points[BAR], &bar.pressure);
+            let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
+            let shear = bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max);
+            let cone = self.cone_excess();
+            let (a, b, p0, xc) =
+                fit.map_or([f64::NAN; 4].into(), |f| (f.a, f.b, f.p0, f.xc - hub.x));
+            let border = self.stick_border(hub.x + xc);
+            self.means.worst_cone = self.means.worst_cone.max(cone);
+            if inside {
+                let m = &mut self.means;
+                m.half_length.add(a);
+                m.half_width.add(b);
+                m.peak_pressure.add(p0);
+                m.peak_shear.add(shear);
+                m.area.add(areas.contact);
+                m.stick.add(areas.stick_fraction);
+                m.slip.add(areas.slip_fraction);
+                m.stick_border.add(border);
+                m.hourglass_share.add(e.hourglass / e.internal);
+            }
+            self.rows.extend([
+                report.time,
+                n as f64,
+                e.kinetic,
+                e.internal,
+                e.hourglass,
+                e.contact_stored,
+                e.friction_dissipated,
+                e.damping_dissipated,
+                e.external_work,
+                simulation.ledger().imbalance(&e),
+                normal,
+                tangential,
+                lateral,
+                tangential / normal,
+                creepage,
+                report.omega,
+                report.drive[2],
+                report.drive[0],
+                hub.x,
+                hub.z,
+                a,
+                b,
+                xc,
+                p0,
+                areas.peak_pressure,
+                shear,
+                areas.contact,
+                areas.stick_fraction,
+                areas.slip_fraction,
+                border,
+                report.contact.closed as f64,
+                report.contact.slipping as f64,
+                report.contact.max_penetration,
+                cone,
+                mismatch,
+            ]);
+            if self.rows.len() >= HISTORY_BATCH * HISTORY.len() {
+                self.flush_history()?;
+            }
+        }
+        self.wall += clock.elapsed();
+        Ok(())
+    }
+
+    /// Writes what is still held back, the final state, and closes the files.
+    pub(crate) fn finish(mut self, simulation: &Simulation) -> Result<(Means, Duration), RunError> {
+        let clock = Instant::now();
+        self.flush_history()?;
+        self.write_fields(simulation)?;
+        if let Some(probes) = &mut self.probes {
+            probes.flush()?;
+        }
+        self.writer.finish()?;
+        Ok((self.means, self.wall + clock.elapsed()))
+    }
+
+    fn flush_history(&mut self) -> Result<(), RunError> {
+        if !self.rows.is_empty() {
+            self.writer.append_history(&self.rows)?;
+            self.rows.clear();
+        }
+        Ok(())
+    }
+
+    fn write_fields(&mut self, simulation: &Simulation) -> Result<(), RunError> {
+        let displacement: Vec<_> = simulation.displacement().iter().map(|u| u.xyz()).collect();
+        let velocity: Vec<_> = simulation.velocity().iter().map(|v| v.xyz()).collect();
+        let mut values = vec![Values::Vector(&displacement), Values::Vector(&velocity)];
+        if let Some(stress) = &mut self.stress {
+            simulation.solid().cauchy_stress(simulation.displacement(), stress);
+            values.push(Values::Tensor(stress));
+        }
+        Ok(self.writer.append_fields(simulation.time(), &values)?)
+    }
+
+    fn write_contact(&mut self, time: f64) -> Result<(), RunError> {
+        let Zones { tables: [disk, bar], displacement, velocity } = &self.zones;
+        let pressure = [&disk.pressure[..], &bar.pressure].concat();
+        let shear = [&disk.shear[..], &bar.shear].concat();
+        let slip_velocity = [&disk.slip_velocity[..], &bar.slip_velocity].concat();
+        let slip = [&disk.slip[..], &bar.slip].concat();
+        let mu = [&disk.mu[..], &bar.mu].concat();
+        let state = [&disk.state[..], &bar.state].concat();
+        let gap = [&disk.gap[..], &bar.gap].concat();
+        let values = [
+            Values::Scalar(&pressure),
+            Values::Vector(&shear),
+            Values::Vector(&slip_velocity),
+            Values::Vector(&slip),
+            Values::Scalar(&mu),
+            Values::Integer(&state),
+            Values::Scalar(&gap),
+            Values::Vector(velocity),
+            Values::Vector(displacement),
+        ];
+        Ok(self.writer.append_contact(time, &values)?)
+    }
+
+    /// Largest (|shear| - mu p) over the Hertz peak pressure, on both surfaces.
+    fn cone_excess(&self) -> f64 {
+        let excess = |t: &NodalContact| {
+            (0..t.nodes.len())
+                .map(|i| (length(t.shear[i]) - t.mu[i] * t.pressure[i]) / self.hertz_pressure)
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        self.zones.tables.iter().map(excess).fold(f64::NEG_INFINITY, f64::max).max(0.0)
+    }
+
+    /// Rear end of the longest run of sticking nodes on the bar's centre line, half a spacing
+    /// behind its last node, relative to `centre` (m).
+    fn stick_border(&mut self, centre: f64) -> f64 {
+        let bar = &self.zones.tables[BAR];
+        self.line.clear();
+        for &i in &self.centreline {
+            if bar.pressure[i] > 0.02 * self.hertz_pressure {
+                self.line.push((self.points[BAR][i][0], bar.state[i] == 1));
+            }
+        }
+        let (mut best, mut start) = ((0, f64::NAN), None);
+        for (k, &(x, sticks)) in self.line.iter().enumerate() {
+            if !sticks {
+                start = None;
+                continue;
+            }
+            let (first, rear) = *start.get_or_insert_with(|| {
+                let behind = if k > 0 { self.line[k - 1].0 } else { x };
+                (k, 0.5 * (behind + x))
+            });
+            if k + 1 - first > best.0 {
+                best = (k + 1 - first, rear);
+            }
+        }
+        best.1 - centre
+    }
+}
+
+fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<TransientGrid, RunError> {
+    let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
+    let mut specs = vec![
+        FieldSpec::at_points("displacement", "m", 3, "displacement from the undeformed state"),
+        FieldSpec::at_points("velocity", "m/s", 3, "velocity over the last step"),
+    ];
+    if case.output.stress {
+        let stress = "Cauchy stress, xx yy zz xy yz xz";
+        specs.push(FieldSpec::at_points("stress", "Pa", 6, stress).on_cells());
+    }
+    let grid = GridSpec {
+        points: &model.mesh.nodes,
+        cells: Cells::Hexahedra(&model.mesh.hexes),
+        constant: &[body_field(&body)],
+    };
+    Ok(TransientGrid::create(
+        basis.folder.join("fields.vtkhdf"),
+        &grid,
+        &specs,
+        &basis.provenance,
+    )?)
+}
+
+fn create_contact(
+    model: &Model,
+    tables: &[NodalContact; 2],
+    points: &[Vec<[f64; 3]>; 2],
+    basis: &Basis<'_>,
+) -> Result<TransientGrid, RunError> {
+    let mut quads = Vec::new();
+    let mut offset = 0;
+    for side in [DISK, BAR] {
+        let row = |n: &u32| tables[side].nodes.binary_search(n).map(|r| (r + offset) as u32);
+        for Face { nodes, .. } in &model.zones[side] {
+            let mut quad = [0; 4];
+            for (q, n) in quad.iter_mut().zip(nodes) {
+                *q = row(n).map_err(|_| RunError::NoContact)?;
+            }
+            quads.push(quad);
+        }
+        offset += tables[side].nodes.len();
+    }
+    let area = [&tables[DISK].area[..], &tables[BAR].area].concat();
+    let body = labels(&[model.zones[DISK].len(), model.zones[BAR].len()]);
+    let grid = GridSpec {
+        points: &points.concat(),
+        cells: Cells::Quads(&quads),
+        constant: &[
+            body_field(&body),
+            StaticField {
+                spec: FieldSpec::at_points("area", "m2", 1, "tributary area of the node"),
+                values: Values::Scalar(&area),
+            },
+        ],
+    };
+    Ok(TransientGrid::create(
+        basis.folder.join("contact.vtkhdf"),
+        &grid,
+        &contact_fields(),
+        &basis.provenance,
+    )?)
+}
+
+fn body_field(body: &[u8]) -> StaticField<'_> {
+    StaticField {
+        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
+        values: Values::Integer(body),
+    }
+}
+
+/// 0 for the first `counts[0]` entries, 1 for the next, and so on.
+fn labels(counts: &[usize]) -> Vec<u8> {
+    counts.iter().enumerate().flat_map(|(k, &n)| std::iter::repeat_n(k as u8, n)).collect()
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+impl Probes {
+    /// The probes of a case, if it has any.
+    fn new(
+        case: &Case,
+        model: &Model,
+        simulation: &Simulation,
+        basis: &Basis<'_>,
+    ) -> Result<Option<Self>, RunError> {
+        let probes = &case.output.probes;
+        if probes.bar.is_empty() && probes.disk.is_empty() {
+            return Ok(None);
+        }
+        let contact = simulation.contact().ok_or(RunError::NoContact)?;
+        let radius = case.disk.radius;
+        // The tread point at arc length s lies at angle s/R from the lowest point.
+        let on_disk = |[s, y]: [f64; 2]| {
+            let angle = s / radius;
+            [radius * angle.sin(), y, radius * (1.0 - angle.cos())]
+        };
+        let wanted: Vec<(usize, [f64; 3])> = (probes.disk.iter().map(|p| (DISK, on_disk(*p))))
+            .chain(probes.bar.iter().map(|p| (BAR, [p[0], p[1], 0.0])))
+            .collect();
+        let mut chosen = Vec::new();
+        for (side, point) in &wanted {
+            let distance = |n: u32| {
+                let x = model.mesh.nodes[n as usize];
+                // height is ignored on the bar, whose crown the user need not compute
+                let dz = if *side == BAR { 0.0 } else { x[2] - point[2] };
+                (x[0] - point[0]).powi(2) + (x[1] - point[1]).powi(2) + dz * dz
+            };
+            let nodes = model.zones[*side].iter().flat_map(|f| f.nodes);
+            let nearest = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            chosen.push((*side, nearest.ok_or(RunError::NoContact)?));
+        }
+        let tables = [DISK, BAR].map(|side| {
+            let around: Vec<Face> = model.zones[side]
+                .iter()
+                .filter(|f| chosen.iter().any(|&(s, n)| s == side && f.nodes.contains(&n)))
+                .copied()
+                .collect();
+            contact.nodal_table_of(side, &around)
+        });
+        let rows = chosen
+            .iter()
+            .map(|&(side, n)| Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?)))
+            .collect::<Result<Vec<_>, RunError>>()?;
+        let mut columns = vec![Column::new("time", "s", "time since the start of rolling")];
+        for (k, &(side, n)) in chosen.iter().enumerate() {
+            let [x, y, z] = model.mesh.nodes[n as usize];
+            let body = if side == DISK { "disk" } else { "bar" };
+            for (name, units, text) in PROBE {
+                let text = format!("{text}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m");
+                columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
+            }
+        }
+        let history =
+            History::create(basis.folder.join("probes.h5"), &columns, &basis.provenance)?;
+        Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
+    }
+
+    fn record(
+        &mut self,
+        contact: &contact::PenaltyContact,
+        report: &StepReport,
+    ) -> Result<(), RunError> {
+        self.tables.iter_mut().for_each(|t| contact.nodal(t));
+        self.buffer.push(report.time);
+        for &(side, row) in &self.rows {
+            let t = &self.tables[side];
+            self.buffer.push(t.pressure[row]);
+            self.buffer.extend(t.shear[row]);
+            self.buffer.extend(t.slip_velocity[row]);
+            self.buffer.extend([
+                t.slip[row][0],
+                t.mu[row],
+                f64::from(t.state[row]),
+                t.gap[row],
+            ]);
+        }
+        if self.buffer.len() >= 256 * (1 + PROBE.len() * self.rows.len()) {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) -> Result<(), RunError> {
+        if !self.buffer.is_empty() {
+            self.history.append(&self.buffer)?;
+            self.buffer.clear();
+        }
+        Ok(())
+    }
+}

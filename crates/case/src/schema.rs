@@ -1,0 +1,417 @@
+//! The keys of a case file.
+//!
+//! Each key's doc comment gives its meaning, SI unit and default; the allowed range of every
+//! key stands in one table, [`crate::keys::KEYS`], from which both the checks and the ranges in
+//! the JSON Schema are taken.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use crate::bodies::{Bar, Disk, Ends, Material, MaterialOverride, Meshing, Zone};
+pub use crate::forms::{Crown, Stiffness};
+
+/// A case: a disk pressed on a bar and rolled along it. SI units throughout.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Name of the case; the run goes to `runs/<name>` unless `--out` says otherwise.
+    /// Default: the case file's name without its extension.
+    #[serde(default)]
+    pub name: String,
+    /// One line that says what the case is for. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Another case file, relative to this one, whose keys hold wherever this file is silent.
+    /// Tables merge key by key, arrays are replaced whole. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extends: Option<String>,
+    /// The disk.
+    #[serde(default)]
+    pub disk: Disk,
+    /// The bar.
+    #[serde(default)]
+    pub bar: Bar,
+    /// The elastic material of both bodies, unless `disk.material` or `bar.material` differ.
+    #[serde(default)]
+    pub material: Material,
+    /// The mesh.
+    #[serde(default)]
+    pub mesh: Meshing,
+    /// The finite element.
+    #[serde(default)]
+    pub element: Element,
+    /// The load that presses the disk on the bar.
+    pub load: Load,
+    /// What makes the disk roll.
+    pub drive: Drive,
+    /// The friction law.
+    pub friction: Friction,
+    /// How contact is enforced.
+    #[serde(default)]
+    pub contact: Contact,
+    /// Damping; everything is off by default.
+    #[serde(default)]
+    pub damping: Damping,
+    /// How the state before rolling is found.
+    #[serde(default)]
+    pub preload: Preload,
+    /// Time step and length of the run.
+    #[serde(default)]
+    pub time: Time,
+    /// The evaluation window.
+    #[serde(default)]
+    pub evaluate: Evaluate,
+    /// What is written, and how often.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// The one-point hexahedron.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Element {
+    /// Flanagan-Belytschko hourglass stiffness coefficient (dimensionless). Default 0.05.
+    pub hourglass: f64,
+}
+
+impl Default for Element {
+    fn default() -> Self {
+        Self { hourglass: 0.05 }
+    }
+}
+
+/// The load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Force pressing the disk down on the bar (N), positive. Required.
+    pub normal: f64,
+    /// `"load"`: the force is prescribed while rolling; `"height"`: the hub is held at the
+    /// height that the preload found. Default `"load"`.
+    #[serde(default)]
+    pub mode: LoadMode,
+    /// Extra mass of hub and wheelset carried by the hub (kg). Default 0.
+    #[serde(default)]
+    pub hub_mass: f64,
+}
+
+/// What is prescribed vertically at the hub while rolling.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LoadMode {
+    /// The vertical force.
+    #[default]
+    Load,
+    /// The height found by the preload.
+    Height,
+}
+
+/// The drive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Drive {
+    /// Rolling speed V in +x (m/s). Required.
+    pub speed: f64,
+    /// `"creepage"`: the angular velocity is prescribed as (1 + creepage) V/R; `"torque"`: the
+    /// torque about the hub is. Default: `"torque"` where `drive.torque` is given, else
+    /// `"creepage"`.
+    #[serde(default)]
+    pub mode: DriveMode,
+    /// Nominal longitudinal creepage (omega R - V)/V (dimensionless); positive when driving.
+    /// Required with `mode = "creepage"`, refused with `"torque"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub creepage: Option<f64>,
+    /// Torque about the hub's axis (N m); positive when driving. Required with
+    /// `mode = "torque"`, refused with `"creepage"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque: Option<f64>,
+    /// Time over which creepage or torque rises by a smoothstep (s). Default 0.74e-3.
+    #[serde(default = "Drive::default_ramp")]
+    pub ramp: f64,
+}
+
+impl Drive {
+    fn default_ramp() -> f64 {
+        0.74e-3
+    }
+}
+
+/// What is prescribed about the hub's axis while rolling.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DriveMode {
+    /// The angular velocity, by the nominal creepage.
+    #[default]
+    Creepage,
+    /// The torque.
+    Torque,
+}
+
+/// The friction law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Friction {
+    /// `"coulomb"` (one coefficient, `static`) or `"exponential"` (Eq 8 of the paper:
+    /// mu(s) = dynamic + (static - dynamic) exp(-decay |s|), s of the previous step).
+    /// Default `"coulomb"`.
+    #[serde(default)]
+    pub law: FrictionLaw,
+    /// Coefficient of friction at zero slip velocity (dimensionless). Required.
+    #[serde(rename = "static")]
+    pub static_: f64,
+    /// Coefficient at high slip velocity (dimensionless), at most `static`. Default 0.32 with
+    /// `law = "exponential"`, refused with `"coulomb"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dynamic: Option<f64>,
+    /// Decay of the coefficient with slip velocity (s/m). Default 6 with
+    /// `law = "exponential"`, refused with `"coulomb"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decay: Option<f64>,
+}
+
+/// The friction laws.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FrictionLaw {
+    /// A constant coefficient.
+    #[default]
+    Coulomb,
+    /// A coefficient that falls exponentially with slip velocity.
+    Exponential,
+}
+
+/// Contact enforcement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Contact {
+    /// `"penalty"`: two-pass surface-to-surface penalty with a friction spring (Eqs 10-11).
+    /// Default `"penalty"`.
+    pub enforcement: Enforcement,
+    /// Correct gap and normal with the exact cylinder and crown instead of the facets
+    /// (true or false). Default true.
+    pub curvature: bool,
+    /// The penalty springs.
+    pub penalty: Penalty,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Self { enforcement: Enforcement::Penalty, curvature: true, penalty: Penalty::default() }
+    }
+}
+
+/// The enforcement methods.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Enforcement {
+    /// Two-pass penalty.
+    #[default]
+    Penalty,
+}
+
+/// The penalty springs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Penalty {
+    /// Normal spring: a number (multiple of K/d per pass, LS-DYNA's scale factor),
+    /// `{ stiffness = N/m^3 }` (sum of both passes) or `{ stability = fraction }` of the
+    /// stability limit. Default 0.1.
+    pub normal: Stiffness,
+    /// Tangential spring, in the same three forms. Default 0.1.
+    pub tangential: Stiffness,
+    /// Normal viscous damping as a fraction of critical (dimensionless). Default 0.1.
+    pub damping: f64,
+}
+
+impl Default for Penalty {
+    fn default() -> Self {
+        Self { normal: Stiffness::Factor(0.1), tangential: Stiffness::Factor(0.1), damping: 0.1 }
+    }
+}
+
+/// Damping.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Damping {
+    /// Linear bulk viscosity coefficient (dimensionless). Default 0.
+    pub bulk_linear: f64,
+    /// Quadratic bulk viscosity coefficient (dimensionless). Default 0.
+    pub bulk_quadratic: f64,
+    /// Kelvin-Voigt time constant (s). Default 0.
+    pub kelvin_voigt: f64,
+    /// Mass-proportional damping relative to the rigid motion (1/s). Default 0.
+    pub mass: f64,
+}
+
+/// The preload.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Preload {
+    /// `"relaxation"` (dynamic relaxation to equilibrium under the load) or `"none"` (the load
+    /// acts suddenly). Default `"relaxation"`.
+    pub method: PreloadMethod,
+    /// Ratio of kinetic to internal energy at which relaxation has converged (dimensionless).
+    /// Default 1e-8.
+    pub tolerance: f64,
+    /// Relaxation gives up after so many steps (count). Default 40000.
+    pub max_iterations: u64,
+}
+
+impl Default for Preload {
+    fn default() -> Self {
+        Self { method: PreloadMethod::Relaxation, tolerance: 1e-8, max_iterations: 40_000 }
+    }
+}
+
+/// The preload methods.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum PreloadMethod {
+    /// Dynamic relaxation.
+    #[default]
+    Relaxation,
+    /// No preload.
+    None,
+}
+
+/// Time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Time {
+    /// Time step as a fraction of 2/omega_max (dimensionless). Above 1 the run is unstable;
+    /// that is accepted with a warning, to show a blow-up. Default 0.67.
+    pub factor: f64,
+    /// Rolled distance (m). Give this or `duration`, not both. Default 0.060.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roll: Option<f64>,
+    /// Duration of rolling (s). Give this or `roll`, not both. Default: `roll / drive.speed`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self { factor: 0.67, roll: None, duration: None }
+    }
+}
+
+/// Evaluation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Evaluate {
+    /// Rolled distance at the end of the run over which means are taken (m). Default 0.020, or
+    /// the last third of a run shorter than 0.060 m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub last: Option<f64>,
+}
+
+/// Output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Interval of `fields.vtkhdf` (s). Default: a fortieth of the run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fields_interval: Option<f64>,
+    /// Write the stress of every element to `fields.vtkhdf` (true or false). Default true.
+    pub stress: bool,
+    /// Interval of `contact.vtkhdf` outside windows (s). Default 5.7e-6, the paper's.
+    pub contact_interval: f64,
+    /// Interval of `history.h5` (steps). Default 10.
+    pub history_interval: u64,
+    /// Surface nodes recorded at every step.
+    pub probes: Probes,
+    /// Spans of time in which the contact surfaces are recorded more often. Default: none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub window: Vec<Window>,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            fields_interval: None,
+            stress: true,
+            contact_interval: 5.7e-6,
+            history_interval: 10,
+            probes: Probes::default(),
+            window: Vec::new(),
+        }
+    }
+}
+
+/// A span of time in which contact is recorded every `every` steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Window {
+    /// Start of the window (s of rolling). Required.
+    pub from: f64,
+    /// End of the window (s of rolling). Required.
+    pub to: f64,
+    /// Interval inside the window (steps). Default 1.
+    #[serde(default = "Window::every_step")]
+    pub every: u64,
+}
+
+impl Window {
+    fn every_step() -> u64 {
+        1
+    }
+}
+
+/// Points whose nearest surface node is recorded at every step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Probes {
+    /// Points [x, y] on the bar's top (m). Default: none.
+    pub bar: Vec<[f64; 2]>,
+    /// Points [s, y] on the disk's tread (m), s the arc length from the first point of contact,
+    /// positive towards +x. Default: none.
+    pub disk: Vec<[f64; 2]>,
+}
+
+impl Case {
+    /// The disk's material: `[material]` with the keys of `[disk.material]` over it.
+    pub fn disk_material(&self) -> Material {
+        self.disk.material.over(self.material)
+    }
+
+    /// The bar's material: `[material]` with the keys of `[bar.material]` over it.
+    pub fn bar_material(&self) -> Material {
+        self.bar.material.over(self.material)
+    }
+
+    /// Duration of rolling (s).
+    pub fn duration(&self) -> f64 {
+        self.time.duration.unwrap_or_else(|| self.rolled() / self.drive.speed)
+    }
+
+    /// Rolled distance (m).
+    pub fn rolled(&self) -> f64 {
+        match (self.time.roll, self.time.duration) {
+            (Some(roll), _) => roll,
+            (None, Some(duration)) => duration * self.drive.speed,
+            (None, None) => 0.060,
+        }
+    }
+
+    /// Time of rolling at which the evaluation window begins (s).
+    pub fn evaluate_from(&self) -> f64 {
+        (self.duration() - self.evaluate_last() / self.drive.speed).max(0.0)
+    }
+
+    /// Rolled distance at the end over which means are taken (m).
+    pub fn evaluate_last(&self) -> f64 {
+        self.evaluate.last.unwrap_or_else(|| (self.rolled() / 3.0).min(0.020))
+    }
+
+    /// Interval between field snapshots (s).
+    pub fn fields_interval(&self) -> f64 {
+        self.output.fields_interval.unwrap_or_else(|| self.duration() / 40.0)
+    }
+}
+
+impl Default for Evaluate {
+    /// The window that [`Case::evaluate_last`] derives from the rolled distance.
+    fn default() -> Self {
+        Self { last: None }
+    }
+}

@@ -1,0 +1,441 @@
+//! The case against itself: sizes that fit, choices that agree, a path that stays in the fine zone.
+
+use crate::check::raise;
+use crate::error::{CaseError, KeyError};
+use crate::hertz::hertz;
+use crate::keys::number;
+use crate::layers::{Layers, key_error_in};
+use crate::schema::{Case, Crown, DriveMode, FrictionLaw, LoadMode, PreloadMethod, Stiffness};
+
+/// Coefficient at high slip velocity where an exponential law gives none.
+pub const DYNAMIC: f64 = 0.32;
+/// Decay (s/m) where an exponential law gives none.
+pub const DECAY: f64 = 6.0;
+
+/// More elements than this in the fine zones is a slip of a digit.
+const MOST_ELEMENTS: f64 = 2e8;
+
+/// Whether a character may stand in a case's name, which becomes a folder's.
+pub fn in_a_name(c: char) -> bool {
+    c.is_alphanumeric() || "-_. +".contains(c)
+}
+
+/// Findings about a case as a whole.
+struct Findings<'a> {
+    layers: &'a Layers,
+    errors: Vec<KeyError>,
+}
+
+impl Findings<'_> {
+    /// Refuses the case unless `fine`. The message points at the first of `keys` that a file or
+    /// option gives: the others have their defaults, which the user cannot see.
+    fn require(
+        &mut self,
+        fine: bool,
+        keys: &[&str],
+        problem: impl FnOnce() -> String,
+        remedy: &str,
+    ) {
+        if fine {
+            return;
+        }
+        let written = keys.iter().find_map(|&key| Some((key, self.layers.origins.get(key)?)));
+        let problem = problem();
+        self.errors.push(match written {
+            Some((key, origin)) => {
+                let source = self.layers.sources[origin.source].clone();
+                key_error_in(source, origin.value.clone(), key, &problem, remedy)
+            }
+            None => self.layers.error_nowhere(keys[0], &problem, remedy),
+        });
+    }
+}
+
+/// Checks the case against itself: sizes that fit, choices that agree, a path that stays in the
+/// fine zone.
+pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
+    let mut found = Findings { layers, errors: Vec::new() };
+    check_name(case, &mut found);
+    check_choices(case, &mut found);
+    check_geometry(case, &mut found);
+    check_output(case, &mut found);
+    // The path is judged only for a case whose shape makes sense.
+    if found.errors.is_empty() {
+        check_path(case, &mut found);
+    }
+    raise(found.errors)
+}
+
+fn check_name(case: &Case, found: &mut Findings) {
+    let name = &case.name;
+    let fine = !name.trim_matches(['.', ' ']).is_empty()
+        && name.len() <= 100
+        && name.chars().all(in_a_name);
+    found.require(
+        fine,
+        &["name"],
+        || format!("name = {name:?} cannot name a folder"),
+        "use letters, digits, '-', '_', '+' and '.'",
+    );
+}
+
+fn check_choices(case: &Case, found: &mut Findings) {
+    let drive = &case.drive;
+    match drive.mode {
+        DriveMode::Creepage => {
+            found.require(
+                drive.torque.is_none(),
+                &["drive.torque"],
+                || "drive.torque is not used with drive.mode = \"creepage\"".into(),
+                "set drive.mode = \"torque\" and leave creepage out, or leave torque out",
+            );
+            found.require(
+                drive.creepage.is_some(),
+                &["drive.mode", "drive"],
+                || {
+                    "drive.creepage is missing: drive.mode = \"creepage\" needs it, a number from \
+                    -0.5 to 0.5"
+                        .into()
+                },
+                "in [drive] give the creepage: `creepage = 2.4e-3`",
+            );
+        }
+        DriveMode::Torque => {
+            found.require(
+                drive.creepage.is_none(),
+                &["drive.creepage"],
+                || "drive.creepage is not used where a torque drives".into(),
+                "give drive.creepage or drive.torque, not both",
+            );
+            found.require(
+                drive.torque.is_some(),
+                &["drive.mode", "drive"],
+                || {
+                    "drive.torque is missing: drive.mode = \"torque\" needs it, a number of N m"
+                        .into()
+                },
+                "in [drive] give the torque: `torque = 12.9e3`",
+            );
+        }
+    }
+    let friction = &case.friction;
+    match friction.law {
+        FrictionLaw::Coulomb => {
+            for (key, value) in
+                [("friction.dynamic", friction.dynamic), ("friction.decay", friction.decay)]
+            {
+                found.require(
+                    value.is_none(),
+                    &[key],
+                    || format!("{key} is not used with friction.law = \"coulomb\""),
+                    "leave it out, or set friction.law = \"exponential\"",
+                );
+            }
+        }
+        FrictionLaw::Exponential => {
+            let dynamic = friction.dynamic.unwrap_or(DYNAMIC);
+            found.require(
+                dynamic <= friction.static_,
+                &["friction.dynamic", "friction.static"],
+                || {
+                    format!(
+                        "friction.dynamic = {} must be at most friction.static = {}",
+                        number(dynamic),
+                        number(friction.static_)
+                    )
+                },
+                "friction falls with slip velocity in this law: swap the two coefficients",
+            );
+        }
+    }
+    let time = &case.time;
+    found.require(
+        time.roll.is_none() || time.duration.is_none(),
+        &["time.duration"],
+        || "time.duration and time.roll are both given".into(),
+        "give the rolled distance or the duration, not both",
+    );
+    let preloaded = case.preload.method != PreloadMethod::None;
+    found.require(
+        case.disk.lift == 0.0 || !preloaded,
+        &["disk.lift"],
+        || {
+            format!(
+                "disk.lift = {} m: the disk does not touch the bar, so it cannot be preloaded",
+                number(case.disk.lift)
+            )
+        },
+        "leave disk.lift out (0: the disk touches), or drop the disk with preload.method = \"none\"",
+    );
+    found.require(
+        case.load.mode == LoadMode::Load || preloaded,
+        &["load.mode"],
+        || "load.mode = \"height\" holds the height of the preload, but there is none".into(),
+        "set preload.method = \"relaxation\", or load.mode = \"load\"",
+    );
+}
+
+fn check_geometry(case: &Case, found: &mut Findings) {
+    let (disk, bar, zone) = (&case.disk, &case.bar, &case.mesh.zone);
+    let mut at_most = |key: &str, value: f64, limit_key: &str, limit: f64, remedy: &str| {
+        found.require(
+            value <= limit,
+            &[key, limit_key],
+            || {
+                format!(
+                    "{key} = {} m must be at most {limit_key} = {} m",
+                    number(value),
+                    number(limit)
+                )
+            },
+            remedy,
+        );
+    };
+    const NOT_INSIDE: &str = "the fine zone must lie inside both bodies: make it smaller";
+    at_most("mesh.zone.width", zone.width, "bar.width", bar.width, NOT_INSIDE);
+    at_most("mesh.zone.width", zone.width, "disk.width", disk.width, NOT_INSIDE);
+    at_most("mesh.zone.length", zone.length, "bar.length", bar.length, NOT_INSIDE);
+    at_most("mesh.zone.depth", zone.depth, "bar.height", bar.height, NOT_INSIDE);
+    const COARSE: &str = "the element size must not exceed the fine zone: make mesh.zone.size \
+                          smaller, for example 1e-3";
+    at_most("mesh.zone.size", zone.size, "mesh.zone.length", zone.length, COARSE);
+    at_most("mesh.zone.size", zone.size, "mesh.zone.width", zone.width, COARSE);
+    at_most("mesh.zone.size", zone.size, "mesh.zone.depth", zone.depth, COARSE);
+    at_most(
+        "mesh.zone.size",
+        zone.size,
+        "mesh.coarsest",
+        case.mesh.coarsest,
+        "elements grow from zone.size to coarsest: make coarsest larger",
+    );
+    let mut require = |fine: bool, keys: &[&str], problem: String, remedy: &str| {
+        found.require(fine, keys, || problem, remedy);
+    };
+    require(
+        disk.hub_radius < disk.radius,
+        &["disk.hub_radius", "disk.radius"],
+        format!(
+            "disk.hub_radius = {} m must be less than disk.radius = {} m",
+            number(disk.hub_radius),
+            number(disk.radius)
+        ),
+        "the hub is the rigid core of the disk: make it smaller",
+    );
+    let rim = disk.radius - disk.hub_radius;
+    require(
+        rim <= 0.0 || zone.depth <= rim,
+        &["mesh.zone.depth", "disk.hub_radius", "disk.radius"],
+        format!(
+            "mesh.zone.depth = {} m must be at most disk.radius - disk.hub_radius = {} m",
+            number(zone.depth),
+            number(round(rim))
+        ),
+        NOT_INSIDE,
+    );
+    for (key, crown, width) in [
+        ("disk.crown_radius", disk.crown_radius, disk.width),
+        ("bar.crown_radius", bar.crown_radius, bar.width),
+    ] {
+        if let Crown::Radius(radius) = crown {
+            require(
+                radius >= width,
+                &[key],
+                format!("{key} = {} m must be at least the width, {} m", number(radius), width),
+                "a crown rounder than its body's width is no running surface",
+            );
+        }
+    }
+    let (bar_end, zone_end) = (bar.start + bar.length, zone.start + zone.length);
+    let rounding = 1e-12;
+    require(
+        zone.start >= bar.start - rounding && zone_end <= bar_end + rounding,
+        &["mesh.zone.start", "mesh.zone.length", "bar.start", "bar.length"],
+        format!(
+            "the fine zone from x = {} to {} m must lie inside the bar, x = {} to {} m",
+            number(round(zone.start)),
+            number(round(zone_end)),
+            number(round(bar.start)),
+            number(round(bar_end))
+        ),
+        "move or shorten the fine zone (mesh.zone.start, mesh.zone.length), or lengthen the bar",
+    );
+    require(
+        zone.length <= 0.5 * disk.radius * std::f64::consts::PI,
+        &["mesh.zone.length", "disk.radius"],
+        format!(
+            "mesh.zone.length = {} m must be at most a quarter of the disk's circumference, {} m",
+            number(zone.length),
+            number(round(0.5 * disk.radius * std::f64::consts::PI))
+        ),
+        "shorten the fine zone or enlarge the disk",
+    );
+    let elements = 2.0 * zone.length * zone.width * zone.depth / zone.size.powi(3);
+    require(
+        elements <= MOST_ELEMENTS,
+        &["mesh.zone.size"],
+        format!(
+            "mesh.zone.size = {} m makes about {elements:.1e} elements in the fine zones, more \
+             than {MOST_ELEMENTS:.0e}",
+            number(zone.size)
+        ),
+        "give the element size in metres: 1e-3 for 1 mm",
+    );
+}
+
+fn check_output(case: &Case, found: &mut Findings) {
+    let rolled = case.rolled();
+    let last = case.evaluate_last();
+    found.require(
+        last <= rolled * (1.0 + 1e-12),
+        &["evaluate.last", "time.roll", "time.duration"],
+        || {
+            format!(
+                "evaluate.last = {} m must be at most the rolled distance, {} m",
+                number(last),
+                number(round(rolled))
+            )
+        },
+        "evaluate a shorter stretch, or roll further",
+    );
+    for (i, window) in case.output.window.iter().enumerate() {
+        let to = format!("output.window[{i}].to");
+        found.require(
+            window.to > window.from,
+            &[&to],
+            || {
+                format!(
+                    "{to} = {} s must be greater than its from = {} s",
+                    number(window.to),
+                    number(window.from)
+                )
+            },
+            "a window ends after it begins",
+        );
+    }
+    let bar = &case.bar;
+    let half = 0.5 * bar.width;
+    let on_bar =
+        |[x, y]: &[f64; 2]| *x >= bar.start && *x <= bar.start + bar.length && y.abs() <= half;
+    let probes = &case.output.probes;
+    found.require(
+        probes.bar.iter().all(on_bar),
+        &["output.probes.bar"],
+        || "output.probes.bar has a point that is not on the bar's top".into(),
+        "give pairs [x, y] in metres, within the bar's length and half width",
+    );
+    let half_turn = std::f64::consts::PI * case.disk.radius;
+    let on_disk = |[s, y]: &[f64; 2]| s.abs() <= half_turn && y.abs() <= 0.5 * case.disk.width;
+    found.require(
+        probes.disk.iter().all(on_disk),
+        &["output.probes.disk"],
+        || "output.probes.disk has a point that is not on the disk's tread".into(),
+        "give pairs [s, y] in metres, within half a turn and the disk's half width",
+    );
+}
+
+/// The patch, by Hertz, must stay inside the fine zone while rolling from x = 0.
+fn check_path(case: &Case, found: &mut Findings) {
+    let zone = &case.mesh.zone;
+    let patch = hertz(case);
+    let (rear, front) = (-patch.a, case.rolled() + patch.a);
+    found.require(
+        zone.start <= rear,
+        &["mesh.zone.start", "load.normal"],
+        || {
+            format!(
+                "mesh.zone.start = {} m must be at most {:.5} m: the patch at the start reaches \
+                 back so far",
+                number(zone.start),
+                rear
+            )
+        },
+        "start the fine zone further back, or reduce the load",
+    );
+    let end = zone.start + zone.length;
+    found.require(
+        end >= front,
+        &["time.roll", "time.duration", "mesh.zone.length", "mesh.zone.start", "load.normal"],
+        || {
+            format!(
+                "the patch (half length {:.2} mm) ends at x = {front:.5} m after rolling {} m, \
+                 but the fine zone ends at {} m",
+                1e3 * patch.a,
+                number(round(case.rolled())),
+                number(round(end))
+            )
+        },
+        "roll less (time.roll), or lengthen the fine zone (mesh.zone.length)",
+    );
+    found.require(
+        zone.width >= 2.0 * patch.b * (1.0 - 1e-12),
+        &["mesh.zone.width", "load.normal"],
+        || {
+            format!(
+                "mesh.zone.width = {} m must be at least the patch's width, {:.5} m",
+                number(zone.width),
+                2.0 * patch.b
+            )
+        },
+        "widen the fine zone, reduce the load, or give the bar a smaller crown_radius",
+    );
+}
+
+/// Six digits, so that a sum such as -0.01 + 0.08 is shown as it was meant.
+fn round(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9
+}
+
+/// What is allowed but deserves a warning.
+pub fn warnings(case: &Case) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut warn = |condition: bool, text: String| {
+        if condition {
+            warnings.push(text);
+        }
+    };
+    let factor = case.time.factor;
+    warn(
+        factor > 1.0,
+        format!("time.factor = {factor} is above 1: THE RUN IS UNSTABLE and will blow up"),
+    );
+    let patch = hertz(case);
+    let size = case.mesh.zone.size;
+    warn(
+        size > 0.5 * patch.a.min(patch.b),
+        format!(
+            "mesh.zone.size = {} mm is coarse for a patch of half axes {:.2} and {:.2} mm",
+            1e3 * size,
+            1e3 * patch.a,
+            1e3 * patch.b
+        ),
+    );
+    warn(
+        case.drive.ramp > case.evaluate_from(),
+        format!(
+            "the evaluation window begins at {:.3} ms, before the drive's ramp ends at {:.3} ms",
+            1e3 * case.evaluate_from(),
+            1e3 * case.drive.ramp
+        ),
+    );
+    for (key, stiffness) in
+        [("normal", case.contact.penalty.normal), ("tangential", case.contact.penalty.tangential)]
+    {
+        if let Stiffness::Stability(fraction) = stiffness {
+            warn(
+                fraction > 1.0,
+                format!("contact.penalty.{key} is {fraction} of the stability limit: unstable"),
+            );
+        }
+    }
+    for window in &case.output.window {
+        warn(
+            window.from >= case.duration(),
+            format!(
+                "an output window begins at {} s, after the end of the run at {} s",
+                number(window.from),
+                number(case.duration())
+            ),
+        );
+    }
+    warnings
+}

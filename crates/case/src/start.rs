@@ -1,0 +1,262 @@
+//! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
+
+use crate::hertz::hertz;
+use crate::model::{BAR, DISK, Model};
+use crate::progress::{Progress, Stage};
+use crate::run::RunError;
+use crate::schema::{Case, DriveMode, LoadMode, PreloadMethod};
+use contact::{PenaltyContact, StabilityScale};
+use dynamics::{
+    Hub, QuietEnd, Relaxation, RelaxationReport, RollingField, Setup, Simulation, Spin, Vertical,
+};
+use mesh::Padded;
+use serde::Serialize;
+use solid::Solid;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Lanczos steps for the largest frequency, and the margin on what they find.
+const LANCZOS: usize = 40;
+const MARGIN: f64 = 1.01;
+
+/// What the stable step is made of.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Stability {
+    /// Largest frequency of the bodies without contact, with margin (rad/s).
+    pub(crate) omega_elastic: f64,
+    /// Largest frequency with the contact springs closed after the preload, with margin (rad/s).
+    pub(crate) omega_max: f64,
+    /// Rigorous upper bound: element bound and contact bound combined (rad/s).
+    pub(crate) omega_bound: f64,
+    /// 2/omega_max (s).
+    pub(crate) dt_limit: f64,
+    /// Time step over that limit (dimensionless).
+    pub(crate) factor: f64,
+}
+
+/// Rolling radii.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct RollingRadius {
+    /// Of the undeformed disk (m).
+    pub(crate) nominal: f64,
+    /// V/omega at which the mean slip velocity over the preloaded patch, weighted with the
+    /// pressure, vanishes (m).
+    pub(crate) effective: f64,
+}
+
+/// A simulation ready to roll.
+pub(crate) struct Start {
+    pub(crate) simulation: Simulation,
+    pub(crate) stability: Stability,
+    pub(crate) radius: RollingRadius,
+    pub(crate) preload: Option<RelaxationReport>,
+    pub(crate) steps: u64,
+    pub(crate) preload_wall: f64,
+}
+
+/// Preloads the model and sets it rolling.
+pub(crate) fn start(
+    case: &Case,
+    model: &Model,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+) -> Result<Start, RunError> {
+    let mut solid = model.solid(case)?;
+    let inverse_mass = inverse_mass(model);
+    let omega_elastic = elastic_frequency(model, &mut solid);
+    let scale = StabilityScale { omega_elastic, dt: case.time.factor * 2.0 / omega_elastic };
+    let mut contact = model.contact(case, scale)?;
+    let hub = hub(case, model, &solid);
+    let quiet: Vec<_> = model.quiet.iter().collect();
+    let quiet =
+        QuietEnd::new(&model.mesh, &quiet, &model.materials[BAR], &model.clamped);
+
+    let clock = Instant::now();
+    let nominal = case.disk.radius;
+    let (displacement, preload) = match case.preload.method {
+        PreloadMethod::Relaxation => {
+            let mut held = model.clamped.clone();
+            held.extend(quiet.nodes());
+            let setup = Relaxation {
+                hub: &hub,
+                load: case.load.normal,
+                held: &held,
+                disk: model.mesh.bodies[DISK].nodes.clone(),
+                omega: case.drive.speed / nominal,
+                mass: &model.mass,
+                stiffness: &solid::nodal_stiffness_bounds(
+                    &model.mesh,
+                    &model.materials,
+                    model.element,
+                ),
+                start: -hertz(case).approach,
+                tolerance: case.preload.tolerance,
+                max_iterations: case.preload.max_iterations as usize,
+            };
+            let elements = model.mesh.hexes.len() as f64;
+            let (u, report) = dynamics::relax(&mut solid, &mut contact, &setup, |report| {
+                observe(&Progress {
+                    stage: Stage::Preload,
+                    step: report.iterations as u64,
+                    steps: case.preload.max_iterations,
+                    time: 0.0,
+                    end_time: case.duration(),
+                    normal_force: report.normal_force,
+                    tangential_force: 0.0,
+                    element_steps_per_s: elements * report.iterations as f64
+                        / clock.elapsed().as_secs_f64(),
+                });
+                !stop.load(Ordering::Relaxed)
+            })?;
+            (u, Some(report))
+        }
+        PreloadMethod::None => {
+            let mut u = vec![Padded::ZERO; model.mass.len()];
+            u[model.mesh.bodies[DISK].nodes.clone()]
+                .iter_mut()
+                .for_each(|u| u.0[2] = case.disk.lift);
+            // closes the pairs that touch, for the stable step
+            let mut unused = u.clone();
+            contact.apply_frictionless(solid.reference(), &u, &mut unused);
+            (u, None)
+        }
+    };
+    let preload_wall = clock.elapsed().as_secs_f64();
+
+    let omega_max = MARGIN
+        * solid::largest_frequency(
+            &inverse_mass,
+            |x, y| {
+                solid.add_stiffness_product(x, y);
+                contact.stiffness_product(x, y);
+            },
+            LANCZOS,
+        );
+    let (element_bound, _) =
+        solid::element_frequency_bound(&model.mesh, &model.materials, model.element);
+    let contact_bound = contact.rigorous_omega_squared(&inverse_mass);
+    // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
+    let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
+    let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
+    let steps = (case.duration() / (case.time.factor * limit)).ceil().max(1.0);
+    let dt = case.duration() / steps;
+    let stability = Stability {
+        omega_elastic,
+        omega_max,
+        omega_bound: (element_bound * element_bound + contact_bound).sqrt(),
+        dt_limit: limit,
+        factor: dt / limit,
+    };
+
+    let field = RollingField {
+        disk: DISK,
+        centre: hub.centre,
+        speed: case.drive.speed,
+        omega: case.drive.speed / nominal,
+        dt,
+    };
+    let effective = match preload {
+        Some(_) => effective_radius(model, &contact, &displacement, &field),
+        None => nominal,
+    };
+    let free = case.drive.speed / effective;
+    let velocity =
+        dynamics::rolling_field(&model.mesh, &displacement, &RollingField { omega: free, ..field });
+
+    let mut hub = hub;
+    hub.spin = spin(case, free);
+    hub.vertical = match case.load.mode {
+        LoadMode::Load => Vertical::Load(case.load.normal),
+        LoadMode::Height => Vertical::Held,
+    };
+    hub.state.z = preload.map_or(case.disk.lift, |p| p.hub);
+    hub.state.vx = case.drive.speed;
+    hub.state.omega = free;
+    let mut quiet = quiet;
+    if preload.is_some() {
+        let mut force = vec![Padded::ZERO; model.mass.len()];
+        let still = force.clone();
+        solid.subtract_internal_force(&displacement, &still, &mut force, false);
+        quiet.keep_reactions(&force);
+    }
+    let simulation = Simulation::new(Setup {
+        solid,
+        contact: Some(contact),
+        hub: Some(hub),
+        quiet,
+        held: model.clamped.clone(),
+        disk: model.mesh.bodies[DISK].nodes.clone(),
+        mass: model.mass.clone(),
+        displacement,
+        velocity,
+        dt,
+        omega_max: 2.0 / limit,
+        mass_damping: case.damping.mass,
+    });
+    let radius = RollingRadius { nominal, effective };
+    Ok(Start { simulation, stability, radius, preload, steps: steps as u64, preload_wall })
+}
+
+/// Inverse masses with held and carried nodes at zero.
+fn inverse_mass(model: &Model) -> Vec<f64> {
+    let mut inverse: Vec<f64> = model.mass.iter().map(|m| 1.0 / m).collect();
+    model.clamped.iter().chain(&model.hub).for_each(|&n| inverse[n as usize] = 0.0);
+    inverse
+}
+
+/// Largest frequency of the bodies without contact, with its margin (rad/s).
+pub(crate) fn elastic_frequency(model: &Model, solid: &mut Solid) -> f64 {
+    MARGIN
+        * solid::largest_frequency(
+            &inverse_mass(model),
+            |x, y| solid.add_stiffness_product(x, y),
+            LANCZOS,
+        )
+}
+
+fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
+    Hub::new(
+        [0.0, 0.0, case.disk.radius],
+        &model.hub,
+        solid.reference(),
+        &model.mass,
+        case.load.hub_mass,
+        spin(case, case.drive.speed / case.disk.radius),
+        Vertical::Load(case.load.normal),
+    )
+}
+
+fn spin(case: &Case, free: f64) -> Spin {
+    let ramp = case.drive.ramp;
+    match case.drive.mode {
+        DriveMode::Creepage => {
+            Spin::Creepage { free, creepage: case.drive.creepage.unwrap_or(0.0), ramp }
+        }
+        DriveMode::Torque => Spin::Torque { torque: case.drive.torque.unwrap_or(0.0), ramp },
+    }
+}
+
+/// Effective rolling radius of the preloaded state: with the disk turning at `field.omega`, the
+/// mean forward velocities of both surfaces, weighted with the pressure, are V - omega R_d on the
+/// disk and -V e on the bar; they agree at V/omega = R_d/(1 + e).
+fn effective_radius(
+    model: &Model,
+    contact: &PenaltyContact,
+    displacement: &[Padded],
+    field: &RollingField,
+) -> f64 {
+    let velocity =
+        dynamics::rolling_field(&model.mesh, displacement, &RollingField { dt: 0.0, ..*field });
+    let mean = |side: usize| {
+        let mut table = contact.nodal_table(side);
+        contact.nodal(&mut table);
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for ((&n, p), a) in table.nodes.iter().zip(&table.pressure).zip(&table.area) {
+            sum += p * a * velocity[n as usize].0[0];
+            weight += p * a;
+        }
+        sum / weight
+    };
+    let disk = (field.speed - mean(DISK)) / field.omega;
+    disk / (1.0 - mean(BAR) / field.speed)
+}

@@ -1,0 +1,211 @@
+#![allow(clippy::unwrap_used)]
+
+mod any_input;
+mod refusals;
+mod schema;
+
+use std::fs;
+use std::path::Path;
+
+use miette::Diagnostic;
+
+use crate::folder::{self, FolderError};
+use crate::hertz::hertz;
+use crate::schema::{Crown, DriveMode, Stiffness};
+use crate::{Case, CaseError};
+
+const SHORT: &str = "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 2.4e-3\n\
+                     friction.static = 0.5\n";
+
+fn read(text: &str) -> Result<Case, CaseError> {
+    Case::from_text(text, Path::new("short.toml"), &[])
+}
+
+fn set(sets: &[&str]) -> Result<Case, CaseError> {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
+    Case::from_text(SHORT, Path::new("short.toml"), &sets)
+}
+
+/// Message and remedy of a refusal.
+fn refusal(result: Result<Case, CaseError>) -> String {
+    let error = result.expect_err("the case must be refused");
+    let help = error.help().map(|help| help.to_string()).unwrap_or_default();
+    format!("{error} | {help}")
+}
+
+#[track_caller]
+fn refused(result: Result<Case, CaseError>, words: &[&str]) {
+    let text = refusal(result);
+    for word in words {
+        assert!(text.contains(word), "{word:?} is not in {text:?}");
+    }
+}
+
+#[test]
+fn four_keys_make_the_reference_case() {
+    let case = read(SHORT).unwrap();
+    assert_eq!(case.name, "short");
+    assert_eq!(case.rolled(), 0.060);
+    assert_eq!(case.evaluate.last, Some(0.020));
+    assert_eq!(case.output.fields_interval, Some(0.060 / 38.89 / 40.0));
+    assert_eq!(case.bar.crown_radius, Crown::Radius(0.30));
+    assert!(case.warnings().is_empty(), "{:?}", case.warnings());
+}
+
+#[test]
+fn the_resolved_case_loads_to_itself() {
+    for sets in [
+        vec![],
+        vec!["friction.law=exponential", "name=other", "disk.material.young=200e9"],
+        vec!["time.duration=1e-3", "contact.penalty.normal={ stiffness = 3.5e13 }"],
+        vec!["drive.torque=1e4", "bar.crown_radius=0.2", "disk.radius=0.123456789012345678"],
+        vec!["output.window=[{from=0.0,to=1e-5}]", "output.probes.bar=[[0.01,0]]"],
+    ] {
+        let case = set(&sets).unwrap();
+        let again = Case::from_text(&case.to_toml(), Path::new("x.toml"), &[]).unwrap();
+        assert_eq!(case, again);
+        assert_eq!(case.hash(), again.hash());
+        assert_eq!(case.hash().len(), 64);
+    }
+}
+
+#[test]
+fn the_hash_tells_cases_apart() {
+    assert_ne!(set(&[]).unwrap().hash(), set(&["load.normal=100001"]).unwrap().hash());
+}
+
+#[test]
+fn every_case_of_the_project_loads() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    for name in [
+        "quick.toml",
+        "smoke.toml",
+        "zhao-li/a-coulomb.toml",
+        "zhao-li/b-falling.toml",
+        "zhao-li/d-coulomb-low.toml",
+        "zhao-li/control-weak.toml",
+    ] {
+        let case = Case::load(&cases.join(name), &[]).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(case.warnings().is_empty(), "{name}: {:?}", case.warnings());
+    }
+    let weak = Case::load(&cases.join("zhao-li/control-weak.toml"), &[]).unwrap();
+    assert_eq!(weak.friction.decay, Some(0.05));
+    assert_eq!(weak.friction.dynamic, Some(0.32));
+}
+
+#[test]
+fn hertz_of_the_reference_case_matches_contact() {
+    let patch = hertz(&read(SHORT).unwrap());
+    assert!((patch.a - 7.162e-3).abs() < 1e-6, "{patch:?}");
+    assert!((patch.b - 5.387e-3).abs() < 1e-6, "{patch:?}");
+    assert!((patch.p0 - 1237.6e6).abs() < 1e5, "{patch:?}");
+    assert!((patch.approach - 104.1e-6).abs() < 1e-7, "{patch:?}");
+}
+
+#[test]
+fn hertz_of_a_line_contact_matches_the_formula() {
+    // 1e7 N/m on R = 0.46 m: a 7.125 mm, p0 0.8936 GPa.
+    let case = set(&["bar.crown_radius=flat", "load.normal=6e5", "mesh.zone.width=0.06"]).unwrap();
+    let patch = hertz(&case);
+    assert!((patch.a - 7.125e-3).abs() < 1e-6, "{patch:?}");
+    assert!((patch.p0 - 0.8936e9).abs() < 1e5, "{patch:?}");
+}
+
+#[test]
+fn the_three_forms_of_a_stiffness_are_read() {
+    for (text, form) in [
+        ("1", Stiffness::Factor(1.0)),
+        ("{ stiffness = 3.5e13 }", Stiffness::Areal(3.5e13)),
+        ("{ stability = 0.5 }", Stiffness::Stability(0.5)),
+    ] {
+        let case = set(&[&format!("contact.penalty.tangential={text}")]).unwrap();
+        assert_eq!(case.contact.penalty.tangential, form);
+    }
+    for wrong in ["{}", "{ stability = 0.5, stiffness = 1 }", "{ soft = 1 }", "-1", "\"much\""] {
+        refused(
+            set(&[&format!("contact.penalty.normal={wrong}")]),
+            &["contact.penalty.normal", "stability"],
+        );
+    }
+}
+
+#[test]
+fn an_upper_layer_takes_back_the_other_choice() {
+    let case = set(&["drive.torque=1e4"]).unwrap();
+    assert_eq!(case.drive.mode, DriveMode::Torque);
+    assert_eq!(case.drive.creepage, None);
+    let case = set(&["time.roll=0.05", "time.duration=1e-3"]).unwrap();
+    assert_eq!((case.time.roll, case.time.duration), (None, Some(1e-3)));
+    let case = set(&["friction.law=exponential", "friction.decay=3", "friction.law=coulomb"]);
+    assert_eq!(case.unwrap().friction.decay, None);
+    // A stiffness is one value, not a section to merge into.
+    let case = set(&[
+        "contact.penalty.normal={ stiffness = 1e13 }",
+        "contact.penalty.normal={ stability = 0.5 }",
+    ]);
+    assert_eq!(case.unwrap().contact.penalty.normal, Stiffness::Stability(0.5));
+}
+
+#[test]
+fn extends_merges_key_by_key_and_this_file_wins() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("base.toml"), format!("{SHORT}disk.width = 0.05\n")).unwrap();
+    let top = dir.path().join("top.toml");
+    fs::write(&top, "extends = \"base.toml\"\n[disk]\nradius = 0.5\n[load]\nnormal = 9e4\n")
+        .unwrap();
+    let case = Case::load(&top, &[]).unwrap();
+    assert_eq!((case.disk.radius, case.disk.width, case.load.normal), (0.5, 0.05, 9e4));
+    assert_eq!((case.name.as_str(), case.extends), ("top", None));
+}
+
+#[test]
+fn an_error_in_an_extended_file_names_that_file_and_line() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("base.toml"), format!("{SHORT}[disk]\nradius = -1\n")).unwrap();
+    let top = dir.path().join("top.toml");
+    fs::write(&top, "extends = \"base.toml\"\n").unwrap();
+    refused(Case::load(&top, &[]), &["base.toml:6:", "disk.radius = -1", "greater than 0"]);
+}
+
+#[test]
+fn a_cycle_of_extends_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let (a, b) = (dir.path().join("a.toml"), dir.path().join("b.toml"));
+    fs::write(&a, "extends = \"b.toml\"\n").unwrap();
+    fs::write(&b, "extends = \"a.toml\"\n").unwrap();
+    refused(Case::load(&a, &[]), &["b.toml:1:", "leads back"]);
+    fs::write(&a, "extends = \"a.toml\"\n").unwrap();
+    refused(Case::load(&a, &[]), &["a.toml:1:", "leads back"]);
+    fs::write(&a, "\nextends = \"none.toml\"\n").unwrap();
+    refused(Case::load(&a, &[]), &["a.toml:2:", "none.toml", "no such file"]);
+    fs::write(&a, "extends = 3\n").unwrap();
+    refused(Case::load(&a, &[]), &["a.toml:1:", "text in quotes"]);
+}
+
+#[test]
+fn an_unstable_step_is_accepted_with_a_warning() {
+    let case = set(&["time.factor=1.6"]).unwrap();
+    assert!(case.warnings().iter().any(|w| w.contains("UNSTABLE")), "{:?}", case.warnings());
+}
+
+#[test]
+fn a_run_folder_is_taken_only_when_free_or_forced() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("runs/new");
+    folder::prepare(&out, false).unwrap();
+    folder::prepare(&out, false).unwrap();
+    fs::write(out.join("case.toml"), "x").unwrap();
+    fs::write(out.join("notes.txt"), "mine").unwrap();
+    assert!(matches!(folder::prepare(&out, false), Err(FolderError::Taken { run: true, .. })));
+    folder::prepare(&out, true).unwrap();
+    assert!(!out.join("case.toml").exists());
+    assert!(out.join("notes.txt").exists());
+    assert!(matches!(folder::prepare(&out, false), Err(FolderError::Taken { run: false, .. })));
+    let file = dir.path().join("file");
+    fs::write(&file, "x").unwrap();
+    assert!(matches!(folder::prepare(&file, true), Err(FolderError::NotAFolder { .. })));
+    assert!(matches!(
+        folder::prepare(&file.join("below"), true),
+        Err(FolderError::NotWritable { .. })
+    ));
+}

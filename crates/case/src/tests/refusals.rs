@@ -1,0 +1,137 @@
+//! What is refused, and that the message names place, key, value, range and remedy.
+
+use std::fs;
+
+use super::{SHORT, read, refusal, refused, set};
+use crate::{Case, CaseError};
+
+#[test]
+fn unreadable_files_are_refused_with_their_reason() {
+    let dir = tempfile::tempdir().unwrap();
+    refused(Case::load(dir.path(), &[]), &["is a folder"]);
+    refused(Case::load(&dir.path().join("none.toml"), &[]), &["none.toml", "no such file"]);
+    let binary = dir.path().join("binary.toml");
+    fs::write(&binary, b"name = \"a\"\n\xff\xfe").unwrap();
+    refused(Case::load(&binary, &[]), &["not UTF-8", "line 2"]);
+    fs::write(&binary, vec![b'#'; 5 << 20]).unwrap();
+    refused(Case::load(&binary, &[]), &["4 MiB"]);
+}
+
+#[test]
+fn a_malformed_file_is_refused_at_its_line() {
+    refused(read("name = \"a\"\n[load\n"), &["short.toml:2:", "TOML"]);
+    refused(read(&format!("{SHORT}load.normal = 3\n")), &["short.toml:5:", "duplicate key"]);
+}
+
+#[test]
+fn unknown_keys_are_refused_with_a_suggestion() {
+    refused(read(&format!("{SHORT}disk.radios = 1\n")), &[":5:", "disk.radios = 1", "`radius`"]);
+    refused(read(&format!("{SHORT}radius = 1\n")), &["short.toml:5:", "`disk.radius`"]);
+    refused(read(&format!("{SHORT}frobnicate = 1\n")), &["frobnicate", "top level"]);
+    refused(read(&format!("{SHORT}\"disk.radius\" = 1\n")), &["unknown key"]);
+    refused(set(&["mesh.zone.sise=1"]), &["--set", "mesh.zone.sise", "`size`"]);
+}
+
+#[test]
+fn missing_keys_are_named_with_their_section() {
+    for (key, section) in
+        [("load.normal", "load"), ("drive.speed", "drive"), ("friction.static", "friction")]
+    {
+        let text: String =
+            SHORT.lines().filter(|line| !line.starts_with(key)).map(|l| format!("{l}\n")).collect();
+        refused(read(&text), &[key, "missing", &format!("[{section}]")]);
+    }
+    refused(read(""), &["load.normal is missing"]);
+    refused(set(&["drive.mode=torque"]), &["drive.torque is missing"]);
+    refused(
+        read("load.normal = 1e5\ndrive.speed = 38.89\nfriction.static = 0.5\n"),
+        &["drive.creepage is missing"],
+    );
+    refused(set(&["output.window=[{from=0}]"]), &["output.window[0].to is missing"]);
+}
+
+#[test]
+fn wrong_values_are_refused_with_key_value_and_range() {
+    for (set_, words) in [
+        ("load.normal=-1e5", vec!["load.normal = -100000", "greater than 0", "upwards"]),
+        ("load.normal=0", vec!["load.normal = 0", "upwards"]),
+        ("load.normal=nan", vec!["load.normal = NaN", "greater than 0"]),
+        ("load.normal=inf", vec!["load.normal = inf"]),
+        ("load.normal=\"much\"", vec!["load.normal = \"much\"", "a number"]),
+        ("load.normal=much", vec!["load.normal = \"much\"", "a number"]),
+        ("load=5", vec!["load = 5", "section"]),
+        ("disk.radius=-0.46", vec!["disk.radius = -0.46", "greater than 0", " m"]),
+        ("disk.radius=true", vec!["disk.radius = true"]),
+        ("material.poisson=0.5", vec!["material.poisson = 0.5", "less than 0.5"]),
+        ("bar.material.poisson=0.6", vec!["bar.material.poisson"]),
+        ("time.factor=3", vec!["time.factor = 3", "at most 2"]),
+        ("time.factor=0", vec!["time.factor = 0", "greater than 0"]),
+        ("mesh.zone.size=0", vec!["mesh.zone.size = 0"]),
+        ("mesh.zone.size=1e-6", vec!["mesh.zone.size", "elements"]),
+        ("mesh.zone.size=0.03", vec!["mesh.zone.size", "mesh.zone.width"]),
+        ("mesh.zone.length=0.3", vec!["mesh.zone.length = 0.3", "bar.length = 0.24"]),
+        ("mesh.zone.width=0.07", vec!["mesh.zone.width = 0.07", "bar.width = 0.06"]),
+        ("mesh.zone.depth=0.08", vec!["mesh.zone.depth = 0.08", "bar.height = 0.07"]),
+        ("mesh.zone.start=-0.1", vec!["fine zone", "inside the bar"]),
+        ("mesh.zone.start=-0.005", vec!["mesh.zone.start", "patch"]),
+        ("mesh.zone.width=0.008", vec!["mesh.zone.width = 0.008", "patch"]),
+        ("disk.hub_radius=0.5", vec!["disk.hub_radius = 0.5", "disk.radius = 0.46"]),
+        ("time.roll=0.1", vec!["time.roll", "0.1", "fine zone ends at 0.07"]),
+        ("disk.lift=1e-3", vec!["disk.lift", "does not touch"]),
+        ("disk.lift=-1e-3", vec!["disk.lift = -0.001", "at least 0"]),
+        ("disk.crown_radius=round", vec!["disk.crown_radius = \"round\"", "\"flat\""]),
+        ("bar.crown_radius=0.01", vec!["bar.crown_radius = 0.01", "at least the width"]),
+        ("bar.ends=open", vec!["bar.ends = \"open\"", "\"quiet\" or \"free\""]),
+        ("friction.decay=6", vec!["friction.decay", "not used", "coulomb"]),
+        ("friction.law=magic", vec!["friction.law = \"magic\"", "\"exponential\""]),
+        ("output.history_interval=1.5", vec!["output.history_interval = 1.5", "whole number"]),
+        ("output.history_interval=-1", vec!["output.history_interval = -1"]),
+        ("output.stress=1", vec!["output.stress = 1", "true or false"]),
+        ("output.probes.bar=[[1, 0]]", vec!["output.probes.bar", "not on the bar"]),
+        ("output.probes.bar=[[1, 0, 0]]", vec!["output.probes.bar", "pairs"]),
+        ("output.window=[{from=2e-4,to=1e-4}]", vec!["output.window[0].to", "greater"]),
+        ("output.window=3", vec!["output.window = 3", "list"]),
+        ("evaluate.last=0.07", vec!["evaluate.last = 0.07", "0.06"]),
+        ("name=\"../up\"", vec!["name", "cannot name a folder"]),
+        ("name=\"..\"", vec!["name", "cannot name a folder"]),
+        ("drive.mode=torque", vec!["drive.torque is missing"]),
+    ] {
+        let text = refusal(set(&[set_]));
+        for word in words {
+            assert!(text.contains(word), "{set_}: {word:?} is not in {text:?}");
+        }
+    }
+    refused(set(&["load.mode=height", "preload.method=none"]), &["load.mode", "preload"]);
+    refused(
+        set(&["friction.law=exponential", "friction.dynamic=0.6"]),
+        &["friction.dynamic = 0.6", "at most friction.static = 0.5"],
+    );
+    refused(read(&format!("{SHORT}drive.torque = 3.0\n")), &["drive.torque", "creepage"]);
+    refused(
+        read(&format!("{SHORT}[time]\nroll = 0.06\nduration = 1e-3\n")),
+        &["short.toml:7:", "both given"],
+    );
+}
+
+#[test]
+fn bad_set_options_are_refused() {
+    for bad in
+        ["", "load.normal", "=3", "load..normal=3", "load.normal=", "a b=3", "x=[1", "x=\"\n"]
+    {
+        refused(set(&[bad]), &["--set", "KEY=VALUE"]);
+    }
+    refused(set(&["extends=x.toml"]), &["extends", "file"]);
+    refused(set(&["name=1\nload.normal=3"]), &["--set"]);
+}
+
+#[test]
+fn all_mistakes_are_told_at_once() {
+    let error = read("load.normal = -1\ndrive.speed = 38.89\ndisk.radios = 3\n").unwrap_err();
+    let CaseError::Key(error) = error else { panic!("{error}") };
+    let keys: Vec<_> = std::iter::once(error.key.as_str())
+        .chain(error.others.iter().map(|e| e.key.as_str()))
+        .collect();
+    for key in ["load.normal", "disk.radios", "friction.static"] {
+        assert!(keys.contains(&key), "{key} is not in {keys:?}");
+    }
+}

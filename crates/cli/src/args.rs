@@ -1,0 +1,112 @@
+//! Commands and options.
+
+use std::path::PathBuf;
+
+use clap::{ArgAction, Parser, Subcommand};
+
+/// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
+#[derive(Debug, Parser)]
+#[command(
+    name = "creepage",
+    version,
+    arg_required_else_help = true,
+    after_help = "Exit codes: 0 done; 1 a check failed; 2 bad input; 3 stopped by the run's own \
+                  guards; 130 interrupted.\n\nExamples:\n  creepage run cases/quick.toml\n  \
+                  creepage mesh cases/quick.toml --out quick.vtu\n  creepage schema > \
+                  case.schema.json"
+)]
+pub struct Args {
+    /// Print exactly one JSON document on standard output, everything else on standard error
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Say nothing but errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say more (-vv still more)
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    pub verbose: u8,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a case
+    #[command(after_help = "Examples:\n  creepage run cases/quick.toml\n  creepage run \
+        cases/quick.toml --set friction.static=0.3 --out runs/slippery\n  creepage run \
+        cases/zhao-li/b-falling.toml --set mesh.zone.size=2e-3 --threads 2\n\nCtrl-C ends the \
+        run in order: what was computed so far is written and readable.")]
+    Run(RunArgs),
+    /// Build the mesh of a case: counts, quality, stable step, memory and run-time estimate
+    #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
+        cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
+    Mesh(MeshArgs),
+    /// Print the JSON Schema of a case file: every key with unit, default and range
+    #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
+    Schema,
+    /// Measure the element kernel and whole step on this machine
+    #[command(after_help = "Example:\n  creepage bench --threads 2 --json")]
+    Bench(BenchArgs),
+}
+
+/// Options of `run`.
+#[derive(Debug, clap::Args)]
+pub struct RunArgs {
+    /// The case file
+    #[arg(value_name = "CASE.toml")]
+    pub case: PathBuf,
+    /// Folder of the run [default: runs/NAME, by the name of the case]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Set a key of the case, for example mesh.zone.size=2e-3; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<usize>,
+    /// Go on from the last checkpoint
+    #[arg(long)]
+    pub resume: bool,
+    /// Replace the run that is already in the folder
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Options of `mesh`.
+#[derive(Debug, clap::Args)]
+pub struct MeshArgs {
+    /// The case file
+    #[arg(value_name = "CASE.toml")]
+    pub case: PathBuf,
+    /// Write the mesh here
+    #[arg(long, value_name = "FILE.vtu|FILE.vtkhdf", value_parser = mesh_file)]
+    pub out: Option<PathBuf>,
+    /// Set a key of the case, for example mesh.zone.size=2e-3; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+}
+
+/// Options of `bench`.
+#[derive(Debug, clap::Args)]
+pub struct BenchArgs {
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<usize>,
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=1024) => Ok(n),
+        _ => Err("a whole number from 1 to 1024 is needed".into()),
+    }
+}
+
+fn mesh_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("vtu" | "vtkhdf") => Ok(path),
+        _ => Err("the file's name must end in .vtu or .vtkhdf".into()),
+    }
+}

@@ -1,0 +1,147 @@
+//! What each command does.
+
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use case::{Case, RunError, RunOptions};
+use miette::{Report, miette};
+use serde_json::Value;
+
+use crate::args::{Args, BenchArgs, Command, MeshArgs, RunArgs};
+use crate::progress::Watch;
+use crate::report;
+
+const BAD_INPUT: u8 = 2;
+const STOPPED_BY_GUARD: u8 = 3;
+const INTERRUPTED: u8 = 130;
+
+/// A command that failed: what to say and the exit code.
+pub struct Failure {
+    pub report: Report,
+    pub code: u8,
+}
+
+impl From<case::CaseError> for Failure {
+    fn from(error: case::CaseError) -> Self {
+        Self { report: error.into(), code: BAD_INPUT }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        let code = error.exit_code();
+        Self { report: error.into(), code }
+    }
+}
+
+/// Runs the command and returns the exit code.
+pub fn dispatch(args: &Args) -> Result<u8, Failure> {
+    match &args.command {
+        Command::Run(options) => run(args, options),
+        Command::Mesh(options) => mesh(args, options),
+        Command::Schema => {
+            report::print_json(&case::json_schema());
+            Ok(0)
+        }
+        Command::Bench(options) => bench(args, options),
+    }
+}
+
+fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
+    if options.resume {
+        return Err(Failure {
+            report: miette!(
+                help = "run the case again from its start: leave out --resume",
+                "--resume is not in this version: runs do not write checkpoints yet"
+            ),
+            code: BAD_INPUT,
+        });
+    }
+    let case = load(args, &options.case, &options.sets)?;
+    let out = options.out.clone().unwrap_or_else(|| case::folder::default_folder(&case));
+    let run_options = RunOptions {
+        out: out.clone(),
+        threads: options.threads.unwrap_or_else(all_cores),
+        force: options.force,
+        source: options.case.clone(),
+    };
+    let stop = stop_flag()?;
+    let mut watch = Watch::new(args.quiet);
+    let result = case::run(&case, &run_options, &stop, &mut |progress| watch.show(progress));
+    watch.finish();
+    let summary = result?;
+    if args.json {
+        report::print_json(&summary);
+    } else if !args.quiet {
+        report::print_run(&summary, &out);
+    }
+    let status = summary.get("status").and_then(Value::as_str);
+    let diagnosis = summary.get("diagnosis").and_then(Value::as_str);
+    if let Some(diagnosis) = diagnosis
+        && status != Some("completed")
+    {
+        let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
+    }
+    Ok(match status {
+        Some("interrupted") => INTERRUPTED,
+        Some("failed") => STOPPED_BY_GUARD,
+        _ => 0,
+    })
+}
+
+fn mesh(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
+    let case = load(args, &options.case, &options.sets)?;
+    let summary = case::mesh_report(&case, options.out.as_deref())?;
+    show(args, &summary);
+    Ok(0)
+}
+
+fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
+    let summary = case::bench(options.threads.unwrap_or_else(all_cores))?;
+    show(args, &summary);
+    Ok(0)
+}
+
+fn show(args: &Args, document: &Value) {
+    if args.json {
+        report::print_json(document);
+    } else if !args.quiet {
+        report::print_table(document);
+    }
+}
+
+fn load(args: &Args, path: &Path, sets: &[String]) -> Result<Case, Failure> {
+    let case = Case::load(path, sets)?;
+    if !args.quiet {
+        for warning in case.warnings() {
+            let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        }
+    }
+    Ok(case)
+}
+
+fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, |n| n.get())
+}
+
+/// The first Ctrl-C or SIGTERM asks the run to end in order, the second ends the process.
+fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::SeqCst) {
+            std::process::exit(INTERRUPTED.into());
+        }
+        let _ = writeln!(
+            std::io::stderr(),
+            "\nstopping: results so far are being written (Ctrl-C again ends at once)"
+        );
+    })
+    .map_err(|error| Failure {
+        report: miette!("the handler of Ctrl-C cannot be set: {error}"),
+        code: STOPPED_BY_GUARD,
+    })?;
+    Ok(stop)
+}

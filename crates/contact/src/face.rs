@@ -1,0 +1,288 @@
+//! The foot of a slave node on the master surface: projection on bilinear faces, the exact
+//! surface beyond the facets, and the walk from face to face.
+
+use crate::surface::{ContactSurface, NONE};
+use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub};
+use mesh::{Padded, SmoothSurface};
+
+/// Newton's corrections below this (in face coordinates) end the iteration: the next would be
+/// below round-off, since convergence is quadratic on a facet and gains the factor
+/// |gap|/radius per round with the exact surface.
+const CONVERGED: f64 = 1e-8;
+const ROUNDS: usize = 12;
+/// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
+const EDGE: f64 = 1e-9;
+/// The same at the border of the surface.
+const BORDER: f64 = 1e-2;
+const HOPS: usize = 16;
+
+/// Shape functions of the bilinear face, corners counter-clockwise from (-1, -1).
+#[inline(always)]
+pub(crate) fn shape(xi: f64, eta: f64) -> [f64; 4] {
+    let (xm, xp, em, ep) = (0.5 - 0.5 * xi, 0.5 + 0.5 * xi, 0.5 - 0.5 * eta, 0.5 + 0.5 * eta);
+    [xm * em, xp * em, xp * ep, xm * ep]
+}
+
+/// Positions of a body's nodes: `x = X + u`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Positions<'a> {
+    pub reference: &'a [Padded],
+    pub displacement: &'a [Padded],
+}
+
+impl Positions<'_> {
+    #[inline(always)]
+    pub fn at(&self, node: u32) -> Vec3 {
+        let (x, u) = (self.reference[node as usize], self.displacement[node as usize]);
+        [x[0] + u[0], x[1] + u[1], x[2] + u[2]]
+    }
+}
+
+/// `x = c + a xi + b eta + t xi eta`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bilinear {
+    c: Vec3,
+    a: Vec3,
+    b: Vec3,
+    t: Vec3,
+}
+
+impl Bilinear {
+    #[inline(always)]
+    pub fn through(x: [Vec3; 4]) -> Self {
+        let mut s = Self { c: [0.0; 3], a: [0.0; 3], b: [0.0; 3], t: [0.0; 3] };
+        for i in 0..3 {
+            let (p, q) = (x[0][i] + x[2][i], x[1][i] + x[3][i]);
+            let (d, e) = (x[2][i] - x[0][i], x[1][i] - x[3][i]);
+            s.c[i] = 0.25 * (p + q);
+            s.a[i] = 0.25 * (d + e);
+            s.b[i] = 0.25 * (d - e);
+            s.t[i] = 0.25 * (p - q);
+        }
+        s
+    }
+
+    #[inline(always)]
+    fn point(&self, xi: f64, eta: f64) -> Vec3 {
+        let mut x = [0.0; 3];
+        for i in 0..3 {
+            x[i] = self.c[i] + self.a[i] * xi + (self.b[i] + self.t[i] * xi) * eta;
+        }
+        x
+    }
+
+    #[inline(always)]
+    fn tangents(&self, xi: f64, eta: f64) -> [Vec3; 2] {
+        [axpy(self.a, eta, self.t), axpy(self.b, xi, self.t)]
+    }
+}
+
+/// The surface at a point of a face.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfacePoint {
+    /// The point on the facet (m).
+    pub x: Vec3,
+    /// Outward unit normal of the exact surface, or of the facet.
+    pub normal: Vec3,
+    /// First tangent of the facet (m).
+    pub tangent: Vec3,
+    /// Distance of the exact surface from the facet along `normal` (m).
+    pub offset: f64,
+}
+
+/// The foot of a node on the surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    pub face: u32,
+    pub xi: f64,
+    pub eta: f64,
+    pub point: SurfacePoint,
+    /// Gap (m), negative when the node has penetrated.
+    pub gap: f64,
+}
+
+/// Geometry of one face in both configurations.
+///
+/// # The exact surface beyond the facet
+/// In the reference configuration the exact surface lies at `X_m + c N_s`, with `X_m(xi)` on the
+/// facet, `N_s` the exact normal and `c` the signed distance. Since `N_s = -grad c`, the distance
+/// changes by `c,a = -N_s.A_a` along the facet's tangents `A_a`. On the deformed face the exact
+/// surface is taken at the same distance; its tangents are then `a_b - (N_s.A_b) n_f` (to first
+/// order in the slope), and the vector normal to both is `n_f + (N_s.A_a) g^a` with the dual
+/// tangents `g^a . a_b = delta_ab`. With `nu = N_s.N_f` in front of `n_f` the vector is the exact
+/// rotation of `N_s` when the face only rotates:
+/// `n = normalise(nu n_f + (N_s.A_a) g^a)`.
+///
+/// The foot of a node is where `x_s - x_m` is parallel to `n`. Its normal part on the facet being
+/// `lambda = n_f.(x_s - x_m)`, that is `a_b.(x_s - x_m) = (lambda/nu) N_s.A_b`, and the gap is
+/// `n.(x_s - x_m) - c`. Neighbouring facets then meet without a kink: gap, normal and foot are
+/// those of the smooth surface.
+struct FaceGeometry<'a> {
+    current: Bilinear,
+    exact: Option<(&'a Bilinear, &'a SmoothSurface)>,
+}
+
+impl<'a> FaceGeometry<'a> {
+    #[inline(always)]
+    fn new(
+        surface: &'a ContactSurface,
+        face: u32,
+        positions: &Positions<'_>,
+        curvature: bool,
+    ) -> Self {
+        let face = &surface.faces[face as usize];
+        let exact = match &surface.smooth {
+            Some(smooth) if curvature => Some((&face.reference, smooth)),
+            _ => None,
+        };
+        // Not by `map`: what it calls is not always inlined.
+        let mut x = [[0.0; 3]; 4];
+        for (x, &node) in x.iter_mut().zip(&face.nodes) {
+            *x = positions.at(node);
+        }
+        Self { current: Bilinear::through(x), exact }
+    }
+
+    /// The surface at `(xi, eta)` and Newton's correction towards the foot of `node`.
+    #[inline(always)]
+    fn evaluate(&self, node: Vec3, xi: f64, eta: f64) -> (SurfacePoint, [f64; 2]) {
+        let x = self.current.point(xi, eta);
+        let [a1, a2] = self.current.tangents(xi, eta);
+        let facet = cross(a1, a2);
+        let area = norm(facet);
+        let per_area = 1.0 / area;
+        let n_f = scale(per_area, facet);
+        let (g11, g12, g22) = (dot(a1, a1), dot(a1, a2), dot(a2, a2));
+        let d = sub(node, x);
+        let (mut r1, mut r2) = (dot(a1, d), dot(a2, d));
+        let mut normal = n_f;
+        let mut offset = 0.0;
+        if let Some((reference, smooth)) = &self.exact {
+            let at = reference.point(xi, eta);
+            let [b1, b2] = reference.tangents(xi, eta);
+            let n_s = smooth.normal(at);
+            offset = smooth.offset(at);
+            let (t1, t2) = (dot(n_s, b1), dot(n_s, b2));
+            let facet = cross(b1, b2);
+            let nu = dot(n_s, facet) / norm(facet);
+            let lambda = dot(d, n_f) / nu;
+            r1 -= lambda * t1;
+            r2 -= lambda * t2;
+            // Dual components: t_a g^a = w^a a_a with w = g^-1 t, det g = area^2.
+            let w1 = (g22 * t1 - g12 * t2) * (per_area * per_area);
+            let w2 = (g11 * t2 - g12 * t1) * (per_area * per_area);
+            normal = axpy(axpy(scale(nu, n_f), w1, a1), w2, a2);
+            normal = scale(1.0 / norm(normal), normal);
+        }
+        let h12 = g12 - dot(d, self.current.t);
+        let per_det = 1.0 / (g11 * g22 - h12 * h12);
+        let correction = [(g22 * r1 - h12 * r2) * per_det, (g11 * r2 - h12 * r1) * per_det];
+        (SurfacePoint { x, normal, tangent: a1, offset }, correction)
+    }
+}
+
+/// A point of the master surface followed through one step: where the foot of the last step is
+/// now, and the new foot.
+pub(crate) struct Followed {
+    /// The old foot, moved with the face.
+    pub old: SurfacePoint,
+    /// The new foot; `None` where the node projects off the surface.
+    pub foot: Option<Foot>,
+}
+
+/// Projects `node` on `surface`, starting on `face` at `(xi, eta)`.
+///
+/// The walk crosses the edge that the foot has left furthest behind. Where the walk would turn
+/// back at once, the node lies over a ridge and belongs to the face of lowest index.
+#[inline]
+pub(crate) fn project(
+    surface: &ContactSurface,
+    positions: &Positions<'_>,
+    curvature: bool,
+    node: Vec3,
+    face: u32,
+    xi: f64,
+    eta: f64,
+) -> Followed {
+    let geometry = FaceGeometry::new(surface, face, positions, curvature);
+    let (old, first) = geometry.evaluate(node, xi, eta);
+    let mut foot = on_face(&geometry, node, face, [xi, eta], Some((old, first)));
+    let mut previous = NONE;
+    for _ in 0..HOPS {
+        let Some(here) = foot else {
+            return Followed { old, foot: None };
+        };
+        let (edge, beyond) = exit(here.xi, here.eta);
+        if beyond <= EDGE {
+            return Followed { old, foot };
+        }
+        let (next, its_edge) = surface.faces[here.face as usize].neighbours[edge];
+        if next == NONE || (next == previous && here.face < next) {
+            let accepted = next != NONE || beyond <= BORDER;
+            return Followed { old, foot: foot.filter(|_| accepted) };
+        }
+        let [xi, eta] = enter(edge, here.xi, here.eta, its_edge);
+        let geometry = FaceGeometry::new(surface, next, positions, curvature);
+        previous = here.face;
+        foot = on_face(&geometry, node, next, [xi, eta], None);
+    }
+    // Either the wedge at a vertex, where any of its faces serves, or a walk from too far.
+    Followed { old, foot: foot.filter(|f| exit(f.xi, f.eta).1 <= BORDER) }
+}
+
+/// The edge that `(xi, eta)` lies furthest beyond, and how far.
+#[inline(always)]
+fn exit(xi: f64, eta: f64) -> (usize, f64) {
+    let (edge_x, out_x) = if xi < 0.0 { (3, -xi) } else { (1, xi) };
+    let (edge_y, out_y) = if eta < 0.0 { (0, -eta) } else { (2, eta) };
+    if out_x > out_y { (edge_x, out_x - 1.0) } else { (edge_y, out_y - 1.0) }
+}
+
+/// Coordinates on the neighbour of the point where edge `edge` is crossed; the neighbour runs
+/// through the edge, its own number `its_edge`, the other way.
+fn enter(edge: usize, xi: f64, eta: f64, its_edge: u8) -> [f64; 2] {
+    let along = match edge {
+        0 => xi,
+        1 => eta,
+        2 => -xi,
+        _ => -eta,
+    };
+    let s = (-along).clamp(-1.0, 1.0);
+    match its_edge {
+        0 => [s, -1.0],
+        1 => [1.0, s],
+        2 => [-s, 1.0],
+        _ => [-1.0, -s],
+    }
+}
+
+/// Newton's iteration on one face, extended beyond its edges.
+#[inline(always)]
+fn on_face(
+    geometry: &FaceGeometry<'_>,
+    node: Vec3,
+    face: u32,
+    [mut xi, mut eta]: [f64; 2],
+    first: Option<(SurfacePoint, [f64; 2])>,
+) -> Option<Foot> {
+    let mut evaluated = match first {
+        Some(known) => known,
+        None => geometry.evaluate(node, xi, eta),
+    };
+    for _ in 0..ROUNDS {
+        let (point, [d_xi, d_eta]) = evaluated;
+        xi += d_xi;
+        eta += d_eta;
+        // NaN fails this test too.
+        let near = xi.abs() < 100.0 && eta.abs() < 100.0;
+        if !near {
+            return None;
+        }
+        if d_xi.abs() < CONVERGED && d_eta.abs() < CONVERGED {
+            let gap = dot(point.normal, sub(node, point.x)) - point.offset;
+            return Some(Foot { face, xi, eta, point, gap });
+        }
+        evaluated = geometry.evaluate(node, xi, eta);
+    }
+    None
+}

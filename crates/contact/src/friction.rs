@@ -1,0 +1,83 @@
+//! Friction laws: the coefficient of friction as a function of the slip speed.
+
+use std::fmt::Debug;
+
+/// The coefficient of friction `mu(|s|)`: `|p_tau| <= mu p_n`.
+pub trait FrictionLaw: Send + Sync + Debug {
+    /// Coefficient of friction at the slip speed `slip_speed >= 0` (m/s).
+    fn mu(&self, slip_speed: f64) -> f64;
+    /// Coefficient of friction at rest, `mu(0)`.
+    fn mu_static(&self) -> f64;
+}
+
+/// Coulomb's law: one coefficient at every slip speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb {
+    /// Coefficient of friction.
+    pub mu: f64,
+}
+
+impl FrictionLaw for Coulomb {
+    fn mu(&self, _slip_speed: f64) -> f64 {
+        self.mu
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.mu
+    }
+}
+
+/// Friction that falls exponentially with the slip speed, Eq. (8) of Vollebregt (2017):
+/// `mu(s) = mu_dynamic + (mu_static - mu_dynamic) exp(-decay |s|)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exponential {
+    /// Coefficient at rest.
+    pub mu_static: f64,
+    /// Coefficient at infinite slip speed.
+    pub mu_dynamic: f64,
+    /// Rate of decay `k` (s/m).
+    pub decay: f64,
+}
+
+impl FrictionLaw for Exponential {
+    fn mu(&self, slip_speed: f64) -> f64 {
+        self.mu_dynamic + (self.mu_static - self.mu_dynamic) * (-self.decay * slip_speed).exp()
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.mu_static
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponential_law_is_static_at_rest_and_dynamic_at_high_speed() {
+        let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+        assert_eq!(law.mu(0.0), 0.5);
+        assert_eq!(law.mu_static(), 0.5);
+        assert_eq!(law.mu(1e3), 0.32);
+    }
+
+    #[test]
+    fn exponential_law_has_the_values_of_equation_8() {
+        // 0.32 + 0.18 exp(-6 s) by an independent calculation (25-digit decimals).
+        let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+        for (s, mu) in [
+            (0.01, 0.489_517_616_045_164_8),
+            (0.1, 0.418_786_094_496_924_8),
+            (1.0, 0.320_446_175_391_799_9),
+        ] {
+            assert!((law.mu(s) - mu).abs() < 1e-15, "{s}: {} {mu}", law.mu(s));
+        }
+    }
+
+    #[test]
+    fn coulomb_law_ignores_the_slip_speed() {
+        let law = Coulomb { mu: 0.3 };
+        assert_eq!(law.mu(0.0), law.mu(40.0));
+        assert_eq!(law.mu_static(), 0.3);
+    }
+}

@@ -1,0 +1,168 @@
+//! Contact quantities at the nodes of one surface.
+
+use crate::PenaltyContact;
+use crate::pair::State;
+use crate::surface::NONE;
+use crate::vector::{axpy, scale};
+use mesh::Face;
+
+/// Contact quantities at surface nodes, one entry per node of [`nodes`](Self::nodes).
+///
+/// Tractions act on *this* surface: `pressure` is the normal force of both passes over the nodal
+/// area, `shear` the tangential force of both passes over it, each pass resolved in its own
+/// contact frame. Hence `|shear| <= mu pressure` holds to round-off with `mu` the mean of the
+/// coefficients that the algorithm used, weighted with the normal forces.
+#[derive(Clone, Debug, Default)]
+pub struct NodalContact {
+    /// Node indices in the mesh.
+    pub nodes: Vec<u32>,
+    /// Contact pressure (Pa), positive in compression.
+    pub pressure: Vec<f64>,
+    /// Shear traction on this surface (Pa).
+    pub shear: Vec<[f64; 3]>,
+    /// Velocity of this surface relative to the other in the tangent plane (m/s), mean over the
+    /// last step; `shear` opposes it. Of the node's own pass; where that is open, the mean of the
+    /// pairs of the other pass that load the node, weighted with their normal force.
+    pub slip_velocity: Vec<[f64; 3]>,
+    /// Tangential motion relative to the other surface since the node's own pair closed (m).
+    pub slip: Vec<[f64; 3]>,
+    /// Coefficient of friction that the algorithm used; the law's static value where open.
+    pub mu: Vec<f64>,
+    /// 0 open, 1 stick, 2 slip: of the node's own pair, or where that is open but the node is
+    /// loaded by the other pass, of the pairs that carry most of its normal force.
+    pub state: Vec<u8>,
+    /// Gap of the node's own pass (m), negative when penetrating; the search margin where no face
+    /// is that near. The gap of an open node may be a few steps old.
+    pub gap: Vec<f64>,
+    /// Tributary area in the reference configuration (m^2).
+    pub area: Vec<f64>,
+    side: usize,
+    /// Row of each node of the surface; `NONE` if it has none.
+    rows: Vec<u32>,
+    /// Normal force of the slipping pairs of the other pass (N).
+    slipping: Vec<f64>,
+    /// Normal force of all pairs of the other pass (N).
+    from_others: Vec<f64>,
+}
+
+impl NodalContact {
+    fn new(side: usize, nodes: &[u32], area: &[f64], wanted: impl Fn(usize) -> bool) -> Self {
+        let mut table = Self { side, rows: vec![NONE; nodes.len()], ..Self::default() };
+        for i in (0..nodes.len()).filter(|&i| wanted(i)) {
+            table.rows[i] = table.nodes.len() as u32;
+            table.nodes.push(nodes[i]);
+            table.area.push(area[i]);
+        }
+        let n = table.nodes.len();
+        table.pressure = vec![0.0; n];
+        table.shear = vec![[0.0; 3]; n];
+        table.slip_velocity = vec![[0.0; 3]; n];
+        table.slip = vec![[0.0; 3]; n];
+        table.mu = vec![0.0; n];
+        table.state = vec![State::Open as u8; n];
+        table.gap = vec![0.0; n];
+        table.slipping = vec![0.0; n];
+        table.from_others = vec![0.0; n];
+        table
+    }
+
+    fn clear(&mut self, margin: f64) {
+        self.pressure.fill(0.0);
+        self.shear.fill([0.0; 3]);
+        self.slip_velocity.fill([0.0; 3]);
+        self.slip.fill([0.0; 3]);
+        self.mu.fill(0.0);
+        self.state.fill(State::Open as u8);
+        self.gap.fill(margin);
+        self.slipping.fill(0.0);
+        self.from_others.fill(0.0);
+    }
+}
+
+impl PenaltyContact {
+    /// An output table for all nodes of side `side`.
+    pub fn nodal_table(&self, side: usize) -> NodalContact {
+        let surface = &self.sides[side];
+        NodalContact::new(side, &surface.nodes, &surface.area, |_| true)
+    }
+
+    /// An output table for the nodes of `faces`, a part of the surface of side `side`.
+    pub fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact {
+        let surface = &self.sides[side];
+        let mut wanted = vec![false; surface.nodes.len()];
+        for node in faces.iter().flat_map(|f| f.nodes) {
+            if let Ok(i) = surface.nodes.binary_search(&node) {
+                wanted[i] = true;
+            }
+        }
+        NodalContact::new(side, &surface.nodes, &surface.area, |i| wanted[i])
+    }
+
+    /// Fills a `table` of this contact with the values of the last call.
+    pub fn nodal(&self, table: &mut NodalContact) {
+        table.clear(self.search.margin);
+        let side = table.side;
+        let Some(surface) = self.sides.get(side).filter(|s| s.nodes.len() == table.rows.len())
+        else {
+            return;
+        };
+        // The other pass: what the faces of this side take as masters. Forces and slip of its
+        // slaves are those of the other side, hence the signs.
+        for pair in self.pairs[1 - side].iter().filter(|p| p.is_closed()) {
+            let corners = surface.faces[pair.face as usize].local;
+            for (&weight, corner) in pair.weights.iter().zip(corners) {
+                let Some(row) = table.row(corner) else {
+                    continue;
+                };
+                let normal = weight * pair.normal_force;
+                table.pressure[row] += normal;
+                table.from_others[row] += normal;
+                table.mu[row] += pair.mu * normal;
+                table.shear[row] = axpy(table.shear[row], -weight, pair.friction);
+                let slip = &mut table.slip_velocity[row];
+                *slip = axpy(*slip, -normal, pair.slip_velocity);
+                if pair.state == State::Slip {
+                    table.slipping[row] += normal;
+                }
+            }
+        }
+        for row in 0..table.nodes.len() {
+            let total = table.from_others[row];
+            if total > 0.0 {
+                table.slip_velocity[row] = scale(1.0 / total, table.slip_velocity[row]);
+                let slips = 2.0 * table.slipping[row] > total;
+                table.state[row] = if slips { State::Slip } else { State::Stick } as u8;
+            } else {
+                table.slip_velocity[row] = [0.0; 3];
+            }
+        }
+        for pair in &self.pairs[side] {
+            let Some(row) = table.row(pair.slave) else {
+                continue;
+            };
+            table.gap[row] = pair.gap.min(self.search.margin);
+            if pair.is_closed() {
+                table.pressure[row] += pair.normal_force;
+                table.mu[row] += pair.mu * pair.normal_force;
+                table.shear[row] = axpy(table.shear[row], 1.0, pair.friction);
+                table.slip_velocity[row] = pair.slip_velocity;
+                table.slip[row] = pair.slip;
+                table.state[row] = pair.state as u8;
+            }
+        }
+        for row in 0..table.nodes.len() {
+            let normal = table.pressure[row];
+            table.mu[row] =
+                if normal > 0.0 { table.mu[row] / normal } else { self.law.mu_static() };
+            table.pressure[row] = normal / table.area[row];
+            table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
+        }
+    }
+}
+
+impl NodalContact {
+    fn row(&self, local: u32) -> Option<usize> {
+        let row = self.rows[local as usize];
+        (row != NONE).then_some(row as usize)
+    }
+}

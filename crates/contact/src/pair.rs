@@ -1,0 +1,333 @@
+//! One slave node and its foot on the master surface: normal spring and damper, friction spring.
+
+use crate::FrictionLaw;
+use crate::face::{Positions, SurfacePoint, project, shape};
+use crate::penalty::Motion;
+use crate::stiffness::{StabilityScale, Stiffness};
+use crate::surface::{ContactSurface, MasterFace, NONE};
+use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub, tangential};
+use mesh::Padded;
+
+/// An open pair is looked at again after at most this many steps.
+const LONGEST_SLEEP: u32 = 8;
+
+/// Part of the search margin within which every open pair is looked at in every step.
+const WATCHED: f64 = 1.0 / 32.0;
+
+/// State of a pair, as the output codes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum State {
+    Open = 0,
+    Stick = 1,
+    Slip = 2,
+}
+
+/// A slave node near the master surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    /// The slave, in its surface.
+    pub slave: u32,
+    pub state: State,
+    sleep: u32,
+    /// Where the foot is; `NONE` where the node projects off the surface.
+    pub face: u32,
+    xi: f64,
+    eta: f64,
+    pub gap: f64,
+    /// Normal and tangential stiffness (N/m), kept from closing to opening.
+    pub stiffness: [f64; 2],
+    /// Weights with which the corners of the face take the reaction.
+    pub weights: [f64; 4],
+    pub normal: Vec3,
+    /// Spring and damper together (N).
+    pub normal_force: f64,
+    damper_force: f64,
+    /// On the slave (N).
+    pub friction: Vec3,
+    /// `friction` in the frame of the face.
+    framed: [f64; 2],
+    pub mu: f64,
+    pub slip_velocity: Vec3,
+    pub slip: Vec3,
+    /// Dissipated in the last step (J).
+    pub friction_work: f64,
+    pub damping_work: f64,
+}
+
+impl Pair {
+    /// An open pair whose foot is to be sought from `face`.
+    pub fn near(slave: u32, face: u32) -> Self {
+        Self {
+            slave,
+            state: State::Open,
+            sleep: 0,
+            face,
+            xi: 0.0,
+            eta: 0.0,
+            gap: f64::INFINITY,
+            stiffness: [0.0; 2],
+            weights: [0.0; 4],
+            normal: [0.0; 3],
+            normal_force: 0.0,
+            damper_force: 0.0,
+            friction: [0.0; 3],
+            framed: [0.0; 2],
+            mu: 0.0,
+            slip_velocity: [0.0; 3],
+            slip: [0.0; 3],
+            friction_work: 0.0,
+            damping_work: 0.0,
+        }
+    }
+
+    pub fn is_closed(&self) -> bool {
+        self.state != State::Open
+    }
+
+    /// Energy in the normal spring (J).
+    pub fn stored_normal(&self) -> f64 {
+        if self.is_closed() { 0.5 * self.stiffness[0] * self.gap * self.gap } else { 0.0 }
+    }
+
+    /// Energy in the friction spring (J).
+    pub fn stored_tangential(&self) -> f64 {
+        if self.is_closed() && self.stiffness[1] > 0.0 {
+            0.5 * dot(self.friction, self.friction) / self.stiffness[1]
+        } else {
+            0.0
+        }
+    }
+
+    fn open(&mut self) {
+        // What the friction spring still holds is lost as the surfaces part.
+        let lost = self.stored_tangential();
+        *self =
+            Self { gap: self.gap, xi: self.xi, eta: self.eta, ..Self::near(self.slave, self.face) };
+        self.friction_work = lost;
+    }
+}
+
+/// What the pairs of one pass share.
+pub(crate) struct Pass<'a> {
+    pub slave: &'a ContactSurface,
+    pub master: &'a ContactSurface,
+    pub normal: Stiffness,
+    pub tangential: Stiffness,
+    pub stability: Option<StabilityScale>,
+    pub damping: f64,
+    pub curvature: bool,
+    pub margin: f64,
+    pub law: &'a dyn FrictionLaw,
+}
+
+impl Pass<'_> {
+    /// Normal and tangential stiffness (N/m) of a slave on a master face.
+    pub fn stiffness(&self, slave: usize, face: &MasterFace) -> [f64; 2] {
+        let (own, other) = (self.slave.mass_per_area[slave], face.mass_per_area);
+        let reduced = own * other / (own + other);
+        [self.normal, self.tangential].map(|form| {
+            form.per_pass(face.scaled_stiffness, reduced, self.stability) * self.slave.area[slave]
+        })
+    }
+
+    /// Follows the pair to `positions`; `motion` is absent where only normal springs act.
+    pub fn update(&self, pair: &mut Pair, positions: &Positions<'_>, motion: Option<&Motion<'_>>) {
+        pair.friction_work = 0.0;
+        pair.damping_work = 0.0;
+        if pair.sleep > 0 && motion.is_some() {
+            pair.sleep -= 1;
+            return;
+        }
+        let node = self.slave.nodes[pair.slave as usize];
+        let x = positions.at(node);
+        let followed =
+            project(self.master, positions, self.curvature, x, pair.face, pair.xi, pair.eta);
+        let Some(foot) = followed.foot else {
+            pair.gap = f64::INFINITY;
+            pair.open();
+            // Walk anew from the middle of the face.
+            (pair.xi, pair.eta) = (0.0, 0.0);
+            return;
+        };
+        let before = *pair;
+        (pair.face, pair.xi, pair.eta, pair.gap) = (foot.face, foot.xi, foot.eta, foot.gap);
+        let face = &self.master.faces[foot.face as usize];
+        pair.weights = shape(foot.xi.clamp(-1.0, 1.0), foot.eta.clamp(-1.0, 1.0));
+        let penetrates = foot.gap < 0.0;
+        if !penetrates {
+            if before.is_closed() {
+                pair.open();
+            } else if let Some(motion) = motion {
+                pair.sleep =
+                    self.sleep(foot.gap, relative_velocity(motion, node, face, pair), motion.dt);
+            }
+            return;
+        }
+        if !before.is_closed() {
+            pair.stiffness = self.stiffness(pair.slave as usize, face);
+        }
+        pair.normal = foot.point.normal;
+        self.press(pair, &before, node, face, motion);
+        match motion {
+            Some(motion) => {
+                self.rub(pair, &before, x, &followed.old, &foot.point, node, face, motion);
+            }
+            None => {
+                pair.state = State::Stick;
+                pair.friction = [0.0; 3];
+                pair.framed = [0.0; 2];
+                pair.mu = self.law.mu_static();
+                pair.slip_velocity = [0.0; 3];
+                pair.slip = [0.0; 3];
+            }
+        }
+    }
+
+    /// Steps for which an open pair cannot close unless its relative speed more than doubles.
+    /// Pairs within a part of the margin are never left unwatched.
+    fn sleep(&self, gap: f64, velocity: Vec3, dt: f64) -> u32 {
+        if gap < WATCHED * self.margin {
+            return 0;
+        }
+        let steps = gap / (2.0 * dt * norm(velocity));
+        // A saturating cast: NaN gives zero.
+        (steps as u32).min(LONGEST_SLEEP)
+    }
+
+    /// Spring and damper. The damper's work in the step is the trapezoidal
+    /// `-(d^n + d^{n+1})/2 (g^{n+1} - g^n)`, with `d` what the force exceeds the spring's by.
+    fn press(
+        &self,
+        pair: &mut Pair,
+        before: &Pair,
+        node: u32,
+        face: &MasterFace,
+        motion: Option<&Motion<'_>>,
+    ) {
+        let spring = -pair.stiffness[0] * pair.gap;
+        pair.normal_force = spring;
+        pair.damper_force = 0.0;
+        let Some(motion) = motion else { return };
+        if self.damping == 0.0 {
+            return;
+        }
+        let rate = dot(pair.normal, relative_velocity(motion, node, face, pair));
+        let mut compliance = motion.inverse_mass[node as usize];
+        for (weight, corner) in pair.weights.iter().zip(face.nodes) {
+            compliance += weight * weight * motion.inverse_mass[corner as usize];
+        }
+        // Both ends held: nothing to damp.
+        if compliance > 0.0 {
+            let critical = 2.0 * (pair.stiffness[0] / compliance).sqrt();
+            pair.normal_force = (spring - self.damping * critical * rate).max(0.0);
+            pair.damper_force = pair.normal_force - spring;
+        }
+        let closing = if before.is_closed() { pair.gap - before.gap } else { rate * motion.dt };
+        pair.damping_work = -0.5 * (before.damper_force + pair.damper_force) * closing;
+    }
+
+    /// The friction spring, Eqs (10) and (11) of Vollebregt (2017).
+    ///
+    /// `Delta` is the tangential motion of the slave over the step relative to its old foot,
+    /// which moved with the face: a rotation common to both bodies gives none. The old force
+    /// turns with the frame of the face at the old foot, and is then laid into the new tangent
+    /// plane with its length kept. Trial force `f* = f - k_t Delta`, capped at `mu f_n` in its own
+    /// direction, with `mu` at the slip speed of the step before.
+    ///
+    /// # Energy
+    /// The cap lets the spring slip by `Delta_p = Delta + (f^{n+1} - f^n)/k_t`. The trapezoidal
+    /// work of the force on both bodies is then
+    /// `1/2 (f^n + f^{n+1}).Delta = 1/2 (f^n + f^{n+1}).Delta_p - (|f^{n+1}|^2 - |f^n|^2)/(2 k_t)`:
+    /// minus the energy stored and minus the dissipation `-1/2 (f^n + f^{n+1}).Delta_p`, exactly.
+    /// The dissipation is negative only where the motion of one step turns a full friction force
+    /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
+    ///
+    /// In the step in which a pair closes there is no old foot: the spring starts unloaded, and
+    /// the slip speed is that of the nodes' velocities.
+    fn rub(
+        &self,
+        pair: &mut Pair,
+        before: &Pair,
+        x: Vec3,
+        old: &SurfacePoint,
+        new: &SurfacePoint,
+        node: u32,
+        face: &MasterFace,
+        motion: &Motion<'_>,
+    ) {
+        pair.state = State::Stick;
+        if !before.is_closed() {
+            let velocity = relative_velocity(motion, node, face, pair);
+            pair.slip_velocity = tangential(velocity, pair.normal);
+            pair.mu = self.law.mu(norm(pair.slip_velocity));
+            return;
+        }
+        let delta = tangential(sub(x, old.x), pair.normal);
+        let [e1, e2] = frame(old);
+        let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
+        let start = lay_into(turned, pair.normal);
+        let stiffness = pair.stiffness[1];
+        pair.mu = self.law.mu(norm(before.slip_velocity));
+        let mut friction = axpy(start, -stiffness, delta);
+        let (trial, cap) = (norm(friction), pair.mu * pair.normal_force);
+        if trial > cap {
+            friction = scale(cap / trial, friction);
+            pair.state = State::Slip;
+            if stiffness > 0.0 {
+                let slip = axpy(delta, 1.0 / stiffness, sub(friction, start));
+                pair.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
+            }
+        }
+        let [e1, e2] = frame(new);
+        pair.framed = [dot(friction, e1), dot(friction, e2)];
+        pair.friction = friction;
+        pair.slip_velocity = scale(1.0 / motion.dt, delta);
+        pair.slip = axpy(before.slip, 1.0, delta);
+    }
+}
+
+/// Velocity of the slave relative to its foot (m/s).
+#[inline]
+fn relative_velocity(motion: &Motion<'_>, node: u32, face: &MasterFace, pair: &Pair) -> Vec3 {
+    let mut velocity = motion.velocity[node as usize].xyz();
+    for (weight, corner) in pair.weights.iter().zip(face.nodes) {
+        velocity = axpy(velocity, -weight, motion.velocity[corner as usize].xyz());
+    }
+    velocity
+}
+
+/// Orthonormal vectors in the tangent plane that turn with the face.
+fn frame(at: &SurfacePoint) -> [Vec3; 2] {
+    let e = tangential(at.tangent, at.normal);
+    let e1 = scale(1.0 / norm(e), e);
+    [e1, cross(at.normal, e1)]
+}
+
+/// `f` laid into the plane with unit normal `n`, its length kept.
+fn lay_into(f: Vec3, n: Vec3) -> Vec3 {
+    let flat = tangential(f, n);
+    let (length, left) = (norm(f), norm(flat));
+    if left > 0.0 { scale(length / left, flat) } else { [0.0; 3] }
+}
+
+/// Adds the force of a closed pair on the slave to it, and the reaction to the face.
+#[inline]
+pub(crate) fn scatter(
+    pass: [&ContactSurface; 2],
+    pair: &Pair,
+    on_slave: Vec3,
+    force: &mut [Padded],
+) {
+    let [slave, master] = pass;
+    let node = slave.nodes[pair.slave as usize] as usize;
+    debug_assert_ne!(pair.face, NONE);
+    for i in 0..3 {
+        force[node][i] += on_slave[i];
+    }
+    for (weight, corner) in pair.weights.iter().zip(master.faces[pair.face as usize].nodes) {
+        for i in 0..3 {
+            force[corner as usize][i] -= weight * on_slave[i];
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Measures of the contact patch from nodal values.
+
+/// Nodes with less than this part of the largest pressure do not take part in the fit: where the
+/// patch ends, nodal pressures are smeared over the mesh.
+const FITTED: f64 = 0.2;
+const UNKNOWNS: usize = 5;
+
+/// Hertz's distribution fitted to nodal pressures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchFit {
+    /// Semi-axis in x (m).
+    pub a: f64,
+    /// Semi-axis in y (m).
+    pub b: f64,
+    /// Peak pressure of the fitted distribution (Pa).
+    pub p0: f64,
+    /// x of the centre (m).
+    pub xc: f64,
+    /// y of the centre (m).
+    pub yc: f64,
+}
+
+/// Areas and peak of the patch from nodal values.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PatchAreas {
+    /// Tributary area of the nodes under pressure (m^2).
+    pub contact: f64,
+    /// Part of the contact area that sticks.
+    pub stick_fraction: f64,
+    /// Part of the contact area that slips.
+    pub slip_fraction: f64,
+    /// Largest nodal pressure (Pa).
+    pub peak_pressure: f64,
+}
+
+/// Fits `p^2 = p0^2 (1 - (x-xc)^2/a^2 - (y-yc)^2/b^2)` to the nodes with `p > 0.2 p_max` at
+/// `points` (m) by linear least squares in `p^2`.
+///
+/// `None` where the nodes do not determine an ellipse: fewer than five, all in a row, or a
+/// distribution that does not fall off on all sides.
+pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
+    let peak = pressure.iter().copied().fold(0.0, f64::max);
+    let used = || points.iter().zip(pressure).filter(move |&(_, &p)| p > FITTED * peak);
+    let count = used().count() as f64;
+    if peak <= 0.0 || !peak.is_finite() || count < UNKNOWNS as f64 {
+        return None;
+    }
+    // Coordinates about the mean in units of the extent keep the normal equations well scaled.
+    let mean = [0, 1].map(|i: usize| used().map(|(x, _)| x[i]).sum::<f64>() / count);
+    let extent = [0, 1].map(|i: usize| {
+        used().map(|(x, _)| (x[i] - mean[i]).abs()).fold(f64::MIN_POSITIVE, f64::max)
+    });
+    let mut matrix = [[0.0; UNKNOWNS + 1]; UNKNOWNS];
+    for (x, p) in used() {
+        let [s, t] = [0, 1].map(|i: usize| (x[i] - mean[i]) / extent[i]);
+        let row = [1.0, s, t, s * s, t * t, (p / peak) * (p / peak)];
+        for i in 0..UNKNOWNS {
+            for j in 0..=UNKNOWNS {
+                matrix[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    let [c, cx, cy, cxx, cyy] = solve(matrix)?;
+    if cxx >= 0.0 || cyy >= 0.0 {
+        return None;
+    }
+    let top = c - cx * cx / (4.0 * cxx) - cy * cy / (4.0 * cyy);
+    // NaN fails the test too.
+    (top > 0.0).then(|| PatchFit {
+        a: (-top / cxx).sqrt() * extent[0],
+        b: (-top / cyy).sqrt() * extent[1],
+        p0: top.sqrt() * peak,
+        xc: mean[0] - cx / (2.0 * cxx) * extent[0],
+        yc: mean[1] - cy / (2.0 * cyy) * extent[1],
+    })
+}
+
+/// Area-weighted measures from nodal pressure (Pa), area (m^2) and state (1 stick, 2 slip).
+pub fn areas(pressure: &[f64], area: &[f64], state: &[u8]) -> PatchAreas {
+    let (mut contact, mut stick, mut slip, mut peak) = (0.0, 0.0, 0.0, 0.0_f64);
+    for ((&p, &a), &state) in pressure.iter().zip(area).zip(state) {
+        if p > 0.0 {
+            contact += a;
+            stick += if state == 1 { a } else { 0.0 };
+            slip += if state == 2 { a } else { 0.0 };
+            peak = peak.max(p);
+        }
+    }
+    let part = |a: f64| if contact > 0.0 { a / contact } else { 0.0 };
+    PatchAreas {
+        contact,
+        stick_fraction: part(stick),
+        slip_fraction: part(slip),
+        peak_pressure: peak,
+    }
+}
+
+/// Gaussian elimination with row pivoting; `None` for a singular matrix.
+fn solve(mut m: [[f64; UNKNOWNS + 1]; UNKNOWNS]) -> Option<[f64; UNKNOWNS]> {
+    for k in 0..UNKNOWNS {
+        let pivot = (k..UNKNOWNS).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()))?;
+        m.swap(k, pivot);
+        if m[k][k].abs() < 1e-10 * m[0][0].abs() {
+            return None;
+        }
+        for i in k + 1..UNKNOWNS {
+            let factor = m[i][k] / m[k][k];
+            for j in k..=UNKNOWNS {
+                m[i][j] -= factor * m[k][j];
+            }
+        }
+    }
+    let mut x = [0.0; UNKNOWNS];
+    for k in (0..UNKNOWNS).rev() {
+        let known: f64 = (k + 1..UNKNOWNS).map(|j| m[k][j] * x[j]).sum();
+        x[k] = (m[k][UNKNOWNS] - known) / m[k][k];
+    }
+    Some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn hertz(h: f64) -> (Vec<[f64; 3]>, Vec<f64>) {
+        let (a, b, p0, xc, yc) = (7.162e-3, 5.387e-3, 1.2376e9, 1.3e-3, -0.4e-3);
+        let mut points = Vec::new();
+        let mut pressure = Vec::new();
+        for i in -12..=12 {
+            for j in -12..=12 {
+                let (x, y) = (f64::from(i) * h, f64::from(j) * h);
+                let q = 1.0 - ((x - xc) / a).powi(2) - ((y - yc) / b).powi(2);
+                points.push([x, y, 0.3]);
+                pressure.push(p0 * q.max(0.0).sqrt());
+            }
+        }
+        (points, pressure)
+    }
+
+    #[test]
+    fn fit_recovers_a_hertz_ellipse_exactly() {
+        let (points, pressure) = hertz(1e-3);
+        let found = fit(&points, &pressure).unwrap();
+        assert!((found.a / 7.162e-3 - 1.0).abs() < 1e-11, "{found:?}");
+        assert!((found.b / 5.387e-3 - 1.0).abs() < 1e-11);
+        assert!((found.p0 / 1.2376e9 - 1.0).abs() < 1e-11);
+        assert!((found.xc - 1.3e-3).abs() < 1e-13);
+        assert!((found.yc + 0.4e-3).abs() < 1e-13);
+    }
+
+    #[test]
+    fn fit_refuses_what_is_no_ellipse() {
+        assert_eq!(fit(&[], &[]), None);
+        let row: Vec<[f64; 3]> = (0..9).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+        assert_eq!(fit(&row, &[1.0; 9]), None);
+        let (points, _) = hertz(1e-3);
+        let bowl: Vec<f64> = points.iter().map(|x| 1.0 + x[0] * x[0] + x[1] * x[1]).collect();
+        assert_eq!(fit(&points, &bowl), None);
+        assert_eq!(fit(&points, &vec![f64::NAN; points.len()]), None);
+    }
+
+    #[test]
+    fn areas_weigh_nodes_by_their_area() {
+        let found = areas(&[0.0, 2.0, 5.0, 1.0], &[9.0, 1.0, 2.0, 1.0], &[0, 1, 2, 1]);
+        assert_eq!(found.contact, 4.0);
+        assert_eq!(found.stick_fraction, 0.5);
+        assert_eq!(found.slip_fraction, 0.5);
+        assert_eq!(found.peak_pressure, 5.0);
+        assert_eq!(areas(&[], &[], &[]), PatchAreas::default());
+    }
+}

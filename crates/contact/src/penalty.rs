@@ -1,0 +1,377 @@
+//! Two-pass penalty contact: the criticised method of surface-to-surface contact.
+
+use crate::face::Positions;
+use crate::pair::{Pair, Pass, State, scatter};
+use crate::search::{Search, neighbours};
+use crate::surface::ContactSurface;
+use crate::vector::{Vec3, add, axpy, dot, scale, sub};
+use crate::{BodyMaterial, ContactError, FrictionLaw, StabilityScale, Stiffness};
+use mesh::{Mesh, Padded, Surface};
+use rayon::prelude::*;
+
+/// Lists from this length on are worked on by several threads, in parts of `PART` pairs. Every
+/// pair is a computation of its own and forces are added in the order of the list, so the bits
+/// depend on neither number.
+const PARALLEL: usize = 1024;
+const PART: usize = 64;
+
+/// Settings of [`PenaltyContact`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PenaltySettings {
+    /// Normal stiffness `k_n`.
+    pub normal: Stiffness,
+    /// Tangential stiffness `k_t`.
+    pub tangential: Stiffness,
+    /// Normal viscous damping as a fraction of the spring's critical damping.
+    pub damping: f64,
+    /// Corrects gap and normal with the exact surface where the master has one.
+    pub curvature: bool,
+}
+
+/// The motion that contact answers to; all slices have one entry per mesh node.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    /// Reference positions `X` (m).
+    pub reference: &'a [Padded],
+    /// Displacements `u^n` (m).
+    pub displacement: &'a [Padded],
+    /// Velocities `v^{n-1/2}` of the step that led to `u^n` (m/s).
+    pub velocity: &'a [Padded],
+    /// Inverse lumped masses (1/kg), zero for nodes that are held.
+    pub inverse_mass: &'a [f64],
+    /// Time step (s).
+    pub dt: f64,
+}
+
+/// Sums over the contact at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactSums {
+    /// Resultant of the forces applied to the nodes of each side (N).
+    pub force: [[f64; 3]; 2],
+    /// Sum of the normal forces of all pairs of both passes (N).
+    pub normal_force: f64,
+    /// Energy stored in the normal springs (J).
+    pub stored_normal: f64,
+    /// Energy stored in the friction springs (J).
+    pub stored_tangential: f64,
+    /// Work dissipated by friction in the step that ended at `x^n` (J).
+    pub friction_work: f64,
+    /// Work dissipated by the normal dampers in that step (J).
+    pub damping_work: f64,
+    /// Pairs in contact.
+    pub closed: usize,
+    /// Pairs that stick.
+    pub sticking: usize,
+    /// Pairs that slip.
+    pub slipping: usize,
+    /// Largest penetration (m).
+    pub max_penetration: f64,
+    /// Whether the search was refreshed.
+    pub searched: bool,
+}
+
+/// Two-pass penalty contact of two surfaces with friction springs.
+///
+/// In each pass every slave node that has penetrated the other surface is pushed out by a spring
+/// and a damper along the master's normal and held by a friction spring (Eqs 10 and 11 of
+/// Vollebregt 2017) in its tangent plane; the face's corners take the reaction by their shape
+/// functions. A pair keeps the stiffness of the face on which it closed until it opens, so that
+/// its springs give back what they stored.
+#[derive(Debug)]
+pub struct PenaltyContact {
+    pub(crate) sides: [ContactSurface; 2],
+    /// The pairs of each pass, ascending by slave: pass `i` has the nodes of side `i` as slaves.
+    pub(crate) pairs: [Vec<Pair>; 2],
+    pub(crate) law: Box<dyn FrictionLaw>,
+    pub(crate) search: Search,
+    settings: PenaltySettings,
+    stability: Option<StabilityScale>,
+    /// [`PenaltyContact::nodal_stiffness_bound`] at the nodes of each side (N/m).
+    bound: [Vec<f64>; 2],
+}
+
+impl PenaltyContact {
+    /// Contact of two `surfaces` of `mesh`, side 0 and side 1.
+    ///
+    /// `stability` is needed for [`Stiffness::StabilityFraction`] only.
+    ///
+    /// # Errors
+    /// Surfaces that are empty, degenerate, outside the mesh or in touch by a common node, and
+    /// numbers out of range.
+    pub fn new(
+        mesh: &Mesh,
+        surfaces: [(&Surface, BodyMaterial); 2],
+        settings: &PenaltySettings,
+        stability: Option<StabilityScale>,
+        law: Box<dyn FrictionLaw>,
+    ) -> Result<Self, ContactError> {
+        check(settings, stability, &surfaces, &*law)?;
+        let [(first, first_material), (second, second_material)] = surfaces;
+        let sides = [
+            ContactSurface::new(mesh, first, first_material, 0)?,
+            ContactSurface::new(mesh, second, second_material, 1)?,
+        ];
+        if let Some(&node) = sides[0].nodes.iter().find(|n| sides[1].nodes.binary_search(n).is_ok())
+        {
+            return Err(ContactError::SharedNode { node });
+        }
+        let mut contact = Self {
+            search: Search::new(&sides),
+            sides,
+            pairs: [Vec::new(), Vec::new()],
+            law,
+            settings: *settings,
+            stability,
+            bound: [Vec::new(), Vec::new()],
+        };
+        contact.bound = contact.stiffness_bounds(mesh);
+        Ok(contact)
+    }
+
+    /// The friction law.
+    pub fn law(&self) -> &dyn FrictionLaw {
+        &*self.law
+    }
+
+    /// Mesh indices of the surface nodes of a side, ascending.
+    pub fn nodes(&self, side: usize) -> &[u32] {
+        &self.sides[side].nodes
+    }
+
+    /// Adds the contact forces (N) at `x^n = X + u^n` to `force`.
+    ///
+    /// # Panics
+    /// If a slice has fewer entries than the mesh has nodes.
+    pub fn apply(&mut self, motion: &Motion<'_>, force: &mut [Padded]) -> ContactSums {
+        let positions =
+            Positions { reference: motion.reference, displacement: motion.displacement };
+        self.step(&positions, Some(motion), force)
+    }
+
+    /// Adds the forces of the normal springs alone, without damper or friction; the friction
+    /// springs are unloaded. For dynamic relaxation.
+    ///
+    /// # Panics
+    /// If a slice has fewer entries than the mesh has nodes.
+    pub fn apply_frictionless(
+        &mut self,
+        reference: &[Padded],
+        displacement: &[Padded],
+        force: &mut [Padded],
+    ) -> ContactSums {
+        self.step(&Positions { reference, displacement }, None, force)
+    }
+
+    fn step(
+        &mut self,
+        positions: &Positions<'_>,
+        motion: Option<&Motion<'_>>,
+        force: &mut [Padded],
+    ) -> ContactSums {
+        let mut sums = ContactSums {
+            searched: self.search.is_due(&self.sides, positions, &self.pairs),
+            ..ContactSums::default()
+        };
+        if sums.searched {
+            self.search.refresh(&self.sides, positions, &mut self.pairs);
+        }
+        let mut pairs = std::mem::take(&mut self.pairs);
+        for (slave, list) in pairs.iter_mut().enumerate() {
+            let pass = self.pass(slave);
+            if list.len() < PARALLEL {
+                for pair in list.iter_mut() {
+                    pass.update(pair, positions, motion);
+                }
+            } else {
+                list.par_chunks_mut(PART).for_each(|part| {
+                    for pair in part {
+                        pass.update(pair, positions, motion);
+                    }
+                });
+            }
+            let mut total = [0.0; 3];
+            for pair in list.iter() {
+                sums.friction_work += pair.friction_work;
+                sums.damping_work += pair.damping_work;
+                if !pair.is_closed() {
+                    continue;
+                }
+                let on_slave = axpy(pair.friction, pair.normal_force, pair.normal);
+                scatter([pass.slave, pass.master], pair, on_slave, force);
+                total = add(total, on_slave);
+                sums.normal_force += pair.normal_force;
+                sums.stored_normal += pair.stored_normal();
+                sums.stored_tangential += pair.stored_tangential();
+                sums.closed += 1;
+                sums.slipping += usize::from(pair.state == State::Slip);
+                sums.max_penetration = sums.max_penetration.max(-pair.gap);
+            }
+            sums.force[slave] = add(sums.force[slave], total);
+            sums.force[1 - slave] = sub(sums.force[1 - slave], total);
+        }
+        sums.sticking = sums.closed - sums.slipping;
+        self.pairs = pairs;
+        sums
+    }
+
+    fn pass(&self, slave: usize) -> Pass<'_> {
+        Pass {
+            slave: &self.sides[slave],
+            master: &self.sides[1 - slave],
+            normal: self.settings.normal,
+            tangential: self.settings.tangential,
+            stability: self.stability,
+            damping: self.settings.damping,
+            curvature: self.settings.curvature,
+            margin: self.search.margin,
+            law: &*self.law,
+        }
+    }
+
+    /// `y += K_c x` with the stiffness of the pairs closed at the last call: for slave
+    /// displacement relative to the foot `w`, the spring force `k_n n (n.w) + k_t (w - n (n.w))`.
+    ///
+    /// # Panics
+    /// If a slice has fewer entries than the mesh has nodes.
+    pub fn stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {
+        for (slave, list) in self.pairs.iter().enumerate() {
+            let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
+            for pair in list.iter().filter(|p| p.is_closed()) {
+                let corners = master.faces[pair.face as usize].nodes;
+                let mut w = x[own.nodes[pair.slave as usize] as usize].xyz();
+                for (weight, corner) in pair.weights.iter().zip(corners) {
+                    w = axpy(w, -weight, x[corner as usize].xyz());
+                }
+                let [normal, tangential] = pair.stiffness;
+                let along = (normal - tangential) * dot(pair.normal, w);
+                let on_slave: Vec3 = axpy(scale(tangential, w), along, pair.normal);
+                scatter([own, master], pair, on_slave, y);
+            }
+        }
+    }
+
+    /// Adds to each contact node an upper bound (N/m) of the contact stiffness acting on it, for
+    /// any state of contact near the reference configuration.
+    ///
+    /// With `phi` the weights of the face's corners, a spring's matrix is bounded by a diagonal
+    /// one: `k (x_s - sum phi x)^2 <= 2 k x_s^2 + 2 k sum phi x^2` (convexity; `sum phi = 1`).
+    /// A node so bears twice its own spring and `2 sum phi k` of the slaves over its faces, where
+    /// `sum phi A_s` is at most `9/8` per direction of the larger of the two tributary areas on
+    /// rectangular grids. Hence `K_c <= diag(bound)`, and a mass `bound/4` added to a node makes
+    /// contact stable at unit time step.
+    pub fn nodal_stiffness_bound(&self, bound: &mut [f64]) {
+        for (side, values) in self.sides.iter().zip(&self.bound) {
+            for (&node, value) in side.nodes.iter().zip(values) {
+                bound[node as usize] += value;
+            }
+        }
+    }
+
+    fn stiffness_bounds(&self, mesh: &Mesh) -> [Vec<f64>; 2] {
+        const SIZES: f64 = 4.0;
+        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let displacement = vec![Padded::ZERO; reference.len()];
+        let positions = Positions { reference: &reference, displacement: &displacement };
+        // Per node: largest own stiffness, areal stiffness of slaves above, their largest area.
+        let mut own = [0, 1].map(|s: usize| vec![0.0_f64; self.sides[s].nodes.len()]);
+        let mut over = own.clone();
+        let mut area = own.clone();
+        neighbours(&self.sides, &positions, SIZES, |f, g| {
+            for (slave, its, master, face) in [(0, f, 1, g), (1, g, 0, f)] {
+                let pass = self.pass(slave);
+                let face = &self.sides[master].faces[face];
+                for node in self.sides[slave].faces[its].local {
+                    let node = node as usize;
+                    let [normal, tangential] = pass.stiffness(node, face);
+                    let k = normal.max(tangential);
+                    own[slave][node] = own[slave][node].max(k);
+                    let slave_area = self.sides[slave].area[node];
+                    for corner in face.local {
+                        let corner = corner as usize;
+                        over[master][corner] = over[master][corner].max(k / slave_area);
+                        area[master][corner] = area[master][corner].max(slave_area);
+                    }
+                }
+            }
+        });
+        [0, 1].map(|side: usize| {
+            (0..own[side].len())
+                .map(|i| {
+                    let covered = 81.0 / 64.0 * area[side][i].max(self.sides[side].area[i]);
+                    2.0 * own[side][i] + 2.0 * over[side][i] * covered
+                })
+                .collect()
+        })
+    }
+
+    /// Upper bound (1/s^2) of the largest eigenvalue of `M^-1 K_c` with the pairs closed at the
+    /// last call, from the diagonal bound of
+    /// [`nodal_stiffness_bound`](Self::nodal_stiffness_bound) with the actual weights.
+    ///
+    /// # Panics
+    /// If `inverse_mass` has fewer entries than the mesh has nodes.
+    pub fn rigorous_omega_squared(&self, inverse_mass: &[f64]) -> f64 {
+        let mut diagonal = [0, 1].map(|s: usize| vec![0.0; self.sides[s].nodes.len()]);
+        for (slave, list) in self.pairs.iter().enumerate() {
+            for pair in list.iter().filter(|p| p.is_closed()) {
+                let twice = 2.0 * pair.stiffness[0].max(pair.stiffness[1]);
+                diagonal[slave][pair.slave as usize] += twice;
+                let corners = self.sides[1 - slave].faces[pair.face as usize].local;
+                for (weight, corner) in pair.weights.iter().zip(corners) {
+                    diagonal[1 - slave][corner as usize] += twice * weight;
+                }
+            }
+        }
+        let mut largest = 0.0_f64;
+        for (side, diagonal) in self.sides.iter().zip(&diagonal) {
+            for (&node, d) in side.nodes.iter().zip(diagonal) {
+                largest = largest.max(d * inverse_mass[node as usize]);
+            }
+        }
+        largest
+    }
+}
+
+fn check(
+    settings: &PenaltySettings,
+    stability: Option<StabilityScale>,
+    surfaces: &[(&Surface, BodyMaterial); 2],
+    law: &dyn FrictionLaw,
+) -> Result<(), ContactError> {
+    let positive = |name, value: f64| in_range(name, value, value > 0.0, "positive and finite");
+    positive("the normal contact stiffness", settings.normal.value())?;
+    let tangential = settings.tangential.value();
+    in_range("the tangential contact stiffness", tangential, tangential >= 0.0, "at least zero")?;
+    let damping = settings.damping;
+    in_range("the contact damping", damping, (0.0..=1.0).contains(&damping), "from 0 to 1")?;
+    for (_, material) in surfaces {
+        positive("the bulk modulus", material.bulk_modulus)?;
+        positive("the density", material.density)?;
+    }
+    let mu = law.mu_static();
+    in_range("the coefficient of friction", mu, mu >= 0.0, "at least zero")?;
+    let fraction = [settings.normal, settings.tangential]
+        .iter()
+        .any(|s| matches!(s, Stiffness::StabilityFraction(_)));
+    if fraction {
+        let scale = stability.ok_or(ContactError::NoStabilityScale)?;
+        positive("the time step", scale.dt)?;
+        let omega = scale.omega_elastic;
+        let stable = omega >= 0.0 && scale.omega_squared() > 0.0;
+        in_range("the elastic frequency", omega, stable, "at least zero and below 2/dt")?;
+    }
+    Ok(())
+}
+
+fn in_range(
+    name: &'static str,
+    value: f64,
+    holds: bool,
+    range: &'static str,
+) -> Result<(), ContactError> {
+    if holds && value.is_finite() {
+        Ok(())
+    } else {
+        Err(ContactError::Value { name, value, range })
+    }
+}

@@ -1,0 +1,300 @@
+//! Which nodes are near the other surface: a bounding-volume search over the zone in reach,
+//! repeated only when motion could have made its answer incomplete.
+//!
+//! # Why nothing is missed
+//! Let `m` be the margin and `D` the distance of a slave node from a face. A search lists all
+//! nodes with `D < m` for some face, and every listed node finds its face by walking over the
+//! surface. It also gives each node a clearance `c >= m`: a lower bound on the distance of its
+//! faces from the other surface, as far as such distances are not below `m` (those pairs are
+//! listed). A pair that is not listed has `D >= m`, `D >= c` of the node and `D >= c` of the face's
+//! corners. So it cannot close while every node has moved by less than half its clearance, in any
+//! frame common to both bodies (the frame moves with the mean of the listed nodes): the two motions
+//! together stay below `max(c_node, c_face) <= D`. The largest used part of the allowance is
+//! measured at intervals within which it could be used up only if the motion per step more than
+//! doubled; the search is repeated before that.
+//!
+//! The boxes of faces reach half a face size into the body, so that nodes that have penetrated at
+//! the first call are found too. Pairs that are closed stay listed until they open.
+
+use crate::face::Positions;
+use crate::pair::Pair;
+use crate::surface::{ContactSurface, NONE};
+use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+
+/// Margin in terms of the smallest face: small, for few open pairs; large enough that a rolling
+/// disk is searched every few hundred steps.
+const MARGIN: f64 = 0.1;
+/// Distances are resolved up to this many margins.
+const RESOLVED: f64 = 4.0;
+/// Depth of a face's box into its body in terms of the face's size.
+const DEPTH: f64 = 0.5;
+const LONGEST_INTERVAL: u32 = 32;
+
+/// A box of a face, `[low, high]`.
+pub(crate) type Span = [Vec3; 2];
+
+const NOTHING: Span = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+
+/// When to search again.
+#[derive(Clone, Debug)]
+pub(crate) struct Search {
+    pub margin: f64,
+    /// Positions of the surface nodes at the last search.
+    at: [Vec<Vec3>; 2],
+    /// One over the square of the motion allowed to each surface node (1/m^2).
+    allowance: [Vec<f64>; 2],
+    steps_to_check: u32,
+    steps_since_check: u32,
+    used: f64,
+    /// Nearest master face of each node in the search under way.
+    nearest: [Vec<(f64, u32)>; 2],
+    spans: [Vec<Span>; 2],
+}
+
+impl Search {
+    pub fn new(sides: &[ContactSurface; 2]) -> Self {
+        let smallest =
+            sides.iter().flat_map(|s| &s.faces).map(|f| f.size).fold(f64::INFINITY, f64::min);
+        let margin = MARGIN * smallest;
+        Self {
+            margin,
+            at: [const { Vec::new() }; 2],
+            allowance: [const { Vec::new() }; 2],
+            steps_to_check: 0,
+            steps_since_check: 0,
+            used: 0.0,
+            nearest: [const { Vec::new() }; 2],
+            spans: [const { Vec::new() }; 2],
+        }
+    }
+
+    /// Whether the lists could be incomplete before the next check.
+    pub fn is_due(
+        &mut self,
+        sides: &[ContactSurface; 2],
+        positions: &Positions<'_>,
+        pairs: &[Vec<Pair>; 2],
+    ) -> bool {
+        if self.at[0].is_empty() {
+            return true;
+        }
+        self.steps_since_check += 1;
+        if self.steps_since_check < self.steps_to_check {
+            return false;
+        }
+        let frame = self.mean_motion(sides, positions, pairs);
+        let mut largest = 0.0_f64;
+        for side in 0..2 {
+            for (i, &node) in sides[side].nodes.iter().enumerate() {
+                let moved = sub(sub(positions.at(node), self.at[side][i]), frame);
+                let used = dot(moved, moved) * self.allowance[side][i];
+                largest = largest.max(used);
+            }
+        }
+        let used = largest.sqrt();
+        let growth = (used - self.used).max(0.0) / f64::from(self.steps_since_check);
+        let steps = 0.5 * (1.0 - used) / growth;
+        // A saturating cast: 0/0 and infinity give the longest interval.
+        self.steps_to_check = (steps.min(f64::from(LONGEST_INTERVAL))) as u32;
+        self.steps_since_check = 0;
+        self.used = used;
+        used >= 0.95 || self.steps_to_check == 0
+    }
+
+    fn mean_motion(
+        &self,
+        sides: &[ContactSurface; 2],
+        positions: &Positions<'_>,
+        pairs: &[Vec<Pair>; 2],
+    ) -> Vec3 {
+        let mut sum = [0.0; 3];
+        let mut count = 0.0;
+        for side in 0..2 {
+            for pair in &pairs[side] {
+                let i = pair.slave as usize;
+                sum = add(sum, sub(positions.at(sides[side].nodes[i]), self.at[side][i]));
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { scale(1.0 / count, sum) } else { sum }
+    }
+
+    /// Lists the nodes within the margin of the other surface as pairs, ascending; closed pairs
+    /// of the old lists are kept as they are.
+    pub fn refresh(
+        &mut self,
+        sides: &[ContactSurface; 2],
+        positions: &Positions<'_>,
+        pairs: &mut [Vec<Pair>; 2],
+    ) {
+        let far = RESOLVED * self.margin;
+        for side in 0..2 {
+            let surface = &sides[side];
+            self.at[side].clear();
+            self.at[side].extend(surface.nodes.iter().map(|&n| positions.at(n)));
+            self.spans[side].clear();
+            self.spans[side]
+                .extend((0..surface.faces.len()).map(|f| span(surface, f, &self.at[side])));
+            self.nearest[side].clear();
+            self.nearest[side].resize(surface.nodes.len(), (f64::INFINITY, NONE));
+        }
+        let whole = [0, 1].map(|side| hull(self.spans[side].iter()));
+        let mut clearance = [0, 1].map(|side: usize| {
+            let spans = &self.spans[side];
+            spans.iter().map(|s| distance(s, &whole[1 - side]).max(far)).collect::<Vec<f64>>()
+        });
+        let reach = self.reach(&whole, far);
+        let leaves = reach[1].iter().map(|&f| (f as usize, aabb(&self.spans[1][f as usize], 0.0)));
+        let tree = Bvh::from_iter(BvhBuildStrategy::default(), leaves);
+        for &f in &reach[0] {
+            let near = aabb(&self.spans[0][f as usize], far);
+            for g in tree.intersect_aabb(&near) {
+                let d = distance(&self.spans[0][f as usize], &self.spans[1][g as usize]);
+                for (side, face) in [(0, f), (1, g)] {
+                    let c = &mut clearance[side][face as usize];
+                    *c = c.min(d.max(self.margin));
+                }
+                if d < self.margin {
+                    self.list(sides, f, g);
+                }
+            }
+        }
+        for side in 0..2 {
+            let allowance = &mut self.allowance[side];
+            allowance.clear();
+            allowance.resize(sides[side].nodes.len(), 0.0);
+            for (face, c) in sides[side].faces.iter().zip(&clearance[side]) {
+                for node in face.local {
+                    let a = &mut allowance[node as usize];
+                    *a = a.max(4.0 / (c * c));
+                }
+            }
+            pairs[side] = merged(&pairs[side], &self.nearest[side]);
+        }
+        self.steps_since_check = 0;
+        self.steps_to_check = 1;
+        self.used = 0.0;
+    }
+
+    /// The faces of each side whose boxes come near the other side: what lies outside of the
+    /// common part of the hulls is dropped, twice.
+    fn reach(&self, whole: &[Span; 2], far: f64) -> [Vec<u32>; 2] {
+        let mut reach =
+            [0, 1].map(|side: usize| (0..self.spans[side].len() as u32).collect::<Vec<u32>>());
+        let mut hulls = *whole;
+        for _ in 0..2 {
+            for side in 0..2 {
+                let other = hulls[1 - side];
+                reach[side].retain(|&f| distance(&self.spans[side][f as usize], &other) < far);
+            }
+            hulls = [0, 1].map(|side: usize| {
+                hull(reach[side].iter().map(|&f| &self.spans[side][f as usize]))
+            });
+        }
+        reach
+    }
+
+    /// Notes that faces `f` of side 0 and `g` of side 1 are near one another.
+    fn list(&mut self, sides: &[ContactSurface; 2], f: u32, g: u32) {
+        for (slave, own, master, face) in [(0, f, 1, g), (1, g, 0, f)] {
+            let corners = sides[master].faces[face as usize].local;
+            let sum = corners.iter().fold([0.0; 3], |s, &c| add(s, self.at[master][c as usize]));
+            let centre = scale(0.25, sum);
+            for node in sides[slave].faces[own as usize].local {
+                let arm = sub(self.at[slave][node as usize], centre);
+                let best = &mut self.nearest[slave][node as usize];
+                let d = dot(arm, arm);
+                if d < best.0 || (d == best.0 && face < best.1) {
+                    *best = (d, face);
+                }
+            }
+        }
+    }
+}
+
+/// The old closed pairs and the newly listed ones, ascending by slave.
+fn merged(old: &[Pair], nearest: &[(f64, u32)]) -> Vec<Pair> {
+    let mut closed = old.iter().filter(|p| p.is_closed()).peekable();
+    let mut result = Vec::with_capacity(old.len() + old.len() / 2 + 64);
+    for (slave, &(_, face)) in nearest.iter().enumerate() {
+        match closed.next_if(|p| p.slave as usize == slave) {
+            Some(pair) => result.push(*pair),
+            None if face != NONE => result.push(Pair::near(slave as u32, face)),
+            None => {}
+        }
+    }
+    result
+}
+
+/// Box of a face and of what lies behind it; nowhere if a coordinate is not finite.
+fn span(surface: &ContactSurface, face: usize, at: &[Vec3]) -> Span {
+    let face = &surface.faces[face];
+    let x = face.local.map(|n| at[n as usize]);
+    let outward = cross(sub(x[2], x[0]), sub(x[3], x[1]));
+    let inward = scale(-DEPTH * face.size / norm(outward).max(f64::MIN_POSITIVE), outward);
+    let mut box_ = NOTHING;
+    for corner in x {
+        for point in [corner, axpy(corner, 1.0, inward)] {
+            if !point.iter().all(|c| c.is_finite()) {
+                return NOTHING;
+            }
+            for i in 0..3 {
+                box_[0][i] = box_[0][i].min(point[i]);
+                box_[1][i] = box_[1][i].max(point[i]);
+            }
+        }
+    }
+    box_
+}
+
+fn hull<'a>(spans: impl Iterator<Item = &'a Span>) -> Span {
+    spans.fold(NOTHING, |mut all, s| {
+        for i in 0..3 {
+            all[0][i] = all[0][i].min(s[0][i]);
+            all[1][i] = all[1][i].max(s[1][i]);
+        }
+        all
+    })
+}
+
+/// Distance of two boxes; infinite from [`NOTHING`].
+fn distance(a: &Span, b: &Span) -> f64 {
+    let mut squared = 0.0;
+    for i in 0..3 {
+        let d = (a[0][i] - b[1][i]).max(b[0][i] - a[1][i]).max(0.0);
+        squared += d * d;
+    }
+    squared.sqrt()
+}
+
+fn aabb(span: &Span, inflated: f64) -> Aabb {
+    let [low, high] = span;
+    Aabb::new(
+        Vector::new(low[0] - inflated, low[1] - inflated, low[2] - inflated),
+        Vector::new(high[0] + inflated, high[1] + inflated, high[2] + inflated),
+    )
+}
+
+/// Calls `visit` for all faces `f` of side 0 and `g` of side 1 whose boxes in the configuration
+/// `positions` lie within `sizes` face sizes of one another.
+pub(crate) fn neighbours(
+    sides: &[ContactSurface; 2],
+    positions: &Positions<'_>,
+    sizes: f64,
+    mut visit: impl FnMut(usize, usize),
+) {
+    let spans = [0, 1].map(|side: usize| {
+        let at: Vec<Vec3> = sides[side].nodes.iter().map(|&n| positions.at(n)).collect();
+        (0..sides[side].faces.len()).map(|f| span(&sides[side], f, &at)).collect::<Vec<Span>>()
+    });
+    let leaves = spans[1].iter().enumerate().map(|(g, s)| (g, aabb(s, 0.0)));
+    let tree = Bvh::from_iter(BvhBuildStrategy::default(), leaves);
+    for (f, s) in spans[0].iter().enumerate() {
+        for g in tree.intersect_aabb(&aabb(s, sizes * sides[0].faces[f].size)) {
+            visit(f, g as usize);
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! One contact surface: its nodes, faces, neighbours, tributary areas and masses.
+
+use crate::face::Bilinear;
+use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
+use crate::{BodyMaterial, ContactError};
+use mesh::{Mesh, SmoothSurface, Surface};
+use std::collections::BTreeMap;
+
+/// No face, or no neighbour across an edge.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// A master face.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MasterFace {
+    /// Corner nodes in the mesh.
+    pub nodes: [u32; 4],
+    /// Corner nodes in the surface.
+    pub local: [u32; 4],
+    /// Across edge `e` (corners `e`, `e + 1`): the face, and which of its edges that is.
+    pub neighbours: [(u32, u8); 4],
+    /// The face in the reference configuration.
+    pub reference: Bilinear,
+    /// `K A/V` (N/m^3).
+    pub scaled_stiffness: f64,
+    /// Half the element's mass over the face's area (kg/m^2).
+    pub mass_per_area: f64,
+    /// Root of the area (m).
+    pub size: f64,
+}
+
+/// One side of the contact.
+#[derive(Clone, Debug)]
+pub(crate) struct ContactSurface {
+    /// Mesh indices of the surface nodes, ascending.
+    pub nodes: Vec<u32>,
+    pub faces: Vec<MasterFace>,
+    /// Tributary area of each node in the reference configuration (m^2).
+    pub area: Vec<f64>,
+    /// Mass of the surface elements lumped at each node over its area (kg/m^2).
+    pub mass_per_area: Vec<f64>,
+    pub smooth: Option<SmoothSurface>,
+}
+
+impl ContactSurface {
+    pub fn new(
+        mesh: &Mesh,
+        surface: &Surface,
+        material: BodyMaterial,
+        side: usize,
+    ) -> Result<Self, ContactError> {
+        if surface.faces.is_empty() {
+            return Err(ContactError::EmptySurface { side });
+        }
+        let mut nodes: Vec<u32> = surface.faces.iter().flat_map(|f| f.nodes).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut result = Self {
+            area: vec![0.0; nodes.len()],
+            mass_per_area: vec![0.0; nodes.len()],
+            faces: Vec::with_capacity(surface.faces.len()),
+            smooth: surface.smooth,
+            nodes,
+        };
+        for (index, face) in surface.faces.iter().enumerate() {
+            let outside = ContactError::OutsideMesh { side, face: index };
+            let hex = mesh.hexes.get(face.hex as usize).ok_or(outside.clone())?;
+            if face.nodes.iter().chain(hex).any(|&n| n as usize >= mesh.nodes.len()) {
+                return Err(outside);
+            }
+            let corners = face.nodes.map(|n| mesh.nodes[n as usize]);
+            let volume = hexahedron_volume(hex.map(|n| mesh.nodes[n as usize]));
+            let shares = corner_areas(corners);
+            let area: f64 = shares.iter().sum();
+            let sound = area > 0.0 && volume > 0.0 && (area + volume).is_finite();
+            if !sound {
+                return Err(ContactError::Degenerate { side, face: index });
+            }
+            let mut local = [0; 4];
+            for corner in 0..4 {
+                let slot = result.nodes.partition_point(|&n| n < face.nodes[corner]);
+                local[corner] = slot as u32;
+                result.area[slot] += shares[corner];
+                result.mass_per_area[slot] += material.density * volume / 8.0;
+            }
+            result.faces.push(MasterFace {
+                nodes: face.nodes,
+                local,
+                neighbours: [(NONE, 0); 4],
+                reference: Bilinear::through(corners),
+                scaled_stiffness: material.bulk_modulus * area / volume,
+                mass_per_area: 0.5 * material.density * volume / area,
+                size: area.sqrt(),
+            });
+        }
+        for (mass, area) in result.mass_per_area.iter_mut().zip(&result.area) {
+            *mass /= area;
+        }
+        result.join_neighbours(side)?;
+        Ok(result)
+    }
+
+    /// Every inner edge is run through once in each direction.
+    fn join_neighbours(&mut self, side: usize) -> Result<(), ContactError> {
+        let mut edges = BTreeMap::new();
+        for (index, face) in self.faces.iter().enumerate() {
+            for e in 0..4 {
+                let (a, b) = (face.nodes[e], face.nodes[(e + 1) % 4]);
+                if edges.insert((a, b), (index as u32, e as u8)).is_some() {
+                    return Err(ContactError::Edge { side, a, b });
+                }
+            }
+        }
+        for face in &mut self.faces {
+            for e in 0..4 {
+                let (a, b) = (face.nodes[e], face.nodes[(e + 1) % 4]);
+                face.neighbours[e] = edges.get(&(b, a)).copied().unwrap_or((NONE, 0));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Integral of each corner's shape function over a bilinear face, by 2 x 2 Gauss points: exact
+/// for a plane face.
+fn corner_areas(x: [Vec3; 4]) -> [f64; 4] {
+    let g = 1.0 / 3.0_f64.sqrt();
+    let mut shares = [0.0; 4];
+    for (xi, eta) in [(-g, -g), (g, -g), (g, g), (-g, g)] {
+        let mut a = [0.0; 3];
+        let mut b = [0.0; 3];
+        for i in 0..3 {
+            a[i] = ((1.0 - eta) * (x[1][i] - x[0][i]) + (1.0 + eta) * (x[2][i] - x[3][i])) / 4.0;
+            b[i] = ((1.0 - xi) * (x[3][i] - x[0][i]) + (1.0 + xi) * (x[2][i] - x[1][i])) / 4.0;
+        }
+        let jacobian = norm(cross(a, b));
+        for (share, weight) in shares.iter_mut().zip(crate::face::shape(xi, eta)) {
+            *share += jacobian * weight;
+        }
+    }
+    shares
+}
+
+/// Volume of a trilinear hexahedron by 2 x 2 x 2 Gauss points (exact).
+fn hexahedron_volume(x: [Vec3; 8]) -> f64 {
+    const SIGNS: [[f64; 3]; 8] = [
+        [-1.0, -1.0, -1.0],
+        [1.0, -1.0, -1.0],
+        [1.0, 1.0, -1.0],
+        [-1.0, 1.0, -1.0],
+        [-1.0, -1.0, 1.0],
+        [1.0, -1.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [-1.0, 1.0, 1.0],
+    ];
+    let g = 1.0 / 3.0_f64.sqrt();
+    let mut volume = 0.0;
+    for point in SIGNS {
+        let p = scale(g, point);
+        let mut columns = [[0.0; 3]; 3];
+        for (corner, s) in x.iter().zip(SIGNS) {
+            let f = [1.0 + s[0] * p[0], 1.0 + s[1] * p[1], 1.0 + s[2] * p[2]];
+            let gradient = [s[0] * f[1] * f[2], s[1] * f[0] * f[2], s[2] * f[0] * f[1]];
+            for axis in 0..3 {
+                // Relative to the first corner: no cancellation far from the origin.
+                let arm = sub(*corner, x[0]);
+                columns[axis] = add(columns[axis], scale(gradient[axis] / 8.0, arm));
+            }
+        }
+        volume += dot(columns[0], cross(columns[1], columns[2]));
+    }
+    volume
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::plates::{STEEL, plate};
+
+    #[test]
+    fn tributary_areas_of_a_plane_plate_add_up_to_its_area() {
+        let (mesh, top) = plate([0.0, 0.0], [3.0, 2.0], [6, 5], 0.0, 0.5, true);
+        let surface = ContactSurface::new(&mesh, &top, STEEL, 0).unwrap();
+        assert!((surface.area.iter().sum::<f64>() - 6.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn brick_gives_bulk_modulus_over_depth_and_half_its_mass() {
+        let (mesh, top) = plate([0.0, 0.0], [3.0, 2.0], [6, 5], 0.0, 0.5, true);
+        let surface = ContactSurface::new(&mesh, &top, STEEL, 0).unwrap();
+        for face in &surface.faces {
+            assert!((face.scaled_stiffness * 0.5 / STEEL.bulk_modulus - 1.0).abs() < 1e-13);
+            assert!((face.mass_per_area / (STEEL.density * 0.25) - 1.0).abs() < 1e-13);
+        }
+        for mass in &surface.mass_per_area {
+            assert!((mass / (STEEL.density * 0.25) - 1.0).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn neighbours_share_the_edge_in_opposite_direction() {
+        let (mesh, top) = plate([0.0, 0.0], [3.0, 2.0], [6, 5], 0.0, 0.5, true);
+        let surface = ContactSurface::new(&mesh, &top, STEEL, 0).unwrap();
+        let mut inner = 0;
+        for face in &surface.faces {
+            for e in 0..4 {
+                let (other, edge) = face.neighbours[e];
+                if other != NONE {
+                    let other = &surface.faces[other as usize];
+                    assert_eq!(face.nodes[e], other.nodes[(edge as usize + 1) % 4]);
+                    assert_eq!(face.nodes[(e + 1) % 4], other.nodes[edge as usize]);
+                    inner += 1;
+                }
+            }
+        }
+        assert_eq!(inner, 2 * (5 * 5 + 6 * 4));
+    }
+
+    #[test]
+    fn wrong_surfaces_are_refused() {
+        let (mesh, top) = plate([0.0, 0.0], [1.0, 1.0], [2, 2], 0.0, 0.5, true);
+        let refused = |s: &Surface| ContactSurface::new(&mesh, s, STEEL, 1).unwrap_err();
+        assert_eq!(refused(&Surface::default()), ContactError::EmptySurface { side: 1 });
+        let mut outside = top.clone();
+        outside.faces[1].nodes[2] = 999;
+        assert_eq!(refused(&outside), ContactError::OutsideMesh { side: 1, face: 1 });
+        let mut flat = top.clone();
+        flat.faces[2].nodes = [flat.faces[2].nodes[0]; 4];
+        assert_eq!(refused(&flat), ContactError::Degenerate { side: 1, face: 2 });
+        let mut twice = top.clone();
+        twice.faces.push(twice.faces[0]);
+        assert!(matches!(refused(&twice), ContactError::Edge { side: 1, .. }));
+    }
+}

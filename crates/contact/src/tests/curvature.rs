@@ -1,0 +1,94 @@
+use super::{Rig, SETTINGS};
+use crate::face::{Positions, project};
+use crate::plates::{STEEL, plate, tread};
+use crate::surface::ContactSurface;
+use crate::vector::{Vec3, norm, sub};
+use crate::{Coulomb, PenaltySettings};
+use mesh::Padded;
+
+const RADIUS: f64 = 0.46;
+/// 2 mm faces.
+const CELLS: usize = 20;
+const ARC: f64 = 2e-3 * CELLS as f64 / RADIUS;
+const SAG: f64 = 2e-3 * 2e-3 / (8.0 * RADIUS);
+
+fn turned(x: Vec3, angle: f64) -> Vec3 {
+    let (s, c) = angle.sin_cos();
+    let z = x[2] - RADIUS;
+    [c * x[0] + s * z, x[1], RADIUS - s * x[0] + c * z]
+}
+
+#[test]
+fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
+    let (mesh, faces) = tread(RADIUS, 0.5 * ARC, 8e-3, [CELLS, 4], 2e-3);
+    let surface = ContactSurface::new(&mesh, &faces, STEEL, 0).unwrap();
+    let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+    let angle = 0.7;
+    let displacement: Vec<Padded> =
+        mesh.nodes.iter().map(|&x| Padded::new(sub(turned(x, angle), x))).collect();
+    let positions = Positions { reference: &reference, displacement: &displacement };
+    let mut worst_facet = 0.0_f64;
+    for i in 0..200 {
+        let phi = (f64::from(i) / 199.0 - 0.5) * 0.8 * ARC;
+        for gap in [-5e-5, 1e-4] {
+            let r = RADIUS + gap;
+            let at = [r * phi.sin(), 1.1e-3, RADIUS - r * phi.cos()];
+            let (node, outward) = (
+                turned(at, angle),
+                sub(turned([phi.sin(), 0.0, RADIUS - phi.cos()], angle), [0.0, 0.0, RADIUS]),
+            );
+            let exact = project(&surface, &positions, true, node, 30, 0.0, 0.0).foot.unwrap();
+            assert!((exact.gap - gap).abs() < 1e-6 * SAG, "{:e}", exact.gap - gap);
+            // The normal is that of the last but one iterate, at most 1e-8 half faces away.
+            let error = norm(sub(exact.point.normal, outward));
+            assert!(error < 1e-8 * 1e-3 / RADIUS, "{error:e}");
+            let facet = project(&surface, &positions, false, node, 30, 0.0, 0.0).foot.unwrap();
+            worst_facet = worst_facet.max((facet.gap - gap).abs());
+        }
+    }
+    assert!((worst_facet / SAG - 1.0).abs() < 0.02, "{worst_facet:e} {SAG:e}");
+}
+
+/// A rigid disk rolls over a rigid plane: largest deviation of the penetrations from the circle's.
+fn rolling(curvature: bool) -> (f64, f64) {
+    let settings = PenaltySettings { curvature, ..SETTINGS };
+    let mut rig = Rig::new(
+        tread(RADIUS, 0.5 * ARC, 6e-3, [CELLS, 3], 2e-3),
+        plate([-40e-3, -4e-3], [40e-3, 4e-3], [37, 4], 0.0, 2e-3, true),
+        &settings,
+        Coulomb { mu: 0.3 },
+    );
+    let depth = 2e-5;
+    let (mut worst, mut shear) = (0.0_f64, 0.0_f64);
+    for step in 0..600 {
+        let x = f64::from(step) * 2e-5 - 6e-3;
+        let sums = rig.step(|body, at| {
+            if body == 0 {
+                let p = turned(at, x / RADIUS);
+                [p[0] + x, p[1], p[2] - depth]
+            } else {
+                at
+            }
+        });
+        let mut checked = 0;
+        for pair in rig.contact.pairs[1].iter().filter(|p| p.is_closed()) {
+            let node = rig.contact.nodes(1)[pair.slave as usize] as usize;
+            let at = rig.reference[node].xyz();
+            let gap = (at[0] - x).hypot(at[2] - RADIUS + depth) - RADIUS;
+            worst = worst.max((pair.gap - gap).abs());
+            checked += 1;
+        }
+        assert!(checked > 0);
+        shear = shear.max(sums.force[0][0].abs() / sums.normal_force);
+    }
+    (worst, shear)
+}
+
+#[test]
+fn rolling_penetration_is_the_circles_with_and_off_by_the_sag_without_the_correction() {
+    let (exact, shear) = rolling(true);
+    assert!(exact < 1e-6 * SAG, "{exact:e}");
+    assert!(shear < 0.02, "{shear}");
+    let (facets, _) = rolling(false);
+    assert!((facets / SAG - 1.0).abs() < 0.05, "{facets:e} {SAG:e}");
+}

@@ -1,0 +1,264 @@
+use super::{K, Rig, SETTINGS};
+use crate::vector::{Vec3, add, dot, norm, scale, sub};
+use crate::{Coulomb, Exponential, FrictionLaw, PenaltySettings, Stiffness};
+use mesh::Padded;
+
+const DEPTH: f64 = 3e-6;
+
+/// Rotation of `x` about the axis through `centre` along the unit vector `axis`.
+fn rotated(x: Vec3, centre: Vec3, axis: Vec3, angle: f64) -> Vec3 {
+    let r = sub(x, centre);
+    let (s, c) = angle.sin_cos();
+    let across = crate::vector::cross(axis, r);
+    let along = scale(dot(axis, r) * (1.0 - c), axis);
+    add(centre, add(add(scale(c, r), scale(s, across)), along))
+}
+
+fn exponential() -> Exponential {
+    Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 }
+}
+
+#[test]
+fn sticking_plates_are_held_by_the_tangential_stiffness() {
+    let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.5 });
+    rig.shift([0.0, 0.0, -DEPTH]);
+    let d = [3e-7, -2e-7, -DEPTH];
+    let sums = rig.shift(d);
+    assert_eq!(sums.slipping, 0);
+    // Border nodes that have left the other plate's border carry nothing: use what is closed.
+    let held = sums.normal_force / (K * DEPTH);
+    for i in 0..2 {
+        let expected = -0.7 * K * held * d[i];
+        assert!((sums.force[0][i] / expected - 1.0).abs() < 1e-9, "{sums:?}");
+    }
+    let stored = 0.5 * 0.7 * K * held * (d[0] * d[0] + d[1] * d[1]);
+    assert!((sums.stored_tangential / stored - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn slipping_plates_bear_mu_times_the_normal_force_against_the_motion() {
+    let mut rig = Rig::slider(Coulomb { mu: 0.5 }, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    let sums = rig.shift([6e-6, 8e-6, -DEPTH]);
+    assert_eq!(sums.sticking, 0);
+    for (component, direction) in sums.force[0].iter().zip([-0.6, -0.8]) {
+        let expected = direction * 0.5 * sums.normal_force;
+        assert!((component / expected - 1.0).abs() < 1e-9, "{sums:?}");
+    }
+    for side in 0..2 {
+        let mut table = rig.contact.nodal_table(side);
+        rig.contact.nodal(&mut table);
+        for i in 0..table.nodes.len() {
+            if table.pressure[i] > 0.0 {
+                assert!(dot(table.shear[i], table.slip_velocity[i]) < 0.0);
+                assert_eq!(table.state[i], 2);
+            }
+        }
+    }
+}
+
+#[test]
+fn nodal_shear_never_exceeds_mu_times_pressure() {
+    let mut rig = Rig::slider(exponential(), &SETTINGS);
+    for step in 0..200 {
+        let t = f64::from(step) * 0.05;
+        let depth = DEPTH * (1.0 + 0.3 * t.sin());
+        rig.shift([4e-6 * (2.0 * t).sin(), 3e-6 * (3.1 * t).cos(), -depth]);
+        for side in 0..2 {
+            let mut table = rig.contact.nodal_table(side);
+            rig.contact.nodal(&mut table);
+            for i in 0..table.nodes.len() {
+                let bound = table.mu[i] * table.pressure[i];
+                assert!(norm(table.shear[i]) <= bound * (1.0 + 1e-14) + 1e-300);
+                assert!(table.mu[i] <= 0.5 + 1e-15 && table.mu[i] >= 0.32 - 1e-15);
+            }
+        }
+    }
+}
+
+#[test]
+fn nodal_tractions_times_area_are_the_forces_on_the_surface() {
+    let mut rig = Rig::slider(Coulomb { mu: 0.4 }, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    let sums = rig.shift([5e-7, 3e-7, -DEPTH]);
+    for side in 0..2 {
+        let mut table = rig.contact.nodal_table(side);
+        rig.contact.nodal(&mut table);
+        let mut total = [0.0; 3];
+        for i in 0..table.nodes.len() {
+            total = add(total, scale(table.area[i], table.shear[i]));
+            total[2] += [1.0, -1.0][side] * table.area[i] * table.pressure[i];
+            let node = table.nodes[i] as usize;
+            let f = scale(1.0 / table.area[i], rig.force[node].xyz());
+            assert!((f[0] - table.shear[i][0]).abs() < 1e-9 * K * DEPTH);
+        }
+        assert!(norm(sub(total, sums.force[side])) < 1e-11 * sums.normal_force);
+    }
+}
+
+#[test]
+fn part_of_the_surface_has_the_values_of_the_whole() {
+    let mut rig = Rig::slider(Coulomb { mu: 0.4 }, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    rig.shift([5e-7, 3e-7, -DEPTH]);
+    let mut whole = rig.contact.nodal_table(0);
+    rig.contact.nodal(&mut whole);
+    let face = mesh::Face { nodes: [whole.nodes[8], whole.nodes[9], whole.nodes[3], 9999], hex: 0 };
+    let mut part = rig.contact.nodal_table_of(0, &[face]);
+    rig.contact.nodal(&mut part);
+    assert_eq!(part.nodes, [whole.nodes[3], whole.nodes[8], whole.nodes[9]]);
+    for (row, i) in [3, 8, 9].into_iter().enumerate() {
+        assert_eq!(part.shear[row], whole.shear[i]);
+        assert_eq!(part.pressure[row], whole.pressure[i]);
+    }
+}
+
+#[test]
+fn common_rotation_makes_no_friction_and_carries_stored_forces_along() {
+    let axis = scale(1.0 / 14.0_f64.sqrt(), [1.0, 2.0, 3.0]);
+    let centre = [3e-3, -2e-3, 5e-3];
+    for slid in [[0.0, 0.0], [3e-7, -2e-7]] {
+        let mut rig = Rig::plates(6, 6, Coulomb { mu: 0.5 });
+        rig.shift([0.0, 0.0, -DEPTH]);
+        let place = move |body: usize, x: Vec3| {
+            if body == 0 { add(x, [slid[0], slid[1], -DEPTH]) } else { x }
+        };
+        rig.step(place);
+        let start = rig.apply();
+        let mut end = start;
+        for step in 1..=1000 {
+            let angle = f64::from(step) * 2e-3;
+            end = rig.step(|body, x| rotated(place(body, x), centre, axis, angle));
+        }
+        let expected = rotated(start.force[0], [0.0; 3], axis, 2.0);
+        let error = norm(sub(end.force[0], expected)) / start.normal_force;
+        assert!(error < 1e-8, "{error:e}");
+        let before = start.stored_tangential.sqrt();
+        let limit = 1e-8 * start.stored_normal.sqrt();
+        assert!((end.stored_tangential.sqrt() - before).abs() < limit);
+    }
+}
+
+#[test]
+fn work_on_a_path_is_stored_or_dissipated() {
+    for mu in [0.05, 0.3, 10.0] {
+        let mut rig = Rig::slider(Coulomb { mu }, &SETTINGS);
+        let mut last = rig.shift([0.0, 0.0, -DEPTH]);
+        let first = last;
+        let (mut work, mut dissipated, mut exchanged) = (0.0, 0.0, 0.0);
+        let mut at = [0.0; 3];
+        for step in 1..=400 {
+            let t = f64::from(step) * std::f64::consts::TAU / 400.0;
+            let to = [2e-6 * (2.0 * t).sin(), 3e-6 * (1.0 - t.cos()), 0.0];
+            let sums = rig.shift(add(to, [0.0, 0.0, -DEPTH]));
+            let d = sub(to, at);
+            let share = 0.5 * (dot(last.force[0], d) + dot(sums.force[0], d));
+            work += share;
+            exchanged += share.abs();
+            dissipated += sums.friction_work;
+            assert!(sums.friction_work >= 0.0);
+            (at, last) = (to, sums);
+        }
+        let stored = last.stored_tangential - first.stored_tangential;
+        let error = (work + stored + dissipated).abs() / exchanged;
+        assert!(error < 1e-10, "mu {mu}: {error:e}");
+        assert!((mu > 1.0) == (dissipated == 0.0));
+    }
+}
+
+#[test]
+fn sliding_over_many_faces_keeps_the_force() {
+    let mut rig = Rig::slider(Coulomb { mu: 0.3 }, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    for step in 1..=4000 {
+        // Ten millimetres: eleven faces of the lower plate.
+        let sums = rig.shift([f64::from(step) * 2.5e-6, 0.0, -DEPTH]);
+        if step > 10 {
+            // The lower plate's nodes under the slider come and go; each new one takes its share
+            // of the friction within k_t-distance: compare with the slaves of the slider alone.
+            let mut table = rig.contact.nodal_table(0);
+            rig.contact.nodal(&mut table);
+            let own: f64 = rig.contact.pairs[0].iter().map(|p| p.friction[0]).sum();
+            let expected = -0.3 * 0.5 * K * 16e-6 * DEPTH;
+            assert!((own / expected - 1.0).abs() < 1e-9, "step {step}: {own} {expected}");
+            assert!(rig.contact.pairs[0].iter().all(|p| p.state == crate::pair::State::Slip));
+            assert!(sums.friction_work > 0.0);
+        }
+    }
+    let slip = rig.contact.pairs[0][0].slip;
+    assert!((slip[0] / 1e-2 - 1.0).abs() < 1e-9 && slip[1].abs() < 1e-12, "{slip:?}");
+}
+
+#[test]
+fn coefficient_is_that_of_the_slip_speed_one_step_before() {
+    let law = exponential();
+    let mut rig = Rig::slider(law, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    let mut x = 0.0;
+    let mut before = 0.0;
+    for speed in [10.0, 0.5, 3.0, 0.05] {
+        x += speed * rig.dt;
+        rig.shift([x, 0.0, -DEPTH]);
+        for pair in rig.contact.pairs[0].iter().filter(|p| p.is_closed()) {
+            assert!((pair.mu - law.mu(before)).abs() < 1e-7);
+            assert!((norm(pair.slip_velocity) - speed).abs() < 1e-6);
+        }
+        before = speed;
+    }
+}
+
+#[test]
+fn first_step_of_contact_has_no_friction_and_knows_the_speed_of_the_nodes() {
+    let law = exponential();
+    let mut rig = Rig::slider(law, &SETTINGS);
+    rig.shift([0.0, 0.0, 1e-7]);
+    let sums = rig.shift([2.0 * rig.dt, 0.0, -DEPTH]);
+    assert!(sums.closed > 0);
+    assert_eq!(sums.force[0][0], 0.0);
+    for pair in &rig.contact.pairs[0] {
+        assert!((norm(pair.slip_velocity) - 2.0).abs() < 1e-6);
+        assert!((pair.mu - law.mu(2.0)).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn friction_spring_of_a_pair_that_opens_is_lost_to_dissipation() {
+    let mut rig = Rig::plates(6, 6, Coulomb { mu: 0.5 });
+    rig.shift([0.0, 0.0, -DEPTH]);
+    let stored = rig.shift([3e-7, 0.0, -DEPTH]).stored_tangential;
+    assert!(stored > 0.0);
+    let opened = rig.shift([3e-7, 0.0, 1e-7]);
+    assert_eq!(opened.closed, 0);
+    assert!((opened.friction_work / stored - 1.0).abs() < 1e-14);
+    assert_eq!(rig.shift([3e-7, 0.0, 1e-7]).friction_work, 0.0);
+}
+
+#[test]
+fn zero_tangential_stiffness_is_contact_without_friction() {
+    let settings = PenaltySettings { tangential: Stiffness::Areal(0.0), ..SETTINGS };
+    let mut rig = Rig::slider(Coulomb { mu: 0.5 }, &settings);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    let sums = rig.shift([1e-5, 0.0, -DEPTH]);
+    assert_eq!(sums.force[0][0], 0.0);
+    assert!(sums.stored_tangential == 0.0 && sums.friction_work == 0.0);
+}
+
+#[test]
+fn bits_do_not_depend_on_the_number_of_threads() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut rig = Rig::plates(40, 37, exponential());
+            let mut sums = Vec::new();
+            for step in 0..20 {
+                let t = f64::from(step);
+                sums.push(rig.shift([1e-6 * t, 3e-7 * t * t, -DEPTH - 1e-8 * t]));
+            }
+            (rig.force, sums)
+        })
+    };
+    let one: (Vec<Padded>, _) = run(1);
+    assert!(one.1[19].closed > 2000, "{:?}", one.1[19]);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(3));
+}

@@ -1,0 +1,119 @@
+use super::{K, Rig, SETTINGS};
+use crate::Coulomb;
+use crate::face::{Positions, project};
+use crate::plates::{plate, tread};
+use crate::vector::Vec3;
+use proptest::prelude::*;
+
+/// Every penetration that projecting all nodes on the master from all of its faces finds, against
+/// the closed pairs.
+fn closed_by_brute_force(rig: &Rig) -> [Vec<u32>; 2] {
+    let positions = Positions { reference: &rig.reference, displacement: &rig.displacement };
+    [0, 1].map(|slave: usize| {
+        let (own, master) = (&rig.contact.sides[slave], &rig.contact.sides[1 - slave]);
+        (0..own.nodes.len() as u32)
+            .filter(|&i| {
+                let x = positions.at(own.nodes[i as usize]);
+                (0..master.faces.len() as u32).step_by(7).any(|f| {
+                    project(master, &positions, true, x, f, 0.0, 0.0)
+                        .foot
+                        .is_some_and(|foot| foot.gap < 0.0)
+                })
+            })
+            .collect()
+    })
+}
+
+fn closed(rig: &Rig) -> [Vec<u32>; 2] {
+    [0, 1].map(|slave: usize| {
+        let pairs = rig.contact.pairs[slave].iter();
+        pairs.filter(|p| p.is_closed()).map(|p| p.slave).collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
+
+    #[test]
+    fn search_misses_no_node_of_a_disk_that_moves_smoothly(
+        speed in 0.0..60.0_f64,
+        spin in -120.0..120.0_f64,
+        bounce in 0.0..40.0_f64,
+        frequency in 0.5..3.0_f64,
+        sideways in -10.0..10.0_f64,
+    ) {
+        let radius = 0.46;
+        let mut rig = Rig::new(
+            tread(radius, 0.03, 8e-3, [28, 8], 1e-3),
+            plate([-15e-3, -4e-3], [15e-3, 4e-3], [31, 7], 0.0, 1e-3, true),
+            &SETTINGS,
+            Coulomb { mu: 0.3 },
+        );
+        rig.dt = 2e-7;
+        let mut searches = 0;
+        for step in 0..400 {
+            let t = f64::from(step) * rig.dt;
+            let omega = frequency * 1e5;
+            let drop = bounce / omega * (omega * t).sin() - 1e-5;
+            let sums = rig.step(|body, x: Vec3| {
+                if body == 1 {
+                    return x;
+                }
+                let (s, c) = (spin * t).sin_cos();
+                let z = x[2] - radius;
+                let (px, pz) = (c * x[0] + s * z, c * z - s * x[0]);
+                [px + speed * t, x[1] + sideways * t, pz + radius + drop]
+            });
+            searches += usize::from(sums.searched);
+            if step % 25 == 24 {
+                prop_assert_eq!(closed(&rig), closed_by_brute_force(&rig));
+            }
+        }
+        prop_assert!(searches < 400);
+    }
+}
+
+#[test]
+fn deep_penetration_at_the_first_call_is_found() {
+    let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.3 });
+    let sums = rig.shift([0.0, 0.0, -3e-4]);
+    assert_eq!(sums.closed, 64 + 36);
+    assert!((sums.normal_force / (K * 64e-6 * 3e-4) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn resting_contact_is_searched_once() {
+    let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.3 });
+    assert!(rig.shift([0.0, 0.0, -1e-6]).searched);
+    for step in 0..500 {
+        let wobble = 1e-7 * f64::from(step).sin();
+        assert!(!rig.shift([0.0, 0.0, -1e-6 + wobble]).searched);
+    }
+}
+
+#[test]
+fn common_motion_of_both_bodies_needs_no_search() {
+    let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.3 });
+    rig.step(|body, x| [x[0], x[1], x[2] - if body == 0 { 1e-6 } else { 0.0 }]);
+    for step in 1..500 {
+        let far = 1e-5 * f64::from(step);
+        let sums =
+            rig.step(|body, x| [x[0] + far, x[1], x[2] + far - if body == 0 { 1e-6 } else { 0.0 }]);
+        assert!(!sums.searched && sums.closed == 100);
+    }
+}
+
+#[test]
+fn positions_that_are_not_numbers_do_not_panic() {
+    let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.3 });
+    rig.shift([0.0, 0.0, -1e-6]);
+    for u in &mut rig.displacement[..20] {
+        u[0] = f64::NAN;
+    }
+    for _ in 0..100 {
+        rig.apply();
+    }
+    rig.step(|_, x| [x[0] * f64::NAN, x[1], x[2]]);
+    rig.contact.search = crate::search::Search::new(&rig.contact.sides);
+    rig.apply();
+}

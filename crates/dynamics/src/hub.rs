@@ -1,0 +1,260 @@
+//! The rigid hub: its nodes follow one rigid body in the plane of rolling.
+
+use mesh::Padded;
+
+/// What turns the hub about y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spin {
+    /// Angular velocity omega_0 (1 + creepage(t)), the creepage rising by a smoothstep over `ramp`.
+    Creepage {
+        /// Angular velocity of free rolling omega_0 = V/R_eff (rad/s).
+        free: f64,
+        /// Creepage reached after the ramp, (omega R_eff - V)/V.
+        creepage: f64,
+        /// Duration of the ramp (s).
+        ramp: f64,
+    },
+    /// Torque about y (N m), rising by a smoothstep over `ramp`.
+    Torque {
+        /// Torque reached after the ramp (N m); positive drives in +x.
+        torque: f64,
+        /// Duration of the ramp (s).
+        ramp: f64,
+    },
+}
+
+/// What moves the hub in z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Vertical {
+    /// A force pressing down (N).
+    Load(f64),
+    /// Nothing: the height stays.
+    Held,
+}
+
+/// Motion of the hub: position at a full step, velocities at the half step before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HubState {
+    /// Displacement of the centre in x (m).
+    pub x: f64,
+    /// Displacement of the centre in z (m).
+    pub z: f64,
+    /// Angle turned about +y (rad).
+    pub angle: f64,
+    /// Velocity in x (m/s), prescribed.
+    pub vx: f64,
+    /// Velocity in z (m/s).
+    pub vz: f64,
+    /// Angular velocity about +y (rad/s).
+    pub omega: f64,
+}
+
+/// A rigid hub that carries the nodes of the disk's inner ring.
+#[derive(Clone, Debug)]
+pub struct Hub {
+    /// Centre in the reference configuration (m).
+    pub centre: [f64; 3],
+    /// The nodes that follow it.
+    pub nodes: Vec<u32>,
+    /// Reference positions of the nodes relative to the centre (m).
+    arms: Vec<[f64; 3]>,
+    /// Mass of the hub with its nodes (kg).
+    pub mass: f64,
+    /// Moment of inertia about y with its nodes (kg m^2).
+    pub inertia: f64,
+    /// What turns it.
+    pub spin: Spin,
+    /// What presses it.
+    pub vertical: Vertical,
+    /// Its motion.
+    pub state: HubState,
+    /// Horizontal force on the hub (N), vertical force (N) and torque (N m) that the drive had
+    /// to supply in the last step.
+    pub reaction: [f64; 3],
+}
+
+/// Work of the hub's drive around a step, split at the full step so that the ledger can be read
+/// there: the half with v^{n-1/2} and the half with v^{n+1/2} (J), and 1/2 v^- M v^+ (J).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct HubWork {
+    pub(crate) before: f64,
+    pub(crate) after: f64,
+    pub(crate) kinetic: f64,
+}
+
+impl Hub {
+    /// A hub about `centre` with its nodes' lumped masses plus `extra_mass` (kg), the latter a
+    /// solid cylinder of the hub's radius.
+    pub fn new(
+        centre: [f64; 3],
+        nodes: &[u32],
+        reference: &[Padded],
+        nodal_mass: &[f64],
+        extra_mass: f64,
+        spin: Spin,
+        vertical: Vertical,
+    ) -> Self {
+        let arms: Vec<[f64; 3]> = nodes
+            .iter()
+            .map(|&n| {
+                let x = reference[n as usize];
+                [x.0[0] - centre[0], x.0[1] - centre[1], x.0[2] - centre[2]]
+            })
+            .collect();
+        let mut mass = extra_mass;
+        let mut inertia = 0.0;
+        let mut radius_squared: f64 = 0.0;
+        for (&n, arm) in nodes.iter().zip(&arms) {
+            let m = nodal_mass[n as usize];
+            let r2 = arm[0] * arm[0] + arm[2] * arm[2];
+            mass += m;
+            inertia += m * r2;
+            radius_squared = radius_squared.max(r2);
+        }
+        inertia += 0.5 * extra_mass * radius_squared;
+        Self {
+            centre,
+            nodes: nodes.to_vec(),
+            arms,
+            mass,
+            inertia,
+            spin,
+            vertical,
+            state: HubState::default(),
+            reaction: [0.0; 3],
+        }
+    }
+
+    /// Position of the centre (m).
+    pub fn position(&self) -> [f64; 3] {
+        [
+            self.centre[0] + self.state.x,
+            self.centre[1],
+            self.centre[2] + self.state.z,
+        ]
+    }
+
+    /// Angular velocity that the drive prescribes at time `t` (rad/s), if it does.
+    pub fn prescribed_omega(&self, t: f64) -> Option<f64> {
+        match self.spin {
+            Spin::Creepage {
+                free,
+                creepage,
+                ramp,
+            } => Some(free * (1.0 + creepage * smoothstep(t, ramp))),
+            Spin::Torque { .. } => None,
+        }
+    }
+
+    /// Resultant force (x, z) and torque about y of `force` on the hub's nodes (N, N m).
+    pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+            let (f, u) = (force[n as usize], displacement[n as usize]);
+            let rx = arm[0] + u.0[0] - self.state.x;
+            let rz = arm[2] + u.0[2] - self.state.z;
+            sum[0] += f.0[0];
+            sum[1] += f.0[2];
+            sum[2] += rz * f.0[0] - rx * f.0[2];
+        }
+        sum
+    }
+
+    /// Moves the hub from t^n to t^{n+1} under `force` on its nodes, and gives its nodes the
+    /// velocities that take them to their places on the rigid body.
+    pub(crate) fn step(
+        &mut self,
+        time: f64,
+        dt: f64,
+        displacement: &[Padded],
+        force: &[Padded],
+        velocity: &mut [Padded],
+    ) -> HubWork {
+        let [fx, fz, torque] = self.resultant(displacement, force);
+        let old = self.state;
+        let new = &mut self.state;
+        let half = time + 0.5 * dt;
+        // x: speed prescribed
+        let drive_x = -fx;
+        // z
+        let drive_z = match self.vertical {
+            Vertical::Load(load) => {
+                new.vz += dt * (fz - load) / self.mass;
+                -load
+            }
+            Vertical::Held => {
+                new.vz = 0.0;
+                -fz - self.mass * old.vz / dt
+            }
+        };
+        // rotation
+        let drive_torque = match self.spin {
+            Spin::Creepage {
+                free,
+                creepage,
+                ramp,
+            } => {
+                new.omega = free * (1.0 + creepage * smoothstep(half, ramp));
+                self.inertia * (new.omega - old.omega) / dt - torque
+            }
+            Spin::Torque {
+                torque: applied,
+                ramp,
+            } => {
+                let applied = applied * smoothstep(time, ramp);
+                new.omega += dt * (torque + applied) / self.inertia;
+                applied
+            }
+        };
+        new.x += dt * new.vx;
+        new.z += dt * new.vz;
+        new.angle += dt * new.omega;
+        let new = *new;
+        self.reaction = [drive_x, drive_z, drive_torque];
+        self.place(displacement, dt, velocity);
+        let power = |s: HubState| drive_x * s.vx + drive_z * s.vz + drive_torque * s.omega;
+        HubWork {
+            before: 0.5 * dt * power(old),
+            after: 0.5 * dt * power(new),
+            kinetic: 0.5 * self.mass * (old.vx * new.vx + old.vz * new.vz)
+                + 0.5 * self.inertia * old.omega * new.omega,
+        }
+    }
+
+    /// Velocities that bring the nodes to the hub's present position within `dt`.
+    fn place(&self, displacement: &[Padded], dt: f64, velocity: &mut [Padded]) {
+        for (k, &n) in self.nodes.iter().enumerate() {
+            let target = self.node_displacement(k);
+            let u = displacement[n as usize];
+            let mut v = Padded::ZERO;
+            for i in 0..3 {
+                v.0[i] = (target[i] - u.0[i]) / dt;
+            }
+            velocity[n as usize] = v;
+        }
+    }
+
+    /// Displacement of the hub's `k`-th node (m): turned by the angle about +y and moved.
+    pub fn node_displacement(&self, k: usize) -> [f64; 3] {
+        let (sin, cos) = self.state.angle.sin_cos();
+        // cos - 1 without cancellation
+        let half = (0.5 * self.state.angle).sin();
+        let cos_minus_one = -2.0 * half * half;
+        let [x, _, z] = self.arms[k];
+        debug_assert!((cos - 1.0 - cos_minus_one).abs() < 1e-12);
+        [
+            cos_minus_one * x + sin * z + self.state.x,
+            0.0,
+            cos_minus_one * z - sin * x + self.state.z,
+        ]
+    }
+}
+
+/// 3 s^2 - 2 s^3 with s = t/ramp held in [0, 1]; a ramp of zero length is a step.
+pub fn smoothstep(t: f64, ramp: f64) -> f64 {
+    if t >= ramp {
+        return 1.0;
+    }
+    let s = (t / ramp).max(0.0);
+    s * s * (3.0 - 2.0 * s)
+}

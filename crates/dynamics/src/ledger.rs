@@ -1,0 +1,98 @@
+//! The energy ledger.
+//!
+//! Central difference conserves T^n = 1/2 v^{n-1/2} . M v^{n+1/2} against trapezoidal work:
+//! T^{n+1} - T^n = 1/2 (x^{n+1} - x^n) . (f^n + f^{n+1}). Works are therefore accumulated in two
+//! halves around each full step, with the velocity before and after it.
+
+/// Energies at a full step (J), with signs as in the balance
+/// kinetic + internal + hourglass + contact_stored + friction + damping = external + initial.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Kinetic energy in the conserved form.
+    pub kinetic: f64,
+    /// Strain energy of the elements.
+    pub internal: f64,
+    /// Hourglass energy of the elements.
+    pub hourglass: f64,
+    /// Energy in the contact springs, normal and tangential.
+    pub contact_stored: f64,
+    /// Dissipated by friction so far.
+    pub friction_dissipated: f64,
+    /// Dissipated by bulk viscosity, Kelvin–Voigt, mass damping, contact dampers and quiet ends.
+    pub damping_dissipated: f64,
+    /// Work of the hub's drive and load and of the quiet ends' constant reactions.
+    pub external_work: f64,
+}
+
+impl Energies {
+    /// Everything stored and dissipated (J).
+    pub fn total(&self) -> f64 {
+        self.kinetic
+            + self.internal
+            + self.hourglass
+            + self.contact_stored
+            + self.friction_dissipated
+            + self.damping_dissipated
+    }
+}
+
+/// Accumulated works and the balance against the first reading.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ledger {
+    /// Dissipated by friction (J).
+    pub friction: f64,
+    /// Dissipated by damping of every kind (J).
+    pub damping: f64,
+    /// External work (J).
+    pub external: f64,
+    initial: Option<Energies>,
+    largest_exchange: f64,
+    worst_balance: f64,
+}
+
+impl Ledger {
+    /// Takes a reading into the balance; the first one is the initial state.
+    pub fn read(&mut self, now: &Energies) {
+        let Some(initial) = self.initial else {
+            self.initial = Some(*now);
+            self.largest_exchange = now.internal + now.contact_stored;
+            return;
+        };
+        // Net amounts only: the gross works of axle force and torque, which nearly cancel, would
+        // flatter the balance.
+        let exchange = [
+            (now.kinetic - initial.kinetic).abs(),
+            now.internal,
+            now.friction_dissipated,
+            now.damping_dissipated,
+            now.external_work.abs(),
+        ];
+        self.largest_exchange = exchange.into_iter().fold(self.largest_exchange, f64::max);
+        self.worst_balance = self.worst_balance.max(self.imbalance(now).abs());
+    }
+
+    /// total - external work - initial total (J).
+    pub fn imbalance(&self, now: &Energies) -> f64 {
+        let initial = self.initial.unwrap_or(*now);
+        now.total() - now.external_work - (initial.total() - initial.external_work)
+    }
+
+    /// Largest imbalance read so far over the largest energy exchanged (dimensionless).
+    pub fn balance_error(&self) -> f64 {
+        if self.largest_exchange > 0.0 {
+            self.worst_balance / self.largest_exchange
+        } else {
+            0.0
+        }
+    }
+
+    /// Largest net energy exchanged so far (J).
+    pub fn largest_exchange(&self) -> f64 {
+        self.largest_exchange
+    }
+
+    /// The first reading, if any.
+    pub fn initial(&self) -> Option<&Energies> {
+        self.initial.as_ref()
+    }
+}

@@ -1,0 +1,123 @@
+//! Lysmer's quiet boundary at the ends of the bar.
+
+use mesh::{Mesh, Padded, Surface};
+use solid::Material;
+
+/// Dashpots t = -rho c_p v_n n - rho c_s v_t (Lysmer and Kuhlemeyer 1969) on the nodes of an end,
+/// over the reaction that held the end during the preload.
+#[derive(Clone, Debug, Default)]
+pub struct QuietEnd {
+    nodes: Vec<QuietNode>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct QuietNode {
+    node: u32,
+    /// Dashpot coefficient per direction (N s/m); the end's normal is along x.
+    dashpot: [f64; 3],
+    /// Force (N) that balances the preload.
+    reaction: [f64; 3],
+}
+
+/// Energies of a step at the quiet ends, split at the full step (J).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct QuietWork {
+    pub(crate) dissipated_before: f64,
+    pub(crate) dissipated_after: f64,
+    pub(crate) external_before: f64,
+    pub(crate) external_after: f64,
+}
+
+impl QuietEnd {
+    /// The nodes of `faces`, whose normal must be along x, except those in `held`.
+    pub fn new(mesh: &Mesh, ends: &[&Surface], material: &Material, held: &[u32]) -> Self {
+        let mut area = std::collections::BTreeMap::<u32, f64>::new();
+        for face in ends.iter().flat_map(|s| &s.faces) {
+            for (n, a) in face.nodes.iter().zip(nodal_areas(mesh, &face.nodes)) {
+                *area.entry(*n).or_default() += a;
+            }
+        }
+        let nodes = area
+            .into_iter()
+            .filter(|(n, _)| held.binary_search(n).is_err())
+            .map(|(node, a)| {
+                let normal = material.density * material.c_p() * a;
+                let shear = material.density * material.c_s() * a;
+                QuietNode {
+                    node,
+                    dashpot: [normal, shear, shear],
+                    reaction: [0.0; 3],
+                }
+            })
+            .collect();
+        Self { nodes }
+    }
+
+    /// The nodes, in ascending order.
+    pub fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
+        self.nodes.iter().map(|n| n.node)
+    }
+
+    /// Takes over the reactions that held the nodes in equilibrium under `force` (N).
+    pub fn keep_reactions(&mut self, force: &[Padded]) {
+        for n in &mut self.nodes {
+            n.reaction = force[n.node as usize].xyz().map(|f| -f);
+        }
+    }
+
+    /// Adds reaction and dashpot to `force`, the dashpot acting on the mean of the velocities
+    /// before and after the step, so that it is stable at any step.
+    pub(crate) fn apply(
+        &self,
+        velocity: &[Padded],
+        inverse_mass: &[f64],
+        dt: f64,
+        force: &mut [Padded],
+    ) -> QuietWork {
+        let mut work = QuietWork::default();
+        for n in &self.nodes {
+            let (f, v) = (&mut force[n.node as usize], velocity[n.node as usize]);
+            let w = inverse_mass[n.node as usize];
+            for i in 0..3 {
+                let free = f.0[i] + n.reaction[i];
+                let beta = 0.5 * dt * n.dashpot[i] * w;
+                let after = ((1.0 - beta) * v.0[i] + dt * w * free) / (1.0 + beta);
+                let dashpot = -n.dashpot[i] * 0.5 * (v.0[i] + after);
+                f.0[i] = free + dashpot;
+                work.dissipated_before -= 0.5 * dt * dashpot * v.0[i];
+                work.dissipated_after -= 0.5 * dt * dashpot * after;
+                work.external_before += 0.5 * dt * n.reaction[i] * v.0[i];
+                work.external_after += 0.5 * dt * n.reaction[i] * after;
+            }
+        }
+        work
+    }
+}
+
+/// Integral of each shape function over a flat quadrilateral (m^2), 2x2 Gauss.
+fn nodal_areas(mesh: &Mesh, nodes: &[u32; 4]) -> [f64; 4] {
+    const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let p = 1.0 / 3f64.sqrt();
+    let mut areas = [0.0; 4];
+    for point in SIGNS {
+        let (r, s) = (point[0] * p, point[1] * p);
+        let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
+        for (sign, &n) in SIGNS.iter().zip(nodes) {
+            let x = mesh.nodes[n as usize];
+            for i in 0..3 {
+                a[i] += sign[0] * (1.0 + s * sign[1]) / 4.0 * x[i];
+                b[i] += sign[1] * (1.0 + r * sign[0]) / 4.0 * x[i];
+            }
+        }
+        let cross = [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ];
+        let jacobian = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
+        for (area, sign) in areas.iter_mut().zip(SIGNS) {
+            *area += (1.0 + r * sign[0]) * (1.0 + s * sign[1]) / 4.0 * jacobian;
+        }
+    }
+    areas
+}

@@ -1,0 +1,366 @@
+//! The time loop.
+
+use crate::guard::{self, Cause, Diagnosis, Place};
+use crate::hub::Hub;
+use crate::ledger::{Energies, Ledger};
+use crate::nodes;
+use crate::quiet::QuietEnd;
+use contact::{ContactSums, Motion, PenaltyContact};
+use mesh::Padded;
+use solid::Solid;
+use std::time::{Duration, Instant};
+
+/// Everything a simulation starts from.
+pub struct Setup {
+    /// The elements.
+    pub solid: Solid,
+    /// The contact of the two bodies; none for a free body.
+    pub contact: Option<PenaltyContact>,
+    /// The hub; none for a free body.
+    pub hub: Option<Hub>,
+    /// The quiet ends; empty for none.
+    pub quiet: QuietEnd,
+    /// Nodes that never move.
+    pub held: Vec<u32>,
+    /// Nodes of the disk, whose rigid motion is the hub's.
+    pub disk: std::ops::Range<usize>,
+    /// Lumped masses (kg).
+    pub mass: Vec<f64>,
+    /// Displacement at t = 0 (m).
+    pub displacement: Vec<Padded>,
+    /// Velocity half a step before t = 0 (m/s).
+    pub velocity: Vec<Padded>,
+    /// Time step (s).
+    pub dt: f64,
+    /// Largest frequency of the assembly (rad/s), for the diagnosis.
+    pub omega_max: f64,
+    /// Mass-proportional damping relative to the rigid motion (1/s).
+    pub mass_damping: f64,
+}
+
+/// Wall time per stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Timers {
+    /// Internal force.
+    pub internal_force: Duration,
+    /// Contact.
+    pub contact: Duration,
+    /// Quiet ends, mass damping, hub.
+    pub boundary: Duration,
+    /// Velocity and position.
+    pub nodes: Duration,
+}
+
+/// What a step found at its start, time t^n.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Number n of the full step.
+    pub step: usize,
+    /// Its time (s).
+    pub time: f64,
+    /// Contact at t^n.
+    pub contact: ContactSums,
+    /// Energies at t^n, if they were read.
+    pub energies: Option<Energies>,
+    /// Force in x, force in z (N) and torque (N m) supplied by the hub's drive.
+    pub drive: [f64; 3],
+    /// Angular velocity of the hub at t^n (rad/s), the mean of the half steps around it.
+    pub omega: f64,
+}
+
+/// Central difference over the whole model.
+pub struct Simulation {
+    solid: Solid,
+    contact: Option<PenaltyContact>,
+    hub: Option<Hub>,
+    quiet: QuietEnd,
+    disk: std::ops::Range<usize>,
+    inverse_mass: Vec<f64>,
+    displacement: Vec<Padded>,
+    velocity: Vec<Padded>,
+    force: Vec<Padded>,
+    partial: Vec<f64>,
+    dt: f64,
+    omega_max: f64,
+    mass_damping: f64,
+    step: usize,
+    ledger: Ledger,
+    timers: Timers,
+}
+
+impl Simulation {
+    /// A simulation at t = 0.
+    pub fn new(setup: Setup) -> Self {
+        let mut inverse_mass: Vec<f64> = setup.mass.iter().map(|m| 1.0 / m).collect();
+        let carried = setup.hub.iter().flat_map(|h| &h.nodes);
+        setup
+            .held
+            .iter()
+            .chain(carried)
+            .for_each(|&n| inverse_mass[n as usize] = 0.0);
+        let mut velocity = setup.velocity;
+        setup
+            .held
+            .iter()
+            .for_each(|&n| velocity[n as usize] = Padded::ZERO);
+        let n = inverse_mass.len();
+        Self {
+            solid: setup.solid,
+            contact: setup.contact,
+            hub: setup.hub,
+            quiet: setup.quiet,
+            disk: setup.disk,
+            inverse_mass,
+            displacement: setup.displacement,
+            velocity,
+            force: vec![Padded::ZERO; n],
+            partial: vec![0.0; nodes::chunks(n)],
+            dt: setup.dt,
+            omega_max: setup.omega_max,
+            mass_damping: setup.mass_damping,
+            step: 0,
+            ledger: Ledger::default(),
+            timers: Timers::default(),
+        }
+    }
+
+    /// One step from t^n to t^{n+1}. With `read` the energies at t^n enter the ledger.
+    pub fn step(&mut self, read: bool) -> StepReport {
+        let (n, dt) = (self.step, self.dt);
+        let time = n as f64 * dt;
+        let start = Instant::now();
+
+        // internal force at u^n (viscous parts with v^{n-1/2})
+        let sums = self.solid.subtract_internal_force(
+            &self.displacement,
+            &self.velocity,
+            &mut self.force,
+            read,
+        );
+        let internal = Instant::now();
+
+        // contact at u^n
+        let contact = match &mut self.contact {
+            Some(contact) => {
+                let motion = Motion {
+                    reference: self.solid.reference(),
+                    displacement: &self.displacement,
+                    velocity: &self.velocity,
+                    inverse_mass: &self.inverse_mass,
+                    dt,
+                };
+                contact.apply(&motion, &mut self.force)
+            }
+            None => ContactSums::default(),
+        };
+        let contacted = Instant::now();
+
+        // boundary and damping forces
+        let relative = self.add_mass_damping();
+        let quiet = self
+            .quiet
+            .apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
+        let omega_before = self.hub.as_ref().map_or(0.0, |h| h.state.omega);
+        let hub = self.hub.as_mut().map(|hub| {
+            hub.step(
+                time,
+                dt,
+                &self.displacement,
+                &self.force,
+                &mut self.velocity,
+            )
+        });
+        let hub = hub.unwrap_or_default();
+        let bounded = Instant::now();
+
+        // velocity v^{n+1/2} and position u^{n+1}
+        let kinetic = nodes::advance(
+            &mut self.displacement,
+            &mut self.velocity,
+            &mut self.force,
+            &self.inverse_mass,
+            dt,
+            read,
+            &mut self.partial,
+        );
+        let moved = Instant::now();
+
+        let viscous = 0.5 * dt * (sums.viscous_power + relative);
+        self.ledger.friction += contact.friction_work;
+        self.ledger.damping += contact.damping_work + viscous + quiet.dissipated_before;
+        self.ledger.external += hub.before + quiet.external_before;
+        let energies = read.then(|| {
+            let now = Energies {
+                kinetic: kinetic + hub.kinetic,
+                internal: sums.internal,
+                hourglass: sums.hourglass,
+                contact_stored: contact.stored_normal + contact.stored_tangential,
+                friction_dissipated: self.ledger.friction,
+                damping_dissipated: self.ledger.damping,
+                external_work: self.ledger.external,
+            };
+            self.ledger.read(&now);
+            now
+        });
+        self.ledger.damping += viscous + quiet.dissipated_after;
+        self.ledger.external += hub.after + quiet.external_after;
+
+        self.timers.internal_force += internal - start;
+        self.timers.contact += contacted - internal;
+        self.timers.boundary += bounded - contacted;
+        self.timers.nodes += moved - bounded;
+        self.step += 1;
+        let (drive, omega) = match &self.hub {
+            Some(h) => (h.reaction, 0.5 * (omega_before + h.state.omega)),
+            None => ([0.0; 3], 0.0),
+        };
+        StepReport {
+            step: n,
+            time,
+            contact,
+            energies,
+            drive,
+            omega,
+        }
+    }
+
+    /// Adds -alpha m (v - v_rigid); returns the power that it takes out (W).
+    fn add_mass_damping(&mut self) -> f64 {
+        if self.mass_damping == 0.0 {
+            return 0.0;
+        }
+        let mut power = 0.0;
+        for n in 0..self.force.len() {
+            let w = self.inverse_mass[n];
+            if w > 0.0 {
+                let rigid = self.rigid_velocity(n);
+                let v = self.velocity[n];
+                for i in 0..3 {
+                    let drag = self.mass_damping / w * (v.0[i] - rigid[i]);
+                    self.force[n].0[i] -= drag;
+                    power += drag * v.0[i];
+                }
+            }
+        }
+        power
+    }
+
+    /// Velocity of the hub's rigid motion at a node of the disk; zero on other bodies (m/s).
+    fn rigid_velocity(&self, node: usize) -> [f64; 3] {
+        match &self.hub {
+            Some(hub) if self.disk.contains(&node) => {
+                let (x, u) = (self.solid.reference()[node], self.displacement[node]);
+                let c = hub.position();
+                let s = hub.state;
+                [
+                    s.vx + s.omega * (x.0[2] + u.0[2] - c[2]),
+                    0.0,
+                    s.vz - s.omega * (x.0[0] + u.0[0] - c[0]),
+                ]
+            }
+            _ => [0.0; 3],
+        }
+    }
+
+    /// The diagnosis if `now` cannot be a solution.
+    pub fn guard(&self, now: &Energies) -> Option<Diagnosis> {
+        if !guard::violated(&self.ledger, now) {
+            return None;
+        }
+        let imbalance = self.ledger.imbalance(now);
+        let ratio = self.dt * self.omega_max / 2.0;
+        let cause = if ratio > 1.0 {
+            Cause::UnstableStep { ratio }
+        } else if imbalance.is_finite() {
+            Cause::EnergyGrowth
+        } else {
+            Cause::NotFinite
+        };
+        let (element, _, jacobian) = self.solid.smallest_jacobian(&self.displacement);
+        let mut place = Place {
+            node: 0,
+            position: [0.0; 3],
+            speed: 0.0,
+            element,
+            jacobian,
+        };
+        for (node, v) in self.velocity.iter().enumerate() {
+            let rigid = self.rigid_velocity(node);
+            let speed = (0..3)
+                .map(|i| (v.0[i] - rigid[i]).powi(2))
+                .sum::<f64>()
+                .sqrt();
+            if speed > place.speed || !speed.is_finite() {
+                place.node = node;
+                place.speed = speed;
+                place.position = self.solid.reference()[node].xyz();
+                if !speed.is_finite() {
+                    break;
+                }
+            }
+        }
+        let step = self.step.saturating_sub(1);
+        Some(Diagnosis {
+            step,
+            time: step as f64 * self.dt,
+            cause,
+            imbalance,
+            place,
+        })
+    }
+
+    /// Steps done; the state is at t = steps dt.
+    pub fn steps(&self) -> usize {
+        self.step
+    }
+
+    /// Time step (s).
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Time of the present state (s).
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.dt
+    }
+
+    /// Displacements (m).
+    pub fn displacement(&self) -> &[Padded] {
+        &self.displacement
+    }
+
+    /// Velocities at the half step before the present (m/s).
+    pub fn velocity(&self) -> &[Padded] {
+        &self.velocity
+    }
+
+    /// The elements.
+    pub fn solid(&self) -> &Solid {
+        &self.solid
+    }
+
+    /// The contact.
+    pub fn contact(&self) -> Option<&PenaltyContact> {
+        self.contact.as_ref()
+    }
+
+    /// The hub.
+    pub fn hub(&self) -> Option<&Hub> {
+        self.hub.as_ref()
+    }
+
+    /// The ledger.
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Wall time per stage so far.
+    pub fn timers(&self) -> &Timers {
+        &self.timers
+    }
+
+    /// Bytes held for the time loop, contact apart.
+    pub fn bytes(&self) -> usize {
+        self.solid.bytes() + self.displacement.len() * (3 * size_of::<Padded>() + size_of::<f64>())
+    }
+}

@@ -1,0 +1,172 @@
+//! The bar: a tensor-product mesh, fine under the contact.
+
+use crate::error::{MAX_ELEMENTS, positive};
+use crate::grading::{Axis, whole};
+use crate::grid::{Grid, nodes_of};
+use crate::zone::{check_crown, sag};
+use crate::{FineZone, Mesh, MeshError, SmoothSurface, Surface};
+
+/// A straight bar along `x` with its top's apex at `z = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bar {
+    /// Extent along `x` (m).
+    pub length: f64,
+    /// Extent along `y` (m), from `-width/2` to `width/2`.
+    pub width: f64,
+    /// Extent below the apex (m).
+    pub height: f64,
+    /// Transverse radius of the top (m); `None` for a flat top.
+    pub crown: Option<f64>,
+    /// `x` of the rear end (m).
+    pub start: f64,
+}
+
+/// The mesh of a bar: body `"bar"`, node sets `"top"`, `"bottom"`, `"ends"` and `"zone"` (the nodes
+/// of the surface of that name), surfaces `"top"`, `"zone"` (the part of the top that has the fine
+/// size), `"rear"` and `"front"`.
+///
+/// A crown lowers the nodes by `c - sqrt(c^2 - y^2)` at the top, fading linearly to nothing at the
+/// bottom, which stays flat.
+///
+/// # Errors
+/// [`MeshError::OutOfRange`] and [`MeshError::TooManyElements`].
+pub fn bar(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
+    check(shape, zone)?;
+    let Bar {
+        length,
+        width,
+        height,
+        crown,
+        start,
+    } = *shape;
+    let FineZone {
+        size,
+        growth,
+        coarsest,
+        ..
+    } = *zone;
+
+    let span = [start, start + length];
+    let fine = [
+        zone.start.max(span[0]),
+        (zone.start + zone.length).min(span[1]),
+    ];
+    let x = Axis::new(span, fine, size, growth, coarsest);
+    let (half, fine) = (0.5 * width, 0.5 * whole(zone.width, size).min(width));
+    let y = Axis::new([-half, half], [-fine, fine], size, growth, coarsest);
+    let z = Axis::new(
+        [-height, 0.0],
+        [-zone.depth.min(height), 0.0],
+        size,
+        growth,
+        coarsest,
+    );
+
+    let grid = Grid {
+        cells: [x.cells(), y.cells(), z.cells()],
+    };
+    let elements = grid.cells.iter().map(|&n| n as f64).product::<f64>();
+    if elements > MAX_ELEMENTS {
+        return Err(MeshError::TooManyElements {
+            body: "bar",
+            size,
+            estimate: elements,
+        });
+    }
+    let mut mesh = grid.mesh("bar", &x.points, &y.points, &z.points);
+    if crown.is_some() {
+        for p in &mut mesh.nodes {
+            p[2] -= sag(crown, p[1]) * (p[2] + height) / height;
+        }
+    }
+
+    let top = grid.side(&mesh, 5);
+    let last = z.cells() - 1;
+    let zone = grid.faces(&mesh, [x.fine, y.fine, last..last + 1], 5);
+    let (rear, front) = (grid.side(&mesh, 0), grid.side(&mesh, 1));
+    let bottom = nodes_of(&grid.side(&mesh, 4));
+    let mut ends = nodes_of(&rear);
+    ends.extend(nodes_of(&front));
+
+    let body = &mut mesh.bodies[0];
+    for (name, nodes) in [
+        ("top", nodes_of(&top)),
+        ("bottom", bottom),
+        ("ends", ends),
+        ("zone", nodes_of(&zone)),
+    ] {
+        body.node_sets.insert(name.to_owned(), nodes);
+    }
+    let smooth = Some(SmoothSurface::Top { apex: 0.0, crown });
+    for (name, faces, smooth) in [
+        ("top", top, smooth),
+        ("zone", zone, smooth),
+        ("rear", rear, None),
+        ("front", front, None),
+    ] {
+        body.surfaces
+            .insert(name.to_owned(), Surface { faces, smooth });
+    }
+    Ok(mesh)
+}
+
+fn check(shape: &Bar, zone: &FineZone) -> Result<(), MeshError> {
+    let Bar {
+        length,
+        width,
+        height,
+        crown,
+        start,
+    } = *shape;
+    positive("bar.length", length)?;
+    positive("bar.width", width)?;
+    positive("bar.height", height)?;
+    if !start.is_finite() {
+        return Err(MeshError::range(
+            "bar.start",
+            start,
+            "a finite number",
+            "give the x of the bar's rear end in metres",
+        ));
+    }
+    check_crown("bar.crown_radius", crown, width, height)?;
+    zone.check()?;
+    FineZone::fits(
+        "mesh.zone.length",
+        zone.length,
+        length,
+        "the length of the bar",
+    )?;
+    FineZone::fits("mesh.zone.width", zone.width, width, "the width of the bar")?;
+    FineZone::fits(
+        "mesh.zone.depth",
+        zone.depth,
+        height,
+        "the height of the bar",
+    )?;
+    let slack = 1e-9 * length;
+    let range = [start, start + length - zone.length];
+    if zone.start < range[0] - slack || zone.start > range[1] + slack {
+        return Err(MeshError::range(
+            "mesh.zone.start",
+            zone.start,
+            format!(
+                "from {} to {}, for the zone to lie on the bar",
+                range[0], range[1]
+            ),
+            "move the zone or the bar, or lengthen the bar",
+        ));
+    }
+    let count =
+        |span, fine| Axis::estimate(span, fine, zone.size, zone.growth, zone.coarsest).max(1.0);
+    let estimate =
+        count(length, zone.length) * count(width, zone.width) * count(height, zone.depth);
+    if estimate > MAX_ELEMENTS {
+        return Err(MeshError::TooManyElements {
+            body: "bar",
+            size: zone.size,
+            estimate,
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,280 @@
+//! The disk: a plane mesh of a ring, coarsened towards the hub, drawn out along `y`.
+
+use crate::error::{MAX_ELEMENTS, positive};
+use crate::grading::{Axis, LEAST_GAP, cells, outward, whole};
+use crate::grid::nodes_of;
+use crate::ring::Ring;
+use crate::zone::{check_crown, sag};
+use crate::{Body, Face, FineZone, Mesh, MeshError, SmoothSurface, Surface};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Largest angle of an element of the tread (rad).
+const WIDEST_ELEMENT: f64 = 0.25;
+
+/// Height of the first row under the fine zone, over the size: high enough to coarsen.
+const FIRST_ROW: f64 = 3.0;
+
+/// A disk (annulus about a rigid hub) that touches the origin from above: centre `(0, 0, radius)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disk {
+    /// Rolling radius at the apex of the tread (m).
+    pub radius: f64,
+    /// Radius of the rigid hub (m).
+    pub hub_radius: f64,
+    /// Extent along `y` (m), from `-width/2` to `width/2`.
+    pub width: f64,
+    /// Transverse radius of the tread (m); `None` for a straight tread.
+    pub crown: Option<f64>,
+}
+
+/// The mesh of a disk: body `"disk"`, node sets `"hub"`, `"tread"` and `"zone"` (the nodes of the
+/// surface of that name), surfaces `"tread"` and `"zone"` (the part of the tread that has the fine
+/// size).
+///
+/// The point of the tread at the arc length `s` from the first contact lies at
+/// `(R sin(s/R), y, R - R cos(s/R))`: in rolling it meets the bar at `x = s`. Columns of elements
+/// are counted from the point opposite to the zone. A crown lowers the tread by
+/// `c - sqrt(c^2 - y^2)`, fading linearly to nothing at the hub.
+///
+/// # Errors
+/// [`MeshError::OutOfRange`] and [`MeshError::TooManyElements`].
+pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
+    check(shape, zone)?;
+    let Disk {
+        radius,
+        hub_radius,
+        width,
+        crown,
+    } = *shape;
+    let FineZone {
+        size,
+        growth,
+        coarsest,
+        ..
+    } = *zone;
+
+    let length = whole(zone.length, size);
+    let (middle, turn) = (zone.start + 0.5 * length, PI * radius);
+    let arc = Axis::new(
+        [middle - turn, middle + turn],
+        [zone.start, zone.start + length],
+        size,
+        growth,
+        coarsest.min(WIDEST_ELEMENT * radius),
+    );
+    let angles: Vec<f64> = arc.points[..arc.cells()]
+        .iter()
+        .map(|s| s / radius)
+        .collect();
+    let (half, fine) = (0.5 * width, 0.5 * whole(zone.width, size).min(width));
+    let y = Axis::new([-half, half], [-fine, fine], size, growth, coarsest);
+    let (radii, regular) = rows(shape, zone);
+    let ny = y.cells();
+    let ring = Ring::new(&angles, &radii, regular, MAX_ELEMENTS / ny as f64).map_err(|quads| {
+        MeshError::TooManyElements {
+            body: "disk",
+            size,
+            estimate: quads * ny as f64,
+        }
+    })?;
+
+    let mut nodes = Vec::with_capacity(ring.nodes.len() * (ny + 1));
+    for &[angle, r] in &ring.nodes {
+        let (sin, cos) = angle.sin_cos();
+        let fade = (r - hub_radius) / (radius - hub_radius);
+        nodes.extend(y.points.iter().map(|&y| {
+            let r = r - sag(crown, y) * fade;
+            [r * sin, y, radius - r * cos]
+        }));
+    }
+    let at = |plane: u32, j: usize| plane * (ny as u32 + 1) + j as u32;
+    let mut hexes = Vec::with_capacity(ring.quads.len() * ny);
+    for [a, b, c, d] in &ring.quads {
+        for j in 0..ny {
+            let k = j + 1;
+            let [a, b, c, d] = [*a, *b, *c, *d];
+            hexes.push([
+                at(a, j),
+                at(b, j),
+                at(c, j),
+                at(d, j),
+                at(a, k),
+                at(b, k),
+                at(c, k),
+                at(d, k),
+            ]);
+        }
+    }
+
+    let columns = ring.outer.len();
+    let outside = |columns_of: Range<usize>, ys: Range<usize>| -> Vec<Face> {
+        let mut faces = Vec::with_capacity(columns_of.len() * ys.len());
+        for c in columns_of {
+            let (rear, front) = (ring.outer[c], ring.outer[(c + 1) % columns]);
+            faces.extend(ys.clone().map(|j| Face {
+                nodes: [at(rear, j), at(rear, j + 1), at(front, j + 1), at(front, j)],
+                hex: ring.rim[c] * ny as u32 + j as u32,
+            }));
+        }
+        faces
+    };
+    let tread = outside(0..columns, 0..ny);
+    let zone = outside(arc.fine.clone(), y.fine.clone());
+    let mut hub: Vec<u32> = ring
+        .inner
+        .iter()
+        .flat_map(|&n| (0..=ny).map(move |j| at(n, j)))
+        .collect();
+    hub.sort_unstable();
+
+    let smooth = Some(SmoothSurface::Tread {
+        centre: [0.0, 0.0, radius],
+        radius,
+        crown,
+    });
+    let body = Body {
+        name: "disk".to_owned(),
+        nodes: 0..nodes.len(),
+        hexes: 0..hexes.len(),
+        node_sets: BTreeMap::from([
+            ("hub".to_owned(), hub),
+            ("tread".to_owned(), nodes_of(&tread)),
+            ("zone".to_owned(), nodes_of(&zone)),
+        ]),
+        surfaces: BTreeMap::from([
+            (
+                "tread".to_owned(),
+                Surface {
+                    faces: tread,
+                    smooth,
+                },
+            ),
+            (
+                "zone".to_owned(),
+                Surface {
+                    faces: zone,
+                    smooth,
+                },
+            ),
+        ]),
+    };
+    Ok(Mesh {
+        nodes,
+        hexes,
+        bodies: vec![body],
+    })
+}
+
+/// Radii of the rows, from the tread inwards, and the number of rows of the fine zone.
+fn rows(shape: &Disk, zone: &FineZone) -> (Vec<f64>, usize) {
+    let thickness = shape.radius - shape.hub_radius;
+    let FineZone {
+        size,
+        depth,
+        growth,
+        coarsest,
+        ..
+    } = *zone;
+    let depth = whole(depth, size);
+    let depth = if thickness - depth < LEAST_GAP * size {
+        thickness
+    } else {
+        depth
+    };
+    let n = cells(depth, size);
+    let mut radii: Vec<f64> = (0..=n)
+        .map(|i| shape.radius - depth * i as f64 / n as f64)
+        .collect();
+    let rest = thickness - depth;
+    let first = (FIRST_ROW * size).min(coarsest);
+    let previous = if rest > 2.0 * first {
+        first / growth
+    } else {
+        size
+    };
+    radii.extend(
+        outward(previous, growth, coarsest, rest)
+            .iter()
+            .map(|d| shape.radius - depth - d),
+    );
+    if let Some(last) = radii.last_mut() {
+        *last = shape.hub_radius;
+    }
+    (radii, n)
+}
+
+fn check(shape: &Disk, zone: &FineZone) -> Result<(), MeshError> {
+    let Disk {
+        radius,
+        hub_radius,
+        width,
+        crown,
+    } = *shape;
+    positive("disk.radius", radius)?;
+    positive("disk.hub_radius", hub_radius)?;
+    positive("disk.width", width)?;
+    if hub_radius >= radius {
+        return Err(MeshError::range(
+            "disk.hub_radius",
+            hub_radius,
+            format!("below disk.radius = {radius}"),
+            "lower it, or enlarge the disk",
+        ));
+    }
+    let thickness = radius - hub_radius;
+    check_crown("disk.crown_radius", crown, width, thickness)?;
+    zone.check()?;
+    FineZone::fits(
+        "mesh.zone.length",
+        zone.length,
+        PI * radius,
+        "half the turn of the disk",
+    )?;
+    FineZone::fits(
+        "mesh.zone.width",
+        zone.width,
+        width,
+        "the width of the disk",
+    )?;
+    FineZone::fits(
+        "mesh.zone.depth",
+        zone.depth,
+        thickness,
+        "the disk from hub to tread",
+    )?;
+    if zone.size > 0.5 * WIDEST_ELEMENT * radius {
+        return Err(MeshError::range(
+            "mesh.zone.size",
+            zone.size,
+            format!(
+                "at most {}, an eighth of the disk's radius",
+                0.5 * WIDEST_ELEMENT * radius
+            ),
+            "lower it, or enlarge the disk",
+        ));
+    }
+    if zone.start.abs() > PI * radius {
+        return Err(MeshError::range(
+            "mesh.zone.start",
+            zone.start,
+            format!("within half a turn of the disk, {} either way", PI * radius),
+            "move the zone nearer to the first contact",
+        ));
+    }
+    // With the rows of the fine zone alone this is a lower bound.
+    let count =
+        |span, fine| Axis::estimate(span, fine, zone.size, zone.growth, zone.coarsest).max(1.0);
+    let estimate = count(2.0 * PI * radius, zone.length)
+        * count(width, zone.width)
+        * (zone.depth / zone.size).max(1.0);
+    if estimate > MAX_ELEMENTS {
+        return Err(MeshError::TooManyElements {
+            body: "disk",
+            size: zone.size,
+            estimate,
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,147 @@
+//! Facts about the generated disk and bar that hold for every shape.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use mesh::{Bar, Disk, Face, FineZone, Mesh, bar, check, disk, quality};
+use proptest::prelude::*;
+
+fn centre(mesh: &Mesh, nodes: &[u32]) -> [f64; 3] {
+    [0, 1, 2].map(|a| {
+        nodes
+            .iter()
+            .map(|&n| mesh.nodes[n as usize][a])
+            .sum::<f64>()
+            / nodes.len() as f64
+    })
+}
+
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn normal(mesh: &Mesh, face: &Face) -> [f64; 3] {
+    let p = face.nodes.map(|n| mesh.nodes[n as usize]);
+    let (a, b) = (sub(p[2], p[0]), sub(p[3], p[1]));
+    let n = [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ];
+    n.map(|x| x / dot(n, n).sqrt())
+}
+
+/// Every face points away from its element; those of a smooth surface lie on it.
+fn check_surfaces(mesh: &Mesh) {
+    for body in &mesh.bodies {
+        for (name, surface) in &body.surfaces {
+            assert!(!surface.faces.is_empty(), "{name} is empty");
+            for face in &surface.faces {
+                let n = normal(mesh, face);
+                let inner = centre(mesh, &mesh.hexes[face.hex as usize]);
+                assert!(
+                    dot(n, sub(centre(mesh, &face.nodes), inner)) > 0.0,
+                    "{name} {face:?}"
+                );
+                let Some(smooth) = surface.smooth else {
+                    continue;
+                };
+                for node in face.nodes {
+                    let p = mesh.nodes[node as usize];
+                    assert!(
+                        smooth.offset(p).abs() < 1e-12,
+                        "{name}: {}",
+                        smooth.offset(p)
+                    );
+                    assert!(dot(n, smooth.normal(p)) > 0.9, "{name} {face:?}");
+                }
+            }
+        }
+        for (name, set) in &body.node_sets {
+            assert!(!set.is_empty(), "{name} is empty");
+        }
+    }
+}
+
+fn zones() -> impl Strategy<Value = FineZone> {
+    (
+        2e-3..5e-3,
+        3.0..25.0,
+        1.0..9.0,
+        1.0..8.0,
+        -0.04..0.0,
+        1.15..1.6,
+        10.0..25.0,
+    )
+        .prop_map(
+            |(size, length, width, depth, start, growth, coarsest): (
+                f64,
+                f64,
+                f64,
+                f64,
+                f64,
+                f64,
+                f64,
+            )| {
+                FineZone {
+                    size,
+                    length: size * length,
+                    width: size * width,
+                    depth: (size * depth).min(0.05),
+                    start,
+                    growth,
+                    coarsest: size * coarsest,
+                }
+            },
+        )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_disk_is_sound_and_nearly_as_fast_as_its_zone(
+        zone in zones(),
+        radius in 0.25..0.5f64,
+        hub in 0.2..0.7f64,
+        width in 0.05..0.08f64,
+        crown in proptest::option::of(0.15..1.0f64),
+    ) {
+        let zone = FineZone { width: zone.width.min(width), ..zone };
+        let shape = Disk { radius, hub_radius: hub * radius, width, crown };
+        let mesh = disk(&shape, &zone).unwrap();
+        prop_assert_eq!(check(&mesh), Ok(()));
+        check_surfaces(&mesh);
+        let q = quality(&mesh);
+        prop_assert!(q.min_scaled_jacobian > 0.25, "{:?}", q);
+        // The columns have tapered by this much where the first row may coarsen.
+        let taper = 1.0 - (zone.depth + zone.size) / radius;
+        let crown = 1.0 - width * width / (8.0 * crown.unwrap_or(f64::INFINITY) * radius);
+        prop_assert!(q.min_thickness > 0.6 * taper * crown * zone.size, "{:?}", q);
+    }
+
+    #[test]
+    fn every_bar_is_sound_and_as_fast_as_its_zone(
+        zone in zones(),
+        length in 0.2..0.4f64,
+        width in 0.05..0.08f64,
+        height in 0.05..0.09f64,
+        crown in proptest::option::of(0.15..1.0f64),
+    ) {
+        let zone = FineZone { width: zone.width.min(width), ..zone };
+        let shape = Bar { length, width, height, crown, start: -0.06 };
+        let mesh = bar(&shape, &zone).unwrap();
+        prop_assert_eq!(check(&mesh), Ok(()));
+        check_surfaces(&mesh);
+        let q = quality(&mesh);
+        prop_assert!(q.min_scaled_jacobian > 0.35, "{:?}", q);
+        // A crown squeezes the edges by its drop and slants their faces.
+        let (squeeze, slant) = crown.map_or((1.0, 1.0), |c| {
+            let cos = (1.0 - (0.5 * width / c).powi(2)).sqrt();
+            (1.0 - c * (1.0 - cos) / height, cos)
+        });
+        prop_assert!(q.min_thickness > 0.75 * squeeze * slant * zone.size, "{:?}", q);
+    }
+}

@@ -1,0 +1,198 @@
+//! Writing beside the time loop, which then need not wait for compression.
+
+use crate::{History, OutputError, TransientGrid, Values};
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::thread::JoinHandle;
+
+/// The HDF5 files of one run.
+#[derive(Debug)]
+pub struct RunFiles {
+    /// `fields.vtkhdf`
+    pub fields: TransientGrid,
+    /// `contact.vtkhdf`
+    pub contact: TransientGrid,
+    /// `history.h5`
+    pub history: History,
+}
+
+/// A thread that owns the files of a run and appends what it is sent, in that order, so that the
+/// files hold the same bits as without it.
+///
+/// Data are copied into buffers that come back for reuse; when [`Self::WAITING`] messages wait,
+/// the sender waits too. An error stops the thread and is returned by the next call.
+#[derive(Debug)]
+pub struct BackgroundWriter {
+    sender: SyncSender<Message>,
+    spare: Receiver<Buffer>,
+    thread: Option<JoinHandle<Result<RunFiles, OutputError>>>,
+}
+
+#[derive(Clone, Copy)]
+enum Target {
+    Fields,
+    Contact,
+    History,
+}
+
+struct Message {
+    target: Target,
+    time: f64,
+    buffer: Buffer,
+}
+
+/// Flat copies of the values of one snapshot, or of history rows.
+#[derive(Default)]
+struct Buffer {
+    shapes: Vec<Shape>,
+    numbers: Vec<f64>,
+    integers: Vec<u8>,
+}
+
+struct Shape {
+    components: usize,
+    integer: bool,
+    count: usize,
+}
+
+impl BackgroundWriter {
+    /// Messages that may wait before a sender waits.
+    pub const WAITING: usize = 4;
+
+    /// Starts the thread.
+    pub fn start(files: RunFiles) -> Self {
+        let (sender, inbox) = sync_channel(Self::WAITING);
+        let (outbox, spare) = channel();
+        let thread = std::thread::spawn(move || write_all(files, &inbox, &outbox));
+        Self {
+            sender,
+            spare,
+            thread: Some(thread),
+        }
+    }
+
+    /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].
+    pub fn append_fields(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
+        self.send(Target::Fields, time, |buffer| buffer.fill(values))
+    }
+
+    /// Sends a snapshot for `contact.vtkhdf`; see [`TransientGrid::append`].
+    pub fn append_contact(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
+        self.send(Target::Contact, time, |buffer| buffer.fill(values))
+    }
+
+    /// Sends rows for `history.h5`; see [`History::append`].
+    pub fn append_history(&mut self, rows: &[f64]) -> Result<(), OutputError> {
+        self.send(Target::History, 0.0, |buffer| {
+            buffer.numbers.extend_from_slice(rows)
+        })
+    }
+
+    /// Waits until everything is written and returns the files.
+    pub fn finish(self) -> Result<RunFiles, OutputError> {
+        let Self { sender, thread, .. } = self;
+        drop(sender);
+        join(thread)
+    }
+
+    fn send(
+        &mut self,
+        target: Target,
+        time: f64,
+        fill: impl FnOnce(&mut Buffer),
+    ) -> Result<(), OutputError> {
+        let mut buffer = self.spare.try_recv().unwrap_or_default();
+        buffer.clear();
+        fill(&mut buffer);
+        match self.sender.send(Message {
+            target,
+            time,
+            buffer,
+        }) {
+            Ok(()) => Ok(()),
+            Err(_) => join(self.thread.take()).and(Err(OutputError::Stopped)),
+        }
+    }
+}
+
+impl Buffer {
+    fn clear(&mut self) {
+        self.shapes.clear();
+        self.numbers.clear();
+        self.integers.clear();
+    }
+
+    fn fill(&mut self, values: &[Values<'_>]) {
+        for value in values {
+            let integer = match *value {
+                Values::Scalar(values) => self.take(values),
+                Values::Vector(values) => self.take(values.as_flattened()),
+                Values::Tensor(values) => self.take(values.as_flattened()),
+                Values::Integer(values) => {
+                    self.integers.extend_from_slice(values);
+                    true
+                }
+            };
+            let (components, count) = (value.components(), value.count());
+            self.shapes.push(Shape {
+                components,
+                integer,
+                count,
+            });
+        }
+    }
+
+    fn take(&mut self, numbers: &[f64]) -> bool {
+        self.numbers.extend_from_slice(numbers);
+        false
+    }
+
+    fn values(&self) -> Vec<Values<'_>> {
+        let (mut numbers, mut integers) = (&self.numbers[..], &self.integers[..]);
+        let mut values = Vec::with_capacity(self.shapes.len());
+        for shape in &self.shapes {
+            if shape.integer {
+                let (mine, rest) = integers.split_at(shape.count);
+                integers = rest;
+                values.push(Values::Integer(mine));
+                continue;
+            }
+            let (mine, rest) = numbers.split_at(shape.count * shape.components);
+            numbers = rest;
+            values.push(match shape.components {
+                3 => Values::Vector(mine.as_chunks().0),
+                6 => Values::Tensor(mine.as_chunks().0),
+                _ => Values::Scalar(mine),
+            });
+        }
+        values
+    }
+}
+
+fn write_all(
+    mut files: RunFiles,
+    inbox: &Receiver<Message>,
+    outbox: &Sender<Buffer>,
+) -> Result<RunFiles, OutputError> {
+    for Message {
+        target,
+        time,
+        buffer,
+    } in inbox
+    {
+        match target {
+            Target::Fields => files.fields.append(time, &buffer.values())?,
+            Target::Contact => files.contact.append(time, &buffer.values())?,
+            Target::History => files.history.append(&buffer.numbers)?,
+        }
+        // A sender that has finished takes no buffers back.
+        let _ = outbox.send(buffer);
+    }
+    Ok(files)
+}
+
+fn join(
+    thread: Option<JoinHandle<Result<RunFiles, OutputError>>>,
+) -> Result<RunFiles, OutputError> {
+    let thread = thread.ok_or(OutputError::Stopped)?;
+    thread.join().unwrap_or(Err(OutputError::Stopped))
+}

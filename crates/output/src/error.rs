@@ -1,0 +1,53 @@
+use std::path::PathBuf;
+
+/// Why a file of a run could not be written or read, and what to do about it.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// A new file could not be written.
+    #[error(
+        "cannot create {}: {reason}; check that its folder exists and is writable and that the \
+         disk has room", path.display()
+    )]
+    Create {
+        /// The file.
+        path: PathBuf,
+        /// What the system or the HDF5 library said.
+        reason: String,
+    },
+    /// An existing file could not be extended.
+    #[error(
+        "cannot append to {}: {reason}; what it held before is still readable; check that the \
+         disk has room and that the file was not moved or removed", path.display()
+    )]
+    Append {
+        /// The file.
+        path: PathBuf,
+        /// What the system or the HDF5 library said.
+        reason: String,
+    },
+    /// A file could not be read.
+    #[error(
+        "cannot read {}: {reason}; check that it is a file written by creepage and whole",
+        path.display()
+    )]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system or the HDF5 library said.
+        reason: String,
+    },
+    /// The data handed over do not have the shape that the file was created with.
+    #[error("cannot write to {}: {problem}", path.display())]
+    Shape {
+        /// The file.
+        path: PathBuf,
+        /// What was expected, what was found, and the remedy.
+        problem: String,
+    },
+    /// The background writer is gone: an earlier error was already returned, or it panicked.
+    #[error(
+        "the background writer has stopped; what was written before is readable; the first error \
+         that it reported says why"
+    )]
+    Stopped,
+}

@@ -1,0 +1,489 @@
+//! One transient VTKHDF unstructured grid with a mesh that does not change.
+
+use crate::hdf5::{Appender, Creator, LayOut};
+use crate::{OutputError, Provenance};
+use std::path::{Path, PathBuf};
+
+/// Connectivity of a grid whose cells all have one shape; point indices from 0.
+#[derive(Clone, Copy, Debug)]
+pub enum Cells<'a> {
+    /// Eight-node bricks in `VTK_HEXAHEDRON` order (VTK cell type 12).
+    Hexahedra(&'a [[u32; 8]]),
+    /// Four-node faces, counter-clockwise seen from outside (VTK cell type 9).
+    Quads(&'a [[u32; 4]]),
+}
+
+impl Cells<'_> {
+    fn count(&self) -> usize {
+        match self {
+            Cells::Hexahedra(cells) => cells.len(),
+            Cells::Quads(cells) => cells.len(),
+        }
+    }
+
+    fn corners(&self) -> usize {
+        match self {
+            Cells::Hexahedra(_) => 8,
+            Cells::Quads(_) => 4,
+        }
+    }
+
+    fn vtk_type(&self) -> u8 {
+        match self {
+            Cells::Hexahedra(_) => 12,
+            Cells::Quads(_) => 9,
+        }
+    }
+
+    fn connectivity(&self) -> &[u32] {
+        match self {
+            Cells::Hexahedra(cells) => cells.as_flattened(),
+            Cells::Quads(cells) => cells.as_flattened(),
+        }
+    }
+}
+
+/// Values of one field at every point or every cell of a grid, in the units of its specification.
+#[derive(Clone, Copy, Debug)]
+pub enum Values<'a> {
+    /// One number each.
+    Scalar(&'a [f64]),
+    /// Components x, y, z.
+    Vector(&'a [[f64; 3]]),
+    /// Symmetric tensor in VTK's order: xx, yy, zz, xy, yz, xz.
+    Tensor(&'a [[f64; 6]]),
+    /// One small integer each (a label or a state).
+    Integer(&'a [u8]),
+}
+
+impl Values<'_> {
+    pub(crate) fn count(&self) -> usize {
+        match self {
+            Values::Scalar(values) => values.len(),
+            Values::Vector(values) => values.len(),
+            Values::Tensor(values) => values.len(),
+            Values::Integer(values) => values.len(),
+        }
+    }
+
+    pub(crate) fn components(&self) -> usize {
+        match self {
+            Values::Scalar(_) | Values::Integer(_) => 1,
+            Values::Vector(_) => 3,
+            Values::Tensor(_) => 6,
+        }
+    }
+
+    fn is_integer(&self) -> bool {
+        matches!(self, Values::Integer(_))
+    }
+}
+
+/// Name, units and shape of a field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FieldSpec {
+    /// Name of the dataset and of the array in viewers.
+    pub name: String,
+    /// SI units, `"1"` for a pure number.
+    pub units: String,
+    /// Numbers per point or cell: 1, 3 or 6.
+    pub components: usize,
+    /// Stored as unsigned bytes instead of `f64`.
+    pub integer: bool,
+    /// On cells instead of points.
+    pub on_cells: bool,
+    /// What the field is, in a phrase.
+    pub description: String,
+}
+
+impl FieldSpec {
+    /// A scalar, vector (3) or symmetric tensor (6) at the points.
+    pub fn at_points(name: &str, units: &str, components: usize, description: &str) -> Self {
+        Self {
+            name: name.into(),
+            units: units.into(),
+            components,
+            integer: false,
+            on_cells: false,
+            description: description.into(),
+        }
+    }
+
+    /// The same field on cells.
+    pub fn on_cells(self) -> Self {
+        Self {
+            on_cells: true,
+            ..self
+        }
+    }
+
+    /// The same field stored as unsigned bytes.
+    pub fn integer(self) -> Self {
+        Self {
+            integer: true,
+            ..self
+        }
+    }
+}
+
+/// A field that does not change in time, stored once.
+#[derive(Clone, Debug)]
+pub struct StaticField<'a> {
+    /// Name, units and shape.
+    pub spec: FieldSpec,
+    /// Its values at every point or cell.
+    pub values: Values<'a>,
+}
+
+/// The part of a grid that does not change in time.
+#[derive(Clone, Debug)]
+pub struct GridSpec<'a> {
+    /// Reference coordinates (m).
+    pub points: &'a [[f64; 3]],
+    /// Connectivity.
+    pub cells: Cells<'a>,
+    /// Fields stored once, such as `body`.
+    pub constant: &'a [StaticField<'a>],
+}
+
+/// Writer of one transient VTKHDF file; see the crate's documentation for when it is readable.
+#[derive(Debug)]
+pub struct TransientGrid {
+    path: PathBuf,
+    fields: Vec<FieldSpec>,
+    constant_names: Vec<(String, bool)>,
+    points: usize,
+    cells: usize,
+    steps: usize,
+}
+
+impl TransientGrid {
+    /// Writes mesh, constant fields and metadata to `path` (replacing what is there) and closes it.
+    pub fn create(
+        path: impl AsRef<Path>,
+        grid: &GridSpec<'_>,
+        fields: &[FieldSpec],
+        provenance: &Provenance,
+    ) -> Result<Self, OutputError> {
+        let writer = Self {
+            path: path.as_ref().to_owned(),
+            fields: fields.to_vec(),
+            constant_names: grid
+                .constant
+                .iter()
+                .map(|field| (field.spec.name.clone(), field.spec.on_cells))
+                .collect(),
+            points: grid.points.len(),
+            cells: grid.cells.count(),
+            steps: 0,
+        };
+        writer.check_grid(grid)?;
+        let mut file = Creator::new(&writer.path, provenance)?;
+        writer.lay_out_mesh(&mut file, grid)?;
+        writer.lay_out_fields(&mut file, grid)?;
+        writer.lay_out_steps(&mut file)?;
+        file.close()?;
+        Ok(writer)
+    }
+
+    /// Appends one snapshot: `values` in the order of the fields given to [`Self::create`].
+    pub fn append(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
+        self.check_values(values)?;
+        let step = self.steps as i64;
+        let mut file = Appender::open(&self.path)?;
+        for (spec, value) in self.fields.iter().zip(values) {
+            let name = data_path(&spec.name, spec.on_cells);
+            match *value {
+                Values::Scalar(values) => file.append(&name, values)?,
+                Values::Vector(values) => file.append(&name, values.as_flattened())?,
+                Values::Tensor(values) => file.append(&name, values.as_flattened())?,
+                Values::Integer(values) => file.append(&name, values)?,
+            }
+            let stride = self.count(spec.on_cells) as i64;
+            file.append(&offset_path(&spec.name, spec.on_cells), &[step * stride])?;
+        }
+        for (name, on_cells) in &self.constant_names {
+            file.append(&offset_path(name, *on_cells), &[0i64])?;
+        }
+        file.append("VTKHDF/Steps/Values", &[time])?;
+        file.append("VTKHDF/Steps/NumberOfParts", &[1i64])?;
+        for name in MESH_OFFSETS {
+            file.append(&format!("VTKHDF/Steps/{name}"), &[0i64])?;
+        }
+        file.close_with_count(&["VTKHDF", "Steps"], "NSteps", step + 1)?;
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// Number of snapshots written.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn count(&self, on_cells: bool) -> usize {
+        if on_cells { self.cells } else { self.points }
+    }
+
+    fn shape_error(&self, problem: String) -> OutputError {
+        OutputError::Shape {
+            path: self.path.clone(),
+            problem,
+        }
+    }
+
+    fn check_grid(&self, grid: &GridSpec<'_>) -> Result<(), OutputError> {
+        if self.points == 0 || self.cells == 0 {
+            return Err(self.shape_error(format!(
+                "the grid has {} points and {} cells; it needs at least one of each",
+                self.points, self.cells
+            )));
+        }
+        if let Some(index) = grid
+            .cells
+            .connectivity()
+            .iter()
+            .find(|&&index| index as usize >= self.points)
+        {
+            return Err(self.shape_error(format!(
+                "a cell names point {index}, but the grid has only {} points (numbered from 0)",
+                self.points
+            )));
+        }
+        let constant = grid.constant.iter().map(|field| &field.spec);
+        let mut seen = std::collections::BTreeSet::new();
+        for spec in constant.chain(&self.fields) {
+            if spec.name.is_empty() || spec.name.contains('/') {
+                return Err(self.shape_error(format!(
+                    "`{}` cannot name a field: use a name that is not empty and has no `/`",
+                    spec.name
+                )));
+            }
+            if ![1, 3, 6].contains(&spec.components) || (spec.integer && spec.components != 1) {
+                return Err(self.shape_error(format!(
+                    "field `{}` has {} components; 1, 3 or 6 numbers or one integer can be written",
+                    spec.name, spec.components
+                )));
+            }
+            if !seen.insert((spec.on_cells, &spec.name)) {
+                return Err(self.shape_error(format!(
+                    "field `{}` is given twice; names must differ",
+                    spec.name
+                )));
+            }
+        }
+        for field in grid.constant {
+            self.check_field(&field.spec, &field.values)?;
+        }
+        Ok(())
+    }
+
+    fn check_values(&self, values: &[Values<'_>]) -> Result<(), OutputError> {
+        if values.len() != self.fields.len() {
+            return Err(self.shape_error(format!(
+                "{} fields handed over, {} expected: pass one per field, in order",
+                values.len(),
+                self.fields.len()
+            )));
+        }
+        self.fields
+            .iter()
+            .zip(values)
+            .try_for_each(|(spec, values)| self.check_field(spec, values))
+    }
+
+    fn check_field(&self, spec: &FieldSpec, values: &Values<'_>) -> Result<(), OutputError> {
+        let count = self.count(spec.on_cells);
+        let fits = values.count() == count
+            && values.components() == spec.components
+            && values.is_integer() == spec.integer;
+        if fits {
+            return Ok(());
+        }
+        Err(self.shape_error(format!(
+            "field `{}` takes {count} x {} {}, but {} x {} {} were handed over",
+            spec.name,
+            spec.components,
+            if spec.integer { "integers" } else { "numbers" },
+            values.count(),
+            values.components(),
+            if values.is_integer() {
+                "integers"
+            } else {
+                "numbers"
+            },
+        )))
+    }
+
+    fn lay_out_mesh(&self, file: &mut Creator, grid: &GridSpec<'_>) -> Result<(), OutputError> {
+        file.group(&["VTKHDF"])?;
+        file.vtkhdf_header("UnstructuredGrid")?;
+        let corners = grid.cells.corners();
+        let connectivity: Vec<i64> = grid
+            .cells
+            .connectivity()
+            .iter()
+            .map(|&index| i64::from(index))
+            .collect();
+        let offsets: Vec<i64> = (0..=self.cells)
+            .map(|cell| (cell * corners) as i64)
+            .collect();
+        let types = vec![grid.cells.vtk_type(); self.cells];
+        let at = |name: &'static str, units, components, description| LayOut {
+            group: &["VTKHDF"],
+            name,
+            units,
+            components,
+            description,
+        };
+        file.constant(
+            &at("Points", "m", 3, "reference coordinates"),
+            grid.points.as_flattened(),
+        )?;
+        file.constant(
+            &at(
+                "Connectivity",
+                "1",
+                1,
+                "point indices of the cells, one cell after the other",
+            ),
+            &connectivity,
+        )?;
+        file.constant(
+            &at(
+                "Offsets",
+                "1",
+                1,
+                "where each cell starts in Connectivity, and its end",
+            ),
+            &offsets,
+        )?;
+        file.constant(&at("Types", "1", 1, "VTK cell type"), &types)?;
+        for (name, count, description) in [
+            ("NumberOfPoints", self.points, "points of the only part"),
+            ("NumberOfCells", self.cells, "cells of the only part"),
+            (
+                "NumberOfConnectivityIds",
+                connectivity.len(),
+                "length of Connectivity",
+            ),
+        ] {
+            file.constant(&at(name, "1", 1, description), &[count as i64])?;
+        }
+        Ok(())
+    }
+
+    fn lay_out_fields(&self, file: &mut Creator, grid: &GridSpec<'_>) -> Result<(), OutputError> {
+        file.group(&["VTKHDF", "PointData"])?;
+        file.group(&["VTKHDF", "CellData"])?;
+        for StaticField { spec, values } in grid.constant {
+            let place = place(spec);
+            match *values {
+                Values::Scalar(values) => file.constant(&place, values)?,
+                Values::Vector(values) => file.constant(&place, values.as_flattened())?,
+                Values::Tensor(values) => file.constant(&place, values.as_flattened())?,
+                Values::Integer(values) => file.constant(&place, values)?,
+            }
+        }
+        for spec in &self.fields {
+            let rows = self.count(spec.on_cells);
+            if spec.integer {
+                file.snapshots::<u8>(&place(spec), rows)?;
+            } else {
+                file.snapshots::<f64>(&place(spec), rows)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn lay_out_steps(&self, file: &mut Creator) -> Result<(), OutputError> {
+        let steps = ["VTKHDF", "Steps"];
+        file.group(&steps)?;
+        let at = |name, units, description| LayOut {
+            group: &steps,
+            name,
+            units,
+            components: 1,
+            description,
+        };
+        file.rows::<f64>(&at("Values", "s", "simulated time of each step"))?;
+        file.rows::<i64>(&at("NumberOfParts", "1", "parts of each step"))?;
+        file.rows::<i64>(&at("PartOffsets", "1", "first part of each step"))?;
+        for name in &MESH_OFFSETS[1..] {
+            // VTK wants one column per topology here, and an unstructured grid has one.
+            file.column::<i64>(&at(name, "1", "the mesh is the same for all steps"))?;
+        }
+        let groups = [false, true].map(offset_group);
+        for group in &groups {
+            file.group(group)?;
+        }
+        let constant = grid_names(&self.constant_names);
+        let transient = self
+            .fields
+            .iter()
+            .map(|spec| (spec.name.as_str(), spec.on_cells));
+        for (name, on_cells) in transient.chain(constant) {
+            file.rows::<i64>(&LayOut {
+                group: &groups[usize::from(on_cells)],
+                name,
+                units: "1",
+                components: 1,
+                description: "first row of each step in the array of this name",
+            })?;
+        }
+        file.count(&steps, "NSteps", 0)
+    }
+}
+
+/// Offsets into the mesh at each step, all zero since the mesh is stored once.
+const MESH_OFFSETS: [&str; 4] = [
+    "PartOffsets",
+    "PointOffsets",
+    "CellOffsets",
+    "ConnectivityIdOffsets",
+];
+
+fn grid_names(names: &[(String, bool)]) -> impl Iterator<Item = (&str, bool)> {
+    names
+        .iter()
+        .map(|(name, on_cells)| (name.as_str(), *on_cells))
+}
+
+fn place(spec: &FieldSpec) -> LayOut<'_> {
+    LayOut {
+        group: if spec.on_cells {
+            &["VTKHDF", "CellData"]
+        } else {
+            &["VTKHDF", "PointData"]
+        },
+        name: &spec.name,
+        units: &spec.units,
+        components: spec.components,
+        description: &spec.description,
+    }
+}
+
+fn offset_group(on_cells: bool) -> [&'static str; 3] {
+    [
+        "VTKHDF",
+        "Steps",
+        if on_cells {
+            "CellDataOffsets"
+        } else {
+            "PointDataOffsets"
+        },
+    ]
+}
+
+pub(crate) fn data_path(name: &str, on_cells: bool) -> String {
+    let group = if on_cells { "CellData" } else { "PointData" };
+    format!("VTKHDF/{group}/{name}")
+}
+
+fn offset_path(name: &str, on_cells: bool) -> String {
+    format!("{}/{name}", offset_group(on_cells).join("/"))
+}

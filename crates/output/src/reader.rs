@@ -1,0 +1,197 @@
+//! Reading back what the writers wrote, also while the run goes on or after it was killed.
+//!
+//! A closing writer puts data on disk first, dataset headers after them and the counts `NSteps`
+//! and `rows` last. What every dataset has is therefore complete; a kill between the headers leaves
+//! some datasets one snapshot longer than others, and the readers ignore the excess. (They go by
+//! the lengths because the HDF5 library does not read numbers from a group's attributes.)
+
+use crate::OutputError;
+use crate::grid::data_path;
+use crate::hdf5::{Source, read_error};
+use std::path::Path;
+
+/// A dataset as a reader finds it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FieldInfo {
+    /// Name of the dataset.
+    pub name: String,
+    /// Its `units` attribute.
+    pub units: String,
+    /// Numbers per point, cell or row.
+    pub components: usize,
+    /// Stored as unsigned bytes.
+    pub integer: bool,
+    /// On cells instead of points.
+    pub on_cells: bool,
+    /// Stored once for all steps.
+    pub constant: bool,
+}
+
+/// Reader of a file written by [`TransientGrid`](crate::TransientGrid). It sees the steps that
+/// were complete when it was opened.
+pub struct GridFile {
+    source: Source,
+    points: usize,
+    cells: usize,
+    steps: usize,
+    fields: Vec<FieldInfo>,
+}
+
+impl GridFile {
+    /// Opens `path` without locking it.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, OutputError> {
+        let source = Source::open(path.as_ref())?;
+        let points = first(&source, "VTKHDF/NumberOfPoints")?;
+        let cells = first(&source, "VTKHDF/NumberOfCells")?;
+        let steps = source.length("VTKHDF/Steps/Values")?;
+        let mut file = Self {
+            source,
+            points,
+            cells,
+            steps,
+            fields: Vec::new(),
+        };
+        for on_cells in [false, true] {
+            let group = if on_cells { "CellData" } else { "PointData" };
+            for name in file.source.names(&["VTKHDF", group])? {
+                let (info, rows) = file.describe(name, on_cells)?;
+                if !info.constant {
+                    file.steps = file.steps.min(rows / file.count(on_cells).max(1));
+                }
+                file.fields.push(info);
+            }
+        }
+        Ok(file)
+    }
+
+    /// Number of complete steps.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Simulated time of each step (s).
+    pub fn times(&self) -> Result<Vec<f64>, OutputError> {
+        self.source.rows("VTKHDF/Steps/Values", 0, self.steps)
+    }
+
+    /// The fields, points first, each group in the order of names.
+    pub fn fields(&self) -> &[FieldInfo] {
+        &self.fields
+    }
+
+    /// Root attribute such as `case_hash`.
+    pub fn provenance(&self, attribute: &str) -> Result<String, OutputError> {
+        self.source.root_text(attribute)
+    }
+
+    /// Reference coordinates (m).
+    pub fn points(&self) -> Result<Vec<[f64; 3]>, OutputError> {
+        let flat = self.source.rows("VTKHDF/Points", 0, self.points)?;
+        Ok(flat.as_chunks::<3>().0.to_vec())
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.cells
+    }
+
+    /// Point indices of all cells, one cell after the other.
+    pub fn connectivity(&self) -> Result<Vec<u32>, OutputError> {
+        let length = first(&self.source, "VTKHDF/NumberOfConnectivityIds")?;
+        let flat = self.source.rows("VTKHDF/Connectivity", 0, length)?;
+        Ok(flat.into_iter().map(|index| index as u32).collect())
+    }
+
+    /// Values of a field at one step, point after point (or cell after cell), components together.
+    pub fn read(&self, name: &str, on_cells: bool, step: usize) -> Result<Vec<f64>, OutputError> {
+        let Some(field) = self
+            .fields
+            .iter()
+            .find(|f| f.name == name && f.on_cells == on_cells)
+        else {
+            let names: Vec<_> = self.fields.iter().map(|f| f.name.as_str()).collect();
+            return Err(self.error(format!("no field `{name}`; it has {}", names.join(", "))));
+        };
+        if step >= self.steps && !field.constant {
+            return Err(self.error(format!("no step {step}; it has {} steps", self.steps)));
+        }
+        let count = self.count(on_cells);
+        let start = if field.constant { 0 } else { step * count };
+        self.source.rows(&data_path(name, on_cells), start, count)
+    }
+
+    fn error(&self, reason: String) -> OutputError {
+        read_error(self.source.path(), reason)
+    }
+
+    fn count(&self, on_cells: bool) -> usize {
+        if on_cells { self.cells } else { self.points }
+    }
+
+    /// The field and the length of its dataset.
+    fn describe(&self, name: String, on_cells: bool) -> Result<(FieldInfo, usize), OutputError> {
+        let path = data_path(&name, on_cells);
+        let shape = self.source.shape(&path)?;
+        let info = FieldInfo {
+            units: self.source.text(&path, "units")?,
+            components: shape.get(1).copied().unwrap_or(1),
+            integer: self.source.is_bytes(&path)?,
+            on_cells,
+            constant: self.source.is_fixed(&path)?,
+            name,
+        };
+        Ok((info, shape.first().copied().unwrap_or(0)))
+    }
+}
+
+/// Reader of a file written by [`History`](crate::History).
+pub struct HistoryFile {
+    source: Source,
+    rows: usize,
+}
+
+impl HistoryFile {
+    /// Opens `path` without locking it.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, OutputError> {
+        let source = Source::open(path.as_ref())?;
+        let lengths = source
+            .names(&[])?
+            .into_iter()
+            .map(|name| source.length(&name));
+        let rows = lengths.reduce(|a, b| Ok(a?.min(b?))).unwrap_or(Ok(0))?;
+        Ok(Self { source, rows })
+    }
+
+    /// Number of complete rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Names of the columns, sorted.
+    pub fn columns(&self) -> Result<Vec<String>, OutputError> {
+        self.source.names(&[])
+    }
+
+    /// Units of a column.
+    pub fn units(&self, column: &str) -> Result<String, OutputError> {
+        self.source.text(column, "units")
+    }
+
+    /// Root attribute such as `case_hash`.
+    pub fn provenance(&self, attribute: &str) -> Result<String, OutputError> {
+        self.source.root_text(attribute)
+    }
+
+    /// All complete rows of a column.
+    pub fn read(&self, column: &str) -> Result<Vec<f64>, OutputError> {
+        self.source.rows(column, 0, self.rows)
+    }
+}
+
+fn first(source: &Source, dataset: &str) -> Result<usize, OutputError> {
+    let values = source.rows(dataset, 0, 1)?;
+    let value = values.first().copied();
+    value
+        .map(|count| count as usize)
+        .ok_or_else(|| read_error(source.path(), format!("`{dataset}` is empty")))
+}

@@ -1,0 +1,69 @@
+//! Lumped mass.
+
+use crate::geometry::{CORNERS, cross, dot};
+use mesh::Mesh;
+
+/// Row-sum lumped nodal mass m_I = integral of rho N_I (kg), 2x2x2 Gauss.
+///
+/// `density` holds one value per body (kg/m^3).
+pub fn lumped_mass(mesh: &Mesh, density: &[f64]) -> Vec<f64> {
+    let mut mass = vec![0.0; mesh.nodes.len()];
+    for (body, rho) in mesh.bodies.iter().zip(density) {
+        for hex in &mesh.hexes[body.hexes.clone()] {
+            let x = hex.map(|n| mesh.nodes[n as usize]);
+            for (n, v) in hex.iter().zip(nodal_volumes(&x)) {
+                mass[*n as usize] += rho * v;
+            }
+        }
+    }
+    mass
+}
+
+/// Integral of each shape function over the element (m^3).
+pub(crate) fn nodal_volumes(x: &[[f64; 3]; 8]) -> [f64; 8] {
+    let p = 1.0 / 3f64.sqrt();
+    let mut volumes = [0.0; 8];
+    for point in CORNERS {
+        let [r, s, t] = point.map(|c| c * p);
+        let mut jacobian = [[0.0; 3]; 3];
+        let mut shape = [0.0; 8];
+        for (node, c) in CORNERS.iter().enumerate() {
+            let f = [1.0 + r * c[0], 1.0 + s * c[1], 1.0 + t * c[2]];
+            shape[node] = f[0] * f[1] * f[2] / 8.0;
+            let d = [c[0] * f[1] * f[2], c[1] * f[0] * f[2], c[2] * f[0] * f[1]];
+            for k in 0..3 {
+                for i in 0..3 {
+                    jacobian[k][i] += d[k] / 8.0 * x[node][i];
+                }
+            }
+        }
+        let det = dot(jacobian[0], cross(jacobian[1], jacobian[2]));
+        for (volume, n) in volumes.iter_mut().zip(shape) {
+            *volume += n * det;
+        }
+    }
+    volumes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::mean_gradient;
+    use crate::geometry::tests::distorted;
+
+    #[test]
+    fn nodal_volumes_sum_to_the_volume_of_a_distorted_element() {
+        let x = distorted();
+        let sum: f64 = nodal_volumes(&x).iter().sum();
+        assert!((sum - mean_gradient(&x).0).abs() < 1e-14);
+        assert!(nodal_volumes(&x).iter().all(|v| *v > 0.0));
+    }
+
+    #[test]
+    fn a_cube_lumps_an_eighth_to_each_corner() {
+        let x = CORNERS.map(|c| c.map(|v| 0.5 * v));
+        for v in nodal_volumes(&x) {
+            assert!((v - 0.125).abs() < 1e-15);
+        }
+    }
+}

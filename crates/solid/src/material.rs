@@ -1,0 +1,119 @@
+//! Isotropic linear elasticity.
+
+use thiserror::Error;
+
+/// A homogeneous isotropic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Young's modulus E (Pa).
+    pub young: f64,
+    /// Poisson's ratio nu.
+    pub poisson: f64,
+    /// Density rho in the reference configuration (kg/m^3).
+    pub density: f64,
+}
+
+/// A material that is no material.
+#[derive(Debug, Error, PartialEq)]
+#[error("material: {key} = {value} is outside {range}")]
+pub struct MaterialError {
+    /// Which property.
+    pub key: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What is allowed.
+    pub range: &'static str,
+}
+
+impl Material {
+    /// The material, if its constants are physical.
+    pub fn checked(self) -> Result<Self, MaterialError> {
+        let positive = |key, value: f64| {
+            if value.is_finite() && value > 0.0 {
+                Ok(())
+            } else {
+                Err(MaterialError {
+                    key,
+                    value,
+                    range: "(0, inf)",
+                })
+            }
+        };
+        positive("young", self.young)?;
+        positive("density", self.density)?;
+        if !(self.poisson > -1.0 && self.poisson < 0.5) {
+            return Err(MaterialError {
+                key: "poisson",
+                value: self.poisson,
+                range: "(-1, 0.5)",
+            });
+        }
+        Ok(self)
+    }
+
+    /// First Lamé constant lambda = E nu/((1 + nu)(1 - 2 nu)) (Pa).
+    pub fn lame(&self) -> f64 {
+        self.young * self.poisson / ((1.0 + self.poisson) * (1.0 - 2.0 * self.poisson))
+    }
+
+    /// Shear modulus G = E/(2(1 + nu)) (Pa).
+    pub fn shear(&self) -> f64 {
+        self.young / (2.0 * (1.0 + self.poisson))
+    }
+
+    /// Bulk modulus K = E/(3(1 - 2 nu)) (Pa).
+    pub fn bulk(&self) -> f64 {
+        self.young / (3.0 * (1.0 - 2.0 * self.poisson))
+    }
+
+    /// P-wave modulus lambda + 2G (Pa).
+    pub fn p_modulus(&self) -> f64 {
+        self.lame() + 2.0 * self.shear()
+    }
+
+    /// Dilatational wave speed c_p = sqrt((lambda + 2G)/rho) (m/s).
+    pub fn c_p(&self) -> f64 {
+        (self.p_modulus() / self.density).sqrt()
+    }
+
+    /// Shear wave speed c_s = sqrt(G/rho) (m/s).
+    pub fn c_s(&self) -> f64 {
+        (self.shear() / self.density).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steel_has_the_wave_speeds_of_the_reference_model() {
+        let steel = Material {
+            young: 210e9,
+            poisson: 0.3,
+            density: 7850.0,
+        };
+        assert!((steel.c_p() - 6001.0).abs() < 0.5, "{}", steel.c_p());
+        assert!((steel.c_s() - 3208.0).abs() < 0.5, "{}", steel.c_s());
+        assert!((steel.bulk() - 175e9).abs() < 1.0);
+    }
+
+    #[test]
+    fn an_incompressible_material_is_refused() {
+        let m = Material {
+            young: 1.0,
+            poisson: 0.5,
+            density: 1.0,
+        };
+        assert!(m.checked().is_err());
+        assert!(
+            Material {
+                poisson: 0.3,
+                young: f64::NAN,
+                ..m
+            }
+            .checked()
+            .is_err()
+        );
+    }
+}

@@ -1,0 +1,425 @@
+//! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
+
+use crate::blocks::{Batch, Block, Blocks};
+use crate::geometry::displacement_gradient;
+use crate::kernel::{Arrays, Constants, Sums, block_force};
+use crate::lanes::Level;
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::x86;
+use crate::material::{Material, MaterialError};
+use mesh::{Mesh, Padded};
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Element options.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Element {
+    /// Flanagan–Belytschko hourglass stiffness coefficient kappa; 0.05 is usual.
+    pub hourglass: f64,
+}
+
+/// Viscous stresses in the elements, each zero by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Viscosity {
+    /// Linear bulk viscosity coefficient b1 (0.06 is usual): q = b1 rho c_p l |tr dE/dt|.
+    pub bulk_linear: f64,
+    /// Quadratic bulk viscosity coefficient b2 (1.2 to 1.5): q = b2^2 rho l^2 (tr dE/dt)^2.
+    pub bulk_quadratic: f64,
+    /// Kelvin–Voigt time eta (s): S_v = eta C : dE/dt.
+    pub kelvin_voigt: f64,
+}
+
+impl Viscosity {
+    /// Whether any viscous stress acts.
+    pub fn any(&self) -> bool {
+        self.bulk_linear != 0.0 || self.bulk_quadratic != 0.0 || self.kelvin_voigt != 0.0
+    }
+}
+
+/// What an evaluation of the internal force found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForceSums {
+    /// Strain energy (J); zero unless energies were asked for.
+    pub internal: f64,
+    /// Hourglass energy (J); zero unless energies were asked for.
+    pub hourglass: f64,
+    /// Power dissipated by viscous stresses (W).
+    pub viscous_power: f64,
+}
+
+/// Why a solid cannot be set up.
+#[derive(Debug, Error)]
+pub enum SolidError {
+    /// A body's material is not physical.
+    #[error("body '{body}': {source}")]
+    Material {
+        /// Name of the body.
+        body: String,
+        /// The offending property.
+        source: MaterialError,
+    },
+    /// An element has no volume.
+    #[error(
+        "element {element} of body '{body}' has volume {volume:e} m^3; its nodes are ordered inside out or it is degenerate"
+    )]
+    Inverted {
+        /// Name of the body.
+        body: String,
+        /// Index in the mesh.
+        element: usize,
+        /// Its signed volume (m^3).
+        volume: f64,
+    },
+    /// The instruction set does not exist on this machine.
+    #[error("this machine has no {0} instructions")]
+    Level(&'static str),
+    /// Number of materials and of bodies differ.
+    #[error("{bodies} bodies need as many materials, not {materials}")]
+    Count {
+        /// Bodies in the mesh.
+        bodies: usize,
+        /// Materials given.
+        materials: usize,
+    },
+}
+
+type Kernel = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
+
+/// All elements of a mesh with their materials.
+pub struct Solid {
+    reference: Vec<Padded>,
+    blocks: Blocks,
+    constants: Vec<Constants>,
+    sums: Vec<Sums>,
+    level: Level,
+    viscous: bool,
+    hexes: Vec<[u32; 8]>,
+    bodies: Vec<(std::ops::Range<usize>, Material)>,
+}
+
+impl Solid {
+    /// One material per body of `mesh`, in order.
+    pub fn new(
+        mesh: &Mesh,
+        materials: &[Material],
+        element: Element,
+        viscosity: Viscosity,
+        level: Level,
+    ) -> Result<Self, SolidError> {
+        if mesh.bodies.len() != materials.len() {
+            return Err(SolidError::Count {
+                bodies: mesh.bodies.len(),
+                materials: materials.len(),
+            });
+        }
+        if !level.available() {
+            return Err(SolidError::Level(level.name()));
+        }
+        for (body, material) in mesh.bodies.iter().zip(materials) {
+            material.checked().map_err(|source| SolidError::Material {
+                body: body.name.clone(),
+                source,
+            })?;
+            for element in body.hexes.clone() {
+                let x = mesh.hexes[element].map(|n| mesh.nodes[n as usize]);
+                let (volume, _) = crate::mean_gradient(&x);
+                if volume.is_nan() || volume <= 0.0 {
+                    let body = body.name.clone();
+                    return Err(SolidError::Inverted {
+                        body,
+                        element,
+                        volume,
+                    });
+                }
+            }
+        }
+        let constants = materials
+            .iter()
+            .map(|m| Constants {
+                lambda: m.lame() / 64.0,
+                shear: m.shear() / 64.0,
+                hourglass: element.hourglass * m.p_modulus() / 192.0,
+                kelvin_voigt: viscosity.kelvin_voigt,
+                bulk_linear: viscosity.bulk_linear * m.density * m.c_p() / 64.0,
+                bulk_quadratic: viscosity.bulk_quadratic.powi(2) * m.density / 64.0,
+            })
+            .collect();
+        let blocks = Blocks::new(mesh);
+        Ok(Self {
+            reference: mesh.nodes.iter().map(|x| Padded::new(*x)).collect(),
+            sums: vec![[0.0; 3]; blocks.blocks.len()],
+            blocks,
+            constants,
+            level,
+            viscous: viscosity.any(),
+            hexes: mesh.hexes.clone(),
+            bodies: mesh
+                .bodies
+                .iter()
+                .map(|b| b.hexes.clone())
+                .zip(materials.to_vec())
+                .collect(),
+        })
+    }
+
+    /// Reference coordinates of the nodes (m).
+    pub fn reference(&self) -> &[Padded] {
+        &self.reference
+    }
+
+    /// The instruction set in use.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// Number of elements.
+    pub fn elements(&self) -> usize {
+        self.hexes.len()
+    }
+
+    /// Bytes held per element for the time loop: connectivity in batches.
+    pub fn bytes(&self) -> usize {
+        self.blocks.batches.len() * size_of::<Batch>()
+            + self.reference.len() * size_of::<Padded>()
+            + self.hexes.len() * size_of::<[u32; 8]>()
+    }
+
+    /// `force -= f_int(u, v)` (N). Viscous stresses take `velocity` at the last half step (m/s).
+    ///
+    /// All arrays hold one entry per node. The result does not depend on the number of threads.
+    ///
+    /// # Panics
+    /// If an array is shorter than the number of nodes.
+    pub fn subtract_internal_force(
+        &mut self,
+        displacement: &[Padded],
+        velocity: &[Padded],
+        force: &mut [Padded],
+        energies: bool,
+    ) -> ForceSums {
+        self.run(displacement, velocity, force, energies, self.viscous)
+    }
+
+    /// `y += K x` with the stiffness of the undeformed state (N, for x in m).
+    ///
+    /// The element has no separate tangent: x is scaled so small that the force is linear in it
+    /// to 1e-9, which costs no accuracy because H is formed from displacements alone.
+    pub fn add_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
+        let largest = x
+            .iter()
+            .flat_map(|v| v.xyz())
+            .fold(0.0f64, |m, c| m.max(c.abs()));
+        if largest == 0.0 {
+            return;
+        }
+        const AMPLITUDE: f64 = 1e-13; // m: strains near 1e-10 in millimetre elements
+        let factor = AMPLITUDE / largest;
+        let scaled: Vec<_> = x.iter().map(|v| Padded(v.0.map(|c| c * factor))).collect();
+        let mut force = vec![Padded::ZERO; y.len()];
+        self.run(&scaled, &[], &mut force, false, false);
+        for (y, f) in y.iter_mut().zip(&force) {
+            for i in 0..3 {
+                y.0[i] -= f.0[i] / factor;
+            }
+        }
+    }
+
+    fn run(
+        &mut self,
+        displacement: &[Padded],
+        velocity: &[Padded],
+        force: &mut [Padded],
+        energies: bool,
+        viscous: bool,
+    ) -> ForceSums {
+        let nodes = self.reference.len();
+        assert!(displacement.len() >= nodes && force.len() >= nodes);
+        assert!(!viscous || velocity.len() >= nodes);
+        let kernel = kernel(self.level, energies, viscous);
+        let arrays = Shared(Arrays {
+            reference: self.reference.as_ptr(),
+            displacement: displacement.as_ptr(),
+            velocity: velocity.as_ptr(),
+            force: force.as_mut_ptr(),
+        });
+        let sums = SharedSums(self.sums.as_mut_ptr());
+        let Blocks {
+            batches,
+            blocks,
+            colours,
+        } = &self.blocks;
+        let constants = &self.constants;
+        let run = |&b: &u32| {
+            let (arrays, sums) = (&arrays, &sums);
+            let block: &Block = &blocks[b as usize];
+            // SAFETY: the level was checked in `new`; node indices were taken from the mesh whose
+            // node count the asserts above compare; blocks of one colour share no nodes, colours
+            // run one after the other, and each block writes its own entry of `sums`.
+            unsafe {
+                *sums.0.add(b as usize) = kernel(
+                    &batches[block.batches.clone()],
+                    block.elements,
+                    &constants[block.body],
+                    arrays.0,
+                );
+            }
+        };
+        if rayon::current_num_threads() == 1 {
+            colours.iter().flatten().for_each(run);
+        } else {
+            for colour in colours {
+                colour.par_iter().for_each(run);
+            }
+        }
+        let mut total = [0.0; 3];
+        if energies || viscous {
+            for s in &self.sums {
+                for i in 0..3 {
+                    total[i] += s[i];
+                }
+            }
+        }
+        ForceSums {
+            internal: total[0],
+            hourglass: total[1],
+            viscous_power: total[2],
+        }
+    }
+
+    /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts.
+    pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
+        for (range, material) in &self.bodies {
+            stress[range.clone()]
+                .par_iter_mut()
+                .zip(&self.hexes[range.clone()])
+                .for_each(|(out, hex)| {
+                    let x = hex.map(|n| self.reference[n as usize].xyz());
+                    let u = hex.map(|n| displacement[n as usize].xyz());
+                    *out = cauchy(&displacement_gradient(&x, &u).0, material);
+                });
+        }
+    }
+
+    /// The element with the smallest det F, its body and the value: below zero it is inside out.
+    pub fn smallest_jacobian(&self, displacement: &[Padded]) -> (usize, usize, f64) {
+        let mut worst = (0, 0, f64::INFINITY);
+        for (body, (range, _)) in self.bodies.iter().enumerate() {
+            for element in range.clone() {
+                let hex = self.hexes[element];
+                let x = hex.map(|n| self.reference[n as usize].xyz());
+                let u = hex.map(|n| displacement[n as usize].xyz());
+                let det = determinant(&deformation(&displacement_gradient(&x, &u).0));
+                if det < worst.2 || det.is_nan() {
+                    worst = (element, body, det);
+                    if det.is_nan() {
+                        return worst;
+                    }
+                }
+            }
+        }
+        worst
+    }
+
+    /// Centre of an element in the reference configuration (m).
+    pub fn centre(&self, element: usize) -> [f64; 3] {
+        let mut c = [0.0; 3];
+        for n in self.hexes[element] {
+            for i in 0..3 {
+                c[i] += self.reference[n as usize].0[i] / 8.0;
+            }
+        }
+        c
+    }
+}
+
+fn deformation(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let mut f = *h;
+    for i in 0..3 {
+        f[i][i] += 1.0;
+    }
+    f
+}
+
+fn determinant(f: &[[f64; 3]; 3]) -> f64 {
+    crate::geometry::dot(f[0], crate::geometry::cross(f[1], f[2]))
+}
+
+/// sigma = F S F^T/det F with S = lambda tr(E) I + 2G E.
+fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
+    let f = deformation(h);
+    let mut e = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            let quadratic: f64 = (0..3).map(|k| h[k][i] * h[k][j]).sum();
+            e[i][j] = 0.5 * (h[i][j] + h[j][i] + quadratic);
+        }
+    }
+    let pressure = material.lame() * (e[0][0] + e[1][1] + e[2][2]);
+    let mut s = e.map(|row| row.map(|c| 2.0 * material.shear() * c));
+    for i in 0..3 {
+        s[i][i] += pressure;
+    }
+    let det = determinant(&f);
+    let component = |i: usize, j: usize| {
+        let mut sum = 0.0;
+        for k in 0..3 {
+            for l in 0..3 {
+                sum += f[i][k] * s[k][l] * f[j][l];
+            }
+        }
+        sum / det
+    };
+    [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| component(i, j))
+}
+
+struct Shared(Arrays);
+// SAFETY: threads write disjoint nodes (see `Solid::run`).
+unsafe impl Sync for Shared {}
+struct SharedSums(*mut Sums);
+// SAFETY: threads write disjoint entries (see `Solid::run`).
+unsafe impl Sync for SharedSums {}
+
+macro_rules! level_kernels {
+    ($name:ident, $lanes:ty $(, $features:literal)?) => {
+        /// The kernel for this level and these options.
+        fn $name(energies: bool, viscous: bool) -> Kernel {
+            $(#[target_feature(enable = $features)])?
+            unsafe fn run<const ENERGY: bool, const VISCOUS: bool>(
+                batches: &[Batch],
+                elements: usize,
+                constants: &Constants,
+                arrays: Arrays,
+            ) -> Sums {
+                // SAFETY: the caller's contract is that of `block_force`.
+                unsafe {
+                    block_force::<$lanes, ENERGY, VISCOUS>(batches, elements, constants, arrays)
+                }
+            }
+            match (energies, viscous) {
+                (false, false) => run::<false, false>,
+                (false, true) => run::<false, true>,
+                (true, false) => run::<true, false>,
+                (true, true) => run::<true, true>,
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+level_kernels!(avx512, x86::F64x8, "avx512f,avx2,fma");
+#[cfg(target_arch = "x86_64")]
+level_kernels!(avx2, x86::F64x4, "avx2,fma");
+level_kernels!(portable, f64);
+
+fn kernel(level: Level, energies: bool, viscous: bool) -> Kernel {
+    match level {
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => avx512(energies, viscous),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => avx2(energies, viscous),
+        _ => portable(energies, viscous),
+    }
+}
+
+#[cfg(test)]
+mod tests;

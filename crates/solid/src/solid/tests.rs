@@ -1,0 +1,404 @@
+#![allow(clippy::unwrap_used)]
+use super::*;
+use crate::geometry::CORNERS;
+use crate::{lumped_mass, mean_gradient};
+use mesh::Body;
+
+const STEEL: Material = Material {
+    young: 210e9,
+    poisson: 0.3,
+    density: 7850.0,
+};
+const ELEMENT: Element = Element { hourglass: 0.05 };
+const LEVELS: [Level; 3] = [Level::Portable, Level::Avx2, Level::Avx512];
+
+fn solid(mesh: &Mesh, level: Level) -> Solid {
+    Solid::new(mesh, &[STEEL], ELEMENT, Viscosity::default(), level).unwrap()
+}
+
+/// The seven-element patch: a cube with a skewed hexahedron inside (MacNeal and Harder 1985).
+fn seven_hex_patch() -> Mesh {
+    let outer = CORNERS.map(|c| c.map(|v| 0.5 + 0.5 * v));
+    let inner = [
+        [0.249, 0.342, 0.192],
+        [0.826, 0.288, 0.288],
+        [0.850, 0.649, 0.263],
+        [0.273, 0.750, 0.230],
+        [0.320, 0.186, 0.643],
+        [0.677, 0.305, 0.683],
+        [0.788, 0.693, 0.644],
+        [0.165, 0.745, 0.702],
+    ];
+    let faces = [
+        [0, 3, 2, 1],
+        [4, 5, 6, 7],
+        [0, 1, 5, 4],
+        [1, 2, 6, 5],
+        [2, 3, 7, 6],
+        [3, 0, 4, 7],
+    ];
+    let mut hexes = vec![[8, 9, 10, 11, 12, 13, 14, 15]];
+    for [a, b, c, d] in faces {
+        // outer face seen from outside, inner face behind it
+        hexes.push([a + 8, b + 8, c + 8, d + 8, a, b, c, d]);
+    }
+    let nodes: Vec<_> = outer.into_iter().chain(inner).collect();
+    Mesh {
+        bodies: vec![Body {
+            name: "patch".into(),
+            nodes: 0..16,
+            hexes: 0..7,
+            node_sets: Default::default(),
+            surfaces: Default::default(),
+        }],
+        nodes,
+        hexes,
+    }
+}
+
+/// A block whose interior and boundary nodes are shaken.
+fn shaken(n: [usize; 3]) -> Mesh {
+    let mut mesh = mesh::block(n, [1.0, 1.0, 1.0]);
+    for (i, p) in mesh.nodes.iter_mut().enumerate() {
+        let k = i as f64;
+        p[0] += 0.1 / n[0] as f64 * (1.7 * k).sin();
+        p[1] += 0.1 / n[1] as f64 * (2.3 * k + 1.0).sin();
+        p[2] += 0.1 / n[2] as f64 * (0.9 * k + 2.0).sin();
+    }
+    mesh
+}
+
+fn field(mesh: &Mesh, amplitude: f64) -> Vec<Padded> {
+    (0..mesh.nodes.len())
+        .map(|i| {
+            let k = i as f64;
+            Padded::new([
+                amplitude * (3.1 * k).sin(),
+                amplitude * (1.9 * k + 0.5).cos(),
+                amplitude * (2.7 * k + 1.5).sin(),
+            ])
+        })
+        .collect()
+}
+
+fn affine(mesh: &Mesh, h: [[f64; 3]; 3]) -> Vec<Padded> {
+    mesh.nodes
+        .iter()
+        .map(|p| Padded::new([0, 1, 2].map(|i| (0..3).map(|j| h[i][j] * p[j]).sum())))
+        .collect()
+}
+
+fn rotation(angle: f64) -> [[f64; 3]; 3] {
+    // about (1, 2, 2)/3, minus the identity
+    let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let (s, c) = angle.sin_cos();
+    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+    let mut h = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            let identity = if i == j { 1.0 } else { 0.0 };
+            h[i][j] = (c - 1.0) * identity + s * cross[i][j] + (1.0 - c) * n[i] * n[j];
+        }
+    }
+    h
+}
+
+fn largest(f: &[Padded]) -> f64 {
+    f.iter()
+        .flat_map(|v| v.xyz())
+        .fold(0.0, |m: f64, c| m.max(c.abs()))
+}
+
+#[test]
+fn patch_test_an_affine_displacement_leaves_interior_nodes_in_equilibrium() {
+    let mesh = seven_hex_patch();
+    let h = [
+        [1e-3, 0.5e-3, 0.5e-3],
+        [0.5e-3, 1e-3, 0.5e-3],
+        [0.5e-3, 0.5e-3, 1e-3],
+    ];
+    let u = affine(&mesh, h);
+    for level in LEVELS.into_iter().filter(|l| l.available()) {
+        let mut solid = solid(&mesh, level);
+        let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+        let sums = solid.subtract_internal_force(&u, &[], &mut f, true);
+        assert!(largest(&f[..8]) > 1e6, "the outer nodes carry the stress");
+        assert!(
+            largest(&f[8..]) < 1e-12 * STEEL.young,
+            "{:e}",
+            largest(&f[8..])
+        );
+        assert!(
+            sums.hourglass < 1e-20 * sums.internal,
+            "no hourglass in an affine field"
+        );
+        let mut stress = vec![[0.0; 6]; 7];
+        solid.cauchy_stress(&u, &mut stress);
+        for s in &stress {
+            for k in 0..6 {
+                assert!((s[k] - stress[0][k]).abs() < 1e-12 * STEEL.young);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rigid_rotation_through_a_full_turn_leaves_no_force_and_no_stress() {
+    let mesh = seven_hex_patch();
+    for level in LEVELS.into_iter().filter(|l| l.available()) {
+        let mut solid = solid(&mesh, level);
+        for step in 1..=24 {
+            let u = affine(
+                &mesh,
+                rotation(std::f64::consts::TAU * f64::from(step) / 24.0),
+            );
+            let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+            solid.subtract_internal_force(&u, &[], &mut f, false);
+            assert!(largest(&f) < 1e-12 * STEEL.young, "{:e}", largest(&f));
+            let mut stress = vec![[0.0; 6]; 7];
+            solid.cauchy_stress(&u, &mut stress);
+            assert!(
+                stress
+                    .iter()
+                    .flatten()
+                    .all(|s| s.abs() < 1e-12 * STEEL.young)
+            );
+        }
+    }
+}
+
+#[test]
+fn force_is_the_derivative_of_the_energy() {
+    let mesh = shaken([2, 2, 1]);
+    let mut solid = solid(&mesh, Level::Portable);
+    let u = field(&mesh, 0.02);
+    let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+    solid.subtract_internal_force(&u, &[], &mut f, false);
+    let mut energy = |u: &[Padded]| {
+        let mut scratch = vec![Padded::ZERO; u.len()];
+        let sums = solid.subtract_internal_force(u, &[], &mut scratch, true);
+        sums.internal + sums.hourglass
+    };
+    let scale = largest(&f);
+    for node in [0, 5, 11, 17] {
+        for i in 0..3 {
+            let step = 1e-6;
+            let (mut plus, mut minus) = (u.clone(), u.clone());
+            plus[node].0[i] += step;
+            minus[node].0[i] -= step;
+            let slope = (energy(&plus) - energy(&minus)) / (2.0 * step);
+            assert!(
+                (slope + f[node].0[i]).abs() < 1e-7 * scale,
+                "{slope:e} {:e}",
+                f[node].0[i]
+            );
+        }
+    }
+}
+
+/// The element written out from its definition, without modes: the oracle of the kernel.
+fn textbook_force(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> [[f64; 3]; 8] {
+    let (volume, b) = mean_gradient(x);
+    let (h, _) = displacement_gradient(x, u);
+    let f = deformation(&h);
+    let stress = {
+        let det = determinant(&f);
+        let sigma = cauchy(&h, &STEEL);
+        // first Piola P = det F sigma F^-T
+        let s = [
+            [sigma[0], sigma[3], sigma[5]],
+            [sigma[3], sigma[1], sigma[4]],
+            [sigma[5], sigma[4], sigma[2]],
+        ];
+        let inverse_transposed = [
+            crate::geometry::cross(f[1], f[2]).map(|c| c / det),
+            crate::geometry::cross(f[2], f[0]).map(|c| c / det),
+            crate::geometry::cross(f[0], f[1]).map(|c| c / det),
+        ];
+        let mut p = [[0.0; 3]; 3];
+        for i in 0..3 {
+            for j in 0..3 {
+                p[i][j] = (0..3)
+                    .map(|k| det * s[i][k] * inverse_transposed[k][j])
+                    .sum();
+            }
+        }
+        p
+    };
+    let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
+    let stiffness = ELEMENT.hourglass * STEEL.p_modulus() * squares / (24.0 * volume);
+    let bases = [
+        CORNERS.map(|c| c[1] * c[2]),
+        CORNERS.map(|c| c[2] * c[0]),
+        CORNERS.map(|c| c[0] * c[1]),
+        CORNERS.map(|c| c[0] * c[1] * c[2]),
+    ];
+    let mut out = [[0.0; 3]; 8];
+    for node in 0..8 {
+        for i in 0..3 {
+            out[node][i] = (0..3).map(|j| stress[i][j] * b[node][j]).sum();
+        }
+    }
+    for base in bases {
+        let moment: [f64; 3] = [0, 1, 2].map(|j| (0..8).map(|n| base[n] * x[n][j]).sum());
+        let gamma: Vec<f64> = (0..8)
+            .map(|n| base[n] - (0..3).map(|j| b[n][j] * moment[j]).sum::<f64>() / volume)
+            .collect();
+        for i in 0..3 {
+            let q: f64 = (0..8).map(|n| gamma[n] * (x[n][i] + u[n][i])).sum();
+            for n in 0..8 {
+                out[n][i] += stiffness * q * gamma[n];
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn every_level_agrees_with_the_textbook_element() {
+    // 11 elements: a full batch and a partial one
+    let mesh = shaken([11, 1, 1]);
+    let u = field(&mesh, 0.01);
+    let mut expected = vec![[0.0; 3]; mesh.nodes.len()];
+    for hex in &mesh.hexes {
+        let f = textbook_force(
+            &hex.map(|n| mesh.nodes[n as usize]),
+            &hex.map(|n| u[n as usize].xyz()),
+        );
+        for (n, f) in hex.iter().zip(f) {
+            for i in 0..3 {
+                expected[*n as usize][i] -= f[i];
+            }
+        }
+    }
+    for level in LEVELS.into_iter().filter(|l| l.available()) {
+        let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+        solid(&mesh, level).subtract_internal_force(&u, &[], &mut f, false);
+        let scale = largest(&f);
+        for (a, b) in f.iter().zip(&expected) {
+            for i in 0..3 {
+                assert!((a.0[i] - b[i]).abs() < 1e-12 * scale, "{level:?}");
+            }
+            assert_eq!(a.0[3], 0.0, "the padding stays zero");
+        }
+    }
+}
+
+#[test]
+fn one_two_and_three_threads_give_the_same_bits() {
+    let mesh = shaken([20, 12, 9]);
+    let u = field(&mesh, 1e-3);
+    let v = field(&mesh, 5.0);
+    let viscosity = Viscosity {
+        bulk_linear: 0.06,
+        bulk_quadratic: 1.2,
+        kelvin_voigt: 1e-8,
+    };
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
+        let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+        let sums = pool.install(|| solid.subtract_internal_force(&u, &v, &mut f, true));
+        (f, sums)
+    };
+    let one = run(1);
+    assert!(one.1.viscous_power > 0.0);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(3));
+}
+
+#[test]
+fn viscous_stresses_dissipate_and_vanish_in_rigid_rotation() {
+    let mesh = shaken([3, 3, 3]);
+    let viscosity = Viscosity {
+        kelvin_voigt: 1e-8,
+        bulk_linear: 0.06,
+        bulk_quadratic: 1.2,
+    };
+    let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
+    let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+    let u = affine(&mesh, rotation(0.7));
+    // velocity of a rotation of the turned body: omega x (X + u)
+    let omega = [10.0, -20.0, 30.0];
+    let spin: Vec<_> = mesh
+        .nodes
+        .iter()
+        .zip(&u)
+        .map(|(p, u)| {
+            Padded::new(crate::geometry::cross(
+                omega,
+                [0, 1, 2].map(|i| p[i] + u.0[i]),
+            ))
+        })
+        .collect();
+    solid.subtract_internal_force(&u, &spin, &mut f, false);
+    assert!(largest(&f) < 1e-12 * STEEL.young, "{:e}", largest(&f));
+    let sums = solid.subtract_internal_force(&u, &field(&mesh, 1.0), &mut f, false);
+    assert!(sums.viscous_power > 0.0);
+}
+
+#[test]
+fn linear_bulk_viscosity_of_a_compressed_cube_is_b1_rho_cp_h_rate() {
+    let h = 2e-3;
+    let mesh = mesh::block([1, 1, 1], [h, h, h]);
+    let viscosity = Viscosity {
+        bulk_linear: 0.06,
+        ..Viscosity::default()
+    };
+    let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
+    let rate = -3.0;
+    let v = affine(&mesh, [[rate, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+    let u = vec![Padded::ZERO; 8];
+    let mut f = vec![Padded::ZERO; 8];
+    solid.subtract_internal_force(&u, &v, &mut f, false);
+    let q = 0.06 * STEEL.density * STEEL.c_p() * h * rate.abs();
+    let face = f
+        .iter()
+        .zip(&mesh.nodes)
+        .filter(|(_, p)| p[0] > h / 2.0)
+        .map(|(f, _)| f.0[0]);
+    assert!((face.sum::<f64>() - q * h * h).abs() < 1e-12 * q * h * h);
+}
+
+#[test]
+fn the_frequency_of_a_free_cube_and_of_a_block_match_known_step_limits() {
+    // A free cube: 0.734 h/c_p; an assembled 6^3 block: 0.98 h/c_p (design notes, computed by
+    // dense eigenvalues of the same element). The bound is below both.
+    let h = 1e-3;
+    for (n, expected) in [(1, 0.734), (6, 0.98)] {
+        let size = n as f64 * h;
+        let mesh = mesh::block([n, n, n], [size, size, size]);
+        let mass = lumped_mass(&mesh, &[STEEL.density]);
+        let inverse: Vec<_> = mass.iter().map(|m| 1.0 / m).collect();
+        let mut solid = solid(&mesh, Level::detect());
+        let omega =
+            crate::largest_frequency(&inverse, |x, y| solid.add_stiffness_product(x, y), 40);
+        let step = 2.0 / omega * STEEL.c_p() / h;
+        assert!((step - expected).abs() < 0.01, "{n}: {step}");
+        let (bound, _) = crate::element_frequency_bound(&mesh, &[STEEL], ELEMENT);
+        assert!(bound > omega && bound < 2.0 * omega);
+    }
+}
+
+#[test]
+fn an_inside_out_element_is_refused_by_name() {
+    let mut mesh = mesh::block([2, 1, 1], [1.0, 1.0, 1.0]);
+    mesh.hexes[1].swap(0, 4);
+    mesh.hexes[1].swap(1, 5);
+    mesh.hexes[1].swap(2, 6);
+    mesh.hexes[1].swap(3, 7);
+    let error = Solid::new(
+        &mesh,
+        &[STEEL],
+        ELEMENT,
+        Viscosity::default(),
+        Level::Portable,
+    );
+    assert!(matches!(
+        error,
+        Err(SolidError::Inverted { element: 1, .. })
+    ));
+}

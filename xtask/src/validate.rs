@@ -1,0 +1,144 @@
+//! `cargo xtask validate`: what the continuous integration runs and what a contributor runs.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+/// How a step ended.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Passed,
+    Failed,
+    Skipped,
+}
+
+/// A check of the project, given its root folder.
+type Step = fn(&Path) -> Outcome;
+
+/// Runs the steps, cheapest first, up to the first that fails, and reports on each.
+pub fn validate() -> ExitCode {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let steps: [(&str, Step); 5] = [
+        ("format", format),
+        ("lints", lints),
+        ("documentation", documentation),
+        ("tests", tests),
+        ("smoke run", smoke_run),
+    ];
+    let mut report = Vec::new();
+    for (name, step) in steps {
+        eprintln!("\n== {name}");
+        let start = Instant::now();
+        let outcome = step(root);
+        report.push((name, outcome, start.elapsed()));
+        if outcome == Outcome::Failed {
+            break;
+        }
+    }
+    eprintln!("\n== validate");
+    for (name, outcome, time) in &report {
+        let word = match outcome {
+            Outcome::Passed => "passed",
+            Outcome::Failed => "FAILED",
+            Outcome::Skipped => "skipped",
+        };
+        eprintln!("{word:<8} {:>7.1} s  {name}", time.as_secs_f64());
+    }
+    for (name, _) in &steps[report.len()..] {
+        eprintln!("not run             {name}");
+    }
+    let failed = report.iter().any(|(_, outcome, _)| *outcome == Outcome::Failed);
+    if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+fn format(root: &Path) -> Outcome {
+    cargo(root, &["fmt", "--all", "--check"], &[])
+}
+
+fn lints(root: &Path) -> Outcome {
+    cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])
+}
+
+fn documentation(root: &Path) -> Outcome {
+    cargo(root, &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])
+}
+
+/// The README's test command.
+fn tests(root: &Path) -> Outcome {
+    cargo(root, &["test", "--release", "--workspace"], &[])
+}
+
+/// Runs the smallest case and has its files read by the libraries that users read them with.
+fn smoke_run(root: &Path) -> Outcome {
+    let folder = target(root).join("smoke");
+    let out = folder.display().to_string();
+    let run = ["run", "--release", "--", "run", "cases/smoke.toml", "--force", "--out", &out];
+    if cargo(root, &run, &[]) == Outcome::Failed {
+        return Outcome::Failed;
+    }
+    let check = root.join("tests/python/check_run.py");
+    match python(root) {
+        Ok(python) => execute(Command::new(python).arg(check).arg(folder).current_dir(root)),
+        Err(problem) if env::var_os("CI").is_some() => {
+            eprintln!("error: {problem}");
+            Outcome::Failed
+        }
+        Err(problem) => {
+            eprintln!("warning: {problem}; the files of the run were not checked");
+            Outcome::Skipped
+        }
+    }
+}
+
+/// The interpreter of a virtual environment under the target folder with the requirements of
+/// the checks, made on the first call.
+fn python(root: &Path) -> Result<PathBuf, String> {
+    let venv = target(root).join("python");
+    let bin = venv.join(if cfg!(windows) { "Scripts" } else { "bin" });
+    let python = bin.join(if cfg!(windows) { "python.exe" } else { "python" });
+    let requirements = root.join("tests/python/requirements.txt");
+    let wanted = std::fs::read(&requirements)
+        .map_err(|error| format!("{} cannot be read: {error}", requirements.display()))?;
+    let installed = venv.join("requirements.txt");
+    if std::fs::read(&installed).is_ok_and(|installed| installed == wanted) {
+        return Ok(python);
+    }
+    let system = if cfg!(windows) { "python" } else { "python3" };
+    if execute(Command::new(system).args(["-m", "venv"]).arg(&venv)) != Outcome::Passed {
+        return Err(format!("`{system} -m venv` failed (on Debian: apt install python3-venv)"));
+    }
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
+    if execute(Command::new(&python).args(pip).arg(&requirements)) != Outcome::Passed {
+        return Err("pip could not install tests/python/requirements.txt".into());
+    }
+    std::fs::write(&installed, wanted).map_err(|error| error.to_string())?;
+    Ok(python)
+}
+
+/// The target folder; cargo itself gives it the same place.
+fn target(root: &Path) -> PathBuf {
+    match env::var_os("CARGO_TARGET_DIR") {
+        Some(folder) => root.join(folder),
+        None => root.join("target"),
+    }
+}
+
+fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    execute(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
+}
+
+fn execute(command: &mut Command) -> Outcome {
+    match command.status() {
+        Ok(status) if status.success() => Outcome::Passed,
+        Ok(status) => {
+            eprintln!("{command:?}: {status}");
+            Outcome::Failed
+        }
+        Err(error) => {
+            eprintln!("{command:?}: {error}");
+            Outcome::Failed
+        }
+    }
+}
