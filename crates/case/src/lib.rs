@@ -21,8 +21,8 @@ pub mod progress;
 mod record;
 pub mod run;
 pub mod schema;
-mod start;
 mod sense;
+mod start;
 #[cfg(test)]
 mod tests;
 

@@ -36,9 +36,11 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
         .mesh
         .bodies
         .iter()
-        .map(|b| json!({ "name": b.name, "nodes": b.nodes.len(), "elements": b.hexes.len(),
+        .map(|b| {
+            json!({ "name": b.name, "nodes": b.nodes.len(), "elements": b.hexes.len(),
                          "sets": b.node_sets.iter().map(|(k, v)| (k.clone(), v.len()))
-                                  .collect::<std::collections::BTreeMap<_, _>>() }))
+                                  .collect::<std::collections::BTreeMap<_, _>>() })
+        })
         .collect();
     Ok(json!({
         "name": case.name,

@@ -61,7 +61,12 @@ fn contact_fields() -> Vec<FieldSpec> {
     vec![
         at("pressure", "Pa", 1, "contact pressure, positive in compression"),
         at("shear", "Pa", 3, "shear traction on this surface"),
-        at("slip_velocity", "m/s", 3, "velocity of this surface relative to the other, over the last step"),
+        at(
+            "slip_velocity",
+            "m/s",
+            3,
+            "velocity of this surface relative to the other, over the last step",
+        ),
         at("slip", "m", 3, "relative tangential motion since contact began"),
         at("mu", "1", 1, "coefficient of friction that the algorithm used"),
         at("state", "1", 1, "0 open, 1 stick, 2 slip").integer(),
@@ -197,8 +202,7 @@ impl Recorder {
         basis: &Basis<'_>,
     ) -> Result<Self, RunError> {
         let contact = simulation.contact().ok_or(RunError::NoContact)?;
-        let tables =
-            [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]));
+        let tables = [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]));
         let points = [DISK, BAR].map(|side| {
             tables[side].nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>()
         });
@@ -291,11 +295,9 @@ impl Recorder {
         let [tangential, lateral, normal] = report.contact.force[DISK];
         let creepage = report.omega * self.effective_radius / self.speed - 1.0;
         let other = report.contact.force[BAR];
-        let mismatch = (0..3)
-            .map(|i| (report.contact.force[DISK][i] + other[i]).powi(2))
-            .sum::<f64>()
-            .sqrt()
-            / report.contact.normal_force.max(f64::MIN_POSITIVE);
+        let mismatch =
+            (0..3).map(|i| (report.contact.force[DISK][i] + other[i]).powi(2)).sum::<f64>().sqrt()
+                / report.contact.normal_force.max(f64::MIN_POSITIVE);
         if report.contact.closed > 0 {
             self.means.worst_mismatch = self.means.worst_mismatch.max(mismatch);
         }
@@ -497,12 +499,7 @@ fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<Transi
         cells: Cells::Hexahedra(&model.mesh.hexes),
         constant: &[body_field(&body)],
     };
-    Ok(TransientGrid::create(
-        basis.folder.join("fields.vtkhdf"),
-        &grid,
-        &specs,
-        &basis.provenance,
-    )?)
+    Ok(TransientGrid::create(basis.folder.join("fields.vtkhdf"), &grid, &specs, &basis.provenance)?)
 }
 
 fn create_contact(
@@ -605,7 +602,9 @@ impl Probes {
         });
         let rows = chosen
             .iter()
-            .map(|&(side, n)| Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?)))
+            .map(|&(side, n)| {
+                Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?))
+            })
             .collect::<Result<Vec<_>, RunError>>()?;
         let mut columns = vec![Column::new("time", "s", "time since the start of rolling")];
         for (k, &(side, n)) in chosen.iter().enumerate() {
@@ -616,8 +615,7 @@ impl Probes {
                 columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
             }
         }
-        let history =
-            History::create(basis.folder.join("probes.h5"), &columns, &basis.provenance)?;
+        let history = History::create(basis.folder.join("probes.h5"), &columns, &basis.provenance)?;
         Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
     }
 
@@ -633,12 +631,7 @@ impl Probes {
             self.buffer.push(t.pressure[row]);
             self.buffer.extend(t.shear[row]);
             self.buffer.extend(t.slip_velocity[row]);
-            self.buffer.extend([
-                t.slip[row][0],
-                t.mu[row],
-                f64::from(t.state[row]),
-                t.gap[row],
-            ]);
+            self.buffer.extend([t.slip[row][0], t.mu[row], f64::from(t.state[row]), t.gap[row]]);
         }
         if self.buffer.len() >= 256 * (1 + PROBE.len() * self.rows.len()) {
             self.flush()?;

@@ -40,10 +40,7 @@ pub enum RunError {
     Folder(#[from] crate::folder::FolderError),
     /// The mesh cannot be built.
     #[error(transparent)]
-    #[diagnostic(
-        code(mesh),
-        help("change the keys of [disk], [bar] or [mesh] that it names")
-    )]
+    #[diagnostic(code(mesh), help("change the keys of [disk], [bar] or [mesh] that it names"))]
     Mesh(#[from] mesh::MeshError),
     /// The elements cannot be set up.
     #[error(transparent)]
@@ -113,9 +110,7 @@ pub fn run(
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .build()?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     // The whole run inside the pool: entering it costs microseconds, a step of a small case few more.
     pool.install(|| run_in_pool(case, options, stop, observe))
 }
@@ -136,25 +131,14 @@ fn run_in_pool(
         case.name,
         options.source.display()
     ))?;
-    case.warnings()
-        .iter()
-        .try_for_each(|w| log.say(&format!("warning: {w}")))?;
+    case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
     let model = Model::build(case)?;
     let elements = model.mesh.hexes.len();
-    log.say(&format!(
-        "mesh: {elements} elements, {} nodes",
-        model.mesh.nodes.len()
-    ))?;
+    log.say(&format!("mesh: {elements} elements, {} nodes", model.mesh.nodes.len()))?;
     observe(&stage(case, Stage::Mesh));
 
-    let Start {
-        mut simulation,
-        stability,
-        radius,
-        preload,
-        steps,
-        preload_wall,
-    } = start(case, &model, stop, observe)?;
+    let Start { mut simulation, stability, radius, preload, steps, preload_wall } =
+        start(case, &model, stop, observe)?;
     if let Some(p) = &preload {
         log.say(&format!(
             "preload: {} iterations, normal force {:.3} N, hub {:.3} um, kinetic/internal {:.1e}",
@@ -296,10 +280,7 @@ fn run_in_pool(
         summary.extra.insert("diagnosis".into(), json!(text));
     }
     output::write_json_atomically(options.out.join("summary.json"), &summary)?;
-    log.say(&format!(
-        "end: {status:?} after {done} steps, {:.1} s",
-        summary.wall_s
-    ))?;
+    log.say(&format!("end: {status:?} after {done} steps, {:.1} s", summary.wall_s))?;
     Ok(json!(summary))
 }
 
@@ -376,10 +357,8 @@ impl Log {
 
     fn say(&mut self, line: &str) -> Result<(), RunError> {
         tracing::info!("{line}");
-        writeln!(self.file, "{line}").map_err(|cause| RunError::Text {
-            path: self.path.clone(),
-            cause,
-        })
+        writeln!(self.file, "{line}")
+            .map_err(|cause| RunError::Text { path: self.path.clone(), cause })
     }
 }
 

@@ -68,8 +68,7 @@ pub(crate) fn start(
     let mut contact = model.contact(case, scale)?;
     let hub = hub(case, model, &solid);
     let quiet: Vec<_> = model.quiet.iter().collect();
-    let quiet =
-        QuietEnd::new(&model.mesh, &quiet, &model.materials[BAR], &model.clamped);
+    let quiet = QuietEnd::new(&model.mesh, &quiet, &model.materials[BAR], &model.clamped);
 
     let clock = Instant::now();
     let nominal = case.disk.radius;

@@ -49,13 +49,7 @@ pub struct Diagnosis {
 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            step,
-            time,
-            imbalance,
-            place,
-            ..
-        } = self;
+        let Self { step, time, imbalance, place, .. } = self;
         write!(f, "stopped at step {step}, t = {:.6} ms: ", time * 1e3)?;
         match self.cause {
             Cause::UnstableStep { ratio } => write!(

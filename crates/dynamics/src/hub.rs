@@ -127,21 +127,15 @@ impl Hub {
 
     /// Position of the centre (m).
     pub fn position(&self) -> [f64; 3] {
-        [
-            self.centre[0] + self.state.x,
-            self.centre[1],
-            self.centre[2] + self.state.z,
-        ]
+        [self.centre[0] + self.state.x, self.centre[1], self.centre[2] + self.state.z]
     }
 
     /// Angular velocity that the drive prescribes at time `t` (rad/s), if it does.
     pub fn prescribed_omega(&self, t: f64) -> Option<f64> {
         match self.spin {
-            Spin::Creepage {
-                free,
-                creepage,
-                ramp,
-            } => Some(free * (1.0 + creepage * smoothstep(t, ramp))),
+            Spin::Creepage { free, creepage, ramp } => {
+                Some(free * (1.0 + creepage * smoothstep(t, ramp)))
+            }
             Spin::Torque { .. } => None,
         }
     }
@@ -160,17 +154,17 @@ impl Hub {
         sum
     }
 
-    /// Moves the hub from t^n to t^{n+1} under `force` on its nodes, and gives its nodes the
-    /// velocities that take them to their places on the rigid body.
+    /// Moves the hub from t^n to t^{n+1} under `load` (force in x and z, torque about y: N, N,
+    /// N m) and takes its nodes along.
     pub(crate) fn step(
         &mut self,
         time: f64,
         dt: f64,
-        displacement: &[Padded],
-        force: &[Padded],
+        load: [f64; 3],
+        displacement: &mut [Padded],
         velocity: &mut [Padded],
     ) -> HubWork {
-        let [fx, fz, torque] = self.resultant(displacement, force);
+        let [fx, fz, torque] = load;
         let old = self.state;
         let new = &mut self.state;
         let half = time + 0.5 * dt;
@@ -189,18 +183,11 @@ impl Hub {
         };
         // rotation
         let drive_torque = match self.spin {
-            Spin::Creepage {
-                free,
-                creepage,
-                ramp,
-            } => {
+            Spin::Creepage { free, creepage, ramp } => {
                 new.omega = free * (1.0 + creepage * smoothstep(half, ramp));
                 self.inertia * (new.omega - old.omega) / dt - torque
             }
-            Spin::Torque {
-                torque: applied,
-                ramp,
-            } => {
+            Spin::Torque { torque: applied, ramp } => {
                 let applied = applied * smoothstep(time, ramp);
                 new.omega += dt * (torque + applied) / self.inertia;
                 applied
@@ -211,7 +198,12 @@ impl Hub {
         new.angle += dt * new.omega;
         let new = *new;
         self.reaction = [drive_x, drive_z, drive_torque];
-        self.place(displacement, dt, velocity);
+        let (from, to) = (Placement::new(old), Placement::new(new));
+        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+            let (u, before) = (to.displacement(*arm), from.displacement(*arm));
+            displacement[n as usize] = Padded::new(u);
+            velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
+        }
         let power = |s: HubState| drive_x * s.vx + drive_z * s.vz + drive_torque * s.omega;
         HubWork {
             before: 0.5 * dt * power(old),
@@ -220,32 +212,28 @@ impl Hub {
                 + 0.5 * self.inertia * old.omega * new.omega,
         }
     }
+}
 
-    /// Velocities that bring the nodes to the hub's present position within `dt`.
-    fn place(&self, displacement: &[Padded], dt: f64, velocity: &mut [Padded]) {
-        for (k, &n) in self.nodes.iter().enumerate() {
-            let target = self.node_displacement(k);
-            let u = displacement[n as usize];
-            let mut v = Padded::ZERO;
-            for i in 0..3 {
-                v.0[i] = (target[i] - u.0[i]) / dt;
-            }
-            velocity[n as usize] = v;
-        }
+/// The rigid displacement in a state of the hub.
+struct Placement {
+    state: HubState,
+    sin: f64,
+    cos_minus_one: f64,
+}
+
+impl Placement {
+    fn new(state: HubState) -> Self {
+        // cos - 1 = -2 sin^2(angle/2), without cancellation
+        let half = (0.5 * state.angle).sin();
+        Self { state, sin: state.angle.sin(), cos_minus_one: -2.0 * half * half }
     }
 
-    /// Displacement of the hub's `k`-th node (m): turned by the angle about +y and moved.
-    pub fn node_displacement(&self, k: usize) -> [f64; 3] {
-        let (sin, cos) = self.state.angle.sin_cos();
-        // cos - 1 without cancellation
-        let half = (0.5 * self.state.angle).sin();
-        let cos_minus_one = -2.0 * half * half;
-        let [x, _, z] = self.arms[k];
-        debug_assert!((cos - 1.0 - cos_minus_one).abs() < 1e-12);
+    /// Displacement (m) of the point at `arm` from the centre: turned about +y and moved.
+    fn displacement(&self, [x, _, z]: [f64; 3]) -> [f64; 3] {
         [
-            cos_minus_one * x + sin * z + self.state.x,
+            self.cos_minus_one * x + self.sin * z + self.state.x,
             0.0,
-            cos_minus_one * z - sin * x + self.state.z,
+            self.cos_minus_one * z - self.sin * x + self.state.z,
         ]
     }
 }

@@ -79,11 +79,7 @@ impl Ledger {
 
     /// Largest imbalance read so far over the largest energy exchanged (dimensionless).
     pub fn balance_error(&self) -> f64 {
-        if self.largest_exchange > 0.0 {
-            self.worst_balance / self.largest_exchange
-        } else {
-            0.0
-        }
+        if self.largest_exchange > 0.0 { self.worst_balance / self.largest_exchange } else { 0.0 }
     }
 
     /// Largest net energy exchanged so far (J).

@@ -5,6 +5,7 @@
 //! motion), hub, then velocity and position of every node in one pass, with the energy ledger in
 //! the form that the scheme conserves.
 
+mod dashpots;
 mod guard;
 mod hub;
 mod ledger;

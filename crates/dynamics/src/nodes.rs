@@ -1,16 +1,39 @@
 //! The nodal update: velocity, position, and the force cleared for the next step, in one pass.
 
+use crate::dashpots::Dashpots;
 use mesh::Padded;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads.
 const CHUNK: usize = 4096;
 
-/// v^{n+1/2} = v^{n-1/2} + dt f/m and u^{n+1} = u^n + dt v^{n+1/2}; clears `force`.
+/// What the update sums up over the free nodes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NodeSums {
+    /// sum 1/2 m v^{n-1/2} . v^{n+1/2} (J), the kinetic energy that central difference
+    /// conserves; zero unless asked for.
+    pub(crate) kinetic: f64,
+    /// Power that the dashpots dissipate (W).
+    pub(crate) dashpot_power: f64,
+    /// Reaction of the disk's dashpots on the hub: force in x and z (N), torque about y (N m).
+    pub(crate) reaction: [f64; 3],
+}
+
+impl NodeSums {
+    fn add(&mut self, other: &Self) {
+        self.kinetic += other.kinetic;
+        self.dashpot_power += other.dashpot_power;
+        for i in 0..3 {
+            self.reaction[i] += other.reaction[i];
+        }
+    }
+}
+
+/// v^{n+1/2} = v^{n-1/2} + dt (f/m - alpha (v^{n-1/2} - v_rigid)) and
+/// u^{n+1} = u^n + dt v^{n+1/2}; clears `force`.
 ///
-/// Nodes of zero inverse mass keep their velocity: whoever holds them has set it. With `kinetic`
-/// the result is sum 1/2 m v^{n-1/2} . v^{n+1/2} (J) over the free nodes, the kinetic energy that
-/// central difference conserves, else zero. `partial` holds one entry per chunk.
+/// Nodes of zero inverse mass keep their velocity. `partial` holds one entry per chunk.
 pub(crate) fn advance(
     displacement: &mut [Padded],
     velocity: &mut [Padded],
@@ -18,35 +41,27 @@ pub(crate) fn advance(
     inverse_mass: &[f64],
     dt: f64,
     kinetic: bool,
-    partial: &mut [f64],
-) -> f64 {
-    let chunk = |(((u, v), (f, m)), sum): Chunk<'_>| {
-        *sum = if kinetic {
-            update::<true>(u, v, f, m, dt)
-        } else {
-            update::<false>(u, v, f, m, dt)
-        };
-    };
-    let chunks = displacement
+    dashpots: Option<&Dashpots<'_>>,
+    partial: &mut [NodeSums],
+) -> NodeSums {
+    displacement
         .par_chunks_mut(CHUNK)
         .zip(velocity.par_chunks_mut(CHUNK))
-        .zip(
-            force
-                .par_chunks_mut(CHUNK)
-                .zip(inverse_mass.par_chunks(CHUNK)),
-        )
-        .zip(partial.par_iter_mut());
-    chunks.for_each(chunk);
-    if kinetic { partial.iter().sum() } else { 0.0 }
+        .zip(force.par_chunks_mut(CHUNK).zip(inverse_mass.par_chunks(CHUNK)))
+        .zip(partial.par_iter_mut())
+        .enumerate()
+        .for_each(|(chunk, (((u, v), (f, m)), sums))| {
+            let first = chunk * CHUNK;
+            *sums = match (kinetic, dashpots) {
+                (false, None) => update::<false>(u, v, f, m, dt),
+                (true, None) => update::<true>(u, v, f, m, dt),
+                (kinetic, Some(d)) => damped(u, v, f, m, dt, kinetic, d, first..first + m.len()),
+            };
+        });
+    let mut total = NodeSums::default();
+    partial.iter().for_each(|p| total.add(p));
+    total
 }
-
-type Chunk<'a> = (
-    (
-        (&'a mut [Padded], &'a mut [Padded]),
-        (&'a mut [Padded], &'a [f64]),
-    ),
-    &'a mut f64,
-);
 
 /// Number of chunks, hence of partial sums, for `nodes` nodes.
 pub(crate) fn chunks(nodes: usize) -> usize {
@@ -60,7 +75,7 @@ fn update<const KINETIC: bool>(
     f: &mut [Padded],
     inverse_mass: &[f64],
     dt: f64,
-) -> f64 {
+) -> NodeSums {
     let mut twice_kinetic = 0.0;
     for (((u, v), f), &w) in u.iter_mut().zip(v).zip(f).zip(inverse_mass) {
         let before = *v;
@@ -71,9 +86,55 @@ fn update<const KINETIC: bool>(
             f.0[i] = 0.0;
         }
         if KINETIC && w > 0.0 {
-            let product = before.0[0] * v.0[0] + before.0[1] * v.0[1] + before.0[2] * v.0[2];
-            twice_kinetic += product / w;
+            twice_kinetic += product(before, *v) / w;
         }
     }
-    0.5 * twice_kinetic
+    NodeSums { kinetic: 0.5 * twice_kinetic, ..NodeSums::default() }
+}
+
+/// The same with dashpots; `nodes` are the chunk's node numbers.
+fn damped(
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
+    inverse_mass: &[f64],
+    dt: f64,
+    kinetic: bool,
+    dashpots: &Dashpots<'_>,
+    nodes: Range<usize>,
+) -> NodeSums {
+    let mut sums = NodeSums::default();
+    let alpha = dashpots.alpha;
+    for ((((u, v), f), &w), n) in u.iter_mut().zip(v).zip(f).zip(inverse_mass).zip(nodes) {
+        let before = *v;
+        if w > 0.0 {
+            let mass = 1.0 / w;
+            let (rigid, arm) = dashpots.rigid(n);
+            let mut drag = [0.0; 3];
+            for i in 0..3 {
+                let relative = before.0[i] - rigid[i];
+                drag[i] = alpha * mass * relative;
+                sums.dashpot_power += drag[i] * relative;
+                v.0[i] += dt * (w * f.0[i] - alpha * relative);
+            }
+            if let Some([x, z]) = arm {
+                sums.reaction[0] += drag[0];
+                sums.reaction[1] += drag[2];
+                sums.reaction[2] += z * drag[0] - x * drag[2];
+            }
+            if kinetic {
+                sums.kinetic += 0.5 * mass * product(before, *v);
+            }
+        }
+        for i in 0..4 {
+            u.0[i] += dt * v.0[i];
+            f.0[i] = 0.0;
+        }
+    }
+    sums
+}
+
+#[inline(always)]
+fn product(a: Padded, b: Padded) -> f64 {
+    a.0[0] * b.0[0] + a.0[1] * b.0[1] + a.0[2] * b.0[2]
 }

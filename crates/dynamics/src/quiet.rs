@@ -43,11 +43,7 @@ impl QuietEnd {
             .map(|(node, a)| {
                 let normal = material.density * material.c_p() * a;
                 let shear = material.density * material.c_s() * a;
-                QuietNode {
-                    node,
-                    dashpot: [normal, shear, shear],
-                    reaction: [0.0; 3],
-                }
+                QuietNode { node, dashpot: [normal, shear, shear], reaction: [0.0; 3] }
             })
             .collect();
         Self { nodes }
@@ -109,11 +105,8 @@ fn nodal_areas(mesh: &Mesh, nodes: &[u32; 4]) -> [f64; 4] {
                 b[i] += sign[1] * (1.0 + r * sign[0]) / 4.0 * x[i];
             }
         }
-        let cross = [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ];
+        let cross =
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let jacobian = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
         for (area, sign) in areas.iter_mut().zip(SIGNS) {
             *area += (1.0 + r * sign[0]) * (1.0 + s * sign[1]) / 4.0 * jacobian;

@@ -133,12 +133,10 @@ pub fn relax(
             let spring = contact_stiffness(contact, &setup.disk, n);
             hub.mass = hub.mass.max(HUB_SHARE * spring);
         }
-        let hub_force: f64 =
-            f[setup.disk.clone()].iter().map(|f| f.0[2]).sum::<f64>() - setup.load;
+        let hub_force: f64 = f[setup.disk.clone()].iter().map(|f| f.0[2]).sum::<f64>() - setup.load;
 
         // Rayleigh quotient of the motion of the last step
-        let (mut vkv, mut vmv) =
-            (hub.v * (hub.force_before - hub_force), hub.mass * hub.v * hub.v);
+        let (mut vkv, mut vmv) = (hub.v * (hub.force_before - hub_force), hub.mass * hub.v * hub.v);
         for i in 0..n {
             if !fixed[i] {
                 for k in 0..3 {

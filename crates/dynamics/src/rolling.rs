@@ -30,10 +30,7 @@ pub fn rolling_field(mesh: &Mesh, displacement: &[Padded], field: &RollingField)
     for (index, body) in mesh.bodies.iter().enumerate() {
         for n in body.nodes.clone() {
             let h = &gradients[n];
-            let (x, z) = (
-                mesh.nodes[n][0] - field.centre[0],
-                mesh.nodes[n][2] - field.centre[2],
-            );
+            let (x, z) = (mesh.nodes[n][0] - field.centre[0], mesh.nodes[n][2] - field.centre[2]);
             let carrier = if index == field.disk {
                 [field.omega * z, 0.0, -field.omega * x]
             } else {

@@ -1,9 +1,10 @@
 //! The time loop.
 
+use crate::dashpots::{Dashpots, RigidMotion};
 use crate::guard::{self, Cause, Diagnosis, Place};
-use crate::hub::Hub;
+use crate::hub::{Hub, HubWork};
 use crate::ledger::{Energies, Ledger};
-use crate::nodes;
+use crate::nodes::{self, NodeSums};
 use crate::quiet::QuietEnd;
 use contact::{ContactSums, Motion, PenaltyContact};
 use mesh::Padded;
@@ -45,9 +46,9 @@ pub struct Timers {
     pub internal_force: Duration,
     /// Contact.
     pub contact: Duration,
-    /// Quiet ends, mass damping, hub.
+    /// Quiet ends and the force on the hub.
     pub boundary: Duration,
-    /// Velocity and position.
+    /// Velocity and position of nodes and hub, mass damping.
     pub nodes: Duration,
 }
 
@@ -79,7 +80,7 @@ pub struct Simulation {
     displacement: Vec<Padded>,
     velocity: Vec<Padded>,
     force: Vec<Padded>,
-    partial: Vec<f64>,
+    partial: Vec<NodeSums>,
     dt: f64,
     omega_max: f64,
     mass_damping: f64,
@@ -93,16 +94,9 @@ impl Simulation {
     pub fn new(setup: Setup) -> Self {
         let mut inverse_mass: Vec<f64> = setup.mass.iter().map(|m| 1.0 / m).collect();
         let carried = setup.hub.iter().flat_map(|h| &h.nodes);
-        setup
-            .held
-            .iter()
-            .chain(carried)
-            .for_each(|&n| inverse_mass[n as usize] = 0.0);
+        setup.held.iter().chain(carried).for_each(|&n| inverse_mass[n as usize] = 0.0);
         let mut velocity = setup.velocity;
-        setup
-            .held
-            .iter()
-            .for_each(|&n| velocity[n as usize] = Padded::ZERO);
+        setup.held.iter().for_each(|&n| velocity[n as usize] = Padded::ZERO);
         let n = inverse_mass.len();
         Self {
             solid: setup.solid,
@@ -114,7 +108,7 @@ impl Simulation {
             displacement: setup.displacement,
             velocity,
             force: vec![Padded::ZERO; n],
-            partial: vec![0.0; nodes::chunks(n)],
+            partial: vec![NodeSums::default(); nodes::chunks(n)],
             dt: setup.dt,
             omega_max: setup.omega_max,
             mass_damping: setup.mass_damping,
@@ -155,43 +149,45 @@ impl Simulation {
         };
         let contacted = Instant::now();
 
-        // boundary and damping forces
-        let relative = self.add_mass_damping();
-        let quiet = self
-            .quiet
-            .apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
-        let omega_before = self.hub.as_ref().map_or(0.0, |h| h.state.omega);
-        let hub = self.hub.as_mut().map(|hub| {
-            hub.step(
-                time,
-                dt,
-                &self.displacement,
-                &self.force,
-                &mut self.velocity,
-            )
-        });
-        let hub = hub.unwrap_or_default();
+        // boundary forces
+        let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
+        let load = self.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
         let bounded = Instant::now();
 
-        // velocity v^{n+1/2} and position u^{n+1}
-        let kinetic = nodes::advance(
+        // velocity v^{n+1/2} and position u^{n+1}, then the hub with its nodes
+        let dashpots = (self.mass_damping > 0.0).then(|| Dashpots {
+            alpha: self.mass_damping,
+            disk: self.disk.clone(),
+            reference: self.solid.reference(),
+            motion: self.hub.as_ref().map(RigidMotion::new),
+        });
+        let nodes = nodes::advance(
             &mut self.displacement,
             &mut self.velocity,
             &mut self.force,
             &self.inverse_mass,
             dt,
             read,
+            dashpots.as_ref(),
             &mut self.partial,
         );
+        let omega_before = self.hub.as_ref().map_or(0.0, |h| h.state.omega);
+        let hub = match (&mut self.hub, load) {
+            (Some(hub), Some(load)) => {
+                let load = [0, 1, 2].map(|i| load[i] + nodes.reaction[i]);
+                hub.step(time, dt, load, &mut self.displacement, &mut self.velocity)
+            }
+            _ => HubWork::default(),
+        };
         let moved = Instant::now();
 
-        let viscous = 0.5 * dt * (sums.viscous_power + relative);
+        let viscous = 0.5 * dt * (sums.viscous_power + nodes.dashpot_power);
         self.ledger.friction += contact.friction_work;
         self.ledger.damping += contact.damping_work + viscous + quiet.dissipated_before;
         self.ledger.external += hub.before + quiet.external_before;
         let energies = read.then(|| {
             let now = Energies {
-                kinetic: kinetic + hub.kinetic,
+                kinetic: nodes.kinetic + hub.kinetic,
                 internal: sums.internal,
                 hourglass: sums.hourglass,
                 contact_stored: contact.stored_normal + contact.stored_tangential,
@@ -214,52 +210,7 @@ impl Simulation {
             Some(h) => (h.reaction, 0.5 * (omega_before + h.state.omega)),
             None => ([0.0; 3], 0.0),
         };
-        StepReport {
-            step: n,
-            time,
-            contact,
-            energies,
-            drive,
-            omega,
-        }
-    }
-
-    /// Adds -alpha m (v - v_rigid); returns the power that it takes out (W).
-    fn add_mass_damping(&mut self) -> f64 {
-        if self.mass_damping == 0.0 {
-            return 0.0;
-        }
-        let mut power = 0.0;
-        for n in 0..self.force.len() {
-            let w = self.inverse_mass[n];
-            if w > 0.0 {
-                let rigid = self.rigid_velocity(n);
-                let v = self.velocity[n];
-                for i in 0..3 {
-                    let drag = self.mass_damping / w * (v.0[i] - rigid[i]);
-                    self.force[n].0[i] -= drag;
-                    power += drag * v.0[i];
-                }
-            }
-        }
-        power
-    }
-
-    /// Velocity of the hub's rigid motion at a node of the disk; zero on other bodies (m/s).
-    fn rigid_velocity(&self, node: usize) -> [f64; 3] {
-        match &self.hub {
-            Some(hub) if self.disk.contains(&node) => {
-                let (x, u) = (self.solid.reference()[node], self.displacement[node]);
-                let c = hub.position();
-                let s = hub.state;
-                [
-                    s.vx + s.omega * (x.0[2] + u.0[2] - c[2]),
-                    0.0,
-                    s.vz - s.omega * (x.0[0] + u.0[0] - c[0]),
-                ]
-            }
-            _ => [0.0; 3],
-        }
+        StepReport { step: n, time, contact, energies, drive, omega }
     }
 
     /// The diagnosis if `now` cannot be a solution.
@@ -277,19 +228,16 @@ impl Simulation {
             Cause::NotFinite
         };
         let (element, _, jacobian) = self.solid.smallest_jacobian(&self.displacement);
-        let mut place = Place {
-            node: 0,
-            position: [0.0; 3],
-            speed: 0.0,
-            element,
-            jacobian,
-        };
+        let mut place = Place { node: 0, position: [0.0; 3], speed: 0.0, element, jacobian };
+        let rigid = self.hub.as_ref().map(RigidMotion::new);
         for (node, v) in self.velocity.iter().enumerate() {
-            let rigid = self.rigid_velocity(node);
-            let speed = (0..3)
-                .map(|i| (v.0[i] - rigid[i]).powi(2))
-                .sum::<f64>()
-                .sqrt();
+            let at = match &rigid {
+                Some(rigid) if self.disk.contains(&node) => {
+                    rigid.at(self.solid.reference()[node]).0
+                }
+                _ => [0.0; 3],
+            };
+            let speed = (0..3).map(|i| (v.0[i] - at[i]).powi(2)).sum::<f64>().sqrt();
             if speed > place.speed || !speed.is_finite() {
                 place.node = node;
                 place.speed = speed;
@@ -300,13 +248,7 @@ impl Simulation {
             }
         }
         let step = self.step.saturating_sub(1);
-        Some(Diagnosis {
-            step,
-            time: step as f64 * self.dt,
-            cause,
-            imbalance,
-            place,
-        })
+        Some(Diagnosis { step, time: step as f64 * self.dt, cause, imbalance, place })
     }
 
     /// Steps done; the state is at t = steps dt.

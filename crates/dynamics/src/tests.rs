@@ -62,8 +62,7 @@ fn a_free_elastic_cube_in_rotation_conserves_energy_to_1e_8_over_1e4_steps() {
 #[test]
 fn an_elastic_cube_at_rest_under_no_force_stays_at_rest() {
     let mesh = mesh::block([3, 3, 3], [1.0, 1.0, 1.0]);
-    let mut simulation =
-        Simulation::new(free_body(&mesh, 0.9, Vec::new(), QuietEnd::default()));
+    let mut simulation = Simulation::new(free_body(&mesh, 0.9, Vec::new(), QuietEnd::default()));
     (0..100).for_each(|_| {
         simulation.step(false);
     });
@@ -122,7 +121,8 @@ fn quiet_ends_swallow_a_longitudinal_wave_within_one_percent_of_its_amplitude() 
     // nu = 0: the bar wave is the confined wave, for which the dashpot is exact
     let material = Material { poisson: 0.0, ..STEEL };
     let end = mesh.bodies[0].surfaces["x+"].clone();
-    let mut setup = free_body(&mesh, 0.5, Vec::new(), QuietEnd::new(&mesh, &[&end], &material, &[]));
+    let mut setup =
+        free_body(&mesh, 0.5, Vec::new(), QuietEnd::new(&mesh, &[&end], &material, &[]));
     setup.solid = Solid::new(
         &mesh,
         &[material],

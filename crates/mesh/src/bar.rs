@@ -32,46 +32,20 @@ pub struct Bar {
 /// [`MeshError::OutOfRange`] and [`MeshError::TooManyElements`].
 pub fn bar(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     check(shape, zone)?;
-    let Bar {
-        length,
-        width,
-        height,
-        crown,
-        start,
-    } = *shape;
-    let FineZone {
-        size,
-        growth,
-        coarsest,
-        ..
-    } = *zone;
+    let Bar { length, width, height, crown, start } = *shape;
+    let FineZone { size, growth, coarsest, .. } = *zone;
 
     let span = [start, start + length];
-    let fine = [
-        zone.start.max(span[0]),
-        (zone.start + zone.length).min(span[1]),
-    ];
+    let fine = [zone.start.max(span[0]), (zone.start + zone.length).min(span[1])];
     let x = Axis::new(span, fine, size, growth, coarsest);
     let (half, fine) = (0.5 * width, 0.5 * whole(zone.width, size).min(width));
     let y = Axis::new([-half, half], [-fine, fine], size, growth, coarsest);
-    let z = Axis::new(
-        [-height, 0.0],
-        [-zone.depth.min(height), 0.0],
-        size,
-        growth,
-        coarsest,
-    );
+    let z = Axis::new([-height, 0.0], [-zone.depth.min(height), 0.0], size, growth, coarsest);
 
-    let grid = Grid {
-        cells: [x.cells(), y.cells(), z.cells()],
-    };
+    let grid = Grid { cells: [x.cells(), y.cells(), z.cells()] };
     let elements = grid.cells.iter().map(|&n| n as f64).product::<f64>();
     if elements > MAX_ELEMENTS {
-        return Err(MeshError::TooManyElements {
-            body: "bar",
-            size,
-            estimate: elements,
-        });
+        return Err(MeshError::TooManyElements { body: "bar", size, estimate: elements });
     }
     let mut mesh = grid.mesh("bar", &x.points, &y.points, &z.points);
     if crown.is_some() {
@@ -89,35 +63,22 @@ pub fn bar(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     ends.extend(nodes_of(&front));
 
     let body = &mut mesh.bodies[0];
-    for (name, nodes) in [
-        ("top", nodes_of(&top)),
-        ("bottom", bottom),
-        ("ends", ends),
-        ("zone", nodes_of(&zone)),
-    ] {
+    for (name, nodes) in
+        [("top", nodes_of(&top)), ("bottom", bottom), ("ends", ends), ("zone", nodes_of(&zone))]
+    {
         body.node_sets.insert(name.to_owned(), nodes);
     }
     let smooth = Some(SmoothSurface::Top { apex: 0.0, crown });
-    for (name, faces, smooth) in [
-        ("top", top, smooth),
-        ("zone", zone, smooth),
-        ("rear", rear, None),
-        ("front", front, None),
-    ] {
-        body.surfaces
-            .insert(name.to_owned(), Surface { faces, smooth });
+    for (name, faces, smooth) in
+        [("top", top, smooth), ("zone", zone, smooth), ("rear", rear, None), ("front", front, None)]
+    {
+        body.surfaces.insert(name.to_owned(), Surface { faces, smooth });
     }
     Ok(mesh)
 }
 
 fn check(shape: &Bar, zone: &FineZone) -> Result<(), MeshError> {
-    let Bar {
-        length,
-        width,
-        height,
-        crown,
-        start,
-    } = *shape;
+    let Bar { length, width, height, crown, start } = *shape;
     positive("bar.length", length)?;
     positive("bar.width", width)?;
     positive("bar.height", height)?;
@@ -131,29 +92,16 @@ fn check(shape: &Bar, zone: &FineZone) -> Result<(), MeshError> {
     }
     check_crown("bar.crown_radius", crown, width, height)?;
     zone.check()?;
-    FineZone::fits(
-        "mesh.zone.length",
-        zone.length,
-        length,
-        "the length of the bar",
-    )?;
+    FineZone::fits("mesh.zone.length", zone.length, length, "the length of the bar")?;
     FineZone::fits("mesh.zone.width", zone.width, width, "the width of the bar")?;
-    FineZone::fits(
-        "mesh.zone.depth",
-        zone.depth,
-        height,
-        "the height of the bar",
-    )?;
+    FineZone::fits("mesh.zone.depth", zone.depth, height, "the height of the bar")?;
     let slack = 1e-9 * length;
     let range = [start, start + length - zone.length];
     if zone.start < range[0] - slack || zone.start > range[1] + slack {
         return Err(MeshError::range(
             "mesh.zone.start",
             zone.start,
-            format!(
-                "from {} to {}, for the zone to lie on the bar",
-                range[0], range[1]
-            ),
+            format!("from {} to {}, for the zone to lie on the bar", range[0], range[1]),
             "move the zone or the bar, or lengthen the bar",
         ));
     }
@@ -162,11 +110,7 @@ fn check(shape: &Bar, zone: &FineZone) -> Result<(), MeshError> {
     let estimate =
         count(length, zone.length) * count(width, zone.width) * count(height, zone.depth);
     if estimate > MAX_ELEMENTS {
-        return Err(MeshError::TooManyElements {
-            body: "bar",
-            size: zone.size,
-            estimate,
-        });
+        return Err(MeshError::TooManyElements { body: "bar", size: zone.size, estimate });
     }
     Ok(())
 }

@@ -21,46 +21,30 @@ pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
             || body.nodes.end > mesh.nodes.len()
             || body.hexes.end > mesh.hexes.len()
         {
-            return Err(MeshError::BodyRange {
-                body: body.name.clone(),
-            });
+            return Err(MeshError::BodyRange { body: body.name.clone() });
         }
         (nodes, hexes) = (body.nodes.end, body.hexes.end);
         check_indices(mesh, body)?;
         check_shapes(mesh, body)?;
         let boundary = boundary(mesh, body)?;
         if let Some((first, second)) = duplicates(mesh, body) {
-            return Err(MeshError::DuplicateNodes {
-                first,
-                second,
-                point: mesh.nodes[first],
-            });
+            return Err(MeshError::DuplicateNodes { first, second, point: mesh.nodes[first] });
         }
         if let Some((node, face)) = hanging(mesh, &boundary) {
             let (node, element) = (node as usize, face.hex as usize);
-            return Err(MeshError::HangingNode {
-                node,
-                face: face.nodes,
-                element,
-            });
+            return Err(MeshError::HangingNode { node, face: face.nodes, element });
         }
     }
     if nodes != mesh.nodes.len() || hexes != mesh.hexes.len() {
-        let body = mesh
-            .bodies
-            .last()
-            .map_or_else(String::new, |b| b.name.clone());
+        let body = mesh.bodies.last().map_or_else(String::new, |b| b.name.clone());
         return Err(MeshError::BodyRange { body });
     }
     Ok(())
 }
 
 fn check_indices(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
-    let bad = |what: String, index: usize| MeshError::BadIndex {
-        what,
-        body: body.name.clone(),
-        index,
-    };
+    let bad =
+        |what: String, index: usize| MeshError::BadIndex { what, body: body.name.clone(), index };
     let mut used = vec![false; body.nodes.len()];
     for e in body.hexes.clone() {
         for n in mesh.hexes[e] {
@@ -71,19 +55,14 @@ fn check_indices(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
         }
     }
     if let Some(loose) = used.iter().position(|u| !u) {
-        return Err(MeshError::LooseNode {
-            node: loose + body.nodes.start,
-        });
+        return Err(MeshError::LooseNode { node: loose + body.nodes.start });
     }
     for (name, set) in &body.node_sets {
         if let Some(&n) = set.iter().find(|&&n| !body.nodes.contains(&(n as usize))) {
             return Err(bad(format!("node set `{name}`"), n as usize));
         }
         if !set.is_sorted_by(|a, b| a < b) {
-            return Err(MeshError::UnsortedSet {
-                set: name.clone(),
-                body: body.name.clone(),
-            });
+            return Err(MeshError::UnsortedSet { set: name.clone(), body: body.name.clone() });
         }
     }
     for (name, surface) in &body.surfaces {
@@ -92,10 +71,7 @@ fn check_indices(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
                 return Err(bad(format!("surface `{name}`"), face.hex as usize));
             }
             let corners = mesh.hexes[face.hex as usize];
-            if !HEX_FACES
-                .iter()
-                .any(|f| is_rotation(f.map(|c| corners[c]), face.nodes))
-            {
+            if !HEX_FACES.iter().any(|f| is_rotation(f.map(|c| corners[c]), face.nodes)) {
                 return Err(MeshError::NotAFace {
                     surface: name.clone(),
                     body: body.name.clone(),
@@ -124,11 +100,7 @@ fn check_shapes(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
         let (corner, value) = scaled_jacobian(&mesh.hexes[element].map(|n| mesh.nodes[n as usize]));
         // Corner angles below 1e-10 rad are round-off; NaN stands for an edge without length.
         if value.is_nan() || value <= 1e-10 {
-            return Err(MeshError::NegativeJacobian {
-                element,
-                corner,
-                value,
-            });
+            return Err(MeshError::NegativeJacobian { element, corner, value });
         }
     }
     Ok(())
@@ -159,10 +131,7 @@ pub(crate) fn boundary(mesh: &Mesh, body: &Body) -> Result<Vec<Face>, MeshError>
         }
     }
     let mut outside = Vec::new();
-    for list in start
-        .windows(2)
-        .map(|w| &by_node[w[0] as usize..w[1] as usize])
-    {
+    for list in start.windows(2).map(|w| &by_node[w[0] as usize..w[1] as usize]) {
         for (i, &(e, side)) in list.iter().enumerate() {
             let nodes = face(e as usize, side as usize);
             let mut others = 0;
@@ -174,10 +143,7 @@ pub(crate) fn boundary(mesh: &Mesh, body: &Body) -> Result<Vec<Face>, MeshError>
                 others += 1;
                 let [a, b, c, d] = other;
                 if others > 1 || !is_rotation([d, c, b, a], nodes) {
-                    return Err(MeshError::FaceShared {
-                        nodes,
-                        element: e as usize,
-                    });
+                    return Err(MeshError::FaceShared { nodes, element: e as usize });
                 }
             }
             if others == 0 {

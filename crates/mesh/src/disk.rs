@@ -42,18 +42,8 @@ pub struct Disk {
 /// [`MeshError::OutOfRange`] and [`MeshError::TooManyElements`].
 pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
     check(shape, zone)?;
-    let Disk {
-        radius,
-        hub_radius,
-        width,
-        crown,
-    } = *shape;
-    let FineZone {
-        size,
-        growth,
-        coarsest,
-        ..
-    } = *zone;
+    let Disk { radius, hub_radius, width, crown } = *shape;
+    let FineZone { size, growth, coarsest, .. } = *zone;
 
     let length = whole(zone.length, size);
     let (middle, turn) = (zone.start + 0.5 * length, PI * radius);
@@ -64,20 +54,13 @@ pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
         growth,
         coarsest.min(WIDEST_ELEMENT * radius),
     );
-    let angles: Vec<f64> = arc.points[..arc.cells()]
-        .iter()
-        .map(|s| s / radius)
-        .collect();
+    let angles: Vec<f64> = arc.points[..arc.cells()].iter().map(|s| s / radius).collect();
     let (half, fine) = (0.5 * width, 0.5 * whole(zone.width, size).min(width));
     let y = Axis::new([-half, half], [-fine, fine], size, growth, coarsest);
     let (radii, regular) = rows(shape, zone);
     let ny = y.cells();
     let ring = Ring::new(&angles, &radii, regular, MAX_ELEMENTS / ny as f64).map_err(|quads| {
-        MeshError::TooManyElements {
-            body: "disk",
-            size,
-            estimate: quads * ny as f64,
-        }
+        MeshError::TooManyElements { body: "disk", size, estimate: quads * ny as f64 }
     })?;
 
     let mut nodes = Vec::with_capacity(ring.nodes.len() * (ny + 1));
@@ -122,18 +105,11 @@ pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
     };
     let tread = outside(0..columns, 0..ny);
     let zone = outside(arc.fine.clone(), y.fine.clone());
-    let mut hub: Vec<u32> = ring
-        .inner
-        .iter()
-        .flat_map(|&n| (0..=ny).map(move |j| at(n, j)))
-        .collect();
+    let mut hub: Vec<u32> =
+        ring.inner.iter().flat_map(|&n| (0..=ny).map(move |j| at(n, j))).collect();
     hub.sort_unstable();
 
-    let smooth = Some(SmoothSurface::Tread {
-        centre: [0.0, 0.0, radius],
-        radius,
-        crown,
-    });
+    let smooth = Some(SmoothSurface::Tread { centre: [0.0, 0.0, radius], radius, crown });
     let body = Body {
         name: "disk".to_owned(),
         nodes: 0..nodes.len(),
@@ -144,61 +120,26 @@ pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
             ("zone".to_owned(), nodes_of(&zone)),
         ]),
         surfaces: BTreeMap::from([
-            (
-                "tread".to_owned(),
-                Surface {
-                    faces: tread,
-                    smooth,
-                },
-            ),
-            (
-                "zone".to_owned(),
-                Surface {
-                    faces: zone,
-                    smooth,
-                },
-            ),
+            ("tread".to_owned(), Surface { faces: tread, smooth }),
+            ("zone".to_owned(), Surface { faces: zone, smooth }),
         ]),
     };
-    Ok(Mesh {
-        nodes,
-        hexes,
-        bodies: vec![body],
-    })
+    Ok(Mesh { nodes, hexes, bodies: vec![body] })
 }
 
 /// Radii of the rows, from the tread inwards, and the number of rows of the fine zone.
 fn rows(shape: &Disk, zone: &FineZone) -> (Vec<f64>, usize) {
     let thickness = shape.radius - shape.hub_radius;
-    let FineZone {
-        size,
-        depth,
-        growth,
-        coarsest,
-        ..
-    } = *zone;
+    let FineZone { size, depth, growth, coarsest, .. } = *zone;
     let depth = whole(depth, size);
-    let depth = if thickness - depth < LEAST_GAP * size {
-        thickness
-    } else {
-        depth
-    };
+    let depth = if thickness - depth < LEAST_GAP * size { thickness } else { depth };
     let n = cells(depth, size);
-    let mut radii: Vec<f64> = (0..=n)
-        .map(|i| shape.radius - depth * i as f64 / n as f64)
-        .collect();
+    let mut radii: Vec<f64> = (0..=n).map(|i| shape.radius - depth * i as f64 / n as f64).collect();
     let rest = thickness - depth;
     let first = (FIRST_ROW * size).min(coarsest);
-    let previous = if rest > 2.0 * first {
-        first / growth
-    } else {
-        size
-    };
-    radii.extend(
-        outward(previous, growth, coarsest, rest)
-            .iter()
-            .map(|d| shape.radius - depth - d),
-    );
+    let previous = if rest > 2.0 * first { first / growth } else { size };
+    radii
+        .extend(outward(previous, growth, coarsest, rest).iter().map(|d| shape.radius - depth - d));
     if let Some(last) = radii.last_mut() {
         *last = shape.hub_radius;
     }
@@ -206,12 +147,7 @@ fn rows(shape: &Disk, zone: &FineZone) -> (Vec<f64>, usize) {
 }
 
 fn check(shape: &Disk, zone: &FineZone) -> Result<(), MeshError> {
-    let Disk {
-        radius,
-        hub_radius,
-        width,
-        crown,
-    } = *shape;
+    let Disk { radius, hub_radius, width, crown } = *shape;
     positive("disk.radius", radius)?;
     positive("disk.hub_radius", hub_radius)?;
     positive("disk.width", width)?;
@@ -226,32 +162,14 @@ fn check(shape: &Disk, zone: &FineZone) -> Result<(), MeshError> {
     let thickness = radius - hub_radius;
     check_crown("disk.crown_radius", crown, width, thickness)?;
     zone.check()?;
-    FineZone::fits(
-        "mesh.zone.length",
-        zone.length,
-        PI * radius,
-        "half the turn of the disk",
-    )?;
-    FineZone::fits(
-        "mesh.zone.width",
-        zone.width,
-        width,
-        "the width of the disk",
-    )?;
-    FineZone::fits(
-        "mesh.zone.depth",
-        zone.depth,
-        thickness,
-        "the disk from hub to tread",
-    )?;
+    FineZone::fits("mesh.zone.length", zone.length, PI * radius, "half the turn of the disk")?;
+    FineZone::fits("mesh.zone.width", zone.width, width, "the width of the disk")?;
+    FineZone::fits("mesh.zone.depth", zone.depth, thickness, "the disk from hub to tread")?;
     if zone.size > 0.5 * WIDEST_ELEMENT * radius {
         return Err(MeshError::range(
             "mesh.zone.size",
             zone.size,
-            format!(
-                "at most {}, an eighth of the disk's radius",
-                0.5 * WIDEST_ELEMENT * radius
-            ),
+            format!("at most {}, an eighth of the disk's radius", 0.5 * WIDEST_ELEMENT * radius),
             "lower it, or enlarge the disk",
         ));
     }
@@ -270,11 +188,7 @@ fn check(shape: &Disk, zone: &FineZone) -> Result<(), MeshError> {
         * count(width, zone.width)
         * (zone.depth / zone.size).max(1.0);
     if estimate > MAX_ELEMENTS {
-        return Err(MeshError::TooManyElements {
-            body: "disk",
-            size: zone.size,
-            estimate,
-        });
+        return Err(MeshError::TooManyElements { body: "disk", size: zone.size, estimate });
     }
     Ok(())
 }

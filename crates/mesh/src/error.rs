@@ -130,12 +130,7 @@ impl MeshError {
         allowed: impl Into<String>,
         remedy: impl Into<String>,
     ) -> Self {
-        Self::OutOfRange {
-            parameter,
-            value,
-            allowed: allowed.into(),
-            remedy: remedy.into(),
-        }
+        Self::OutOfRange { parameter, value, allowed: allowed.into(), remedy: remedy.into() }
     }
 }
 
@@ -144,10 +139,5 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<(), MeshEr
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
-    Err(MeshError::range(
-        parameter,
-        value,
-        "a positive, finite number",
-        "give a length in metres",
-    ))
+    Err(MeshError::range(parameter, value, "a positive, finite number", "give a length in metres"))
 }

@@ -25,16 +25,8 @@ impl Axis {
     /// within the stretch where it reaches an end of the span (or all but reaches it: a gap of
     /// less than [`LEAST_GAP`] elements joins the stretch) and is no whole number of cells long.
     pub fn new(span: [f64; 2], fine: [f64; 2], size: f64, growth: f64, coarsest: f64) -> Self {
-        let from = if fine[0] - span[0] < LEAST_GAP * size {
-            span[0]
-        } else {
-            fine[0]
-        };
-        let to = if span[1] - fine[1] < LEAST_GAP * size {
-            span[1]
-        } else {
-            fine[1]
-        };
+        let from = if fine[0] - span[0] < LEAST_GAP * size { span[0] } else { fine[0] };
+        let to = if span[1] - fine[1] < LEAST_GAP * size { span[1] } else { fine[1] };
         let n = cells(to - from, size);
         let rear = outward(size, growth, coarsest, from - span[0]);
         let front = outward(size, growth, coarsest, span[1] - to);
@@ -47,10 +39,7 @@ impl Axis {
         let last = points.len() - 1;
         points[0] = span[0];
         points[last] = span[1];
-        Self {
-            points,
-            fine: first..first + n,
-        }
+        Self { points, fine: first..first + n }
     }
 
     /// Number of cells.
@@ -135,9 +124,7 @@ mod tests {
 
     fn sizes(ends: &[f64]) -> Vec<f64> {
         let mut last = 0.0;
-        ends.iter()
-            .map(|&e| e - std::mem::replace(&mut last, e))
-            .collect()
+        ends.iter().map(|&e| e - std::mem::replace(&mut last, e)).collect()
     }
 
     #[test]
@@ -151,16 +138,8 @@ mod tests {
                 for size in sizes(&ends) {
                     // Short gaps hold one or two cells that may miss the ratio a little.
                     let ratio = size / last;
-                    let free = if ends.len() <= 2 {
-                        0.75..1.7
-                    } else {
-                        0.88 - 1e-9..growth + 0.13
-                    };
-                    assert!(
-                        free.contains(&ratio),
-                        "{growth} {length} {:?}",
-                        sizes(&ends)
-                    );
+                    let free = if ends.len() <= 2 { 0.75..1.7 } else { 0.88 - 1e-9..growth + 0.13 };
+                    assert!(free.contains(&ratio), "{growth} {length} {:?}", sizes(&ends));
                     assert!(size < 8.0 + 1e-9);
                     last = size;
                 }

@@ -57,11 +57,7 @@ impl Grid {
             node_sets: BTreeMap::new(),
             surfaces: BTreeMap::new(),
         };
-        Mesh {
-            nodes,
-            hexes,
-            bodies: vec![body],
-        }
+        Mesh { nodes, hexes, bodies: vec![body] }
     }
 
     /// Faces number `side` (in the order of [`HEX_FACES`]) of a box of cells.
@@ -73,10 +69,7 @@ impl Grid {
                 for j in ys.clone() {
                     let hex = self.hex(i, j, k);
                     let corners = mesh.hexes[hex as usize];
-                    faces.push(Face {
-                        nodes: HEX_FACES[side].map(|c| corners[c]),
-                        hex,
-                    });
+                    faces.push(Face { nodes: HEX_FACES[side].map(|c| corners[c]), hex });
                 }
             }
         }
@@ -87,11 +80,7 @@ impl Grid {
     pub fn side(&self, mesh: &Mesh, side: usize) -> Vec<Face> {
         let mut cells = self.cells.map(|n| 0..n);
         let axis = side / 2;
-        let layer = if side.is_multiple_of(2) {
-            0
-        } else {
-            self.cells[axis].saturating_sub(1)
-        };
+        let layer = if side.is_multiple_of(2) { 0 } else { self.cells[axis].saturating_sub(1) };
         if self.cells[axis] > 0 {
             cells[axis] = layer..layer + 1;
         }
@@ -114,23 +103,14 @@ pub(crate) fn nodes_of(faces: &[Face]) -> Vec<u32> {
 pub fn block(n: [usize; 3], size: [f64; 3]) -> Mesh {
     let cells = n.map(|n| n.max(1));
     let grid = Grid { cells };
-    let [xs, ys, zs] = [0, 1, 2].map(|a| {
-        (0..=cells[a])
-            .map(|i| size[a] * i as f64 / cells[a] as f64)
-            .collect::<Vec<_>>()
-    });
+    let [xs, ys, zs] = [0, 1, 2]
+        .map(|a| (0..=cells[a]).map(|i| size[a] * i as f64 / cells[a] as f64).collect::<Vec<_>>());
     let mut mesh = grid.mesh("block", &xs, &ys, &zs);
     for (side, name) in ["x-", "x+", "y-", "y+", "z-", "z+"].into_iter().enumerate() {
         let faces = grid.side(&mesh, side);
         let body = &mut mesh.bodies[0];
         body.node_sets.insert(name.to_owned(), nodes_of(&faces));
-        body.surfaces.insert(
-            name.to_owned(),
-            Surface {
-                faces,
-                smooth: None,
-            },
-        );
+        body.surfaces.insert(name.to_owned(), Surface { faces, smooth: None });
     }
     mesh
 }

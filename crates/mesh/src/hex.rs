@@ -2,14 +2,8 @@
 
 /// Corners of the six faces in the order x-, x+, y-, y+, z-, z+ of the reference cube, each
 /// counter-clockwise seen from outside (`VTK_HEXAHEDRON` corner order).
-pub const HEX_FACES: [[usize; 4]; 6] = [
-    [0, 4, 7, 3],
-    [1, 2, 6, 5],
-    [0, 1, 5, 4],
-    [3, 7, 6, 2],
-    [0, 3, 2, 1],
-    [4, 5, 6, 7],
-];
+pub const HEX_FACES: [[usize; 4]; 6] =
+    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 /// Ends of the twelve edges.
 pub(crate) const EDGES: [[usize; 2]; 12] = [
@@ -28,16 +22,8 @@ pub(crate) const EDGES: [[usize; 2]; 12] = [
 ];
 
 /// The three neighbours of each corner, so ordered that their triple product is positive.
-pub(crate) const NEIGHBOURS: [[usize; 3]; 8] = [
-    [1, 3, 4],
-    [2, 0, 5],
-    [3, 1, 6],
-    [0, 2, 7],
-    [7, 5, 0],
-    [4, 6, 1],
-    [5, 7, 2],
-    [6, 4, 3],
-];
+pub(crate) const NEIGHBOURS: [[usize; 3]; 8] =
+    [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
 /// Reference coordinates of the corners.
 const CORNERS: [[f64; 3]; 8] = [
@@ -56,11 +42,7 @@ pub(crate) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

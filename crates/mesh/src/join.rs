@@ -12,12 +12,8 @@ pub fn join(parts: &[Mesh]) -> Mesh {
     for part in parts {
         let (n, e) = (whole.nodes.len(), whole.hexes.len());
         whole.nodes.extend_from_slice(&part.nodes);
-        whole
-            .hexes
-            .extend(part.hexes.iter().map(|h| h.map(|i| i + n as u32)));
-        whole
-            .bodies
-            .extend(part.bodies.iter().map(|b| shifted(b, n, e)));
+        whole.hexes.extend(part.hexes.iter().map(|h| h.map(|i| i + n as u32)));
+        whole.bodies.extend(part.bodies.iter().map(|b| shifted(b, n, e)));
     }
     whole
 }
@@ -28,10 +24,7 @@ fn shifted(body: &Body, n: usize, e: usize) -> Body {
         faces: s
             .faces
             .iter()
-            .map(|f| Face {
-                nodes: f.nodes.map(|i| i + n as u32),
-                hex: f.hex + e as u32,
-            })
+            .map(|f| Face { nodes: f.nodes.map(|i| i + n as u32), hex: f.hex + e as u32 })
             .collect(),
         smooth: s.smooth,
     };
@@ -39,15 +32,7 @@ fn shifted(body: &Body, n: usize, e: usize) -> Body {
         name: body.name.clone(),
         nodes: body.nodes.start + n..body.nodes.end + n,
         hexes: body.hexes.start + e..body.hexes.end + e,
-        node_sets: body
-            .node_sets
-            .iter()
-            .map(|(k, v)| (k.clone(), set(v)))
-            .collect(),
-        surfaces: body
-            .surfaces
-            .iter()
-            .map(|(k, v)| (k.clone(), surface(v)))
-            .collect(),
+        node_sets: body.node_sets.iter().map(|(k, v)| (k.clone(), set(v))).collect(),
+        surfaces: body.surfaces.iter().map(|(k, v)| (k.clone(), surface(v))).collect(),
     }
 }

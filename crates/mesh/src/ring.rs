@@ -56,20 +56,12 @@ impl Ring {
     /// An estimate of the number of quads, as soon as it is clear that they exceed `limit`.
     pub fn new(angles: &[f64], radii: &[f64], regular: usize, limit: f64) -> Result<Self, f64> {
         let n = angles.len();
-        let mut draft = Draft {
-            angles,
-            nodes: Vec::new(),
-            quads: Vec::new(),
-        };
+        let mut draft = Draft { angles, nodes: Vec::new(), quads: Vec::new() };
         let mut columns: Vec<usize> = (0..n).collect();
         let outer = draft.circle(&columns, radii[0]);
         let mut above = outer.clone();
         for (row, r) in radii.windows(2).enumerate() {
-            let merged = if row < regular {
-                vec![]
-            } else {
-                draft.transitions(&columns, r)
-            };
+            let merged = if row < regular { vec![] } else { draft.transitions(&columns, r) };
             let (below_columns, below) = draft.row(&columns, &above, &merged, r);
             columns = below_columns;
             above = below;
@@ -103,10 +95,7 @@ impl Draft<'_> {
     }
 
     fn circle(&mut self, columns: &[usize], radius: f64) -> Vec<u32> {
-        columns
-            .iter()
-            .map(|&c| self.node(c, self.angles[c], radius))
-            .collect()
+        columns.iter().map(|&c| self.node(c, self.angles[c], radius)).collect()
     }
 
     /// Positions in `columns` of the triples that this row turns into one, ascending.
@@ -175,12 +164,7 @@ impl Draft<'_> {
                 self.quads.push((ends[i] + ends[end], quad));
             } else {
                 let top = [above[i], above[i + 1], above[i + 2], above[end % n]];
-                self.transition(
-                    [ends[i], ends[i + 1], ends[i + 2], ends[end]],
-                    top,
-                    bottom,
-                    r,
-                );
+                self.transition([ends[i], ends[i + 1], ends[i + 2], ends[end]], top, bottom, r);
             }
         }
         (kept, below)
@@ -215,11 +199,8 @@ impl Draft<'_> {
         }
         let nodes = order.iter().map(|&n| self.nodes[n as usize].1).collect();
 
-        let mut quads: Vec<(usize, f64, [u32; 4])> = self
-            .quads
-            .iter()
-            .map(|(c, q)| (*c, radius(q), q.map(|n| place[n as usize])))
-            .collect();
+        let mut quads: Vec<(usize, f64, [u32; 4])> =
+            self.quads.iter().map(|(c, q)| (*c, radius(q), q.map(|n| place[n as usize]))).collect();
         quads.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let quads: Vec<[u32; 4]> = quads.into_iter().map(|(_, _, q)| q).collect();
 
@@ -238,12 +219,6 @@ impl Draft<'_> {
                 rim[c as usize] = quad as u32;
             }
         }
-        Ring {
-            nodes,
-            quads,
-            outer,
-            inner,
-            rim,
-        }
+        Ring { nodes, quads, outer, inner, rim }
     }
 }

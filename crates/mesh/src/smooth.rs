@@ -26,11 +26,7 @@ impl SmoothSurface {
     /// the point lies inside the body.
     pub fn offset(&self, p: [f64; 3]) -> f64 {
         match *self {
-            Self::Tread {
-                centre,
-                radius,
-                crown,
-            } => {
+            Self::Tread { centre, radius, crown } => {
                 let rho = (p[0] - centre[0]).hypot(p[2] - centre[2]);
                 match crown {
                     None => radius - rho,
@@ -48,11 +44,7 @@ impl SmoothSurface {
     /// [`offset`](Self::offset).
     pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
         match *self {
-            Self::Tread {
-                centre,
-                radius,
-                crown,
-            } => {
+            Self::Tread { centre, radius, crown } => {
                 let (dx, dz) = (p[0] - centre[0], p[2] - centre[2]);
                 let rho = dx.hypot(dz);
                 match crown {

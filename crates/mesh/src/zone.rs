@@ -121,10 +121,7 @@ pub(crate) fn check_crown(
         return Err(MeshError::range(
             parameter,
             c,
-            format!(
-                "large enough to fall by less than {} over the width",
-                0.5 * thickness
-            ),
+            format!("large enough to fall by less than {} over the width", 0.5 * thickness),
             format!("it falls by {drop}: raise it, or narrow the body"),
         ));
     }

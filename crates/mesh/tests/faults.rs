@@ -66,11 +66,7 @@ fn sides_of_a_block_face_outwards() {
         let body = &mesh.bodies[0];
         let count = [12, 8, 6][axis];
         assert_eq!(body.surfaces[name].faces.len(), count);
-        assert!(
-            body.node_sets[name]
-                .iter()
-                .all(|&n| mesh.nodes[n as usize][axis] == at)
-        );
+        assert!(body.node_sets[name].iter().all(|&n| mesh.nodes[n as usize][axis] == at));
         for face in &body.surfaces[name].faces {
             let p = face.nodes.map(|n| mesh.nodes[n as usize]);
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -86,10 +82,7 @@ fn an_inverted_element_is_found() {
     let mut mesh = cube();
     mesh.bodies[0].surfaces.clear();
     mesh.hexes[5].swap(0, 4);
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::NegativeJacobian { element: 5, .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::NegativeJacobian { element: 5, .. })));
 }
 
 #[test]
@@ -99,20 +92,14 @@ fn a_flat_element_is_found() {
     for n in side {
         mesh.nodes[n as usize][0] = 2.0;
     }
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::NegativeJacobian { .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::NegativeJacobian { .. })));
 }
 
 #[test]
 fn a_coordinate_that_is_not_finite_is_found() {
     let mut mesh = cube();
     mesh.nodes[7][1] = f64::NAN;
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::NotFinite { node: 7, .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::NotFinite { node: 7, .. })));
 }
 
 #[test]
@@ -125,10 +112,7 @@ fn a_crack_between_coinciding_nodes_is_found() {
     let second = mesh.bodies.pop().unwrap();
     mesh.bodies[0].nodes.end = second.nodes.end;
     mesh.bodies[0].hexes.end = second.hexes.end;
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::DuplicateNodes { .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::DuplicateNodes { .. })));
 }
 
 #[test]
@@ -148,20 +132,14 @@ fn a_hanging_node_is_found() {
         }
     }
     mesh.nodes = nodes;
-    mesh.hexes
-        .iter_mut()
-        .flatten()
-        .for_each(|n| *n = new[*n as usize]);
+    mesh.hexes.iter_mut().flatten().for_each(|n| *n = new[*n as usize]);
     let mut body = mesh.bodies.remove(0);
     body.node_sets.clear();
     body.surfaces.clear();
     (body.nodes, body.hexes) = (0..mesh.nodes.len(), 0..5);
     mesh.bodies = vec![body];
     let fault = check(&mesh).unwrap_err();
-    assert!(
-        matches!(fault, MeshError::HangingNode { element: 0, .. }),
-        "{fault}"
-    );
+    assert!(matches!(fault, MeshError::HangingNode { element: 0, .. }), "{fault}");
 }
 
 #[test]
@@ -176,31 +154,19 @@ fn an_element_given_twice_is_found() {
 fn indices_outside_the_body_are_found() {
     let mut mesh = cube();
     mesh.hexes[3][2] = 64;
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::BadIndex { index: 64, .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::BadIndex { index: 64, .. })));
 
     let mut mesh = cube();
     mesh.bodies[0].node_sets.insert("odd".into(), vec![64]);
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::BadIndex { index: 64, .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::BadIndex { index: 64, .. })));
 
     let mut mesh = cube();
     mesh.bodies[0].surfaces.get_mut("x-").unwrap().faces[0].hex = 27;
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::BadIndex { index: 27, .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::BadIndex { index: 27, .. })));
 
     let mut mesh = join(&[cube(), cube()]);
     mesh.hexes[30][0] = 0;
-    assert!(matches!(
-        check(&mesh),
-        Err(MeshError::BadIndex { index: 0, .. })
-    ));
+    assert!(matches!(check(&mesh), Err(MeshError::BadIndex { index: 0, .. })));
 }
 
 #[test]
@@ -210,9 +176,7 @@ fn sets_and_surfaces_that_break_their_promise_are_found() {
     assert!(matches!(check(&mesh), Err(MeshError::UnsortedSet { .. })));
 
     let mut mesh = cube();
-    mesh.bodies[0].surfaces.get_mut("z+").unwrap().faces[2]
-        .nodes
-        .reverse();
+    mesh.bodies[0].surfaces.get_mut("z+").unwrap().faces[2].nodes.reverse();
     assert!(matches!(check(&mesh), Err(MeshError::NotAFace { .. })));
 }
 

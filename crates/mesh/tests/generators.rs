@@ -5,13 +5,8 @@ use mesh::{Bar, Disk, Face, FineZone, Mesh, bar, check, disk, quality};
 use proptest::prelude::*;
 
 fn centre(mesh: &Mesh, nodes: &[u32]) -> [f64; 3] {
-    [0, 1, 2].map(|a| {
-        nodes
-            .iter()
-            .map(|&n| mesh.nodes[n as usize][a])
-            .sum::<f64>()
-            / nodes.len() as f64
-    })
+    [0, 1, 2]
+        .map(|a| nodes.iter().map(|&n| mesh.nodes[n as usize][a]).sum::<f64>() / nodes.len() as f64)
 }
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -25,11 +20,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 fn normal(mesh: &Mesh, face: &Face) -> [f64; 3] {
     let p = face.nodes.map(|n| mesh.nodes[n as usize]);
     let (a, b) = (sub(p[2], p[0]), sub(p[3], p[1]));
-    let n = [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ];
+    let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     n.map(|x| x / dot(n, n).sqrt())
 }
 
@@ -41,20 +32,13 @@ fn check_surfaces(mesh: &Mesh) {
             for face in &surface.faces {
                 let n = normal(mesh, face);
                 let inner = centre(mesh, &mesh.hexes[face.hex as usize]);
-                assert!(
-                    dot(n, sub(centre(mesh, &face.nodes), inner)) > 0.0,
-                    "{name} {face:?}"
-                );
+                assert!(dot(n, sub(centre(mesh, &face.nodes), inner)) > 0.0, "{name} {face:?}");
                 let Some(smooth) = surface.smooth else {
                     continue;
                 };
                 for node in face.nodes {
                     let p = mesh.nodes[node as usize];
-                    assert!(
-                        smooth.offset(p).abs() < 1e-12,
-                        "{name}: {}",
-                        smooth.offset(p)
-                    );
+                    assert!(smooth.offset(p).abs() < 1e-12, "{name}: {}", smooth.offset(p));
                     assert!(dot(n, smooth.normal(p)) > 0.9, "{name} {face:?}");
                 }
             }
@@ -66,36 +50,27 @@ fn check_surfaces(mesh: &Mesh) {
 }
 
 fn zones() -> impl Strategy<Value = FineZone> {
-    (
-        2e-3..5e-3,
-        3.0..25.0,
-        1.0..9.0,
-        1.0..8.0,
-        -0.04..0.0,
-        1.15..1.6,
-        10.0..25.0,
+    (2e-3..5e-3, 3.0..25.0, 1.0..9.0, 1.0..8.0, -0.04..0.0, 1.15..1.6, 10.0..25.0).prop_map(
+        |(size, length, width, depth, start, growth, coarsest): (
+            f64,
+            f64,
+            f64,
+            f64,
+            f64,
+            f64,
+            f64,
+        )| {
+            FineZone {
+                size,
+                length: size * length,
+                width: size * width,
+                depth: (size * depth).min(0.05),
+                start,
+                growth,
+                coarsest: size * coarsest,
+            }
+        },
     )
-        .prop_map(
-            |(size, length, width, depth, start, growth, coarsest): (
-                f64,
-                f64,
-                f64,
-                f64,
-                f64,
-                f64,
-                f64,
-            )| {
-                FineZone {
-                    size,
-                    length: size * length,
-                    width: size * width,
-                    depth: (size * depth).min(0.05),
-                    start,
-                    growth,
-                    coarsest: size * coarsest,
-                }
-            },
-        )
 }
 
 proptest! {

@@ -4,23 +4,9 @@
 use mesh::{Bar, Body, Disk, FineZone, Mesh, MeshError, bar, check, disk, join, quality};
 use std::f64::consts::PI;
 
-const DISK: Disk = Disk {
-    radius: 0.46,
-    hub_radius: 0.10,
-    width: 0.06,
-    crown: None,
-};
-const BAR: Bar = Bar {
-    length: 0.24,
-    width: 0.06,
-    height: 0.07,
-    crown: Some(0.30),
-    start: -0.09,
-};
-const CROWNED: Disk = Disk {
-    crown: Some(0.30),
-    ..DISK
-};
+const DISK: Disk = Disk { radius: 0.46, hub_radius: 0.10, width: 0.06, crown: None };
+const BAR: Bar = Bar { length: 0.24, width: 0.06, height: 0.07, crown: Some(0.30), start: -0.09 };
+const CROWNED: Disk = Disk { crown: Some(0.30), ..DISK };
 
 const fn zone(size: f64) -> FineZone {
     FineZone {
@@ -75,14 +61,9 @@ fn no_element_is_thinner_than_three_quarters_of_the_size() {
 
 #[test]
 fn zones_of_disk_and_bar_meet_point_by_point_in_rolling() {
-    let (d, b) = (
-        disk(&DISK, &zone(2e-3)).unwrap(),
-        bar(&BAR, &zone(2e-3)).unwrap(),
-    );
-    let (on_disk, on_bar) = (
-        &body(&d, "disk").node_sets["zone"],
-        &body(&b, "bar").node_sets["zone"],
-    );
+    let (d, b) = (disk(&DISK, &zone(2e-3)).unwrap(), bar(&BAR, &zone(2e-3)).unwrap());
+    let (on_disk, on_bar) =
+        (&body(&d, "disk").node_sets["zone"], &body(&b, "bar").node_sets["zone"]);
     assert_eq!(on_disk.len(), 41 * 11);
     assert_eq!(on_disk.len(), on_bar.len());
     for (p, q) in points(&d, on_disk).zip(points(&b, on_bar)) {
@@ -96,10 +77,7 @@ fn zones_of_disk_and_bar_meet_point_by_point_in_rolling() {
 #[test]
 fn zone_faces_have_the_size_asked_for() {
     let z = zone(1e-3);
-    for (mesh, name) in [
-        (disk(&DISK, &z).unwrap(), "disk"),
-        (bar(&BAR, &z).unwrap(), "bar"),
-    ] {
+    for (mesh, name) in [(disk(&DISK, &z).unwrap(), "disk"), (bar(&BAR, &z).unwrap(), "bar")] {
         let surface = &body(&mesh, name).surfaces["zone"];
         assert_eq!(surface.faces.len(), 80 * 20);
         for face in &surface.faces {
@@ -131,10 +109,7 @@ fn zone_faces_have_the_size_asked_for() {
 
 #[test]
 fn sets_hold_the_nodes_that_their_names_say() {
-    let (d, b) = (
-        disk(&CROWNED, &zone(2e-3)).unwrap(),
-        bar(&BAR, &zone(2e-3)).unwrap(),
-    );
+    let (d, b) = (disk(&CROWNED, &zone(2e-3)).unwrap(), bar(&BAR, &zone(2e-3)).unwrap());
     let whole = |mesh: &Mesh, set: &[u32], test: &dyn Fn([f64; 3]) -> bool| {
         assert!(points(mesh, set).all(test));
         assert_eq!(mesh.nodes.iter().filter(|&&p| test(p)).count(), set.len());
@@ -149,16 +124,10 @@ fn sets_hold_the_nodes_that_their_names_say() {
     let smooth = body(&b, "bar").surfaces["top"].smooth.unwrap();
     whole(&b, &sets["top"], &|p| smooth.offset(p).abs() < 1e-12);
     whole(&b, &sets["bottom"], &|p| p[2] == -0.07);
-    whole(&b, &sets["ends"], &|p| {
-        p[0] == -0.09 || p[0] == -0.09 + 0.24
-    });
+    whole(&b, &sets["ends"], &|p| p[0] == -0.09 || p[0] == -0.09 + 0.24);
     for (surface, x) in [("rear", -0.09), ("front", -0.09 + 0.24)] {
         let faces = &body(&b, "bar").surfaces[surface].faces;
-        assert!(
-            faces
-                .iter()
-                .all(|f| points(&b, &f.nodes).all(|p| p[0] == x))
-        );
+        assert!(faces.iter().all(|f| points(&b, &f.nodes).all(|p| p[0] == x)));
     }
 }
 
@@ -166,10 +135,7 @@ fn sets_hold_the_nodes_that_their_names_say() {
 fn flat_bar_has_the_volume_of_its_box() {
     let flat = Bar { crown: None, ..BAR };
     let volume = quality(&bar(&flat, &zone(2e-3)).unwrap()).volume;
-    assert!(
-        (volume / (0.24 * 0.06 * 0.07) - 1.0).abs() < 1e-13,
-        "{volume}"
-    );
+    assert!((volume / (0.24 * 0.06 * 0.07) - 1.0).abs() < 1e-13, "{volume}");
 }
 
 #[test]
@@ -181,20 +147,14 @@ fn crowned_bar_has_the_volume_under_its_crown() {
     let exact = 0.24 * (0.06 * 0.07 - segment);
     // The facets cut the corners of the circle: sum over faces of w^3/(12 c), 5 mm at most.
     let cut = 0.24 * 0.06 * 0.0052f64.powi(2) / (12.0 * c);
-    assert!(
-        volume < exact && volume > exact - cut,
-        "{volume} {exact} {cut}"
-    );
+    assert!(volume < exact && volume > exact - cut, "{volume} {exact} {cut}");
 }
 
 #[test]
 fn disk_volume_converges_to_the_annulus_with_the_square_of_the_size() {
     let exact = PI * (0.46f64.powi(2) - 0.1f64.powi(2)) * 0.06;
     let error = |coarsest: f64| {
-        let z = FineZone {
-            coarsest,
-            ..zone(5e-3)
-        };
+        let z = FineZone { coarsest, ..zone(5e-3) };
         1.0 - quality(&disk(&DISK, &z).unwrap()).volume / exact
     };
     let (coarse, fine) = (error(0.04), error(0.02));
@@ -213,18 +173,13 @@ fn elements_run_along_the_rolling_direction_in_slabs() {
 
     let d = disk(&DISK, &zone(2e-3)).unwrap();
     let top = middle(&d, &d.hexes[0], &|p| p[2]);
-    assert!(
-        top > DISK.radius,
-        "the seam is on the side of the contact: {top}"
-    );
+    assert!(top > DISK.radius, "the seam is on the side of the contact: {top}");
     // Angle from the far side of the zone's middle, which is at the arc 30 mm.
     let start = 0.03 / DISK.radius - PI;
     let angle = |p: [f64; 3]| (p[0].atan2(DISK.radius - p[2]) - start).rem_euclid(2.0 * PI);
     let n = d.hexes.len();
-    let angles: Vec<f64> = d.hexes[n / 20..n - n / 20]
-        .iter()
-        .map(|h| middle(&d, h, &angle))
-        .collect();
+    let angles: Vec<f64> =
+        d.hexes[n / 20..n - n / 20].iter().map(|h| middle(&d, h, &angle)).collect();
     // Coarse columns are placed by their middle column, off by less than half their width.
     assert!(angles.windows(2).all(|a| a[1] > a[0] - 0.1));
     assert!(angles[angles.len() - 1] - angles[0] > PI);
@@ -232,10 +187,7 @@ fn elements_run_along_the_rolling_direction_in_slabs() {
 
 #[test]
 fn join_moves_nodes_elements_sets_and_faces_behind_those_before() {
-    let (d, b) = (
-        disk(&DISK, &zone(2e-3)).unwrap(),
-        bar(&BAR, &zone(2e-3)).unwrap(),
-    );
+    let (d, b) = (disk(&DISK, &zone(2e-3)).unwrap(), bar(&BAR, &zone(2e-3)).unwrap());
     let both = join(&[d.clone(), b.clone()]);
     assert_eq!(check(&both), Ok(()));
     let joined = body(&both, "bar");
@@ -243,10 +195,7 @@ fn join_moves_nodes_elements_sets_and_faces_behind_those_before() {
     assert_eq!(joined.hexes, d.hexes.len()..d.hexes.len() + b.hexes.len());
     let alone = body(&b, "bar");
     for (name, set) in &alone.node_sets {
-        assert!(
-            points(&b, set).eq(points(&both, &joined.node_sets[name])),
-            "{name}"
-        );
+        assert!(points(&b, set).eq(points(&both, &joined.node_sets[name])), "{name}");
     }
     for (name, surface) in &alone.surfaces {
         let moved = &joined.surfaces[name];
@@ -271,148 +220,38 @@ fn key<T>(result: Result<T, MeshError>) -> &'static str {
 fn a_bad_shape_is_refused_by_the_name_of_its_parameter() {
     let z = zone(2e-3);
     let on = |shape: Disk| key(disk(&shape, &z));
-    assert_eq!(
-        on(Disk {
-            radius: f64::NAN,
-            ..DISK
-        }),
-        "disk.radius"
-    );
-    assert_eq!(
-        on(Disk {
-            radius: f64::INFINITY,
-            ..DISK
-        }),
-        "disk.radius"
-    );
-    assert_eq!(
-        on(Disk {
-            hub_radius: 0.46,
-            ..DISK
-        }),
-        "disk.hub_radius"
-    );
-    assert_eq!(
-        on(Disk {
-            hub_radius: 0.0,
-            ..DISK
-        }),
-        "disk.hub_radius"
-    );
-    assert_eq!(
-        on(Disk {
-            width: -0.06,
-            ..DISK
-        }),
-        "disk.width"
-    );
-    assert_eq!(
-        on(Disk {
-            width: 0.01,
-            ..DISK
-        }),
-        "mesh.zone.width"
-    );
-    assert_eq!(
-        on(Disk {
-            crown: Some(0.029),
-            ..DISK
-        }),
-        "disk.crown_radius"
-    );
-    assert_eq!(
-        on(Disk {
-            hub_radius: 0.455,
-            ..DISK
-        }),
-        "mesh.zone.depth"
-    );
+    assert_eq!(on(Disk { radius: f64::NAN, ..DISK }), "disk.radius");
+    assert_eq!(on(Disk { radius: f64::INFINITY, ..DISK }), "disk.radius");
+    assert_eq!(on(Disk { hub_radius: 0.46, ..DISK }), "disk.hub_radius");
+    assert_eq!(on(Disk { hub_radius: 0.0, ..DISK }), "disk.hub_radius");
+    assert_eq!(on(Disk { width: -0.06, ..DISK }), "disk.width");
+    assert_eq!(on(Disk { width: 0.01, ..DISK }), "mesh.zone.width");
+    assert_eq!(on(Disk { crown: Some(0.029), ..DISK }), "disk.crown_radius");
+    assert_eq!(on(Disk { hub_radius: 0.455, ..DISK }), "mesh.zone.depth");
 
     let on = |shape: Bar| key(bar(&shape, &z));
     assert_eq!(on(Bar { length: 0.0, ..BAR }), "bar.length");
-    assert_eq!(
-        on(Bar {
-            length: 0.07,
-            ..BAR
-        }),
-        "mesh.zone.length"
-    );
-    assert_eq!(
-        on(Bar {
-            width: f64::NAN,
-            ..BAR
-        }),
-        "bar.width"
-    );
-    assert_eq!(
-        on(Bar {
-            height: 0.007,
-            crown: None,
-            ..BAR
-        }),
-        "mesh.zone.depth"
-    );
+    assert_eq!(on(Bar { length: 0.07, ..BAR }), "mesh.zone.length");
+    assert_eq!(on(Bar { width: f64::NAN, ..BAR }), "bar.width");
+    assert_eq!(on(Bar { height: 0.007, crown: None, ..BAR }), "mesh.zone.depth");
     assert_eq!(on(Bar { start: 0.0, ..BAR }), "mesh.zone.start");
-    assert_eq!(
-        on(Bar {
-            start: f64::NAN,
-            ..BAR
-        }),
-        "bar.start"
-    );
-    assert_eq!(
-        on(Bar {
-            crown: Some(0.02),
-            ..BAR
-        }),
-        "bar.crown_radius"
-    );
-    assert_eq!(
-        on(Bar {
-            crown: Some(0.03),
-            height: 0.02,
-            ..BAR
-        }),
-        "bar.crown_radius"
-    );
+    assert_eq!(on(Bar { start: f64::NAN, ..BAR }), "bar.start");
+    assert_eq!(on(Bar { crown: Some(0.02), ..BAR }), "bar.crown_radius");
+    assert_eq!(on(Bar { crown: Some(0.03), height: 0.02, ..BAR }), "bar.crown_radius");
 
     for (name, bad) in [
         ("mesh.zone.size", FineZone { size: 0.0, ..z }),
         ("mesh.zone.size", FineZone { size: 0.01, ..z }),
-        (
-            "mesh.zone.length",
-            FineZone {
-                length: f64::INFINITY,
-                ..z
-            },
-        ),
+        ("mesh.zone.length", FineZone { length: f64::INFINITY, ..z }),
         ("mesh.zone.length", FineZone { length: 2.0, ..z }),
         ("mesh.zone.width", FineZone { width: 0.07, ..z }),
         ("mesh.zone.depth", FineZone { depth: -1.0, ..z }),
-        (
-            "mesh.zone.start",
-            FineZone {
-                start: f64::NAN,
-                ..z
-            },
-        ),
+        ("mesh.zone.start", FineZone { start: f64::NAN, ..z }),
         ("mesh.zone.start", FineZone { start: 2.0, ..z }),
         ("mesh.zone.growth", FineZone { growth: 1.0, ..z }),
-        (
-            "mesh.zone.growth",
-            FineZone {
-                growth: f64::NAN,
-                ..z
-            },
-        ),
+        ("mesh.zone.growth", FineZone { growth: f64::NAN, ..z }),
         ("mesh.zone.growth", FineZone { growth: 3.1, ..z }),
-        (
-            "mesh.zone.coarsest",
-            FineZone {
-                coarsest: 1e-3,
-                ..z
-            },
-        ),
+        ("mesh.zone.coarsest", FineZone { coarsest: 1e-3, ..z }),
         ("too many", FineZone { size: 5e-5, ..z }),
         ("too many", FineZone { size: 1e-300, ..z }),
     ] {
@@ -433,12 +272,7 @@ fn a_ring_of_too_many_rows_is_refused_while_it_is_made() {
         growth: 3.0,
         coarsest: 2e-5,
     };
-    let narrow = Disk {
-        width: 2e-3,
-        ..DISK
-    };
-    assert!(
-        matches!(disk(&narrow, &z), Err(MeshError::TooManyElements { estimate, .. })
-        if estimate > 1e11 && estimate < 1e12)
-    );
+    let narrow = Disk { width: 2e-3, ..DISK };
+    assert!(matches!(disk(&narrow, &z), Err(MeshError::TooManyElements { estimate, .. })
+        if estimate > 1e11 && estimate < 1e12));
 }

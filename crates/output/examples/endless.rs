@@ -34,20 +34,16 @@ pub fn write_forever(folder: &Path, pause: Duration) -> Result<(), OutputError> 
         case_hash: "none".into(),
         created: "2026-01-01T00:00:00Z".into(),
     };
-    let points: Vec<[f64; 3]> = (0..2 * (QUADS + 1))
-        .map(|i| [(i / 2) as f64, (i % 2) as f64, 0.0])
-        .collect();
-    let quads: Vec<[u32; 4]> = (0..QUADS as u32)
-        .map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1])
-        .collect();
+    let points: Vec<[f64; 3]> =
+        (0..2 * (QUADS + 1)).map(|i| [(i / 2) as f64, (i % 2) as f64, 0.0]).collect();
+    let quads: Vec<[u32; 4]> =
+        (0..QUADS as u32).map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1]).collect();
     let body = vec![1u8; QUADS];
     let grid = GridSpec {
         points: &points,
         cells: Cells::Quads(&quads),
         constant: &[StaticField {
-            spec: FieldSpec::at_points("body", "1", 1, "label")
-                .integer()
-                .on_cells(),
+            spec: FieldSpec::at_points("body", "1", 1, "label").integer().on_cells(),
             values: Values::Integer(&body),
         }],
     };
@@ -64,12 +60,10 @@ pub fn write_forever(folder: &Path, pause: Duration) -> Result<(), OutputError> 
     let n = points.len();
     for step in 0.. {
         let scalar: Vec<f64> = (0..n).map(|i| value(step, i)).collect();
-        let vector: Vec<[f64; 3]> = (0..n)
-            .map(|i| [0, 1, 2].map(|c| value(step, 3 * i + c)))
-            .collect();
-        let tensor: Vec<[f64; 6]> = (0..QUADS)
-            .map(|i| [0, 1, 2, 3, 4, 5].map(|c| value(step, 6 * i + c)))
-            .collect();
+        let vector: Vec<[f64; 3]> =
+            (0..n).map(|i| [0, 1, 2].map(|c| value(step, 3 * i + c))).collect();
+        let tensor: Vec<[f64; 6]> =
+            (0..QUADS).map(|i| [0, 1, 2, 3, 4, 5].map(|c| value(step, 6 * i + c))).collect();
         let label: Vec<u8> = (0..n).map(|i| value(step, i) as u64 as u8).collect();
         strip.append(
             step as f64,

@@ -23,11 +23,7 @@ const PATCH: f64 = 0.015;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
-    let folder = PathBuf::from(
-        arguments
-            .next()
-            .ok_or("usage: synthetic DIR [STEPS] [REFINE]")?,
-    );
+    let folder = PathBuf::from(arguments.next().ok_or("usage: synthetic DIR [STEPS] [REFINE]")?);
     let steps: usize = arguments.next().map_or(Ok(5), |text| text.parse())?;
     let refine: usize = arguments.next().map_or(Ok(1), |text| text.parse())?;
     std::fs::create_dir_all(&folder)?;
@@ -68,24 +64,16 @@ impl Model {
         let disk = |i: usize, j: usize, k: usize| {
             let angle = TAU * i as f64 / around as f64;
             let radius = HUB + (RADIUS - HUB) * (k as f64 / through as f64).sqrt();
-            [
-                radius * angle.sin(),
-                lateral(j),
-                RADIUS - radius * angle.cos(),
-            ]
+            [radius * angle.sin(), lateral(j), RADIUS - radius * angle.cos()]
         };
         let near = around / 13;
-        model.block(0, [around, across, through], true, disk, |i| {
-            (i + near) % around < 2 * near
-        });
+        model.block(0, [around, across, through], true, disk, |i| (i + near) % around < 2 * near);
         let bar = |i: usize, j: usize, k: usize| {
             let depth = 1.0 - k as f64 / down as f64;
             let x = BAR_LENGTH * (i as f64 / along as f64 - 0.5);
             [x, lateral(j), -BAR_HEIGHT * depth]
         };
-        model.block(1, [along, across, down], false, bar, |i| {
-            i.abs_diff(along / 2) < along / 3
-        });
+        model.block(1, [along, across, down], false, bar, |i| i.abs_diff(along / 2) < along / 3);
         model
     }
 
@@ -112,12 +100,7 @@ impl Model {
             for j in 0..ny {
                 for k in 0..nz {
                     let ring = |k| {
-                        [
-                            node(i, j, k),
-                            node(i + 1, j, k),
-                            node(i + 1, j + 1, k),
-                            node(i, j + 1, k),
-                        ]
+                        [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
                     };
                     let ([a, b, c, d], [e, f, g, h]) = (ring(k), ring(k + 1));
                     // The disk's third direction points down at the contact: turn it outside in.
@@ -135,11 +118,7 @@ impl Model {
                         node(i + 1, j + 1, nz),
                         node(i, j + 1, nz),
                     ];
-                    if closed {
-                        self.tread.push([a, d, c, b])
-                    } else {
-                        self.top.push([a, b, c, d])
-                    }
+                    if closed { self.tread.push([a, d, c, b]) } else { self.top.push([a, b, c, d]) }
                 }
             }
         }
@@ -172,9 +151,7 @@ fn write_fields(
 ) -> Result<(), OutputError> {
     let path = folder.join("fields.vtkhdf");
     let body = StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar")
-            .integer()
-            .on_cells(),
+        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
         values: Values::Integer(&model.body),
     };
     let grid = GridSpec {
@@ -202,10 +179,7 @@ fn write_fields(
                 let (x, z) = (p[0], p[2] - RADIUS);
                 let (turned_x, turned_z) = (x * cos + z * sin, z * cos - x * sin);
                 displacement.push([turned_x - x + x0 + 1e-8 * w, 3e-9 * w, turned_z - z + dent]);
-                let (vx, vz) = (
-                    SPEED * (1.0 + turned_z / RADIUS),
-                    -SPEED * turned_x / RADIUS,
-                );
+                let (vx, vz) = (SPEED * (1.0 + turned_z / RADIUS), -SPEED * turned_x / RADIUS);
                 velocity.push([vx + 3e-3 * w, 1e-3 * w, vz + 2e-3 * w * w]);
             } else {
                 let dent = -2e-4 * bump(p, x0);
@@ -224,11 +198,7 @@ fn write_fields(
                         let u = displacement[node as usize];
                         p = [p[0] + u[0], p[1] + u[1], p[2] + u[2]];
                     }
-                    [
-                        sum[0] + p[0] / 8.0,
-                        sum[1] + p[1] / 8.0,
-                        sum[2] + p[2] / 8.0,
-                    ]
+                    [sum[0] + p[0] / 8.0, sum[1] + p[1] / 8.0, sum[2] + p[2] / 8.0]
                 });
                 let s = -PEAK * bump(centre, x0);
                 let w = 1e5 * wave(centre, time);
@@ -245,22 +215,12 @@ fn write_fields(
         let start = Instant::now();
         file.append(
             time,
-            &[
-                Values::Vector(&displacement),
-                Values::Vector(&velocity),
-                Values::Tensor(&stress),
-            ],
+            &[Values::Vector(&displacement), Values::Vector(&velocity), Values::Tensor(&stress)],
         )?;
         spent += start.elapsed().as_secs_f64();
     }
     let raw = model.points.len() * 48 + model.hexes.len() * 48;
-    report(
-        &path,
-        (model.points.len(), model.hexes.len()),
-        steps,
-        spent,
-        raw,
-    );
+    report(&path, (model.points.len(), model.hexes.len()), steps, spent, raw);
     Ok(())
 }
 
@@ -291,16 +251,10 @@ fn write_contact(
         }
     }
     let body = StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar")
-            .integer()
-            .on_cells(),
+        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
         values: Values::Integer(&body),
     };
-    let grid = GridSpec {
-        points: &points,
-        cells: Cells::Quads(&quads),
-        constant: &[body],
-    };
+    let grid = GridSpec { points: &points, cells: Cells::Quads(&quads), constant: &[body] };
     let fields = [
         FieldSpec::at_points("displacement", "m", 3, "from the reference position"),
         FieldSpec::at_points("pressure", "Pa", 1, "normal traction, compression positive"),
@@ -320,28 +274,17 @@ fn write_contact(
         let x0 = SPEED * time_of(step);
         let load: Vec<f64> = points
             .iter()
-            .map(|p| {
-                (1.0 - ((p[0] - x0).powi(2) + p[1].powi(2)) / PATCH.powi(2))
-                    .max(0.0)
-                    .sqrt()
-            })
+            .map(|p| (1.0 - ((p[0] - x0).powi(2) + p[1].powi(2)) / PATCH.powi(2)).max(0.0).sqrt())
             .collect();
         let waves: Vec<f64> = points.iter().map(|&p| wave(p, time_of(step))).collect();
         let vector = |x: f64, z: f64, noise: f64| {
             let both = load.iter().zip(&waves);
-            both.map(|(&l, &w)| [x * l + noise * w, 0.4 * noise * w, z * l])
-                .collect::<Vec<_>>()
+            both.map(|(&l, &w)| [x * l + noise * w, 0.4 * noise * w, z * l]).collect::<Vec<_>>()
         };
         let displacement: Vec<[f64; 3]> = on_disk
             .iter()
             .zip(&waves)
-            .map(|(&disk, &w)| {
-                [
-                    if disk { x0 } else { 0.0 } + 1e-8 * w,
-                    3e-9 * w,
-                    2e-9 * w * w,
-                ]
-            })
+            .map(|(&disk, &w)| [if disk { x0 } else { 0.0 } + 1e-8 * w, 3e-9 * w, 2e-9 * w * w])
             .collect();
         let pressure: Vec<f64> = load.iter().map(|&l| PEAK * l).collect();
         let state: Vec<u8> = points
@@ -349,11 +292,8 @@ fn write_contact(
             .zip(&load)
             .map(|(p, &l)| if l == 0.0 { 0 } else { 1 + u8::from(p[0] < x0) })
             .collect();
-        let gap: Vec<f64> = load
-            .iter()
-            .zip(&points)
-            .map(|(&l, p)| p[2].abs() - 1e-6 * l + 1e-9 * p[0])
-            .collect();
+        let gap: Vec<f64> =
+            load.iter().zip(&points).map(|(&l, p)| p[2].abs() - 1e-6 * l + 1e-9 * p[0]).collect();
         let (mu, area) = (vec![0.3; n], vec![1e-6; n]);
         let start = Instant::now();
         file.append(
@@ -385,9 +325,7 @@ fn write_history(folder: &Path, steps: usize, provenance: &Provenance) -> Result
         Column::new("normal_force", "N", "on the bar"),
     ];
     let mut history = History::create(&path, &columns, provenance)?;
-    let rows: Vec<f64> = (0..steps)
-        .flat_map(|step| [time_of(step), 1.0, 1.7e5])
-        .collect();
+    let rows: Vec<f64> = (0..steps).flat_map(|step| [time_of(step), 1.0, 1.7e5]).collect();
     history.append(&rows)
 }
 

@@ -63,11 +63,7 @@ impl BackgroundWriter {
         let (sender, inbox) = sync_channel(Self::WAITING);
         let (outbox, spare) = channel();
         let thread = std::thread::spawn(move || write_all(files, &inbox, &outbox));
-        Self {
-            sender,
-            spare,
-            thread: Some(thread),
-        }
+        Self { sender, spare, thread: Some(thread) }
     }
 
     /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].
@@ -82,9 +78,7 @@ impl BackgroundWriter {
 
     /// Sends rows for `history.h5`; see [`History::append`].
     pub fn append_history(&mut self, rows: &[f64]) -> Result<(), OutputError> {
-        self.send(Target::History, 0.0, |buffer| {
-            buffer.numbers.extend_from_slice(rows)
-        })
+        self.send(Target::History, 0.0, |buffer| buffer.numbers.extend_from_slice(rows))
     }
 
     /// Waits until everything is written and returns the files.
@@ -103,11 +97,7 @@ impl BackgroundWriter {
         let mut buffer = self.spare.try_recv().unwrap_or_default();
         buffer.clear();
         fill(&mut buffer);
-        match self.sender.send(Message {
-            target,
-            time,
-            buffer,
-        }) {
+        match self.sender.send(Message { target, time, buffer }) {
             Ok(()) => Ok(()),
             Err(_) => join(self.thread.take()).and(Err(OutputError::Stopped)),
         }
@@ -133,11 +123,7 @@ impl Buffer {
                 }
             };
             let (components, count) = (value.components(), value.count());
-            self.shapes.push(Shape {
-                components,
-                integer,
-                count,
-            });
+            self.shapes.push(Shape { components, integer, count });
         }
     }
 
@@ -173,12 +159,7 @@ fn write_all(
     inbox: &Receiver<Message>,
     outbox: &Sender<Buffer>,
 ) -> Result<RunFiles, OutputError> {
-    for Message {
-        target,
-        time,
-        buffer,
-    } in inbox
-    {
+    for Message { target, time, buffer } in inbox {
         match target {
             Target::Fields => files.fields.append(time, &buffer.values())?,
             Target::Contact => files.contact.append(time, &buffer.values())?,

@@ -111,18 +111,12 @@ impl FieldSpec {
 
     /// The same field on cells.
     pub fn on_cells(self) -> Self {
-        Self {
-            on_cells: true,
-            ..self
-        }
+        Self { on_cells: true, ..self }
     }
 
     /// The same field stored as unsigned bytes.
     pub fn integer(self) -> Self {
-        Self {
-            integer: true,
-            ..self
-        }
+        Self { integer: true, ..self }
     }
 }
 
@@ -230,10 +224,7 @@ impl TransientGrid {
     }
 
     fn shape_error(&self, problem: String) -> OutputError {
-        OutputError::Shape {
-            path: self.path.clone(),
-            problem,
-        }
+        OutputError::Shape { path: self.path.clone(), problem }
     }
 
     fn check_grid(&self, grid: &GridSpec<'_>) -> Result<(), OutputError> {
@@ -243,11 +234,8 @@ impl TransientGrid {
                 self.points, self.cells
             )));
         }
-        if let Some(index) = grid
-            .cells
-            .connectivity()
-            .iter()
-            .find(|&&index| index as usize >= self.points)
+        if let Some(index) =
+            grid.cells.connectivity().iter().find(|&&index| index as usize >= self.points)
         {
             return Err(self.shape_error(format!(
                 "a cell names point {index}, but the grid has only {} points (numbered from 0)",
@@ -290,10 +278,7 @@ impl TransientGrid {
                 self.fields.len()
             )));
         }
-        self.fields
-            .iter()
-            .zip(values)
-            .try_for_each(|(spec, values)| self.check_field(spec, values))
+        self.fields.iter().zip(values).try_for_each(|(spec, values)| self.check_field(spec, values))
     }
 
     fn check_field(&self, spec: &FieldSpec, values: &Values<'_>) -> Result<(), OutputError> {
@@ -311,11 +296,7 @@ impl TransientGrid {
             if spec.integer { "integers" } else { "numbers" },
             values.count(),
             values.components(),
-            if values.is_integer() {
-                "integers"
-            } else {
-                "numbers"
-            },
+            if values.is_integer() { "integers" } else { "numbers" },
         )))
     }
 
@@ -323,15 +304,9 @@ impl TransientGrid {
         file.group(&["VTKHDF"])?;
         file.vtkhdf_header("UnstructuredGrid")?;
         let corners = grid.cells.corners();
-        let connectivity: Vec<i64> = grid
-            .cells
-            .connectivity()
-            .iter()
-            .map(|&index| i64::from(index))
-            .collect();
-        let offsets: Vec<i64> = (0..=self.cells)
-            .map(|cell| (cell * corners) as i64)
-            .collect();
+        let connectivity: Vec<i64> =
+            grid.cells.connectivity().iter().map(|&index| i64::from(index)).collect();
+        let offsets: Vec<i64> = (0..=self.cells).map(|cell| (cell * corners) as i64).collect();
         let types = vec![grid.cells.vtk_type(); self.cells];
         let at = |name: &'static str, units, components, description| LayOut {
             group: &["VTKHDF"],
@@ -340,37 +315,20 @@ impl TransientGrid {
             components,
             description,
         };
+        file.constant(&at("Points", "m", 3, "reference coordinates"), grid.points.as_flattened())?;
         file.constant(
-            &at("Points", "m", 3, "reference coordinates"),
-            grid.points.as_flattened(),
-        )?;
-        file.constant(
-            &at(
-                "Connectivity",
-                "1",
-                1,
-                "point indices of the cells, one cell after the other",
-            ),
+            &at("Connectivity", "1", 1, "point indices of the cells, one cell after the other"),
             &connectivity,
         )?;
         file.constant(
-            &at(
-                "Offsets",
-                "1",
-                1,
-                "where each cell starts in Connectivity, and its end",
-            ),
+            &at("Offsets", "1", 1, "where each cell starts in Connectivity, and its end"),
             &offsets,
         )?;
         file.constant(&at("Types", "1", 1, "VTK cell type"), &types)?;
         for (name, count, description) in [
             ("NumberOfPoints", self.points, "points of the only part"),
             ("NumberOfCells", self.cells, "cells of the only part"),
-            (
-                "NumberOfConnectivityIds",
-                connectivity.len(),
-                "length of Connectivity",
-            ),
+            ("NumberOfConnectivityIds", connectivity.len(), "length of Connectivity"),
         ] {
             file.constant(&at(name, "1", 1, description), &[count as i64])?;
         }
@@ -422,10 +380,7 @@ impl TransientGrid {
             file.group(group)?;
         }
         let constant = grid_names(&self.constant_names);
-        let transient = self
-            .fields
-            .iter()
-            .map(|spec| (spec.name.as_str(), spec.on_cells));
+        let transient = self.fields.iter().map(|spec| (spec.name.as_str(), spec.on_cells));
         for (name, on_cells) in transient.chain(constant) {
             file.rows::<i64>(&LayOut {
                 group: &groups[usize::from(on_cells)],
@@ -440,26 +395,16 @@ impl TransientGrid {
 }
 
 /// Offsets into the mesh at each step, all zero since the mesh is stored once.
-const MESH_OFFSETS: [&str; 4] = [
-    "PartOffsets",
-    "PointOffsets",
-    "CellOffsets",
-    "ConnectivityIdOffsets",
-];
+const MESH_OFFSETS: [&str; 4] =
+    ["PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
 
 fn grid_names(names: &[(String, bool)]) -> impl Iterator<Item = (&str, bool)> {
-    names
-        .iter()
-        .map(|(name, on_cells)| (name.as_str(), *on_cells))
+    names.iter().map(|(name, on_cells)| (name.as_str(), *on_cells))
 }
 
 fn place(spec: &FieldSpec) -> LayOut<'_> {
     LayOut {
-        group: if spec.on_cells {
-            &["VTKHDF", "CellData"]
-        } else {
-            &["VTKHDF", "PointData"]
-        },
+        group: if spec.on_cells { &["VTKHDF", "CellData"] } else { &["VTKHDF", "PointData"] },
         name: &spec.name,
         units: &spec.units,
         components: spec.components,
@@ -468,15 +413,7 @@ fn place(spec: &FieldSpec) -> LayOut<'_> {
 }
 
 fn offset_group(on_cells: bool) -> [&'static str; 3] {
-    [
-        "VTKHDF",
-        "Steps",
-        if on_cells {
-            "CellDataOffsets"
-        } else {
-            "PointDataOffsets"
-        },
-    ]
+    ["VTKHDF", "Steps", if on_cells { "CellDataOffsets" } else { "PointDataOffsets" }]
 }
 
 pub(crate) fn data_path(name: &str, on_cells: bool) -> String {

@@ -36,20 +36,14 @@ pub(crate) struct Creator {
 impl Creator {
     pub fn new(path: &Path, provenance: &Provenance) -> Result<Self, OutputError> {
         let open = || -> H5Result<H5File> {
-            let file = H5File::options()
-                .no_locking()
-                .libver(LibverBound::V110)
-                .create(path)?;
+            let file = H5File::options().no_locking().libver(LibverBound::V110).create(path)?;
             file.set_attr_string("creepage_version", &provenance.creepage_version)?;
             file.set_attr_string("case_hash", &provenance.case_hash)?;
             file.set_attr_string("created", &provenance.created)?;
             Ok(file)
         };
         let file = open().map_err(|error| create_error(path, error))?;
-        Ok(Self {
-            path: path.to_owned(),
-            file,
-        })
+        Ok(Self { path: path.to_owned(), file })
     }
 
     fn check<T>(&self, result: H5Result<T>) -> Result<T, OutputError> {
@@ -69,11 +63,8 @@ impl Creator {
         let write = || -> H5Result<()> {
             let group = descend(&self.file, &["VTKHDF"])?;
             group.set_attr_array_numeric("Version", &[2i64, 2])?;
-            let ascii = DatatypeMessage::FixedString {
-                size: kind.len() as u32,
-                padding: 1,
-                charset: 0,
-            };
+            let ascii =
+                DatatypeMessage::FixedString { size: kind.len() as u32, padding: 1, charset: 0 };
             group.set_attr_typed("Type", ascii, kind.as_bytes().to_vec())
         };
         self.check(write())
@@ -83,14 +74,11 @@ impl Creator {
     pub fn constant<T: H5Type>(&mut self, at: &LayOut<'_>, data: &[T]) -> Result<(), OutputError> {
         let rows = data.len() / at.components;
         let write = || -> H5Result<()> {
-            let builder = descend(&self.file, at.group)?
-                .new_dataset::<T>()
-                .shape(shape(rows, at.components));
+            let builder =
+                descend(&self.file, at.group)?.new_dataset::<T>().shape(shape(rows, at.components));
             let builder = if rows > ROWS_PER_CHUNK {
                 let chunk = rows.min(*CHUNK_ROWS.end());
-                builder
-                    .chunk(&shape(chunk, at.components))
-                    .deflate(DEFLATE_LEVEL)
+                builder.chunk(&shape(chunk, at.components)).deflate(DEFLATE_LEVEL)
             } else {
                 builder
             };
@@ -131,28 +119,17 @@ impl Creator {
         two_dimensional: bool,
     ) -> Result<(), OutputError> {
         let dims = |rows: usize| {
-            if two_dimensional {
-                vec![rows, at.components]
-            } else {
-                vec![rows]
-            }
+            if two_dimensional { vec![rows, at.components] } else { vec![rows] }
         };
-        let limit: &[Option<usize>] = if two_dimensional {
-            &[None, Some(at.components)]
-        } else {
-            &[None]
-        };
+        let limit: &[Option<usize>] =
+            if two_dimensional { &[None, Some(at.components)] } else { &[None] };
         let write = || -> H5Result<()> {
             let builder = descend(&self.file, at.group)?
                 .new_dataset::<T>()
                 .shape(dims(0))
                 .chunk(&dims(chunk))
                 .max_shape(limit);
-            let builder = if compressed {
-                builder.deflate(DEFLATE_LEVEL)
-            } else {
-                builder
-            };
+            let builder = if compressed { builder.deflate(DEFLATE_LEVEL) } else { builder };
             describe(&builder.create(at.name)?, at)
         };
         self.check(write())
@@ -165,9 +142,7 @@ impl Creator {
     }
 
     pub fn close(self) -> Result<(), OutputError> {
-        self.file
-            .close()
-            .map_err(|error| create_error(&self.path, error))
+        self.file.close().map_err(|error| create_error(&self.path, error))
     }
 }
 
@@ -183,10 +158,7 @@ impl Appender {
             .no_locking()
             .open_rw(path)
             .map_err(|error| append_error(path, error))?;
-        Ok(Self {
-            path: path.to_owned(),
-            file,
-        })
+        Ok(Self { path: path.to_owned(), file })
     }
 
     pub fn append<T: H5Type>(&mut self, name: &str, data: &[T]) -> Result<(), OutputError> {
@@ -221,10 +193,7 @@ impl Source {
             .no_locking()
             .open(path)
             .map_err(|error| read_error(path, error.to_string()))?;
-        Ok(Self {
-            path: path.to_owned(),
-            file,
-        })
+        Ok(Self { path: path.to_owned(), file })
     }
 
     pub fn path(&self) -> &Path {
@@ -293,29 +262,19 @@ impl Source {
 }
 
 fn create_error(path: &Path, error: Hdf5Error) -> OutputError {
-    OutputError::Create {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    }
+    OutputError::Create { path: path.to_owned(), reason: error.to_string() }
 }
 
 fn append_error(path: &Path, error: Hdf5Error) -> OutputError {
-    OutputError::Append {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    }
+    OutputError::Append { path: path.to_owned(), reason: error.to_string() }
 }
 
 pub(crate) fn read_error(path: &Path, reason: String) -> OutputError {
-    OutputError::Read {
-        path: path.to_owned(),
-        reason,
-    }
+    OutputError::Read { path: path.to_owned(), reason }
 }
 
 fn descend(file: &H5File, path: &[&str]) -> H5Result<H5Group> {
-    path.iter()
-        .try_fold(file.root_group(), |group, name| group.group(name))
+    path.iter().try_fold(file.root_group(), |group, name| group.group(name))
 }
 
 fn set_count(file: &H5File, group: &[&str], name: &str, value: i64) -> H5Result<()> {
@@ -338,20 +297,14 @@ fn describe(dataset: &H5Dataset, at: &LayOut<'_>) -> H5Result<()> {
 }
 
 fn shape(rows: usize, components: usize) -> Vec<usize> {
-    if components == 1 {
-        vec![rows]
-    } else {
-        vec![rows, components]
-    }
+    if components == 1 { vec![rows] } else { vec![rows, components] }
 }
 
 /// The largest divisor of `rows` in the wanted range; above it where there is none.
 fn chunk_rows(rows: usize) -> usize {
     let divides = |chunk: &usize| rows.is_multiple_of(*chunk);
     let wanted = CHUNK_ROWS.rev().find(divides);
-    wanted
-        .or_else(|| (*CHUNK_ROWS.end()..rows).find(divides))
-        .unwrap_or(rows.max(1))
+    wanted.or_else(|| (*CHUNK_ROWS.end()..rows).find(divides)).unwrap_or(rows.max(1))
 }
 
 #[cfg(test)]

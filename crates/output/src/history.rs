@@ -18,11 +18,7 @@ pub struct Column {
 impl Column {
     /// A column from its three texts.
     pub fn new(name: &str, units: &str, description: &str) -> Self {
-        Self {
-            name: name.into(),
-            units: units.into(),
-            description: description.into(),
-        }
+        Self { name: name.into(), units: units.into(), description: description.into() }
     }
 }
 
@@ -65,12 +61,7 @@ impl History {
         }
         file.count(&[], "rows", 0)?;
         file.close()?;
-        Ok(Self {
-            path,
-            columns: columns.to_vec(),
-            rows: 0,
-            scratch: Vec::new(),
-        })
+        Ok(Self { path, columns: columns.to_vec(), rows: 0, scratch: Vec::new() })
     }
 
     /// Appends any number of rows, row after row (length: rows times columns).

@@ -11,14 +11,9 @@ pub fn write_json_atomically<T: Serialize + ?Sized>(
     value: &T,
 ) -> Result<(), OutputError> {
     let path = path.as_ref();
-    let failed = |reason: String| OutputError::Create {
-        path: path.to_owned(),
-        reason,
-    };
-    let mut name = path
-        .file_name()
-        .ok_or_else(|| failed("the path names no file".into()))?
-        .to_owned();
+    let failed = |reason: String| OutputError::Create { path: path.to_owned(), reason };
+    let mut name =
+        path.file_name().ok_or_else(|| failed("the path names no file".into()))?.to_owned();
     name.push(".partial");
     let partial = path.with_file_name(name);
     let write = || -> std::io::Result<()> {

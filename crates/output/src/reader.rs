@@ -44,13 +44,7 @@ impl GridFile {
         let points = first(&source, "VTKHDF/NumberOfPoints")?;
         let cells = first(&source, "VTKHDF/NumberOfCells")?;
         let steps = source.length("VTKHDF/Steps/Values")?;
-        let mut file = Self {
-            source,
-            points,
-            cells,
-            steps,
-            fields: Vec::new(),
-        };
+        let mut file = Self { source, points, cells, steps, fields: Vec::new() };
         for on_cells in [false, true] {
             let group = if on_cells { "CellData" } else { "PointData" };
             for name in file.source.names(&["VTKHDF", group])? {
@@ -104,10 +98,7 @@ impl GridFile {
 
     /// Values of a field at one step, point after point (or cell after cell), components together.
     pub fn read(&self, name: &str, on_cells: bool, step: usize) -> Result<Vec<f64>, OutputError> {
-        let Some(field) = self
-            .fields
-            .iter()
-            .find(|f| f.name == name && f.on_cells == on_cells)
+        let Some(field) = self.fields.iter().find(|f| f.name == name && f.on_cells == on_cells)
         else {
             let names: Vec<_> = self.fields.iter().map(|f| f.name.as_str()).collect();
             return Err(self.error(format!("no field `{name}`; it has {}", names.join(", "))));
@@ -154,10 +145,7 @@ impl HistoryFile {
     /// Opens `path` without locking it.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let source = Source::open(path.as_ref())?;
-        let lengths = source
-            .names(&[])?
-            .into_iter()
-            .map(|name| source.length(&name));
+        let lengths = source.names(&[])?.into_iter().map(|name| source.length(&name));
         let rows = lengths.reduce(|a, b| Ok(a?.min(b?))).unwrap_or(Ok(0))?;
         Ok(Self { source, rows })
     }

@@ -24,10 +24,7 @@ fn after_a_kill_at_any_instant_every_counted_snapshot_is_whole() {
     for kill in 0..KILLS {
         let folder = tempfile::tempdir().unwrap();
         let mut writer = Command::new(std::env::current_exe().unwrap())
-            .args([
-                "--exact",
-                "after_a_kill_at_any_instant_every_counted_snapshot_is_whole",
-            ])
+            .args(["--exact", "after_a_kill_at_any_instant_every_counted_snapshot_is_whole"])
             .env(FOLDER, folder.path())
             .stdout(Stdio::null())
             .spawn()
@@ -35,28 +32,20 @@ fn after_a_kill_at_any_instant_every_counted_snapshot_is_whole() {
         let history = folder.path().join("history.h5");
         wait_for(|| HistoryFile::open(&history).is_ok_and(|file| file.rows() > 0));
         // Spread over several snapshots, at instants that do not follow their rhythm.
-        std::thread::sleep(Duration::from_micros(
-            1_000 + 7_919 * kill + 313 * kill * kill,
-        ));
+        std::thread::sleep(Duration::from_micros(1_000 + 7_919 * kill + 313 * kill * kill));
         writer.kill().unwrap();
         writer.wait().unwrap();
         steps += check_strip(&folder.path().join("strip.vtkhdf"));
         check_history(&history);
     }
-    assert!(
-        steps as u64 > 2 * KILLS,
-        "the kills came too early to show anything: {steps} steps"
-    );
+    assert!(steps as u64 > 2 * KILLS, "the kills came too early to show anything: {steps} steps");
 }
 
 #[test]
 fn a_reader_finds_more_and_more_whole_snapshots_while_they_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = Command::new(std::env::current_exe().unwrap())
-        .args([
-            "--exact",
-            "after_a_kill_at_any_instant_every_counted_snapshot_is_whole",
-        ])
+        .args(["--exact", "after_a_kill_at_any_instant_every_counted_snapshot_is_whole"])
         .env(FOLDER, folder.path())
         .stdout(Stdio::null())
         .spawn()
@@ -69,19 +58,13 @@ fn a_reader_finds_more_and_more_whole_snapshots_while_they_are_written() {
     }
     writer.kill().unwrap();
     writer.wait().unwrap();
-    assert!(
-        seen.is_sorted() && seen[0] < seen[19],
-        "steps seen while writing: {seen:?}"
-    );
+    assert!(seen.is_sorted() && seen[0] < seen[19], "steps seen while writing: {seen:?}");
 }
 
 fn wait_for(condition: impl Fn() -> bool) {
     let start = Instant::now();
     while !condition() {
-        assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "the writer has written nothing"
-        );
+        assert!(start.elapsed() < Duration::from_secs(60), "the writer has written nothing");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
@@ -102,19 +85,14 @@ fn check_strip(path: &Path) -> usize {
             .find(|&i| labels[i] != f64::from(endless::value(step, i) as u64 as u8));
         assert_eq!(wrong, None, "label at step {step} of {}", file.steps());
     }
-    assert_eq!(
-        file.read("body", true, 0).unwrap(),
-        vec![1.0; endless::QUADS]
-    );
+    assert_eq!(file.read("body", true, 0).unwrap(), vec![1.0; endless::QUADS]);
     file.steps()
 }
 
 fn check_history(path: &Path) {
     let file = HistoryFile::open(path).unwrap();
     for (place, column) in ["time", "force", "energy"].into_iter().enumerate() {
-        let expected: Vec<f64> = (0..file.rows())
-            .map(|row| endless::value(row, place))
-            .collect();
+        let expected: Vec<f64> = (0..file.rows()).map(|row| endless::value(row, place)).collect();
         assert_eq!(file.read(column).unwrap(), expected, "{column}");
     }
 }

@@ -31,9 +31,7 @@ fn provenance() -> Provenance {
 
 fn body(labels: &[u8]) -> StaticField<'_> {
     StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar")
-            .integer()
-            .on_cells(),
+        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
         values: Values::Integer(labels),
     }
 }
@@ -41,11 +39,7 @@ fn body(labels: &[u8]) -> StaticField<'_> {
 fn fields_file(path: &Path) -> TransientGrid {
     let labels = [3];
     let constant = [body(&labels)];
-    let grid = GridSpec {
-        points: &CUBE,
-        cells: Cells::Hexahedra(&HEX),
-        constant: &constant,
-    };
+    let grid = GridSpec { points: &CUBE, cells: Cells::Hexahedra(&HEX), constant: &constant };
     let fields = [
         FieldSpec::at_points("displacement", "m", 3, "u"),
         FieldSpec::at_points("stress", "Pa", 6, "s").on_cells(),
@@ -56,11 +50,7 @@ fn fields_file(path: &Path) -> TransientGrid {
 fn contact_file(path: &Path) -> TransientGrid {
     let labels = [0, 1];
     let constant = [body(&labels)];
-    let grid = GridSpec {
-        points: &CUBE,
-        cells: Cells::Quads(&FACES),
-        constant: &constant,
-    };
+    let grid = GridSpec { points: &CUBE, cells: Cells::Quads(&FACES), constant: &constant };
     let fields = [
         FieldSpec::at_points("pressure", "Pa", 1, "p"),
         FieldSpec::at_points("state", "1", 1, "s").integer(),
@@ -69,10 +59,7 @@ fn contact_file(path: &Path) -> TransientGrid {
 }
 
 fn history_file(path: &Path) -> History {
-    let columns = [
-        Column::new("time", "s", "t"),
-        Column::new("force", "N", "f"),
-    ];
+    let columns = [Column::new("time", "s", "t"), Column::new("force", "N", "f")];
     History::create(path, &columns, &provenance()).unwrap()
 }
 
@@ -89,8 +76,7 @@ fn a_grid_reads_back_bit_for_bit() {
     let mut file = fields_file(&path);
     for step in 0..300 {
         let (u, s) = (vectors::<3>(8, step), vectors::<6>(1, step));
-        file.append(0.5 * step as f64, &[Values::Vector(&u), Values::Tensor(&s)])
-            .unwrap();
+        file.append(0.5 * step as f64, &[Values::Vector(&u), Values::Tensor(&s)]).unwrap();
     }
     assert_eq!(file.steps(), 300);
     let file = GridFile::open(&path).unwrap();
@@ -106,24 +92,13 @@ fn a_grid_reads_back_bit_for_bit() {
         assert_eq!(read, vectors::<6>(1, step).as_flattened());
         assert_eq!(file.read("body", true, step).unwrap(), [3.0]);
     }
-    let stress = file
-        .fields()
-        .iter()
-        .find(|field| field.name == "stress")
-        .unwrap();
+    let stress = file.fields().iter().find(|field| field.name == "stress").unwrap();
     assert_eq!((stress.components, stress.units.as_str()), (6, "Pa"));
     assert!(stress.on_cells && !stress.constant && !stress.integer);
-    let body = file
-        .fields()
-        .iter()
-        .find(|field| field.name == "body")
-        .unwrap();
+    let body = file.fields().iter().find(|field| field.name == "body").unwrap();
     assert!(body.on_cells && body.constant && body.integer);
     let missing = file.read("pressure", false, 0).unwrap_err().to_string();
-    assert!(
-        missing.contains("displacement"),
-        "should name what there is: {missing}"
-    );
+    assert!(missing.contains("displacement"), "should name what there is: {missing}");
     assert!(file.read("stress", true, 300).is_err());
 }
 
@@ -134,27 +109,17 @@ fn a_history_reads_back_whatever_the_sizes_of_its_appends() {
     let mut history = history_file(&path);
     for size in [1, 300, 0, 255, 1, 700] {
         let first = history.rows();
-        let rows: Vec<f64> = (first..first + size)
-            .flat_map(|row| [row as f64, -(row as f64).sqrt()])
-            .collect();
+        let rows: Vec<f64> =
+            (first..first + size).flat_map(|row| [row as f64, -(row as f64).sqrt()]).collect();
         history.append(&rows).unwrap();
     }
     let file = HistoryFile::open(&path).unwrap();
     assert_eq!(file.rows(), 1257);
     assert_eq!(file.columns().unwrap(), ["force", "time"]);
     assert_eq!(file.units("force").unwrap(), "N");
-    assert_eq!(
-        file.read("time").unwrap(),
-        (0..1257).map(f64::from).collect::<Vec<_>>()
-    );
+    assert_eq!(file.read("time").unwrap(), (0..1257).map(f64::from).collect::<Vec<_>>());
     assert_eq!(file.read("force").unwrap()[1256], -(1256f64).sqrt());
-    assert!(
-        history
-            .append(&[1.0])
-            .unwrap_err()
-            .to_string()
-            .contains("2 columns")
-    );
+    assert!(history.append(&[1.0]).unwrap_err().to_string().contains("2 columns"));
 }
 
 /// Writes the three files of a run with `step` calls in a fixed order.
@@ -174,12 +139,8 @@ fn write_run(folder: &Path, background: bool) {
         for step in 0..40 {
             let ((u, s), (p, state)) = (frame(step), contact(step));
             let time = step as f64;
-            writer
-                .append_fields(time, &[Values::Vector(&u), Values::Tensor(&s)])
-                .unwrap();
-            writer
-                .append_contact(time, &[Values::Scalar(&p), Values::Integer(&state)])
-                .unwrap();
+            writer.append_fields(time, &[Values::Vector(&u), Values::Tensor(&s)]).unwrap();
+            writer.append_contact(time, &[Values::Scalar(&p), Values::Integer(&state)]).unwrap();
             writer.append_history(&[time, 1.0]).unwrap();
         }
         files = writer.finish().unwrap();
@@ -187,25 +148,12 @@ fn write_run(folder: &Path, background: bool) {
         for step in 0..40 {
             let ((u, s), (p, state)) = (frame(step), contact(step));
             let time = step as f64;
-            files
-                .fields
-                .append(time, &[Values::Vector(&u), Values::Tensor(&s)])
-                .unwrap();
-            files
-                .contact
-                .append(time, &[Values::Scalar(&p), Values::Integer(&state)])
-                .unwrap();
+            files.fields.append(time, &[Values::Vector(&u), Values::Tensor(&s)]).unwrap();
+            files.contact.append(time, &[Values::Scalar(&p), Values::Integer(&state)]).unwrap();
             files.history.append(&[time, 1.0]).unwrap();
         }
     }
-    assert_eq!(
-        (
-            files.fields.steps(),
-            files.contact.steps(),
-            files.history.rows()
-        ),
-        (40, 40, 40)
-    );
+    assert_eq!((files.fields.steps(), files.contact.steps(), files.history.rows()), (40, 40, 40));
 }
 
 #[test]
@@ -219,10 +167,7 @@ fn equal_runs_give_equal_files_with_and_without_the_background_thread() {
         let [first, again, background] =
             [0, 1, 2].map(|i| std::fs::read(folders[i].path().join(name)).unwrap());
         assert!(first == again, "{name} differs between equal runs");
-        assert!(
-            first == background,
-            "{name} differs when written in the background"
-        );
+        assert!(first == background, "{name} differs when written in the background");
     }
 }
 
@@ -241,9 +186,7 @@ fn the_background_writer_hands_back_the_error_of_the_file() {
     let error = (0..100)
         .find_map(|_| {
             std::thread::sleep(std::time::Duration::from_millis(1));
-            writer
-                .append_fields(0.0, &[Values::Vector(&u), Values::Tensor(&s)])
-                .err()
+            writer.append_fields(0.0, &[Values::Vector(&u), Values::Tensor(&s)]).err()
         })
         .unwrap();
     assert!(error.to_string().contains("fields.vtkhdf"), "{error}");
@@ -256,9 +199,7 @@ fn wrong_shapes_are_refused_before_anything_is_written() {
     let path = folder.path().join("fields.vtkhdf");
     let mut file = fields_file(&path);
     let (u, s) = (vectors::<3>(7, 0), vectors::<6>(1, 0));
-    let error = file
-        .append(0.0, &[Values::Vector(&u), Values::Tensor(&s)])
-        .unwrap_err();
+    let error = file.append(0.0, &[Values::Vector(&u), Values::Tensor(&s)]).unwrap_err();
     assert!(error.to_string().contains("displacement"), "{error}");
     assert!(file.append(0.0, &[Values::Tensor(&s)]).is_err());
     let swapped = [Values::Tensor(&s), Values::Vector(&u)];
@@ -266,25 +207,13 @@ fn wrong_shapes_are_refused_before_anything_is_written() {
     assert_eq!(GridFile::open(&path).unwrap().steps(), 0);
 
     let outside = [[0, 1, 2, 3, 4, 5, 6, 8]];
-    let grid = GridSpec {
-        points: &CUBE,
-        cells: Cells::Hexahedra(&outside),
-        constant: &[],
-    };
+    let grid = GridSpec { points: &CUBE, cells: Cells::Hexahedra(&outside), constant: &[] };
     let error = TransientGrid::create(&path, &grid, &[], &provenance()).unwrap_err();
     assert!(error.to_string().contains("point 8"), "{error}");
-    let empty = GridSpec {
-        points: &[],
-        cells: Cells::Quads(&[]),
-        constant: &[],
-    };
+    let empty = GridSpec { points: &[], cells: Cells::Quads(&[]), constant: &[] };
     assert!(TransientGrid::create(&path, &empty, &[], &provenance()).is_err());
     let twice = [0, 0].map(|_| FieldSpec::at_points("u", "m", 3, ""));
-    let grid = GridSpec {
-        points: &CUBE,
-        cells: Cells::Hexahedra(&HEX),
-        constant: &[],
-    };
+    let grid = GridSpec { points: &CUBE, cells: Cells::Hexahedra(&HEX), constant: &[] };
     assert!(TransientGrid::create(&path, &grid, &twice, &provenance()).is_err());
 }
 
@@ -294,17 +223,11 @@ fn a_path_that_cannot_be_written_is_named_with_a_remedy() {
     let path = folder.path().join("missing").join("history.h5");
     let error = History::create(&path, &[Column::new("time", "s", "t")], &provenance());
     let text = error.unwrap_err().to_string();
-    assert!(
-        text.contains("history.h5") && text.contains("folder exists"),
-        "{text}"
-    );
+    assert!(text.contains("history.h5") && text.contains("folder exists"), "{text}");
     let text = write_json_atomically(&path, &1).unwrap_err().to_string();
     assert!(text.contains("history.h5"), "{text}");
     std::fs::write(folder.path().join("text.vtkhdf"), "not HDF5").unwrap();
-    let text = GridFile::open(folder.path().join("text.vtkhdf"))
-        .err()
-        .unwrap()
-        .to_string();
+    let text = GridFile::open(folder.path().join("text.vtkhdf")).err().unwrap().to_string();
     assert!(text.contains("text.vtkhdf"), "{text}");
 }
 

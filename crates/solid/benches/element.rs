@@ -16,28 +16,13 @@ fn run(bencher: divan::Bencher, n: usize, level: Level, threads: usize, energies
     }
     let size = n as f64 * 1e-3;
     let mesh = mesh::block([n, n, n], [size, size, size]);
-    let steel = Material {
-        young: 210e9,
-        poisson: 0.3,
-        density: 7850.0,
-    };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .expect("threads");
-    let mut solid = Solid::new(
-        &mesh,
-        &[steel],
-        Element { hourglass: 0.05 },
-        Viscosity::default(),
-        level,
-    )
-    .expect("a block of steel");
-    let u: Vec<_> = mesh
-        .nodes
-        .iter()
-        .map(|p| Padded::new([1e-4 * p[1], 1e-4 * p[2], 1e-4 * p[0]]))
-        .collect();
+    let steel = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let mut solid =
+        Solid::new(&mesh, &[steel], Element { hourglass: 0.05 }, Viscosity::default(), level)
+            .expect("a block of steel");
+    let u: Vec<_> =
+        mesh.nodes.iter().map(|p| Padded::new([1e-4 * p[1], 1e-4 * p[2], 1e-4 * p[0]])).collect();
     let mut f = vec![Padded::ZERO; u.len()];
     bencher
         .counter(ItemsCount::new(mesh.hexes.len()))

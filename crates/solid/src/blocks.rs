@@ -56,9 +56,7 @@ impl Blocks {
                 let end = (start + BLOCK_ELEMENTS).min(part.hexes.end);
                 let first = batches.len();
                 for chunk in mesh.hexes[start..end].chunks(BATCH) {
-                    let mut batch = Batch {
-                        nodes: [[0; BATCH]; 8],
-                    };
+                    let mut batch = Batch { nodes: [[0; BATCH]; 8] };
                     for lane in 0..BATCH {
                         let hex = chunk[lane.min(chunk.len() - 1)];
                         for corner in 0..8 {
@@ -67,21 +65,13 @@ impl Blocks {
                     }
                     batches.push(batch);
                 }
-                blocks.push(Block {
-                    batches: first..batches.len(),
-                    elements: end - start,
-                    body,
-                });
+                blocks.push(Block { batches: first..batches.len(), elements: end - start, body });
                 ranges.push(start..end);
                 start = end;
             }
         }
         let colours = colour(mesh, &ranges);
-        Self {
-            batches,
-            blocks,
-            colours,
-        }
+        Self { batches, blocks, colours }
     }
 }
 
@@ -93,12 +83,7 @@ fn colour(mesh: &Mesh, ranges: &[std::ops::Range<usize>]) -> Vec<Vec<u32>> {
     let mut colours: Vec<Vec<u32>> = Vec::new();
     let mut lonely = Vec::new();
     for (block, range) in ranges.iter().enumerate() {
-        let nodes = || {
-            mesh.hexes[range.clone()]
-                .iter()
-                .flatten()
-                .map(|&n| n as usize)
-        };
+        let nodes = || mesh.hexes[range.clone()].iter().flatten().map(|&n| n as usize);
         let taken = nodes().fold(0u64, |bits, n| bits | used[n]);
         let free = (!taken).trailing_zeros() as usize;
         if free >= 64 {

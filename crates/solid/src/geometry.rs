@@ -32,11 +32,7 @@ pub fn mean_gradient(x: &[[f64; 3]; 8]) -> (f64, [[f64; 3]; 8]) {
         m
     };
     let a = [mode(|c| c[0]), mode(|c| c[1]), mode(|c| c[2])];
-    let g = [
-        mode(|c| c[1] * c[2]),
-        mode(|c| c[2] * c[0]),
-        mode(|c| c[0] * c[1]),
-    ];
+    let g = [mode(|c| c[1] * c[2]), mode(|c| c[2] * c[0]), mode(|c| c[0] * c[1])];
     let third = |v: [f64; 3]| v.map(|c| c / 3.0);
     // dV/da_k / 8 and dV/dg_k / 8
     let mut b = [[0.0; 3]; 3];
@@ -52,9 +48,7 @@ pub fn mean_gradient(x: &[[f64; 3]; 8]) -> (f64, [[f64; 3]; 8]) {
         let [xi, eta, zeta] = *corner;
         let weight = [xi, eta, zeta, eta * zeta, zeta * xi, xi * eta];
         for i in 0..3 {
-            node[i] = (0..3)
-                .map(|k| weight[k] * b[k][i] + weight[k + 3] * c[k][i])
-                .sum();
+            node[i] = (0..3).map(|k| weight[k] * b[k][i] + weight[k + 3] * c[k][i]).sum();
         }
     }
     (volume, gradient)
@@ -98,11 +92,7 @@ pub fn nodal_gradients(mesh: &Mesh, displacement: &[Padded]) -> Vec<[[f64; 3]; 3
 }
 
 pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -145,11 +145,8 @@ unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
             let v = modes::<L>(arrays.velocity, batch, lane);
             let rate = green_rate(&h, &gradient(&v, &b, &c, per_w));
             let eta = L::splat(k.kelvin_voigt);
-            let mut viscous = elastic(
-                &rate,
-                two_g.mul(eta),
-                L::splat(k.lambda).mul(trace(&rate)).mul(eta),
-            );
+            let mut viscous =
+                elastic(&rate, two_g.mul(eta), L::splat(k.lambda).mul(trace(&rate)).mul(eta));
             // Bulk viscosity acts in compression only (von Neumann and Richtmyer; Landshoff).
             // Length V sqrt(3/2)/|B|: the edge of a cube, the thickness of a flat element;
             // with |B|^2 = 8 squares/4096 it is W sqrt(3/2)/sqrt(8 squares).
@@ -228,10 +225,7 @@ unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
             }
             amplitude += 1;
         }
-        let mut force = Modes {
-            linear: b,
-            hourglass: q,
-        };
+        let mut force = Modes { linear: b, hourglass: q };
         let mut m = 0;
         while m < 3 {
             let mut i = 0;
@@ -257,10 +251,7 @@ unsafe fn modes<L: Lanes>(base: *const Padded, batch: &Batch, lane: usize) -> Mo
             n[corner] = L::gather(base, batch.nodes[corner].as_ptr().add(lane));
             corner += 1;
         }
-        let mut out = Modes {
-            linear: [zero; 3],
-            hourglass: [zero; 4],
-        };
+        let mut out = Modes { linear: [zero; 3], hourglass: [zero; 4] };
         let mut i = 0;
         while i < 3 {
             // p: sum over zeta, m: difference over zeta
@@ -323,12 +314,7 @@ unsafe fn scatter<L: Lanes>(
         }
         let mut corner = 0;
         while corner < 8 {
-            L::scatter_sub(
-                base,
-                batch.nodes[corner].as_ptr().add(lane),
-                n[corner],
-                count,
-            );
+            L::scatter_sub(base, batch.nodes[corner].as_ptr().add(lane), n[corner], count);
             corner += 1;
         }
     }

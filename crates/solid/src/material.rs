@@ -32,21 +32,13 @@ impl Material {
             if value.is_finite() && value > 0.0 {
                 Ok(())
             } else {
-                Err(MaterialError {
-                    key,
-                    value,
-                    range: "(0, inf)",
-                })
+                Err(MaterialError { key, value, range: "(0, inf)" })
             }
         };
         positive("young", self.young)?;
         positive("density", self.density)?;
         if !(self.poisson > -1.0 && self.poisson < 0.5) {
-            return Err(MaterialError {
-                key: "poisson",
-                value: self.poisson,
-                range: "(-1, 0.5)",
-            });
+            return Err(MaterialError { key: "poisson", value: self.poisson, range: "(-1, 0.5)" });
         }
         Ok(self)
     }
@@ -88,11 +80,7 @@ mod tests {
 
     #[test]
     fn steel_has_the_wave_speeds_of_the_reference_model() {
-        let steel = Material {
-            young: 210e9,
-            poisson: 0.3,
-            density: 7850.0,
-        };
+        let steel = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
         assert!((steel.c_p() - 6001.0).abs() < 0.5, "{}", steel.c_p());
         assert!((steel.c_s() - 3208.0).abs() < 0.5, "{}", steel.c_s());
         assert!((steel.bulk() - 175e9).abs() < 1.0);
@@ -100,20 +88,8 @@ mod tests {
 
     #[test]
     fn an_incompressible_material_is_refused() {
-        let m = Material {
-            young: 1.0,
-            poisson: 0.5,
-            density: 1.0,
-        };
+        let m = Material { young: 1.0, poisson: 0.5, density: 1.0 };
         assert!(m.checked().is_err());
-        assert!(
-            Material {
-                poisson: 0.3,
-                young: f64::NAN,
-                ..m
-            }
-            .checked()
-            .is_err()
-        );
+        assert!(Material { poisson: 0.3, young: f64::NAN, ..m }.checked().is_err());
     }
 }

@@ -116,20 +116,15 @@ impl Solid {
             return Err(SolidError::Level(level.name()));
         }
         for (body, material) in mesh.bodies.iter().zip(materials) {
-            material.checked().map_err(|source| SolidError::Material {
-                body: body.name.clone(),
-                source,
-            })?;
+            material
+                .checked()
+                .map_err(|source| SolidError::Material { body: body.name.clone(), source })?;
             for element in body.hexes.clone() {
                 let x = mesh.hexes[element].map(|n| mesh.nodes[n as usize]);
                 let (volume, _) = crate::mean_gradient(&x);
                 if volume.is_nan() || volume <= 0.0 {
                     let body = body.name.clone();
-                    return Err(SolidError::Inverted {
-                        body,
-                        element,
-                        volume,
-                    });
+                    return Err(SolidError::Inverted { body, element, volume });
                 }
             }
         }
@@ -153,12 +148,7 @@ impl Solid {
             level,
             viscous: viscosity.any(),
             hexes: mesh.hexes.clone(),
-            bodies: mesh
-                .bodies
-                .iter()
-                .map(|b| b.hexes.clone())
-                .zip(materials.to_vec())
-                .collect(),
+            bodies: mesh.bodies.iter().map(|b| b.hexes.clone()).zip(materials.to_vec()).collect(),
         })
     }
 
@@ -205,10 +195,7 @@ impl Solid {
     /// The element has no separate tangent: x is scaled so small that the force is linear in it
     /// to 1e-9, which costs no accuracy because H is formed from displacements alone.
     pub fn add_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
-        let largest = x
-            .iter()
-            .flat_map(|v| v.xyz())
-            .fold(0.0f64, |m, c| m.max(c.abs()));
+        let largest = x.iter().flat_map(|v| v.xyz()).fold(0.0f64, |m, c| m.max(c.abs()));
         if largest == 0.0 {
             return;
         }
@@ -243,11 +230,7 @@ impl Solid {
             force: force.as_mut_ptr(),
         });
         let sums = SharedSums(self.sums.as_mut_ptr());
-        let Blocks {
-            batches,
-            blocks,
-            colours,
-        } = &self.blocks;
+        let Blocks { batches, blocks, colours } = &self.blocks;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
@@ -279,24 +262,19 @@ impl Solid {
                 }
             }
         }
-        ForceSums {
-            internal: total[0],
-            hourglass: total[1],
-            viscous_power: total[2],
-        }
+        ForceSums { internal: total[0], hourglass: total[1], viscous_power: total[2] }
     }
 
     /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts.
     pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
         for (range, material) in &self.bodies {
-            stress[range.clone()]
-                .par_iter_mut()
-                .zip(&self.hexes[range.clone()])
-                .for_each(|(out, hex)| {
+            stress[range.clone()].par_iter_mut().zip(&self.hexes[range.clone()]).for_each(
+                |(out, hex)| {
                     let x = hex.map(|n| self.reference[n as usize].xyz());
                     let u = hex.map(|n| displacement[n as usize].xyz());
                     *out = cauchy(&displacement_gradient(&x, &u).0, material);
-                });
+                },
+            );
         }
     }
 

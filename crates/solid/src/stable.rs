@@ -71,10 +71,7 @@ fn stiffness_bound(x: &[[f64; 3]; 8], material: &Material, element: Element) -> 
 
 /// Smallest lumped mass among the corners of an element (kg).
 fn lightest_node(x: &[[f64; 3]; 8], density: f64) -> f64 {
-    density
-        * crate::mass::nodal_volumes(x)
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
+    density * crate::mass::nodal_volumes(x).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// Largest frequency (rad/s) of M^-1 K by `iterations` Lanczos steps on M^-1/2 K M^-1/2.
@@ -99,13 +96,7 @@ pub fn largest_frequency(
     };
     let mut q: Vec<Padded> = root
         .iter()
-        .map(|r| {
-            if *r > 0.0 {
-                Padded::new([random(), random(), random()])
-            } else {
-                Padded::ZERO
-            }
-        })
+        .map(|r| if *r > 0.0 { Padded::new([random(), random(), random()]) } else { Padded::ZERO })
         .collect();
     let length = norm(&q);
     if length == 0.0 {
@@ -153,9 +144,7 @@ fn largest_eigenvalue(diagonal: &[f64], off: &[f64]) -> f64 {
         let right = if i + 1 < n { off[i].abs() } else { 0.0 };
         left + right
     };
-    let mut high = (0..n)
-        .map(|i| diagonal[i] + radius(i))
-        .fold(f64::NEG_INFINITY, f64::max);
+    let mut high = (0..n).map(|i| diagonal[i] + radius(i)).fold(f64::NEG_INFINITY, f64::max);
     let mut low = diagonal.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let all_below = |shift: f64| {
         let mut pivot = shift - diagonal[0];
@@ -190,6 +179,5 @@ fn norm(v: &[Padded]) -> f64 {
 }
 
 fn scale(v: &mut [Padded], factor: f64) {
-    v.iter_mut()
-        .for_each(|a| *a = Padded(a.0.map(|c| c * factor)));
+    v.iter_mut().for_each(|a| *a = Padded(a.0.map(|c| c * factor)));
 }

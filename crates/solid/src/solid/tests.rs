@@ -4,11 +4,7 @@ use crate::geometry::CORNERS;
 use crate::{lumped_mass, mean_gradient};
 use mesh::Body;
 
-const STEEL: Material = Material {
-    young: 210e9,
-    poisson: 0.3,
-    density: 7850.0,
-};
+const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 const ELEMENT: Element = Element { hourglass: 0.05 };
 const LEVELS: [Level; 3] = [Level::Portable, Level::Avx2, Level::Avx512];
 
@@ -29,14 +25,8 @@ fn seven_hex_patch() -> Mesh {
         [0.788, 0.693, 0.644],
         [0.165, 0.745, 0.702],
     ];
-    let faces = [
-        [0, 3, 2, 1],
-        [4, 5, 6, 7],
-        [0, 1, 5, 4],
-        [1, 2, 6, 5],
-        [2, 3, 7, 6],
-        [3, 0, 4, 7],
-    ];
+    let faces =
+        [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
     let mut hexes = vec![[8, 9, 10, 11, 12, 13, 14, 15]];
     for [a, b, c, d] in faces {
         // outer face seen from outside, inner face behind it
@@ -104,34 +94,21 @@ fn rotation(angle: f64) -> [[f64; 3]; 3] {
 }
 
 fn largest(f: &[Padded]) -> f64 {
-    f.iter()
-        .flat_map(|v| v.xyz())
-        .fold(0.0, |m: f64, c| m.max(c.abs()))
+    f.iter().flat_map(|v| v.xyz()).fold(0.0, |m: f64, c| m.max(c.abs()))
 }
 
 #[test]
 fn patch_test_an_affine_displacement_leaves_interior_nodes_in_equilibrium() {
     let mesh = seven_hex_patch();
-    let h = [
-        [1e-3, 0.5e-3, 0.5e-3],
-        [0.5e-3, 1e-3, 0.5e-3],
-        [0.5e-3, 0.5e-3, 1e-3],
-    ];
+    let h = [[1e-3, 0.5e-3, 0.5e-3], [0.5e-3, 1e-3, 0.5e-3], [0.5e-3, 0.5e-3, 1e-3]];
     let u = affine(&mesh, h);
     for level in LEVELS.into_iter().filter(|l| l.available()) {
         let mut solid = solid(&mesh, level);
         let mut f = vec![Padded::ZERO; mesh.nodes.len()];
         let sums = solid.subtract_internal_force(&u, &[], &mut f, true);
         assert!(largest(&f[..8]) > 1e6, "the outer nodes carry the stress");
-        assert!(
-            largest(&f[8..]) < 1e-12 * STEEL.young,
-            "{:e}",
-            largest(&f[8..])
-        );
-        assert!(
-            sums.hourglass < 1e-20 * sums.internal,
-            "no hourglass in an affine field"
-        );
+        assert!(largest(&f[8..]) < 1e-12 * STEEL.young, "{:e}", largest(&f[8..]));
+        assert!(sums.hourglass < 1e-20 * sums.internal, "no hourglass in an affine field");
         let mut stress = vec![[0.0; 6]; 7];
         solid.cauchy_stress(&u, &mut stress);
         for s in &stress {
@@ -148,21 +125,13 @@ fn a_rigid_rotation_through_a_full_turn_leaves_no_force_and_no_stress() {
     for level in LEVELS.into_iter().filter(|l| l.available()) {
         let mut solid = solid(&mesh, level);
         for step in 1..=24 {
-            let u = affine(
-                &mesh,
-                rotation(std::f64::consts::TAU * f64::from(step) / 24.0),
-            );
+            let u = affine(&mesh, rotation(std::f64::consts::TAU * f64::from(step) / 24.0));
             let mut f = vec![Padded::ZERO; mesh.nodes.len()];
             solid.subtract_internal_force(&u, &[], &mut f, false);
             assert!(largest(&f) < 1e-12 * STEEL.young, "{:e}", largest(&f));
             let mut stress = vec![[0.0; 6]; 7];
             solid.cauchy_stress(&u, &mut stress);
-            assert!(
-                stress
-                    .iter()
-                    .flatten()
-                    .all(|s| s.abs() < 1e-12 * STEEL.young)
-            );
+            assert!(stress.iter().flatten().all(|s| s.abs() < 1e-12 * STEEL.young));
         }
     }
 }
@@ -187,11 +156,7 @@ fn force_is_the_derivative_of_the_energy() {
             plus[node].0[i] += step;
             minus[node].0[i] -= step;
             let slope = (energy(&plus) - energy(&minus)) / (2.0 * step);
-            assert!(
-                (slope + f[node].0[i]).abs() < 1e-7 * scale,
-                "{slope:e} {:e}",
-                f[node].0[i]
-            );
+            assert!((slope + f[node].0[i]).abs() < 1e-7 * scale, "{slope:e} {:e}", f[node].0[i]);
         }
     }
 }
@@ -218,9 +183,7 @@ fn textbook_force(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> [[f64; 3]; 8] {
         let mut p = [[0.0; 3]; 3];
         for i in 0..3 {
             for j in 0..3 {
-                p[i][j] = (0..3)
-                    .map(|k| det * s[i][k] * inverse_transposed[k][j])
-                    .sum();
+                p[i][j] = (0..3).map(|k| det * s[i][k] * inverse_transposed[k][j]).sum();
             }
         }
         p
@@ -261,10 +224,8 @@ fn every_level_agrees_with_the_textbook_element() {
     let u = field(&mesh, 0.01);
     let mut expected = vec![[0.0; 3]; mesh.nodes.len()];
     for hex in &mesh.hexes {
-        let f = textbook_force(
-            &hex.map(|n| mesh.nodes[n as usize]),
-            &hex.map(|n| u[n as usize].xyz()),
-        );
+        let f =
+            textbook_force(&hex.map(|n| mesh.nodes[n as usize]), &hex.map(|n| u[n as usize].xyz()));
         for (n, f) in hex.iter().zip(f) {
             for i in 0..3 {
                 expected[*n as usize][i] -= f[i];
@@ -289,16 +250,9 @@ fn one_two_and_three_threads_give_the_same_bits() {
     let mesh = shaken([20, 12, 9]);
     let u = field(&mesh, 1e-3);
     let v = field(&mesh, 5.0);
-    let viscosity = Viscosity {
-        bulk_linear: 0.06,
-        bulk_quadratic: 1.2,
-        kelvin_voigt: 1e-8,
-    };
+    let viscosity = Viscosity { bulk_linear: 0.06, bulk_quadratic: 1.2, kelvin_voigt: 1e-8 };
     let run = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
         let mut f = vec![Padded::ZERO; mesh.nodes.len()];
         let sums = pool.install(|| solid.subtract_internal_force(&u, &v, &mut f, true));
@@ -313,11 +267,7 @@ fn one_two_and_three_threads_give_the_same_bits() {
 #[test]
 fn viscous_stresses_dissipate_and_vanish_in_rigid_rotation() {
     let mesh = shaken([3, 3, 3]);
-    let viscosity = Viscosity {
-        kelvin_voigt: 1e-8,
-        bulk_linear: 0.06,
-        bulk_quadratic: 1.2,
-    };
+    let viscosity = Viscosity { kelvin_voigt: 1e-8, bulk_linear: 0.06, bulk_quadratic: 1.2 };
     let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
     let mut f = vec![Padded::ZERO; mesh.nodes.len()];
     let u = affine(&mesh, rotation(0.7));
@@ -327,12 +277,7 @@ fn viscous_stresses_dissipate_and_vanish_in_rigid_rotation() {
         .nodes
         .iter()
         .zip(&u)
-        .map(|(p, u)| {
-            Padded::new(crate::geometry::cross(
-                omega,
-                [0, 1, 2].map(|i| p[i] + u.0[i]),
-            ))
-        })
+        .map(|(p, u)| Padded::new(crate::geometry::cross(omega, [0, 1, 2].map(|i| p[i] + u.0[i]))))
         .collect();
     solid.subtract_internal_force(&u, &spin, &mut f, false);
     assert!(largest(&f) < 1e-12 * STEEL.young, "{:e}", largest(&f));
@@ -344,10 +289,7 @@ fn viscous_stresses_dissipate_and_vanish_in_rigid_rotation() {
 fn linear_bulk_viscosity_of_a_compressed_cube_is_b1_rho_cp_h_rate() {
     let h = 2e-3;
     let mesh = mesh::block([1, 1, 1], [h, h, h]);
-    let viscosity = Viscosity {
-        bulk_linear: 0.06,
-        ..Viscosity::default()
-    };
+    let viscosity = Viscosity { bulk_linear: 0.06, ..Viscosity::default() };
     let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
     let rate = -3.0;
     let v = affine(&mesh, [[rate, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
@@ -355,11 +297,7 @@ fn linear_bulk_viscosity_of_a_compressed_cube_is_b1_rho_cp_h_rate() {
     let mut f = vec![Padded::ZERO; 8];
     solid.subtract_internal_force(&u, &v, &mut f, false);
     let q = 0.06 * STEEL.density * STEEL.c_p() * h * rate.abs();
-    let face = f
-        .iter()
-        .zip(&mesh.nodes)
-        .filter(|(_, p)| p[0] > h / 2.0)
-        .map(|(f, _)| f.0[0]);
+    let face = f.iter().zip(&mesh.nodes).filter(|(_, p)| p[0] > h / 2.0).map(|(f, _)| f.0[0]);
     assert!((face.sum::<f64>() - q * h * h).abs() < 1e-12 * q * h * h);
 }
 
@@ -390,15 +328,6 @@ fn an_inside_out_element_is_refused_by_name() {
     mesh.hexes[1].swap(1, 5);
     mesh.hexes[1].swap(2, 6);
     mesh.hexes[1].swap(3, 7);
-    let error = Solid::new(
-        &mesh,
-        &[STEEL],
-        ELEMENT,
-        Viscosity::default(),
-        Level::Portable,
-    );
-    assert!(matches!(
-        error,
-        Err(SolidError::Inverted { element: 1, .. })
-    ));
+    let error = Solid::new(&mesh, &[STEEL], ELEMENT, Viscosity::default(), Level::Portable);
+    assert!(matches!(error, Err(SolidError::Inverted { element: 1, .. })));
 }

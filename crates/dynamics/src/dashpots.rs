@@ -1,0 +1,64 @@
+//! Mass-proportional damping relative to the rigid motion.
+//!
+//! Each node of the disk is tied to the hub by a dashpot alpha m, each node of the bar to the
+//! ground. The force on a node is -alpha m (v - v_rigid); its reaction acts on the hub, so that
+//! the dashpots dissipate alpha m |v - v_rigid|^2 and never push the whole. v_rigid is the hub's
+//! motion at the node's *undeformed* place: the preload pattern, which stays in space while the
+//! disk turns through it, then meets no mean drag.
+
+use crate::hub::Hub;
+use mesh::Padded;
+use std::ops::Range;
+
+/// The dashpots of a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Dashpots<'a> {
+    /// Damping rate (1/s).
+    pub(crate) alpha: f64,
+    /// Nodes of the disk.
+    pub(crate) disk: Range<usize>,
+    /// Reference positions of all nodes (m).
+    pub(crate) reference: &'a [Padded],
+    /// The hub's motion, if there is a hub.
+    pub(crate) motion: Option<RigidMotion>,
+}
+
+impl Dashpots<'_> {
+    /// Rigid velocity of the body at node `n` (m/s), and for a node of the disk its arm (x, z)
+    /// from the hub's centre (m).
+    #[inline(always)]
+    pub(crate) fn rigid(&self, n: usize) -> ([f64; 3], Option<[f64; 2]>) {
+        match &self.motion {
+            Some(motion) if self.disk.contains(&n) => {
+                let (velocity, arm) = motion.at(self.reference[n]);
+                (velocity, Some(arm))
+            }
+            _ => ([0.0; 3], None),
+        }
+    }
+}
+
+/// A hub's rigid motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RigidMotion {
+    centre: [f64; 3],
+    turn: (f64, f64),
+    v: [f64; 2],
+    omega: f64,
+}
+
+impl RigidMotion {
+    pub(crate) fn new(hub: &Hub) -> Self {
+        let s = hub.state;
+        Self { centre: hub.centre, turn: s.angle.sin_cos(), v: [s.vx, s.vz], omega: s.omega }
+    }
+
+    /// Velocity (m/s) at the undeformed place of a point, and its arm (x, z) from the centre (m).
+    #[inline(always)]
+    pub(crate) fn at(&self, reference: Padded) -> ([f64; 3], [f64; 2]) {
+        let (x, z) = (reference.0[0] - self.centre[0], reference.0[2] - self.centre[2]);
+        let (sin, cos) = self.turn;
+        let arm = [cos * x + sin * z, cos * z - sin * x];
+        ([self.v[0] + self.omega * arm[1], 0.0, self.v[1] - self.omega * arm[0]], arm)
+    }
+}
