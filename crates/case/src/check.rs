@@ -6,11 +6,19 @@ use crate::error::{CaseError, KeyError};
 use crate::keys::{self, Form, KEYS, Key, STIFFNESS, number};
 use crate::layers::{Layers, get, join, key_error_in};
 
+/// So many mistakes are told at once; more hide the first.
+const MOST_MISTAKES: usize = 20;
+
 /// Checks every key: it exists, has the right type and lies in its range; none is missing.
 pub fn keys(layers: &Layers) -> Result<(), CaseError> {
     let mut errors = Vec::new();
     check_table(layers, &layers.table, "", "", &mut errors);
-    check_needed(layers, &mut errors);
+    if errors.len() >= MOST_MISTAKES {
+        let more = format!("{MOST_MISTAKES} mistakes are shown, there may be more");
+        errors.push(layers.error_nowhere("", &more, "see `creepage schema` for every key"));
+    } else {
+        check_needed(layers, &mut errors);
+    }
     raise(errors)
 }
 
@@ -33,6 +41,9 @@ fn check_table(
     errors: &mut Vec<KeyError>,
 ) {
     for (name, value) in table {
+        if errors.len() >= MOST_MISTAKES {
+            return;
+        }
         let (path, pattern) = (join(path, name), join(pattern, name));
         let section = format!("{pattern}.");
         let list = format!("{pattern}[].");
@@ -61,6 +72,9 @@ fn check_table(
                 continue;
             };
             for (i, item) in items.iter().enumerate() {
+                if errors.len() >= MOST_MISTAKES {
+                    return;
+                }
                 let (path, pattern) = (format!("{path}[{i}]"), format!("{pattern}[]"));
                 match item {
                     Value::Table(inner) => {

@@ -10,11 +10,12 @@ use thiserror::Error;
 use crate::schema::Case;
 
 /// The files that a run writes; `--force` removes these and nothing else.
-pub const RUN_FILES: [&str; 7] = [
+pub const RUN_FILES: [&str; 8] = [
     "case.toml",
     "fields.vtkhdf",
     "contact.vtkhdf",
     "history.h5",
+    "probes.h5",
     "summary.json",
     "run.log",
     "checkpoint.h5",
@@ -46,7 +47,6 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
         /// What the system said.
-        #[source]
         cause: io::Error,
     },
 }
@@ -56,6 +56,24 @@ pub fn default_folder(case: &Case) -> PathBuf {
     Path::new("runs").join(&case.name)
 }
 
+/// Refuses a folder that holds anything, unless `force`; touches nothing.
+pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
+    let path = || folder.to_path_buf();
+    match fs::metadata(folder) {
+        Ok(found) if !found.is_dir() => Err(FolderError::NotAFolder { path: path() }),
+        Ok(_) => {
+            let unwritable = |cause| FolderError::NotWritable { path: path(), cause };
+            let occupied = fs::read_dir(folder).map_err(unwritable)?.next().is_some();
+            if occupied && !force {
+                let run = RUN_FILES.iter().any(|file| folder.join(file).exists());
+                return Err(FolderError::Taken { path: path(), run });
+            }
+            Ok(())
+        }
+        Err(_) => Ok(()),
+    }
+}
+
 /// Makes `folder` ready for a run: it exists, is writable and holds no run.
 ///
 /// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] are
@@ -63,19 +81,8 @@ pub fn default_folder(case: &Case) -> PathBuf {
 pub fn prepare(folder: &Path, force: bool) -> Result<(), FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
-    match fs::metadata(folder) {
-        Ok(found) if !found.is_dir() => {
-            return Err(FolderError::NotAFolder { path: folder.to_path_buf() });
-        }
-        Ok(_) => {
-            let occupied = fs::read_dir(folder).map_err(unwritable)?.next().is_some();
-            if occupied && !force {
-                let run = RUN_FILES.iter().any(|file| folder.join(file).exists());
-                return Err(FolderError::Taken { path: folder.to_path_buf(), run });
-            }
-        }
-        Err(_) => fs::create_dir_all(folder).map_err(unwritable)?,
-    }
+    check(folder, force)?;
+    fs::create_dir_all(folder).map_err(unwritable)?;
     prove_writable(folder).map_err(unwritable)?;
     for file in RUN_FILES {
         match fs::remove_file(folder.join(file)) {

@@ -20,6 +20,13 @@ use crate::keys;
 /// A case file larger than this is taken for something else.
 const LARGEST_FILE: u64 = 4 << 20;
 
+/// A chain of `extends` longer than this is taken for a mistake.
+const LONGEST_CHAIN: usize = 16;
+
+/// A line longer than this is not shown, and a message no longer than this: both are to be read.
+const LONGEST_LINE: usize = 300;
+const LONGEST_MESSAGE: usize = 1000;
+
 /// A text that keys came from: a file, or one `--set` option.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -101,6 +108,14 @@ impl Layers {
                     "extends",
                     &format!("{extends} leads back to a file that extends this one"),
                     "end the chain of `extends` at a file that extends nothing",
+                ));
+            }
+            if chain.len() >= LONGEST_CHAIN {
+                return Err(self.error(
+                    origin.as_ref(),
+                    "extends",
+                    &format!("{extends} would be file {} of a chain", chain.len() + 1),
+                    &format!("a chain of `extends` may have {LONGEST_CHAIN} files: join some"),
                 ));
             }
             self.add_file(&base, chain).map_err(|error| match error {
@@ -241,7 +256,7 @@ impl Layers {
         // The case file itself is read first, before what it extends.
         let file = self.sources.first().map_or("", |source| source.name.as_str());
         KeyError {
-            message: format!("{file}: {message}"),
+            message: shortened(format!("{file}: {message}")),
             key: key.into(),
             source_code: None,
             span: None,
@@ -278,15 +293,36 @@ pub fn key_error_in(
     } else {
         format!("{}:{line}: {message}", source.name)
     };
+    let (span, source_code) = match excerpt(&source.text, start..span.end) {
+        Some(span) => (Some(span), Some(NamedSource::new(source.name, source.text))),
+        None => (None, None),
+    };
     KeyError {
-        message,
+        message: shortened(message),
         key: key.into(),
-        span: Some(SourceSpan::new(start.into(), span.end.saturating_sub(start))),
+        span,
         label: "here".into(),
-        source_code: Some(NamedSource::new(source.name, source.text)),
+        source_code,
         help: Some(remedy.into()),
         others: Vec::new(),
     }
+}
+
+fn shortened(message: String) -> String {
+    match message.char_indices().nth(LONGEST_MESSAGE) {
+        Some((end, _)) => format!("{}...", &message[..end]),
+        None => message,
+    }
+}
+
+/// What to point at in a text, unless it stands in a line too long to be shown.
+fn excerpt(text: &str, span: Range<usize>) -> Option<SourceSpan> {
+    let bytes = text.as_bytes();
+    let before = bytes[..span.start].iter().rev().take_while(|&&byte| byte != b'\n').count();
+    let after = bytes[span.start..].iter().take_while(|&&byte| byte != b'\n').count();
+    let length = span.end.saturating_sub(span.start);
+    (before + after.max(length) <= LONGEST_LINE)
+        .then(|| SourceSpan::new(span.start.into(), length))
 }
 
 /// Reads a file of at most [`LARGEST_FILE`] bytes as UTF-8.
@@ -367,10 +403,21 @@ fn merge(base: &mut Table, top: Table, prefix: &str, origins: &mut BTreeMap<Stri
 }
 
 fn forget(origins: &mut BTreeMap<String, Origin>, path: &str) {
-    origins.retain(|at, _| {
-        !at.strip_prefix(path)
+    let below = |at: &str| {
+        at.strip_prefix(path)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
-    });
+    };
+    // Only what begins with the path is looked at: a file may have very many keys.
+    let gone: Vec<String> = origins
+        .range(path.to_owned()..)
+        .map(|(at, _)| at)
+        .take_while(|at| at.starts_with(path))
+        .filter(|at| below(at))
+        .cloned()
+        .collect();
+    for at in gone {
+        origins.remove(&at);
+    }
 }
 
 /// A dotted path.

@@ -40,42 +40,37 @@ pub enum RunError {
     Folder(#[from] crate::folder::FolderError),
     /// The mesh cannot be built.
     #[error(transparent)]
-    #[diagnostic(code(mesh), help("change the keys of [disk], [bar] or [mesh] that it names"))]
+    #[diagnostic(help("change the keys of [disk], [bar] or [mesh] that it names"))]
     Mesh(#[from] mesh::MeshError),
     /// The elements cannot be set up.
     #[error(transparent)]
-    #[diagnostic(code(solid))]
+    #[diagnostic(help("change the keys of [material], [disk], [bar] or [mesh] that it names"))]
     Solid(#[from] solid::SolidError),
     /// The contact cannot be set up.
     #[error(transparent)]
-    #[diagnostic(code(contact), help("change the keys of [contact.penalty]"))]
+    #[diagnostic(help("change the keys of [contact.penalty]"))]
     Contact(#[from] contact::ContactError),
     /// A surface of the mesh is missing.
     #[error("the mesh has no contact surface in its fine zone")]
-    #[diagnostic(code(mesh::zone), help("enlarge mesh.zone"))]
+    #[diagnostic(help("enlarge mesh.zone"))]
     NoContact,
     /// The preload was not found.
     #[error(transparent)]
-    #[diagnostic(
-        code(preload),
-        help(
-            "raise preload.max_iterations or preload.tolerance, or look at the mesh with \
-             `creepage mesh`"
-        )
-    )]
+    #[diagnostic(help("{}", preload_remedy(.0)))]
     Preload(#[from] dynamics::RelaxationError),
     /// Results cannot be written.
     #[error(transparent)]
-    #[diagnostic(code(output), help("what was written before stays readable"))]
+    #[diagnostic(help("the run has stopped; what was written before stays readable"))]
     Output(#[from] output::OutputError),
     /// A file beside the results cannot be written.
-    #[error("{} cannot be written: {cause}", path.display())]
-    #[diagnostic(code(output::text))]
+    #[error("cannot write {}: {cause}", path.display())]
+    #[diagnostic(help(
+        "the run has stopped; check that its folder is still there and that the disk has room"
+    ))]
     Text {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        #[source]
         cause: std::io::Error,
     },
     /// A built-in case is wrong.
@@ -96,6 +91,22 @@ impl RunError {
             Self::NoContact | Self::Case(_) | Self::Threads(_) => 2,
             Self::Preload(dynamics::RelaxationError::Interrupted) => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
+        }
+    }
+}
+
+/// What to do where the preload was not found.
+fn preload_remedy(error: &dynamics::RelaxationError) -> &'static str {
+    match error {
+        dynamics::RelaxationError::Slow { .. } => {
+            "raise preload.max_iterations, or raise preload.tolerance to a ratio that it reaches"
+        }
+        dynamics::RelaxationError::BlowUp { .. } => {
+            "look at the quality of the mesh with `creepage mesh`; lower contact.penalty.normal, \
+             or mesh.growth"
+        }
+        dynamics::RelaxationError::Interrupted => {
+            "run the case again; the disk had not begun to roll, so there are no results yet"
         }
     }
 }
@@ -122,6 +133,9 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
+    // A mesh that is refused must cost no earlier run its results.
+    folder::check(&options.out, options.force)?;
+    let model = Model::build(case)?;
     folder::prepare(&options.out, options.force)?;
     write_text(options.out.join("case.toml"), &case.to_toml())?;
     let mut log = Log::new(options.out.join("run.log"))?;
@@ -132,13 +146,20 @@ fn run_in_pool(
         options.source.display()
     ))?;
     case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
-    let model = Model::build(case)?;
     let elements = model.mesh.hexes.len();
     log.say(&format!("mesh: {elements} elements, {} nodes", model.mesh.nodes.len()))?;
     observe(&stage(case, Stage::Mesh));
 
-    let Start { mut simulation, stability, radius, preload, steps, preload_wall } =
-        start(case, &model, stop, observe)?;
+    let begun = match start(case, &model, stop, observe) {
+        Err(RunError::Preload(error)) => {
+            let summary = without_rolling(case, &model, options.threads, wall, &error);
+            output::write_json_atomically(options.out.join("summary.json"), &summary)?;
+            log.say(&format!("end: {:?} before rolling: {error}", summary.status))?;
+            return Ok(json!(summary));
+        }
+        begun => begun?,
+    };
+    let Start { mut simulation, stability, radius, preload, steps, preload_wall } = begun;
     if let Some(p) = &preload {
         log.say(&format!(
             "preload: {} iterations, normal force {:.3} N, hub {:.3} um, kinetic/internal {:.1e}",
@@ -282,6 +303,43 @@ fn run_in_pool(
     output::write_json_atomically(options.out.join("summary.json"), &summary)?;
     log.say(&format!("end: {status:?} after {done} steps, {:.1} s", summary.wall_s))?;
     Ok(json!(summary))
+}
+
+/// The summary of a run that ended in its preload: nothing rolled, so there are no results.
+fn without_rolling(
+    case: &Case,
+    model: &Model,
+    threads: usize,
+    wall: Instant,
+    error: &dynamics::RelaxationError,
+) -> Summary {
+    let wall_s = wall.elapsed().as_secs_f64();
+    let none = String::new;
+    Summary {
+        name: case.name.clone(),
+        status: match error {
+            dynamics::RelaxationError::Interrupted => Status::Interrupted,
+            _ => Status::Failed,
+        },
+        steps: 0,
+        dt: 0.0,
+        t_end: 0.0,
+        elements: model.mesh.hexes.len() as u64,
+        nodes: model.mesh.nodes.len() as u64,
+        threads: threads as u64,
+        wall_s,
+        element_steps_per_s: 0.0,
+        peak_rss_mb: peak_rss_mb(),
+        energy: Energy::default(),
+        contact: Contact::default(),
+        files: Files { fields: none(), contact: none(), history: none() },
+        stages: [("preload".to_owned(), wall_s)].into(),
+        extra: [(
+            "diagnosis".to_owned(),
+            json!(format!("{error}; remedy: {}", preload_remedy(error))),
+        )]
+        .into(),
+    }
 }
 
 fn contact_means(means: &Means) -> Contact {

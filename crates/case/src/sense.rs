@@ -4,8 +4,10 @@ use crate::check::raise;
 use crate::error::{CaseError, KeyError};
 use crate::hertz::hertz;
 use crate::keys::number;
-use crate::layers::{Layers, key_error_in};
-use crate::schema::{Case, Crown, DriveMode, FrictionLaw, LoadMode, PreloadMethod, Stiffness};
+use crate::layers::{Layers, Origin, key_error_in};
+use crate::schema::{
+    Case, Crown, DriveMode, FrictionLaw, LoadMode, Material, PreloadMethod, Stiffness,
+};
 
 /// Coefficient at high slip velocity where an exponential law gives none.
 pub const DYNAMIC: f64 = 0.32;
@@ -14,6 +16,10 @@ pub const DECAY: f64 = 6.0;
 
 /// More elements than this in the fine zones is a slip of a digit.
 const MOST_ELEMENTS: f64 = 2e8;
+
+/// More steps than this is a slip of a digit; many deserve a warning.
+const MOST_STEPS: f64 = 1e9;
+const MANY_STEPS: f64 = 1e7;
 
 /// Whether a character may stand in a case's name, which becomes a folder's.
 pub fn in_a_name(c: char) -> bool {
@@ -27,8 +33,8 @@ struct Findings<'a> {
 }
 
 impl Findings<'_> {
-    /// Refuses the case unless `fine`. The message points at the first of `keys` that a file or
-    /// option gives: the others have their defaults, which the user cannot see.
+    /// Refuses the case unless `fine`. The message points at the first of `keys` that an option
+    /// gives, or else a file: the others have their defaults, which the user cannot see.
     fn require(
         &mut self,
         fine: bool,
@@ -39,7 +45,9 @@ impl Findings<'_> {
         if fine {
             return;
         }
-        let written = keys.iter().find_map(|&key| Some((key, self.layers.origins.get(key)?)));
+        let written = || keys.iter().filter_map(|&key| Some((key, self.layers.origins.get(key)?)));
+        let by_option = |at: &Origin| self.layers.sources[at.source].name == "--set";
+        let written = written().find(|(_, at)| by_option(at)).or_else(|| written().next());
         let problem = problem();
         self.errors.push(match written {
             Some((key, origin)) => {
@@ -62,6 +70,7 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
     // The path is judged only for a case whose shape makes sense.
     if found.errors.is_empty() {
         check_path(case, &mut found);
+        check_length(case, &mut found);
     }
     raise(found.errors)
 }
@@ -312,24 +321,67 @@ fn check_output(case: &Case, found: &mut Findings) {
             "a window ends after it begins",
         );
     }
-    let bar = &case.bar;
-    let half = 0.5 * bar.width;
-    let on_bar =
-        |[x, y]: &[f64; 2]| *x >= bar.start && *x <= bar.start + bar.length && y.abs() <= half;
+    check_probes(case, found);
+}
+
+/// A probe is recorded at the nearest node of the fine zone, so it must be there.
+fn check_probes(case: &Case, found: &mut Findings) {
+    let zone = &case.mesh.zone;
+    let (rear, front) = (zone.start - zone.size, zone.start + zone.length + zone.size);
+    let half = 0.5 * zone.width + zone.size;
     let probes = &case.output.probes;
+    for (key, points, along) in
+        [("output.probes.bar", &probes.bar, "x"), ("output.probes.disk", &probes.disk, "s")]
+    {
+        let outside = points.iter().find(|[x, y]| *x < rear || *x > front || y.abs() > half);
+        found.require(
+            outside.is_none(),
+            &[key],
+            || {
+                let [x, y] = outside.copied().unwrap_or_default();
+                format!(
+                    "{key} = [{}, {}] m must lie in the fine zone: {along} from {} to {} m, y \
+                     from {} to {} m",
+                    number(x),
+                    number(y),
+                    number(round(zone.start)),
+                    number(round(zone.start + zone.length)),
+                    number(round(-0.5 * zone.width)),
+                    number(round(0.5 * zone.width))
+                )
+            },
+            "contact is recorded in the fine zone: move the point, or enlarge mesh.zone",
+        );
+    }
+}
+
+/// Time steps of the run, roughly: the smallest element over the speed of pressure waves. The
+/// stable step of the mesh is not known before the mesh is.
+fn steps(case: &Case) -> f64 {
+    let speed = |m: Material| {
+        let modulus = m.young * (1.0 - m.poisson) / ((1.0 + m.poisson) * (1.0 - 2.0 * m.poisson));
+        (modulus / m.density).sqrt()
+    };
+    let fastest = speed(case.disk_material()).max(speed(case.bar_material()));
+    case.duration() * fastest / (case.time.factor * case.mesh.zone.size)
+}
+
+/// The run must end while somebody still waits for it.
+fn check_length(case: &Case, found: &mut Findings) {
+    let steps = steps(case);
     found.require(
-        probes.bar.iter().all(on_bar),
-        &["output.probes.bar"],
-        || "output.probes.bar has a point that is not on the bar's top".into(),
-        "give pairs [x, y] in metres, within the bar's length and half width",
-    );
-    let half_turn = std::f64::consts::PI * case.disk.radius;
-    let on_disk = |[s, y]: &[f64; 2]| s.abs() <= half_turn && y.abs() <= 0.5 * case.disk.width;
-    found.require(
-        probes.disk.iter().all(on_disk),
-        &["output.probes.disk"],
-        || "output.probes.disk has a point that is not on the disk's tread".into(),
-        "give pairs [s, y] in metres, within half a turn and the disk's half width",
+        steps <= MOST_STEPS,
+        &["time.duration", "time.factor", "drive.speed", "mesh.zone.size", "time.roll"],
+        || {
+            format!(
+                "the run of {} s needs about {steps:.1e} time steps, more than {MOST_STEPS:.0e}: \
+                 at a millisecond each that is {:.0} days",
+                number(case.duration()),
+                steps * 1e-3 / 86400.0
+            )
+        },
+        "roll faster (drive.speed) or less (time.roll, time.duration), or use larger elements \
+         (mesh.zone.size)",
     );
 }
 
@@ -340,7 +392,7 @@ fn check_path(case: &Case, found: &mut Findings) {
     let (rear, front) = (-patch.a, case.rolled() + patch.a);
     found.require(
         zone.start <= rear,
-        &["mesh.zone.start", "load.normal"],
+        &["mesh.zone.start", "load.normal", "material.young"],
         || {
             format!(
                 "mesh.zone.start = {} m must be at most {:.5} m: the patch at the start reaches \
@@ -354,7 +406,14 @@ fn check_path(case: &Case, found: &mut Findings) {
     let end = zone.start + zone.length;
     found.require(
         end >= front,
-        &["time.roll", "time.duration", "mesh.zone.length", "mesh.zone.start", "load.normal"],
+        &[
+            "time.roll",
+            "time.duration",
+            "mesh.zone.length",
+            "mesh.zone.start",
+            "load.normal",
+            "material.young",
+        ],
         || {
             format!(
                 "the patch (half length {:.2} mm) ends at x = {front:.5} m after rolling {} m, \
@@ -368,7 +427,7 @@ fn check_path(case: &Case, found: &mut Findings) {
     );
     found.require(
         zone.width >= 2.0 * patch.b * (1.0 - 1e-12),
-        &["mesh.zone.width", "load.normal"],
+        &["mesh.zone.width", "load.normal", "material.young"],
         || {
             format!(
                 "mesh.zone.width = {} m must be at least the patch's width, {:.5} m",
@@ -397,6 +456,14 @@ pub fn warnings(case: &Case) -> Vec<String> {
     warn(
         factor > 1.0,
         format!("time.factor = {factor} is above 1: THE RUN IS UNSTABLE and will blow up"),
+    );
+    let steps = steps(case);
+    warn(
+        steps > MANY_STEPS,
+        format!(
+            "the run needs about {steps:.1e} time steps, at a millisecond each {:.0} hours",
+            steps * 1e-3 / 3600.0
+        ),
     );
     let patch = hertz(case);
     let size = case.mesh.zone.size;

@@ -12,6 +12,7 @@
 use crate::hub::Hub;
 use contact::{ContactSums, PenaltyContact};
 use mesh::Padded;
+use rayon::prelude::*;
 use solid::Solid;
 use thiserror::Error;
 
@@ -88,6 +89,12 @@ const CHECK: usize = 20;
 const NODE_SHARE: f64 = 0.3;
 const HUB_SHARE: f64 = 2.0;
 
+/// Largest growth of the estimated slowest frequency from one check to the next.
+const RISE: f64 = 1.005;
+
+/// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads.
+const CHUNK: usize = 4096;
+
 /// Relaxes from the undeformed state, the disk moved by `setup.start`; returns the displacements.
 ///
 /// `observe` sees a report every few iterations and returns false to stop.
@@ -99,56 +106,57 @@ pub fn relax(
 ) -> Result<(Vec<Padded>, RelaxationReport), RelaxationError> {
     let reference = solid.reference().to_vec();
     let n = reference.len();
-    let mut fixed = vec![false; n];
-    setup.held.iter().chain(&setup.hub.nodes).for_each(|&i| fixed[i as usize] = true);
+    let mut nodes: Vec<Node> = vec![Node::default(); n];
+    for &i in setup.held.iter().chain(&setup.hub.nodes) {
+        nodes[i as usize].fixed = true;
+    }
     let mut u = vec![Padded::ZERO; n];
     u[setup.disk.clone()].iter_mut().for_each(|u| u.0[2] = setup.start);
-    let mut v = vec![Padded::ZERO; n];
-    let (mut f, mut before) = (v.clone(), v.clone());
+    let mut force = vec![Padded::ZERO; n];
+    let still = force.clone();
     let mut hub = HubMotion { z: setup.start, v: 0.0, mass: 0.0, force_before: 0.0 };
     let mut contact_bound = vec![0.0; n];
-    let mut mass = vec![0.0; n];
     let mut report = RelaxationReport::default();
-    let mut damping = 0.0;
-    let axis = [setup.hub.centre[0], setup.hub.centre[2]];
+    let (mut slowest, mut damping) = (1.0f64, 0.0);
+    let mut window = Quotient::default();
+    let mut partial = vec![Quotient::default(); n.div_ceil(CHUNK)];
     for iteration in 0..setup.max_iterations {
         let check = iteration % CHECK == 0;
-        f.fill(Padded::ZERO);
-        let sums = solid.subtract_internal_force(&u, &v, &mut f, check);
-        let squared = setup.omega * setup.omega;
-        for i in setup.disk.clone() {
-            let pull = setup.mass[i] * squared;
-            f[i].0[0] += pull * (reference[i].0[0] + u[i].0[0] - axis[0]);
-            f[i].0[2] += pull * (reference[i].0[2] + u[i].0[2] - axis[1] - hub.z);
-        }
-        let touching: ContactSums = contact.apply_frictionless(&reference, &u, &mut f);
+        let pull = centrifugal(setup, &reference, &u, hub.z, &mut force, &mut partial);
+        let sums = solid.subtract_internal_force(&u, &still, &mut force, check);
+        let touching: ContactSums = contact.apply_frictionless(&reference, &u, &mut force);
         if check {
             // Pairs close while the bodies settle: the bounds only grow.
             let mut bound = vec![0.0; n];
             contact.nodal_stiffness_bound(&mut bound);
-            for i in 0..n {
+            for (i, node) in nodes.iter_mut().enumerate() {
                 contact_bound[i] = f64::max(contact_bound[i], bound[i]);
-                mass[i] = NODE_SHARE * (setup.stiffness[i] + contact_bound[i]);
+                node.mass = NODE_SHARE * (setup.stiffness[i] + contact_bound[i]);
             }
             let spring = contact_stiffness(contact, &setup.disk, n);
             hub.mass = hub.mass.max(HUB_SHARE * spring);
         }
-        let hub_force: f64 = f[setup.disk.clone()].iter().map(|f| f.0[2]).sum::<f64>() - setup.load;
-
-        // Rayleigh quotient of the motion of the last step
-        let (mut vkv, mut vmv) = (hub.v * (hub.force_before - hub_force), hub.mass * hub.v * hub.v);
-        for i in 0..n {
-            if !fixed[i] {
-                for k in 0..3 {
-                    vkv += v[i].0[k] * (before[i].0[k] - f[i].0[k]);
-                    vmv += mass[i] * v[i].0[k] * v[i].0[k];
-                }
-            }
+        // The disk's internal forces cancel: what moves the hub is load, contact and spin.
+        let hub_force = touching.force[0][2] + pull - setup.load;
+        let mut motion = Quotient {
+            stiffness: hub.v * (hub.force_before - hub_force),
+            mass: hub.mass * hub.v * hub.v,
+            pull: 0.0,
+        };
+        let keep = (2.0 - damping) / (2.0 + damping);
+        let kick = 2.0 / (2.0 + damping);
+        hub.v = keep * hub.v + kick * hub_force / hub.mass;
+        hub.z += hub.v;
+        hub.force_before = hub_force;
+        advance(setup, keep, kick, hub.v, &mut nodes, &mut u, &force, &mut partial);
+        for p in &partial {
+            motion.stiffness += p.stiffness;
+            motion.mass += p.mass;
         }
         if check {
             report = RelaxationReport {
                 iterations: iteration,
-                kinetic_ratio: 0.5 * vmv / sums.internal,
+                kinetic_ratio: 0.5 * motion.mass / sums.internal,
                 normal_force: touching.normal_force,
                 force_error: (hub_force / setup.load).abs(),
                 hub: hub.z,
@@ -166,27 +174,105 @@ pub fn relax(
                 return Err(RelaxationError::Interrupted);
             }
         }
-        if vmv > 0.0 {
-            damping = 2.0 * (vkv / vmv).max(0.0).sqrt();
-        }
-        let keep = (2.0 - damping) / (2.0 + damping);
-        let kick = 2.0 / (2.0 + damping);
-        hub.v = keep * hub.v + kick * hub_force / hub.mass;
-        hub.z += hub.v;
-        hub.force_before = hub_force;
-        for i in 0..n {
-            if !fixed[i] {
-                let push = kick / mass[i];
-                for k in 0..3 {
-                    v[i].0[k] = keep * v[i].0[k] + push * f[i].0[k];
-                    u[i].0[k] += v[i].0[k];
-                }
+        window.stiffness += motion.stiffness;
+        window.mass += motion.mass;
+        if check {
+            // The slow modes are what is left to damp: the estimate follows the quotient down at
+            // once and up slowly, so that a tremor of fast modes does not stall the slow ones.
+            if window.stiffness > 0.0 && iteration > 0 {
+                slowest = (window.stiffness / window.mass).sqrt().min(RISE * slowest);
+                damping = 2.0 * slowest;
             }
+            window = Quotient::default();
         }
-        u[setup.disk.clone()].iter_mut().for_each(|u| u.0[2] += hub.v);
-        std::mem::swap(&mut before, &mut f);
     }
     Err(RelaxationError::Slow { report, tolerance: setup.tolerance })
+}
+
+/// A node's motion relative to the hub, in fictitious time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Node {
+    v: [f64; 3],
+    force_before: [f64; 3],
+    mass: f64,
+    fixed: bool,
+}
+
+/// v . K v and v . M~ v of the last step's motion (the Rayleigh quotient), and the centrifugal
+/// force in z, of a chunk.
+#[derive(Clone, Copy, Debug, Default)]
+struct Quotient {
+    stiffness: f64,
+    mass: f64,
+    pull: f64,
+}
+
+/// Sets `force` to the centrifugal force of the disk and to zero elsewhere (N); returns its
+/// resultant in z.
+fn centrifugal(
+    setup: &Relaxation<'_>,
+    reference: &[Padded],
+    u: &[Padded],
+    hub: f64,
+    force: &mut [Padded],
+    partial: &mut [Quotient],
+) -> f64 {
+    let squared = setup.omega * setup.omega;
+    let axis = [setup.hub.centre[0], setup.hub.centre[2] + hub];
+    force.par_chunks_mut(CHUNK).zip(partial.par_iter_mut()).enumerate().for_each(
+        |(chunk, (force, sum))| {
+            sum.pull = 0.0;
+            for (k, f) in force.iter_mut().enumerate() {
+                let i = chunk * CHUNK + k;
+                *f = Padded::ZERO;
+                if setup.disk.contains(&i) {
+                    let pull = setup.mass[i] * squared;
+                    f.0[0] = pull * (reference[i].0[0] + u[i].0[0] - axis[0]);
+                    f.0[2] = pull * (reference[i].0[2] + u[i].0[2] - axis[1]);
+                    sum.pull += f.0[2];
+                }
+            }
+        },
+    );
+    partial.iter().map(|p| p.pull).sum()
+}
+
+/// One damped step of all nodes; the disk moves with the hub by `shift` besides.
+fn advance(
+    setup: &Relaxation<'_>,
+    keep: f64,
+    kick: f64,
+    shift: f64,
+    nodes: &mut [Node],
+    u: &mut [Padded],
+    force: &[Padded],
+    partial: &mut [Quotient],
+) {
+    nodes
+        .par_chunks_mut(CHUNK)
+        .zip(u.par_chunks_mut(CHUNK))
+        .zip(force.par_chunks(CHUNK))
+        .zip(partial.par_iter_mut())
+        .enumerate()
+        .for_each(|(chunk, (((nodes, u), force), sum))| {
+            *sum = Quotient::default();
+            for (k, ((node, u), f)) in nodes.iter_mut().zip(u).zip(force).enumerate() {
+                if !node.fixed {
+                    let push = kick / node.mass;
+                    for i in 0..3 {
+                        let v = node.v[i];
+                        sum.stiffness += v * (node.force_before[i] - f.0[i]);
+                        sum.mass += node.mass * v * v;
+                        node.force_before[i] = f.0[i];
+                        node.v[i] = keep * v + push * f.0[i];
+                        u.0[i] += node.v[i];
+                    }
+                }
+                if setup.disk.contains(&(chunk * CHUNK + k)) {
+                    u.0[2] += shift;
+                }
+            }
+        });
 }
 
 /// Stiffness (N/m) of the closed contact against moving the disk as a whole in z.

@@ -24,6 +24,50 @@ fn a_malformed_file_is_refused_at_its_line() {
 }
 
 #[test]
+fn numbers_too_large_for_their_type_are_refused_at_their_line() {
+    refused(read(&format!("{SHORT}[disk]\nradius = 1e400\n")), &["short.toml:6:"]);
+    let text = format!("{SHORT}[output]\nhistory_interval = 99999999999999999999\n");
+    refused(read(&text), &["short.toml:6:"]);
+}
+
+#[test]
+fn endless_mistakes_lines_and_nesting_are_refused_in_a_short_message() {
+    let mut many: String = (0..100_000).map(|i| format!("k{i} = 1\n")).collect();
+    many.push_str(SHORT);
+    let error = read(&many).unwrap_err();
+    let CaseError::Key(error) = error else { panic!("{error}") };
+    assert!(error.others.len() <= 21, "{} mistakes told", error.others.len());
+
+    let long = format!("{SHORT}{} = 1\n", "x".repeat(1_000_000));
+    let deep = format!("{SHORT}a = {}{}\n", "[".repeat(100_000), "]".repeat(100_000));
+    for text in [long, deep] {
+        let error = read(&text).unwrap_err();
+        let CaseError::Key(error) = error else { panic!("{error}") };
+        assert!(error.message.len() < 2000 && error.message.starts_with("short.toml:5:"));
+        assert!(error.source_code.is_none(), "an endless line would be shown");
+    }
+}
+
+#[test]
+fn a_file_may_begin_with_a_byte_order_mark_and_end_its_lines_as_windows_does() {
+    let text = format!("\u{feff}{}", SHORT.replace('\n', "\r\n"));
+    assert_eq!(read(&text).unwrap(), read(SHORT).unwrap());
+    refused(read(&format!("{text}disk.radius = -1\r\n")), &["short.toml:5:", "disk.radius"]);
+}
+
+#[test]
+fn a_long_chain_of_extends_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for i in 0..100 {
+        let text = format!("extends = \"{}.toml\"\n", i + 1);
+        fs::write(dir.path().join(format!("{i}.toml")), text).unwrap();
+    }
+    fs::write(dir.path().join("100.toml"), SHORT).unwrap();
+    refused(Case::load(&dir.path().join("0.toml"), &[]), &["extends", "chain"]);
+    assert!(Case::load(&dir.path().join("90.toml"), &[]).is_ok());
+}
+
+#[test]
 fn unknown_keys_are_refused_with_a_suggestion() {
     refused(read(&format!("{SHORT}disk.radios = 1\n")), &[":5:", "disk.radios = 1", "`radius`"]);
     refused(read(&format!("{SHORT}radius = 1\n")), &["short.toml:5:", "`disk.radius`"]);
@@ -76,6 +120,16 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         ("mesh.zone.start=-0.005", vec!["mesh.zone.start", "patch"]),
         ("mesh.zone.width=0.008", vec!["mesh.zone.width = 0.008", "patch"]),
         ("disk.hub_radius=0.5", vec!["disk.hub_radius = 0.5", "disk.radius = 0.46"]),
+        ("drive.speed=1e-6", vec!["60000 s", "time steps", "1e9", "days", "drive.speed"]),
+        ("drive.speed=0", vec!["drive.speed = 0", "greater than 0"]),
+        ("drive.speed=-3", vec!["drive.speed = -3", "greater than 0"]),
+        ("drive.creepage=5", vec!["drive.creepage = 5", "at most 0.5", "per cent"]),
+        ("load.normal=1e400", vec!["load.normal", "1e400", "at most 1e8"]),
+        ("output.history_interval=99999999999999999999", vec!["whole number from 1 to 1000000"]),
+        ("output.history_interval=0", vec!["output.history_interval = 0", "from 1"]),
+        ("mesh.zone.size=1e-9", vec!["mesh.zone.size = 1e-9", "2.6e22 elements"]),
+        ("bar.length=0.05", vec!["mesh.zone.length = 0.08", "bar.length = 0.05"]),
+        ("material.young=1e3", vec!["--set", "patch"]),
         ("time.roll=0.1", vec!["time.roll", "0.1", "fine zone ends at 0.07"]),
         ("disk.lift=1e-3", vec!["disk.lift", "does not touch"]),
         ("disk.lift=-1e-3", vec!["disk.lift = -0.001", "at least 0"]),
@@ -87,7 +141,8 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         ("output.history_interval=1.5", vec!["output.history_interval = 1.5", "whole number"]),
         ("output.history_interval=-1", vec!["output.history_interval = -1"]),
         ("output.stress=1", vec!["output.stress = 1", "true or false"]),
-        ("output.probes.bar=[[1, 0]]", vec!["output.probes.bar", "not on the bar"]),
+        ("output.probes.bar=[[1, 0]]", vec!["output.probes.bar = [1, 0]", "fine zone", "0.07"]),
+        ("output.probes.disk=[[0.02, 0], [0.02, 0.02]]", vec!["output.probes.disk = [0.02, 0.02]"]),
         ("output.probes.bar=[[1, 0, 0]]", vec!["output.probes.bar", "pairs"]),
         ("output.window=[{from=2e-4,to=1e-4}]", vec!["output.window[0].to", "greater"]),
         ("output.window=3", vec!["output.window = 3", "list"]),
