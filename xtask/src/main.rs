@@ -1,5 +1,6 @@
 //! Chores: `cargo xtask validate`.
 
+mod links;
 mod validate;
 
 use std::process::ExitCode;
@@ -16,7 +17,8 @@ struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Chore {
-    /// Run every check, cheapest first: format, lints, docs, tests, a smoke run with its checks
+    /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
+    /// the case files, a smoke run with the checks of its files
     Validate,
 }
 

@@ -19,11 +19,13 @@ type Step = fn(&Path) -> Outcome;
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let steps: [(&str, Step); 5] = [
+    let steps: [(&str, Step); 7] = [
         ("format", format),
+        ("links", links),
         ("lints", lints),
         ("documentation", documentation),
         ("tests", tests),
+        ("schema", schema),
         ("smoke run", smoke_run),
     ];
     let mut report = Vec::new();
@@ -56,6 +58,20 @@ fn format(root: &Path) -> Outcome {
     cargo(root, &["fmt", "--all", "--check"], &[])
 }
 
+fn links(root: &Path) -> Outcome {
+    match crate::links::broken(root) {
+        Ok(broken) if broken.is_empty() => Outcome::Passed,
+        Ok(broken) => {
+            broken.iter().for_each(|link| eprintln!("{link} does not exist"));
+            Outcome::Failed
+        }
+        Err(error) => {
+            eprintln!("error: a document cannot be read: {error}");
+            Outcome::Failed
+        }
+    }
+}
+
 fn lints(root: &Path) -> Outcome {
     cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])
 }
@@ -69,6 +85,32 @@ fn tests(root: &Path) -> Outcome {
     cargo(root, &["test", "--release", "--workspace"], &[])
 }
 
+/// The JSON Schema accepts every case file of the project, and refuses bad ones.
+fn schema(root: &Path) -> Outcome {
+    // Built first, so that standard output of the next command is the schema alone.
+    if cargo(root, &["build", "--release"], &[]) == Outcome::Failed {
+        return Outcome::Failed;
+    }
+    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    let schema = match Command::new(&binary).arg("schema").output() {
+        Ok(output) if output.status.success() => output.stdout,
+        Ok(output) => {
+            eprintln!("error: `creepage schema`: {}", output.status);
+            return Outcome::Failed;
+        }
+        Err(error) => {
+            eprintln!("error: {}: {error}", binary.display());
+            return Outcome::Failed;
+        }
+    };
+    let file = target(root).join("case.schema.json");
+    if let Err(error) = std::fs::write(&file, schema) {
+        eprintln!("error: {}: {error}", file.display());
+        return Outcome::Failed;
+    }
+    check_with_python(root, "check_schema.py", &[file, root.join("cases")])
+}
+
 /// Runs the smallest case and has its files read by the libraries that users read them with.
 fn smoke_run(root: &Path) -> Outcome {
     let folder = target(root).join("smoke");
@@ -77,15 +119,21 @@ fn smoke_run(root: &Path) -> Outcome {
     if cargo(root, &run, &[]) == Outcome::Failed {
         return Outcome::Failed;
     }
-    let check = root.join("tests/python/check_run.py");
+    check_with_python(root, "check_run.py", &[folder])
+}
+
+/// Runs a script of `tests/python`; without Python it is skipped, except in the continuous
+/// integration.
+fn check_with_python(root: &Path, script: &str, arguments: &[PathBuf]) -> Outcome {
+    let script = root.join("tests/python").join(script);
     match python(root) {
-        Ok(python) => execute(Command::new(python).arg(check).arg(folder).current_dir(root)),
+        Ok(python) => execute(Command::new(python).arg(script).args(arguments).current_dir(root)),
         Err(problem) if env::var_os("CI").is_some() => {
             eprintln!("error: {problem}");
             Outcome::Failed
         }
         Err(problem) => {
-            eprintln!("warning: {problem}; the files of the run were not checked");
+            eprintln!("warning: {problem}; {} was skipped", script.display());
             Outcome::Skipped
         }
     }
@@ -105,8 +153,10 @@ fn python(root: &Path) -> Result<PathBuf, String> {
         return Ok(python);
     }
     let system = if cfg!(windows) { "python" } else { "python3" };
-    if execute(Command::new(system).args(["-m", "venv"]).arg(&venv)) != Outcome::Passed {
-        return Err(format!("`{system} -m venv` failed (on Debian: apt install python3-venv)"));
+    if execute(Command::new(system).args(["-m", "venv", "--clear"]).arg(&venv)) != Outcome::Passed {
+        return Err(format!(
+            "`{system} -m venv` failed (on Debian and Ubuntu: apt-get install python3-venv)"
+        ));
     }
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
     if execute(Command::new(&python).args(pip).arg(&requirements)) != Outcome::Passed {

@@ -249,7 +249,7 @@ pub const KEYS: &[Key] = &[
         "-",
         "give the ratio of kinetic to internal energy: 1e-8",
     ),
-    key("preload.max_iterations", Count(1, 100_000_000), "steps", "give a whole number: 40000"),
+    key("preload.max_iterations", Count(100, 100_000_000), "steps", "give a whole number: 40000"),
     key(
         "time.factor",
         Number(over(0.0, 2.0)),

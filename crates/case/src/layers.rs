@@ -181,7 +181,15 @@ impl Layers {
         let source = Source { name, text };
         let malformed = |layers: &Self, error: toml::de::Error| {
             let span = error.span().unwrap_or(0..0);
+            let written = source.text.get(span.clone()).unwrap_or_default();
+            let number = written.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c))
+                && toml::from_str::<Table>(&format!("x = \"{written}\"")).is_ok();
             let problem = error.message().trim().replace('\n', "; ");
+            if number && (problem.contains("overflow") || problem.contains("integer")) {
+                let problem = format!("the number {written} is too large to be held");
+                let remedy = "give a number in the range of its key: see `creepage schema`";
+                return layers.error_in(source.clone(), span, "", &problem, remedy);
+            }
             layers.error_in(
                 source.clone(),
                 span,
@@ -248,6 +256,17 @@ impl Layers {
                 key_error_in(source, origin.value.clone(), key, &message, remedy)
             }
             None => self.error_nowhere(key, &message, remedy),
+        }
+    }
+
+    /// A whole sentence about a key, at the place where the key was written.
+    pub fn error_at(&self, key: &str, message: &str, remedy: &str) -> KeyError {
+        match self.origins.get(key) {
+            Some(origin) => {
+                let source = self.sources[origin.source].clone();
+                key_error_in(source, origin.value.clone(), key, message, remedy)
+            }
+            None => self.error_nowhere(key, message, remedy),
         }
     }
 
@@ -321,8 +340,7 @@ fn excerpt(text: &str, span: Range<usize>) -> Option<SourceSpan> {
     let before = bytes[..span.start].iter().rev().take_while(|&&byte| byte != b'\n').count();
     let after = bytes[span.start..].iter().take_while(|&&byte| byte != b'\n').count();
     let length = span.end.saturating_sub(span.start);
-    (before + after.max(length) <= LONGEST_LINE)
-        .then(|| SourceSpan::new(span.start.into(), length))
+    (before + after.max(length) <= LONGEST_LINE).then(|| SourceSpan::new(span.start.into(), length))
 }
 
 /// Reads a file of at most [`LARGEST_FILE`] bytes as UTF-8.

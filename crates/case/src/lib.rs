@@ -29,6 +29,7 @@ mod tests;
 pub use bench::bench;
 pub use error::{CaseError, KeyError};
 pub use json_schema::json_schema;
+pub use load::error_at_key;
 pub use mesh_report::mesh_report;
 pub use progress::{Progress, Stage};
 pub use run::{RunError, RunOptions, run};

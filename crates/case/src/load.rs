@@ -39,6 +39,25 @@ impl Case {
     }
 }
 
+/// An error found after loading, told at the place where a key was written.
+pub fn error_at_key(
+    path: &Path,
+    sets: &[String],
+    key: &str,
+    message: &str,
+    remedy: &str,
+) -> CaseError {
+    let read = || -> Result<Layers, CaseError> {
+        let mut layers = Layers::read(path)?;
+        sets.iter().try_for_each(|set| layers.add_set(set))?;
+        Ok(layers)
+    };
+    match read() {
+        Ok(layers) => CaseError::Key(Box::new(layers.error_at(key, message, remedy))),
+        Err(error) => error,
+    }
+}
+
 fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, CaseError> {
     for set in sets {
         layers.add_set(set)?;

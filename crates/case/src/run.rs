@@ -50,6 +50,20 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("change the keys of [contact.penalty]"))]
     Contact(#[from] contact::ContactError),
+    /// The machine has too little memory for the mesh.
+    #[error(
+        "the run of {elements} elements needs about {needed_gb:.1} GB of memory, more than the \
+         {free_gb:.1} GB that are free: enlarge mesh.zone.size or shrink the zone"
+    )]
+    #[diagnostic(help("`creepage mesh` tells what a mesh needs"))]
+    Memory {
+        /// Elements of both bodies.
+        elements: usize,
+        /// Estimate of what the run needs (GB).
+        needed_gb: f64,
+        /// What the system has free (GB).
+        free_gb: f64,
+    },
     /// A surface of the mesh is missing.
     #[error("the mesh has no contact surface in its fine zone")]
     #[diagnostic(help("enlarge mesh.zone"))]
@@ -83,12 +97,23 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// The key of the case that the error is about, where it is about one.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::Mesh(mesh::MeshError::OutOfRange { parameter, .. }) => Some(parameter),
+            Self::Mesh(mesh::MeshError::TooManyElements { .. }) | Self::Memory { .. } => {
+                Some("mesh.zone.size")
+            }
+            _ => None,
+        }
+    }
+
     /// Exit code of the process: 2 for bad input, 3 where the run's own guards stopped it, 130
     /// when interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
-            Self::NoContact | Self::Case(_) | Self::Threads(_) => 2,
+            Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
             Self::Preload(dynamics::RelaxationError::Interrupted) => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
         }
@@ -106,7 +131,7 @@ fn preload_remedy(error: &dynamics::RelaxationError) -> &'static str {
              or mesh.growth"
         }
         dynamics::RelaxationError::Interrupted => {
-            "run the case again; the disk had not begun to roll, so there are no results yet"
+            "the disk had not begun to roll, so there are no results yet"
         }
     }
 }
@@ -136,6 +161,7 @@ fn run_in_pool(
     // A mesh that is refused must cost no earlier run its results.
     folder::check(&options.out, options.force)?;
     let model = Model::build(case)?;
+    enough_memory(model.mesh.hexes.len())?;
     folder::prepare(&options.out, options.force)?;
     write_text(options.out.join("case.toml"), &case.to_toml())?;
     let mut log = Log::new(options.out.join("run.log"))?;
@@ -334,11 +360,8 @@ fn without_rolling(
         contact: Contact::default(),
         files: Files { fields: none(), contact: none(), history: none() },
         stages: [("preload".to_owned(), wall_s)].into(),
-        extra: [(
-            "diagnosis".to_owned(),
-            json!(format!("{error}; remedy: {}", preload_remedy(error))),
-        )]
-        .into(),
+        extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", preload_remedy(error))))]
+            .into(),
     }
 }
 
@@ -418,6 +441,22 @@ impl Log {
         writeln!(self.file, "{line}")
             .map_err(|cause| RunError::Text { path: self.path.clone(), cause })
     }
+}
+
+/// Bytes per element of a whole run, output included.
+const BYTES_PER_ELEMENT: f64 = 500.0;
+
+/// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
+fn enough_memory(elements: usize) -> Result<(), RunError> {
+    let table = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = table.lines().find_map(|l| l.strip_prefix("MemAvailable:"));
+    let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
+    let free_gb = kib.map_or(f64::INFINITY, |k| k * 1024.0 / 1e9);
+    let needed_gb = elements as f64 * BYTES_PER_ELEMENT / 1e9;
+    if needed_gb > free_gb {
+        return Err(RunError::Memory { elements, needed_gb, free_gb });
+    }
+    Ok(())
 }
 
 /// Largest resident memory of this process so far (MB); zero where the system does not tell.

@@ -6,14 +6,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use case::{Case, RunError, RunOptions};
+use miette::Diagnostic;
 use miette::{Report, miette};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::args::{Args, BenchArgs, Command, MeshArgs, RunArgs};
 use crate::progress::Watch;
 use crate::report;
 
-const BAD_INPUT: u8 = 2;
+/// Exit code: bad input.
+pub const BAD_INPUT: u8 = 2;
 const STOPPED_BY_GUARD: u8 = 3;
 const INTERRUPTED: u8 = 130;
 
@@ -21,6 +23,27 @@ const INTERRUPTED: u8 = 130;
 pub struct Failure {
     pub report: Report,
     pub code: u8,
+}
+
+impl Failure {
+    /// The JSON document of the failure: what was wrong, what to do, and what else was wrong.
+    pub fn document(&self) -> Value {
+        let mut document = failure(&self.report.to_string(), self.code);
+        let help = |diagnostic: &dyn Diagnostic| diagnostic.help().map(|help| help.to_string());
+        document["help"] = json!(help(&*self.report).unwrap_or_default());
+        let others = self.report.related().into_iter().flatten();
+        let others: Vec<_> = others
+            .map(|other| json!({ "error": other.to_string(), "help": help(other) }))
+            .collect();
+        document["others"] = json!(others);
+        document
+    }
+}
+
+/// The JSON document of a command that failed: with `--json`, standard output holds one document
+/// whatever happens.
+pub fn failure(message: &str, code: u8) -> Value {
+    json!({ "status": "failed", "exit_code": code, "error": message })
 }
 
 impl From<case::CaseError> for Failure {
@@ -71,7 +94,7 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     let mut watch = Watch::new(args.quiet);
     let result = case::run(&case, &run_options, &stop, &mut |progress| watch.show(progress));
     watch.finish();
-    let summary = result?;
+    let summary = result.map_err(|error| placed(error, &options.case, &options.sets))?;
     if args.json {
         report::print_json(&summary);
     } else if !args.quiet {
@@ -79,8 +102,9 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     }
     let status = summary.get("status").and_then(Value::as_str);
     let diagnosis = summary.get("diagnosis").and_then(Value::as_str);
-    if let Some(diagnosis) = diagnosis
-        && status != Some("completed")
+    // The page for people holds it.
+    if (args.json || args.quiet)
+        && let Some(diagnosis) = diagnosis
     {
         let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
     }
@@ -93,22 +117,52 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
 
 fn mesh(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
     let case = load(args, &options.case, &options.sets)?;
-    let summary = case::mesh_report(&case, options.out.as_deref())?;
-    show(args, &summary);
+    if let Some(out) = &options.out {
+        check_mesh_file(out)?;
+    }
+    let found = case::mesh_report(&case, options.out.as_deref())
+        .map_err(|error| placed(error, &options.case, &options.sets))?;
+    if args.json {
+        report::print_json(&found);
+    } else if !args.quiet {
+        report::print_mesh(&found);
+    }
     Ok(0)
+}
+
+/// Refuses a file that could not be written, before the mesh is made.
+fn check_mesh_file(out: &Path) -> Result<(), Failure> {
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let refuse = |problem: String| Failure {
+        report: miette!(help = "choose another file with --out FILE", "{problem}"),
+        code: BAD_INPUT,
+    };
+    match folder {
+        _ if out.is_dir() => Err(refuse(format!("{} is a folder, not a file", out.display()))),
+        Some(folder) if !folder.is_dir() => {
+            Err(refuse(format!("{}: there is no folder {}", out.display(), folder.display())))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
-    let summary = case::bench(options.threads.unwrap_or_else(all_cores))?;
-    show(args, &summary);
+    let found = case::bench(options.threads.unwrap_or_else(all_cores))?;
+    if args.json {
+        report::print_json(&found);
+    } else if !args.quiet {
+        report::print_bench(&found);
+    }
     Ok(0)
 }
 
-fn show(args: &Args, document: &Value) {
-    if args.json {
-        report::print_json(document);
-    } else if !args.quiet {
-        report::print_table(document);
+/// An error about a key of the case, with the line where the key was written.
+fn placed(error: RunError, case: &Path, sets: &[String]) -> Failure {
+    match error.key() {
+        Some(key) => {
+            case::error_at_key(case, sets, key, &error.to_string(), "change this key").into()
+        }
+        None => error.into(),
     }
 }
 

@@ -13,25 +13,34 @@ use clap::Parser;
 use args::Args;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return usage(&error),
+    };
     set_up_messages(&args);
     match commands::dispatch(&args) {
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
             if args.json {
-                // Standard output holds one JSON document whatever happens.
-                let document = serde_json::json!({
-                    "status": "failed",
-                    "exit_code": failure.code,
-                    "error": failure.report.to_string(),
-                });
-                report::print_json(&document);
+                report::print_json(&failure.document());
             }
             // A closed standard error is no reason to panic.
             let _ = writeln!(std::io::stderr(), "{:?}", failure.report);
             ExitCode::from(failure.code)
         }
     }
+}
+
+/// Help and version that were asked for, or wrong usage.
+fn usage(error: &clap::Error) -> ExitCode {
+    let wanted = std::env::args_os().any(|word| word == "--json");
+    if error.use_stderr() && wanted {
+        let text = error.render().to_string();
+        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        report::print_json(&commands::failure(message, commands::BAD_INPUT));
+    }
+    let _ = error.print();
+    ExitCode::from(if error.use_stderr() { commands::BAD_INPUT } else { 0 })
 }
 
 fn set_up_messages(args: &Args) {

@@ -38,16 +38,19 @@ impl Watch {
             self.bar.reset();
         }
         let speed = progress.element_steps_per_s / 1e6;
-        let force = progress.normal_force / 1e3;
+        let normal = progress.normal_force / 1e3;
+        let tangential = progress.tangential_force / 1e3;
+        // What matters most first: a narrow terminal cuts the line.
         self.bar.set_message(match progress.stage {
             Stage::Mesh => String::new(),
-            Stage::Preload => format!("normal {force:.2} kN, {speed:.1} M element-steps/s"),
+            Stage::Preload => format!(
+                "iteration {}, normal {normal:.2} kN, {speed:.1} M element-steps/s",
+                progress.step
+            ),
             Stage::Roll => format!(
-                "{:.4} of {:.4} ms, normal {force:.2} kN, tangential {:.2} kN, {speed:.1} M \
-                 element-steps/s",
+                "{:.3}/{:.3} ms, N {normal:.1} T {tangential:.1} kN, {speed:.1} M element-steps/s",
                 1e3 * progress.time,
                 1e3 * progress.end_time,
-                progress.tangential_force / 1e3
             ),
         });
         let done = progress.step as f64 / progress.steps.max(1) as f64;
@@ -63,8 +66,8 @@ impl Watch {
 fn style(stage: Stage) -> ProgressStyle {
     let template = match stage {
         Stage::Mesh => "mesh     {spinner}",
-        Stage::Preload => "preload  {bar:24} {elapsed} {msg}",
-        Stage::Roll => "rolling  {bar:24} {percent:>3}% {elapsed}, {eta} left {msg}",
+        Stage::Preload => "preload  {spinner} {elapsed}, {msg}",
+        Stage::Roll => "rolling  {percent:>3}% {bar:12} {eta} left, {msg}",
     };
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }

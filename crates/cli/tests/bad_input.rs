@@ -105,6 +105,63 @@ fn with_json_standard_output_is_one_document_also_on_failure() {
     let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(document["exit_code"], 2);
     assert!(document["error"].as_str().unwrap().contains("disk.radius = -1"));
+    assert!(document["help"].as_str().unwrap().contains("metres"));
+}
+
+#[test]
+fn with_json_wrong_usage_is_one_document_too() {
+    for args in [&["--json"][..], &["run", "--json"], &["mesh", "--json", "--fly"]] {
+        let output = creepage(args);
+        assert_eq!(output.status.code(), Some(2));
+        let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(document["exit_code"], 2, "{args:?}");
+    }
+}
+
+#[test]
+fn a_mesh_that_is_too_large_is_refused_at_its_line_and_costs_no_earlier_run_its_results() {
+    let (dir, path) = case(&format!("{SHORT}[mesh]\ngrowth = 1.05\ncoarsest = 1e-3\n"));
+    let out = dir.path().join("run");
+    fs::create_dir(&out).unwrap();
+    fs::write(out.join("summary.json"), "{}").unwrap();
+    let sets = ["--set", "mesh.zone.size=1e-3"];
+    let run = ["run", &path, "--out", out.to_str().unwrap(), "--force"];
+    let words = ["--set: `mesh.zone.size` = 0.001", "elements", "raise the size"];
+    refused(&[&run[..], &sets].concat(), &words);
+    assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "{}");
+    assert!(!out.join("case.toml").exists());
+}
+
+#[test]
+fn an_output_file_of_a_mesh_that_cannot_be_written_is_refused_before_the_mesh_is_made() {
+    let (dir, path) = case(SHORT);
+    let below = dir.path().join("none/mesh.vtu");
+    refused(&["mesh", &path, "--out", below.to_str().unwrap()], &["no folder", "--out"]);
+    let folder = dir.path().join("mesh.vtu");
+    fs::create_dir(&folder).unwrap();
+    refused(&["mesh", &path, "--out", folder.to_str().unwrap()], &["is a folder", "--out"]);
+}
+
+#[test]
+fn an_endless_run_is_refused_with_its_number_of_steps() {
+    let (_dir, path) = case(SHORT);
+    refused(&["run", &path, "--set", "drive.speed=1e-6"], &["60000 s", "time steps", "days"]);
+}
+
+#[test]
+fn junk_in_place_of_a_case_is_refused_with_its_file() {
+    let (_dir, path) = case("");
+    for bytes in [&b""[..], b"\x00\x01\xff\xfe", b"\xff\xd8\xff\xe0", b"a = 1\0", b"<?xml?>"] {
+        fs::write(&path, bytes).unwrap();
+        refused(&["run", &path], &["case.toml", "help:"]);
+    }
+}
+
+#[test]
+fn the_version_is_told() {
+    let output = creepage(&["-V"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stdout).starts_with("creepage "));
 }
 
 #[test]

@@ -23,23 +23,8 @@ pub(crate) struct Dashpots<'a> {
     pub(crate) motion: Option<RigidMotion>,
 }
 
-impl Dashpots<'_> {
-    /// Rigid velocity of the body at node `n` (m/s), and for a node of the disk its arm (x, z)
-    /// from the hub's centre (m).
-    #[inline(always)]
-    pub(crate) fn rigid(&self, n: usize) -> ([f64; 3], Option<[f64; 2]>) {
-        match &self.motion {
-            Some(motion) if self.disk.contains(&n) => {
-                let (velocity, arm) = motion.at(self.reference[n]);
-                (velocity, Some(arm))
-            }
-            _ => ([0.0; 3], None),
-        }
-    }
-}
-
-/// A hub's rigid motion.
-#[derive(Clone, Copy, Debug)]
+/// A hub's rigid motion; by default rest.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RigidMotion {
     centre: [f64; 3],
     turn: (f64, f64),
@@ -51,6 +36,10 @@ impl RigidMotion {
     pub(crate) fn new(hub: &Hub) -> Self {
         let s = hub.state;
         Self { centre: hub.centre, turn: s.angle.sin_cos(), v: [s.vx, s.vz], omega: s.omega }
+    }
+
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.v == [0.0; 2] && self.omega == 0.0
     }
 
     /// Velocity (m/s) at the undeformed place of a point, and its arm (x, z) from the centre (m).

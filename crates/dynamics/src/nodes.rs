@@ -1,6 +1,6 @@
 //! The nodal update: velocity, position, and the force cleared for the next step, in one pass.
 
-use crate::dashpots::Dashpots;
+use crate::dashpots::{Dashpots, RigidMotion};
 use mesh::Padded;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -92,7 +92,8 @@ fn update<const KINETIC: bool>(
     NodeSums { kinetic: 0.5 * twice_kinetic, ..NodeSums::default() }
 }
 
-/// The same with dashpots; `nodes` are the chunk's node numbers.
+/// The same with dashpots; `nodes` are the chunk's node numbers. The disk's nodes are contiguous,
+/// so that a chunk falls into at most three runs of one body.
 fn damped(
     u: &mut [Padded],
     v: &mut [Padded],
@@ -104,32 +105,66 @@ fn damped(
     nodes: Range<usize>,
 ) -> NodeSums {
     let mut sums = NodeSums::default();
-    let alpha = dashpots.alpha;
-    for ((((u, v), f), &w), n) in u.iter_mut().zip(v).zip(f).zip(inverse_mass).zip(nodes) {
+    let within = |n: usize| n.clamp(nodes.start, nodes.end);
+    let (start, end) = (within(dashpots.disk.start), within(dashpots.disk.end));
+    let runs = [(nodes.start..start, false), (start..end, true), (end..nodes.end, false)];
+    for (run, on_disk) in runs {
+        let local = run.start - nodes.start..run.end - nodes.start;
+        let motion = if on_disk { dashpots.motion } else { None }.unwrap_or_default();
+        sums.add(&damped_run(
+            &mut u[local.clone()],
+            &mut v[local.clone()],
+            &mut f[local.clone()],
+            &inverse_mass[local],
+            &dashpots.reference[run],
+            dt,
+            kinetic,
+            dashpots.alpha,
+            &motion,
+        ));
+    }
+    sums
+}
+
+/// Nodes of one body; a body at rest has the default motion, and its ground takes the reaction.
+#[inline(always)]
+fn damped_run(
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
+    inverse_mass: &[f64],
+    reference: &[Padded],
+    dt: f64,
+    kinetic: bool,
+    alpha: f64,
+    motion: &RigidMotion,
+) -> NodeSums {
+    let mut sums = NodeSums::default();
+    for ((((u, v), f), &w), x) in u.iter_mut().zip(v).zip(f).zip(inverse_mass).zip(reference) {
         let before = *v;
-        if w > 0.0 {
-            let mass = 1.0 / w;
-            let (rigid, arm) = dashpots.rigid(n);
-            let mut drag = [0.0; 3];
-            for i in 0..3 {
-                let relative = before.0[i] - rigid[i];
-                drag[i] = alpha * mass * relative;
-                sums.dashpot_power += drag[i] * relative;
-                v.0[i] += dt * (w * f.0[i] - alpha * relative);
-            }
-            if let Some([x, z]) = arm {
-                sums.reaction[0] += drag[0];
-                sums.reaction[1] += drag[2];
-                sums.reaction[2] += z * drag[0] - x * drag[2];
-            }
-            if kinetic {
-                sums.kinetic += 0.5 * mass * product(before, *v);
-            }
+        // nodes that are held or carried move as they are told: no force, no dashpot
+        let (mass, rate) = if w > 0.0 { (1.0 / w, alpha) } else { (0.0, 0.0) };
+        let (rigid, [ax, az]) = motion.at(*x);
+        let mut drag = [0.0; 3];
+        for i in 0..3 {
+            let relative = before.0[i] - rigid[i];
+            drag[i] = rate * mass * relative;
+            sums.dashpot_power += drag[i] * relative;
+            v.0[i] += dt * (w * f.0[i] - rate * relative);
+        }
+        sums.reaction[0] += drag[0];
+        sums.reaction[1] += drag[2];
+        sums.reaction[2] += az * drag[0] - ax * drag[2];
+        if kinetic {
+            sums.kinetic += 0.5 * mass * product(before, *v);
         }
         for i in 0..4 {
             u.0[i] += dt * v.0[i];
             f.0[i] = 0.0;
         }
+    }
+    if motion.is_at_rest() {
+        sums.reaction = [0.0; 3];
     }
     sums
 }

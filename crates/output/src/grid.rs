@@ -74,6 +74,11 @@ impl Values<'_> {
         }
     }
 
+    fn bytes(&self) -> usize {
+        let number = if self.is_integer() { size_of::<u8>() } else { size_of::<f64>() };
+        self.count() * self.components() * number
+    }
+
     fn is_integer(&self) -> bool {
         matches!(self, Values::Integer(_))
     }
@@ -185,6 +190,7 @@ impl TransientGrid {
         self.check_values(values)?;
         let step = self.steps as i64;
         let mut file = Appender::open(&self.path)?;
+        file.make_room(values.iter().map(Values::bytes).sum())?;
         for (spec, value) in self.fields.iter().zip(values) {
             let name = data_path(&spec.name, spec.on_cells);
             match *value {

@@ -4,6 +4,7 @@
 //! compression that VTK's build reads; no locks because a viewer holding the file must not make an
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
+use crate::room::Room;
 use crate::{OutputError, Provenance};
 use rust_hdf5::{DatatypeMessage, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound};
 use std::path::{Path, PathBuf};
@@ -150,6 +151,8 @@ impl Creator {
 pub(crate) struct Appender {
     path: PathBuf,
     file: H5File,
+    /// Until its announcement.
+    room: Option<Room>,
 }
 
 impl Appender {
@@ -158,14 +161,27 @@ impl Appender {
             .no_locking()
             .open_rw(path)
             .map_err(|error| append_error(path, error))?;
-        Ok(Self { path: path.to_owned(), file })
+        Ok(Self { path: path.to_owned(), file, room: None })
+    }
+
+    /// Makes room for `bytes` of data, announced by the first [`Self::append`]: late enough that no
+    /// reader is left that saw the short file and has yet to read the superblock, early enough that
+    /// at the closing none is left that read the old superblock and has yet to read the count.
+    ///
+    /// Only for snapshots, which take milliseconds to compress. Rows are written in so short a time
+    /// that readers would meet the first case more often than, without room, the second.
+    pub fn make_room(&mut self, bytes: usize) -> Result<(), OutputError> {
+        let room = Room::behind(&self.path, bytes);
+        self.room = Some(room.map_err(|error| append_error(&self.path, error.into()))?);
+        Ok(())
     }
 
     pub fn append<T: H5Type>(&mut self, name: &str, data: &[T]) -> Result<(), OutputError> {
-        self.file
-            .dataset_writer(name)
-            .and_then(|dataset| dataset.append(data))
-            .map_err(|error| append_error(&self.path, error))
+        let write = |room: Option<Room>| -> H5Result<()> {
+            self.file.dataset_writer(name)?.append(data)?;
+            room.map_or(Ok(()), |room| Ok(room.announce()?))
+        };
+        write(self.room.take()).map_err(|error| append_error(&self.path, error))
     }
 
     /// Closing writes the dataset headers first and the group that carries the count after them.

@@ -1,5 +1,5 @@
 //! `PenaltyContact::apply` on the reference wheel pressed on its bar: `cargo bench -p
-//! creepage-contact`.
+//! creepage-benches --bench contact`.
 #![allow(missing_docs)]
 
 use contact::{BodyMaterial, Exponential, Motion, PenaltyContact, PenaltySettings, Stiffness};

@@ -1,0 +1,99 @@
+//! Numbers and rows for people.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+/// Shown where there is no number.
+const NONE: &str = "-";
+
+/// The number at a pointer such as `/contact/creepage`, if it is one.
+pub fn number(document: &Value, pointer: &str) -> Option<f64> {
+    document.pointer(pointer).and_then(Value::as_f64)
+}
+
+/// The text at a pointer, empty where there is none.
+pub fn text<'a>(document: &'a Value, pointer: &str) -> &'a str {
+    document.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
+}
+
+/// A number with `significant` digits: plain where that is readable, with an exponent elsewhere.
+pub fn digits(x: Option<f64>, significant: i32) -> String {
+    let Some(x) = x.filter(|x| x.is_finite()) else {
+        return NONE.into();
+    };
+    let size = x.abs();
+    if size == 0.0 {
+        "0".into()
+    } else if (1e-3..1e7).contains(&size) {
+        let decimals = (significant - 1 - size.log10().floor() as i32).clamp(0, 9) as usize;
+        if decimals == 0 { count(Some(x)) } else { format!("{x:.decimals$}") }
+    } else {
+        format!("{x:.*e}", (significant - 1).clamp(0, 9) as usize)
+    }
+}
+
+/// A whole number with its thousands set apart.
+pub fn count(x: Option<f64>) -> String {
+    let Some(x) = x.filter(|x| x.is_finite()) else {
+        return NONE.into();
+    };
+    let plain = format!("{:.0}", x.abs());
+    let mut text = String::new();
+    for (i, digit) in plain.chars().enumerate() {
+        if i > 0 && (plain.len() - i) % 3 == 0 {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    if x < 0.0 && plain != "0" { format!("-{text}") } else { text }
+}
+
+/// Seconds as a person would say them.
+pub fn duration(seconds: Option<f64>) -> String {
+    let Some(s) = seconds.filter(|s| s.is_finite()) else {
+        return NONE.into();
+    };
+    match s {
+        s if s < 120.0 => format!("{} s", digits(Some(s), 3)),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} hours", s / 3600.0),
+        s => format!("{:.1} days", s / 86400.0),
+    }
+}
+
+/// Appends a heading, set off by an empty line.
+pub fn heading(out: &mut String, title: &str) {
+    let _ = writeln!(out, "\n{title}");
+}
+
+/// Appends a row: a label, a number, its unit, and a remark where there is one.
+pub fn row(out: &mut String, label: &str, number: &str, unit: &str, remark: &str) {
+    let line = format!("  {label:<24}{number:>12} {unit:<6} {remark}");
+    let _ = writeln!(out, "{}", line.trim_end());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_significant_and_never_nan() {
+        let shown = |x| digits(Some(x), 4);
+        assert_eq!(shown(1234.5678), "1 235");
+        assert_eq!(shown(-0.012_345_6), "-0.01235");
+        assert_eq!(shown(1.0), "1.000");
+        assert_eq!(shown(3.3e-5), "3.300e-5");
+        assert_eq!(shown(341_392.12), "341 392");
+        assert_eq!(shown(0.0), "0");
+        assert_eq!((shown(f64::NAN), digits(None, 4)), ("-".into(), "-".into()));
+    }
+
+    #[test]
+    fn durations_are_told_in_the_unit_that_fits() {
+        assert_eq!(duration(Some(6.3295)), "6.33 s");
+        assert_eq!(duration(Some(600.0)), "10 min");
+        assert_eq!(duration(Some(36_000.0)), "10.0 hours");
+        assert_eq!(duration(Some(1e6)), "11.6 days");
+    }
+}

@@ -1,0 +1,290 @@
+//! The summary of a run as a page to read.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::layout::{count, digits, duration, heading, number, row, text as word};
+
+/// The whole page.
+pub fn text(summary: &Value, folder: &Path) -> String {
+    let mut out = String::new();
+    title(&mut out, summary);
+    // A run that ended in its preload has nothing further to tell.
+    if number(summary, "/steps").is_some_and(|steps| steps > 0.0) {
+        contact(&mut out, summary);
+        energy(&mut out, summary);
+        speed(&mut out, summary);
+        stability(&mut out, summary);
+        how_to_look(&mut out, summary, folder);
+    }
+    out
+}
+
+fn title(out: &mut String, summary: &Value) {
+    let at = |pointer| number(summary, pointer);
+    let end = match word(summary, "/status") {
+        "completed" => "completed",
+        "interrupted" => "interrupted",
+        _ => "stopped by its own guards",
+    };
+    let _ = writeln!(out, "{}: {end} after {}", word(summary, "/name"), duration(at("/wall_s")));
+    let threads = at("/threads").unwrap_or(1.0);
+    let _ = writeln!(
+        out,
+        "  {} elements, {} nodes; {threads} thread{}{}; {} MB",
+        count(at("/elements")),
+        count(at("/nodes")),
+        if threads == 1.0 { "" } else { "s" },
+        match word(summary, "/kernels") {
+            "" => String::new(),
+            kernels => format!(" with {kernels} kernels"),
+        },
+        digits(at("/peak_rss_mb"), 3),
+    );
+    let steps = at("/steps").unwrap_or(0.0);
+    let rolled = format!(
+        "  {} ms simulated in {} steps of {} ns",
+        digits(scaled(at("/t_end"), 1e3), 5),
+        count(Some(steps)),
+        digits(scaled(at("/dt"), 1e9), 4)
+    );
+    let _ = writeln!(out, "{}", if steps > 0.0 { &rolled } else { "  nothing rolled" });
+    let diagnosis = word(summary, "/diagnosis");
+    if !diagnosis.is_empty() {
+        let _ = writeln!(out, "  {diagnosis}");
+    }
+}
+
+/// A quantity of the contact: label, key, factor to the unit, unit.
+type Quantity = (&'static str, &'static str, f64, &'static str);
+
+const CONTACT: [Quantity; 9] = [
+    ("normal force", "normal_force", 1e-3, "kN"),
+    ("tangential force", "tangential_force", 1e-3, "kN"),
+    ("lateral force", "lateral_force", 1e-3, "kN"),
+    ("traction coefficient", "traction_coefficient", 1.0, ""),
+    ("creepage", "creepage", 1e3, "1e-3"),
+    ("patch half length", "patch_half_length", 1e3, "mm"),
+    ("patch half width", "patch_half_width", 1e3, "mm"),
+    ("patch area", "patch_area", 1e6, "mm2"),
+    ("peak pressure", "peak_pressure", 1e-6, "MPa"),
+];
+
+/// Quantities of the window that stand beside the contract's.
+const WINDOW: [Quantity; 4] = [
+    ("peak shear", "peak_shear", 1e-6, "MPa"),
+    ("stick border at x", "stick_border", 1e3, "mm"),
+    ("largest penetration", "max_penetration", 1e6, "um"),
+    ("torque", "torque", 1.0, "N m"),
+];
+
+fn contact(out: &mut String, summary: &Value) {
+    let at = |pointer: &str| number(summary, pointer);
+    if at("/contact/patch_area").is_none_or(|area| area <= 0.0) {
+        heading(out, "Contact: none in the evaluation window, or the run ended before it");
+        return;
+    }
+    let time = |pointer| digits(scaled(at(pointer), 1e3), 4);
+    let title = format!("Contact, mean from {} to {} ms", time("/window/from"), time("/window/to"));
+    let _ = writeln!(out, "\n{title:<44}{:>12}{:>12}{:>8}", "deviation", "half-space", "ratio");
+    let rows = CONTACT.iter().map(|q| ("contact", q)).chain(WINDOW.iter().map(|q| ("window", q)));
+    for (section, &(label, key, factor, unit)) in rows {
+        let Some(mean) = at(&format!("/{section}/{key}")) else {
+            continue;
+        };
+        let deviation = at(&format!("/window/deviation/{key}"));
+        let reference = half_space(summary, key);
+        let shown = |x: Option<f64>| x.map(|x| small(x * factor)).unwrap_or_default();
+        let line = format!(
+            "  {label:<24}{:>12} {unit:<5}{:>12}{:>12}{:>8}",
+            shown(Some(mean)),
+            deviation.map(|d| format!("+- {}", digits(Some(d * factor), 2))).unwrap_or_default(),
+            shown(reference),
+            reference.map(|r| format!("{:.3}", mean / r)).unwrap_or_default(),
+        );
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    let share = |pointer| format!("{} %", digits(scaled(at(pointer), 100.0), 3));
+    let _ = writeln!(
+        out,
+        "  sticks on {} of the patch, slips on {}",
+        share("/contact/stick_fraction"),
+        share("/contact/slip_fraction")
+    );
+    if at("/half_space/peak_pressure").is_some() {
+        let _ = writeln!(
+            out,
+            "  half-space: Hertz; soft penalty springs and coarse elements make the patch larger \
+             and the pressure lower"
+        );
+    }
+}
+
+/// The half-space value of a quantity, where there is one.
+fn half_space(summary: &Value, key: &str) -> Option<f64> {
+    let at = |name: &str| number(summary, &format!("/half_space/{name}"));
+    let value = match key {
+        "patch_half_length" => at("half_length"),
+        "patch_half_width" => at("half_width"),
+        "patch_area" => Some(PI * at("half_length")? * at("half_width")?),
+        "peak_pressure" => at("peak_pressure"),
+        other => at(other),
+    };
+    value.filter(|x| *x != 0.0)
+}
+
+fn energy(out: &mut String, summary: &Value) {
+    let at = |key: &str| number(summary, &format!("/energy/{key}"));
+    heading(out, "Energy at the end");
+    for (label, key) in [
+        ("kinetic", "kinetic"),
+        ("internal", "internal"),
+        ("hourglass", "hourglass"),
+        ("stored in contact", "contact_stored"),
+        ("dissipated by friction", "friction_dissipated"),
+        ("dissipated by damping", "damping_dissipated"),
+        ("external work", "external_work"),
+    ] {
+        let remark = match (key, at("hourglass"), at("internal")) {
+            ("hourglass", Some(hourglass), Some(internal)) if internal > 0.0 => {
+                format!("{:.2} % of internal", 100.0 * hourglass / internal)
+            }
+            _ => String::new(),
+        };
+        row(out, label, &digits(at(key), 4), "J", &remark);
+    }
+    let remark = "of the largest energy exchanged";
+    row(out, "balance error", &digits(at("balance_error"), 2), "", remark);
+}
+
+fn speed(out: &mut String, summary: &Value) {
+    let at = |pointer: &str| number(summary, pointer);
+    let stage = |name: &str| at(&format!("/stages/{name}"));
+    heading(out, "Speed");
+    let rate = at("/element_steps_per_s").filter(|rate| *rate > 0.0);
+    row(out, "element and step", &digits(rate.map(|rate| 1e9 / rate), 3), "ns", "");
+    row(out, "element-steps", &digits(scaled(rate, 1e-6), 3), "M/s", "");
+    let Some(rolling) = stage("rolling").filter(|s| *s > 0.0) else {
+        return;
+    };
+    row(out, "rolling", &digits(Some(rolling), 3), "s", "of which");
+    for name in ["internal_force", "nodes", "contact", "boundary", "output"] {
+        if let Some(seconds) = stage(name) {
+            let label = format!("  {}", name.replace('_', " "));
+            let share = format!("{:5.1} %", 100.0 * seconds / rolling);
+            row(out, &label, &digits(Some(seconds), 3), "s", &share);
+        }
+    }
+    if let Some(preload) = stage("preload").filter(|s| *s > 0.0) {
+        let iterations = match at("/preload/iterations") {
+            Some(n) => format!("{} iterations", count(Some(n))),
+            None => String::new(),
+        };
+        row(out, "preload", &digits(Some(preload), 3), "s", &iterations);
+    }
+}
+
+fn stability(out: &mut String, summary: &Value) {
+    let at = |pointer: &str| number(summary, pointer);
+    let Some(limit) = at("/stability/dt_limit") else {
+        return;
+    };
+    heading(out, "Stability");
+    let factor = at("/stability/factor");
+    let remark = format!("{} of the limit", digits(factor, 3));
+    row(out, "time step", &digits(scaled(at("/dt"), 1e9), 4), "ns", &remark);
+    row(out, "limit 2/omega_max", &digits(Some(limit * 1e9), 4), "ns", "");
+}
+
+fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
+    let file = |name: &str| {
+        let name = word(summary, &format!("/files/{name}"));
+        folder.join(name).display().to_string()
+    };
+    let (fields, contact, history) = (file("fields"), file("contact"), file("history"));
+    let _ = write!(
+        out,
+        "\nHow to look at the results
+  ParaView   paraview {fields}
+             Apply; Filters > Warp By Vector: displacement; colour by velocity or stress
+             {contact}: pressure, shear, slip_velocity, state
+  Python     import h5py, vtk, pyvista
+             reader = vtk.vtkHDFReader(); reader.SetFileName(\"{fields}\")
+             reader.UpdateInformation(); reader.SetStep(reader.GetNumberOfSteps() - 1)
+             reader.Update(); pyvista.wrap(reader.GetOutput()).plot(scalars=\"velocity\")
+             history = h5py.File(\"{history}\"); print(list(history))
+  Numbers    {}
+",
+        folder.join("summary.json").display()
+    );
+}
+
+fn scaled(x: Option<f64>, factor: f64) -> Option<f64> {
+    x.map(|x| x * factor)
+}
+
+/// Four digits; what is nothing beside the other numbers of its column is shown as nothing.
+fn small(x: f64) -> String {
+    if x.abs() < 1e-3 { format!("{x:.1e}") } else { digits(Some(x), 4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn summary() -> Value {
+        json!({
+            "name": "quick", "status": "completed", "steps": 6989, "dt": 2.2e-7, "t_end": 1.54e-3,
+            "elements": 41320, "nodes": 46641, "threads": 2, "wall_s": 10.5,
+            "element_steps_per_s": 4.5e7, "peak_rss_mb": 52.1, "kernels": "avx2",
+            "energy": { "kinetic": 3.4e5, "internal": 4.85, "hourglass": 0.0485,
+                        "balance_error": 3.3e-5 },
+            "contact": { "normal_force": 1.0038e5, "patch_half_length": 7.1e-3,
+                         "patch_area": 3.2e-4, "stick_fraction": 0.64, "slip_fraction": 0.36 },
+            "half_space": { "half_length": 7.0e-3, "half_width": 5.0e-3, "peak_pressure": 1.2e9 },
+            "window": { "from": 1.0e-3, "to": 1.5e-3, "deviation": { "normal_force": 75.0 } },
+            "stages": { "rolling": 6.0, "internal_force": 4.5 },
+            "stability": { "dt_limit": 3.3e-7, "factor": 0.67 },
+            "files": { "fields": "fields.vtkhdf", "history": "history.h5" },
+        })
+    }
+
+    #[test]
+    fn the_page_has_units_deviations_half_space_ratios_and_shares() {
+        let page = text(&summary(), Path::new("runs/quick"));
+        for line in [
+            "quick: completed after 10.5 s",
+            "  normal force                   100.4 kN       +- 0.075",
+            "  patch half length              7.100 mm                      7.000   1.014",
+            "  hourglass                    0.04850 J      1.00 % of internal",
+            "    internal force                4.50 s       75.0 %",
+            "  time step                      220.0 ns     0.670 of the limit",
+            "  ParaView   paraview runs/quick/fields.vtkhdf",
+        ] {
+            assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
+        }
+        assert!(!page.contains("null") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn what_is_missing_or_no_number_is_left_out_or_dashed() {
+        let mut bare = summary();
+        bare["half_space"] = Value::Null;
+        bare["stability"] = Value::Null;
+        bare["energy"]["kinetic"] = Value::Null;
+        let page = text(&bare, Path::new("x"));
+        assert!(!page.contains("null") && !page.contains("NaN") && !page.contains("Stability"));
+    }
+
+    #[test]
+    fn a_run_that_ended_in_its_preload_tells_only_why() {
+        let ended = json!({ "name": "quick", "status": "interrupted", "steps": 0, "wall_s": 1.0,
+                            "diagnosis": "interrupted during dynamic relaxation" });
+        let page = text(&ended, Path::new("x"));
+        assert!(page.contains("interrupted during") && !page.contains("Energy"), "{page}");
+    }
+}

@@ -1,0 +1,184 @@
+//! Runs that do not come to their end: stopped by their guards, by Ctrl-C or by a kill.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use output::{GridFile, HistoryFile, OutputError};
+use serde_json::Value;
+
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
+
+fn start(out: &Path, more: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["run", CASE, "--threads", "1", "--out"])
+        .arg(out)
+        .args(more)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// A run that would take minutes: slow rolling, so many steps.
+const LONG: [&str; 2] = ["--set", "drive.speed=0.5"];
+
+/// How many steps and rows the files of a run hold, every one of them read.
+#[derive(Debug, PartialEq)]
+struct Held {
+    fields: usize,
+    contact: usize,
+    rows: usize,
+}
+
+fn read(out: &Path) -> Result<Held, OutputError> {
+    let fields = GridFile::open(out.join("fields.vtkhdf"))?;
+    let contact = GridFile::open(out.join("contact.vtkhdf"))?;
+    for grid in [&fields, &contact] {
+        let times = grid.times()?;
+        assert!(times.len() == grid.steps() && times.is_sorted_by(|a, b| a < b), "{times:?}");
+        let points = grid.points()?.len();
+        for field in grid.fields() {
+            let rows = if field.on_cells { grid.cells() } else { points };
+            let steps = if field.constant { 1 } else { grid.steps() };
+            for step in 0..steps {
+                let values = grid.read(&field.name, field.on_cells, step)?;
+                assert_eq!(values.len(), rows * field.components, "{} {step}", field.name);
+                assert!(values.iter().all(|x| x.is_finite()), "{} {step}", field.name);
+            }
+        }
+    }
+    let history = HistoryFile::open(out.join("history.h5"))?;
+    for column in history.columns()? {
+        assert_eq!(history.read(&column)?.len(), history.rows(), "{column}");
+    }
+    let steps = history.read("step")?;
+    assert!(steps.is_sorted_by(|a, b| a < b), "{steps:?}");
+    Ok(Held { fields: fields.steps(), contact: contact.steps(), rows: history.rows() })
+}
+
+/// Waits until the history of a run has rows. While the run writes, an opening can meet a closing
+/// and fail; it is then tried again.
+fn wait_until_it_rolls(run: &mut Child, out: &Path) {
+    let clock = Instant::now();
+    while HistoryFile::open(out.join("history.h5")).map_or(0, |h| h.rows()) == 0 {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended before it was stopped");
+        assert!(clock.elapsed() < Duration::from_secs(120), "no rows");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn interrupt(run: &Child) {
+    let pid = run.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+}
+
+fn summary(out: &Path) -> Value {
+    serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn an_unstable_run_ends_with_code_3_the_cause_the_remedy_and_readable_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let frequent = ["--set", "output.fields_interval=1e-7", "--set", "output.history_interval=1"];
+    let run = start(&out, &[&["--set", "time.factor=1.6"], &frequent[..]].concat());
+    let output = run.wait_with_output().unwrap();
+    let message = said(&output);
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    for words in ["1.60 times the stability limit", "set time.factor below 1", "node", "det F"] {
+        assert!(message.contains(words), "{words:?} is not in:\n{message}");
+    }
+    let summary = summary(&out);
+    assert_eq!(summary["status"], "failed");
+    let diagnosis = summary["diagnosis"].as_str().unwrap();
+    assert!(message.contains(diagnosis), "{message}");
+    assert!(fs::read_to_string(out.join("run.log")).unwrap().contains(diagnosis));
+    let steps = summary["steps"].as_u64().unwrap() as usize;
+    let held = read(&out).unwrap();
+    assert!((1..500).contains(&steps), "{steps}");
+    assert!(held.rows + 1 >= steps && held.rows <= steps, "{held:?} of {steps} steps");
+    assert!(held.fields > 1, "{held:?}");
+}
+
+#[test]
+fn ctrl_c_while_rolling_ends_with_code_130_and_readable_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut run = start(&out, &[&LONG[..], &["--json"]].concat());
+    wait_until_it_rolls(&mut run, &out);
+    interrupt(&run);
+    let clock = Instant::now();
+    let output = run.wait_with_output().unwrap();
+    assert!(clock.elapsed() < Duration::from_secs(10), "it stops at once");
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    let summary = summary(&out);
+    assert_eq!(summary["status"], "interrupted");
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(printed, summary);
+    let steps = summary["steps"].as_u64().unwrap();
+    let held = read(&out).unwrap();
+    // A row every ten steps from step 0 on, none of them lost.
+    assert_eq!(held.rows as u64, steps.div_ceil(10), "{steps} steps");
+    assert!(held.fields >= 2 && held.contact >= 1, "{held:?}");
+    let fields = GridFile::open(out.join("fields.vtkhdf")).unwrap();
+    let last = *fields.times().unwrap().last().unwrap();
+    assert_eq!(last, summary["t_end"].as_f64().unwrap(), "the last state is written");
+}
+
+#[test]
+fn ctrl_c_during_the_preload_ends_with_code_130() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let run = start(&out, &["--set", "preload.tolerance=1e-14"]);
+    let log = out.join("run.log");
+    let clock = Instant::now();
+    while !fs::read_to_string(&log).is_ok_and(|text| text.contains("mesh:")) {
+        assert!(clock.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    interrupt(&run);
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    assert!(said(&output).contains("interrupted"), "{}", said(&output));
+}
+
+#[test]
+fn a_kill_at_any_moment_leaves_readable_files() {
+    let mut chance = 0x2545_f491_4f6c_dd1d_u64;
+    let mut seen = Vec::new();
+    for kill in 0..8 {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("run");
+        let frequent = [
+            "--set",
+            "output.fields_interval=1e-7",
+            "--set",
+            "output.contact_interval=1e-8",
+            "--set",
+            "output.history_interval=1",
+            "--set",
+            "preload.method='none'",
+        ];
+        let mut run = start(&out, &[&LONG[..], &frequent].concat());
+        wait_until_it_rolls(&mut run, &out);
+        chance ^= chance << 13;
+        chance ^= chance >> 7;
+        chance ^= chance << 17;
+        std::thread::sleep(Duration::from_micros(chance % 200_000));
+        run.kill().unwrap();
+        run.wait().unwrap();
+        let held = read(&out).unwrap_or_else(|error| panic!("kill {kill}: {error}"));
+        assert!(held.rows > 0 && held.fields > 0 && held.contact > 0, "{held:?}");
+        assert!(!out.join("summary.json").exists());
+        seen.push(held);
+    }
+    assert!(seen.windows(2).any(|w| w[0] != w[1]), "kills fell at different moments: {seen:?}");
+}

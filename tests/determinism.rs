@@ -1,0 +1,66 @@
+//! The same case gives the same bits.
+#![allow(clippy::unwrap_used)]
+
+use case::Case;
+use runs::{Results, load, project, run};
+use serde_json::Value;
+
+/// The smoke case with every kind of output: a window of every step, and probes.
+fn smoke() -> Case {
+    load(
+        &project("cases/smoke.toml"),
+        &[
+            "output.window=[{ from = 40e-6, to = 44e-6 }]",
+            "output.probes.bar=[[0.001, 0.0], [0.002, 0.002]]",
+            "output.probes.disk=[[0.001, 0.0]]",
+        ],
+    )
+}
+
+/// The summary without what the clock, the memory and the number of threads put in.
+fn timeless(summary: &Value) -> Value {
+    let mut summary = summary.clone();
+    let map = summary.as_object_mut().unwrap();
+    for key in ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads"] {
+        assert!(map.remove(key).is_some(), "{key}");
+    }
+    summary
+}
+
+#[track_caller]
+fn same_bits(a: &Results, b: &Results) {
+    assert_eq!(a.differing(b), Vec::<&str>::new());
+    assert_eq!(timeless(&a.summary), timeless(&b.summary));
+    assert_eq!(a.resolved, b.resolved);
+}
+
+#[test]
+fn one_two_and_three_threads_a_repetition_and_the_resolved_case_give_the_same_bits() {
+    let case = smoke();
+    let first = run(&case, 2);
+    for name in ["fields/stress/0001", "contact/slip/0001", "probes/probe2_gap", "history/omega"] {
+        assert!(first.data[name].iter().any(|x| *x != 0.0), "{name} holds numbers");
+    }
+    assert!(first.data["probes/time"].len() as f64 == first.number("/steps"));
+    for threads in [1, 2, 3] {
+        let other = run(&case, threads);
+        assert_eq!(other.number("/threads"), threads as f64);
+        same_bits(&first, &other);
+    }
+    let path = std::path::Path::new("elsewhere/case.toml");
+    let again = Case::from_text(&first.resolved, path, &[]).unwrap();
+    same_bits(&first, &run(&again, 2));
+}
+
+#[test]
+fn another_creepage_gives_other_bits_in_history_and_fields() {
+    let sets = ["time.roll=0.0004", "output.fields_interval=5e-6", "preload.tolerance=1e-6"];
+    let path = project("tests/small.toml");
+    let run_at = |creepage: &str| run(&load(&path, &[&sets[..], &[creepage]].concat()), 2);
+    let (a, b) = (run_at("drive.creepage=4e-3"), run_at("drive.creepage=4.000001e-3"));
+    let differing = a.differing(&b);
+    for name in ["history/omega", "fields/velocity/0002"] {
+        assert!(differing.contains(&name), "{name} does not differ");
+    }
+    assert!(!differing.contains(&"fields/points"));
+}
