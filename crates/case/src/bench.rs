@@ -67,9 +67,8 @@ fn measure(threads: usize) -> Result<serde_json::Value, RunError> {
     });
     // What a step must move at least once: connectivity and reference of the elements; of the
     // nodes displacement, velocity and force read and written, inverse mass read.
-    let bytes = (solid.bytes() as f64 - elements * 32.0
-        + nodes as f64 * (6.0 * size_of::<Padded>() as f64 + 8.0))
-        / elements;
+    let bytes =
+        (solid.bytes() as f64 + nodes as f64 * (6.0 * size_of::<Padded>() as f64 + 8.0)) / elements;
     let per = |seconds: f64| seconds / REPEATS as f64 / elements * 1e9;
     let roofline = bytes / bandwidth; // ns: bytes over GB/s
     Ok(json!({

@@ -315,10 +315,10 @@ impl Recorder {
             probes.record(contact, report)?;
         }
         let (reads, records) = (self.reads(n), self.records_contact(n));
-        if reads || records {
-            if let Some(contact) = simulation.contact() {
-                self.zones.tables.iter_mut().for_each(|t| contact.nodal(t));
-            }
+        if let Some(contact) = simulation.contact()
+            && (reads || records)
+        {
+            self.zones.tables.iter_mut().for_each(|t| contact.nodal(t));
         }
         if records {
             self.write_contact(report.time)?;

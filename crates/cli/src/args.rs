@@ -66,7 +66,7 @@ pub struct RunArgs {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<usize>,
-    /// Go on from the last checkpoint
+    /// Go on from the last checkpoint (not in this version: runs write none yet)
     #[arg(long)]
     pub resume: bool,
     /// Replace the run that is already in the folder

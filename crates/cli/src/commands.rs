@@ -102,10 +102,7 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     }
     let status = summary.get("status").and_then(Value::as_str);
     let diagnosis = summary.get("diagnosis").and_then(Value::as_str);
-    // The page for people holds it.
-    if (args.json || args.quiet)
-        && let Some(diagnosis) = diagnosis
-    {
+    if let Some(diagnosis) = diagnosis {
         let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
     }
     Ok(match status {

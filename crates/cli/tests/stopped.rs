@@ -148,6 +148,7 @@ fn ctrl_c_during_the_preload_ends_with_code_130() {
     let output = run.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", said(&output));
     assert!(said(&output).contains("interrupted"), "{}", said(&output));
+    assert_eq!(summary(&out)["status"], "interrupted");
 }
 
 #[test]

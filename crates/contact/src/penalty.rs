@@ -4,7 +4,7 @@ use crate::face::Positions;
 use crate::pair::{Pair, Pass, State, scatter};
 use crate::search::{Search, neighbours};
 use crate::surface::ContactSurface;
-use crate::vector::{Vec3, add, axpy, dot, scale, sub};
+use crate::vector::{Vec3, add, axpy, dot, scale};
 use crate::{BodyMaterial, ContactError, FrictionLaw, StabilityScale, Stiffness};
 use mesh::{Mesh, Padded, Surface};
 use rayon::prelude::*;
@@ -189,7 +189,8 @@ impl PenaltyContact {
                     }
                 });
             }
-            let mut total = [0.0; 3];
+            // The forces that really reach the nodes of either side, for the sums.
+            let (mut own, mut other) = ([0.0; 3], [0.0; 3]);
             for pair in list.iter() {
                 sums.friction_work += pair.friction_work;
                 sums.damping_work += pair.damping_work;
@@ -198,7 +199,10 @@ impl PenaltyContact {
                 }
                 let on_slave = axpy(pair.friction, pair.normal_force, pair.normal);
                 scatter([pass.slave, pass.master], pair, on_slave, force);
-                total = add(total, on_slave);
+                own = add(own, on_slave);
+                for &weight in &pair.weights {
+                    other = axpy(other, -weight, on_slave);
+                }
                 sums.normal_force += pair.normal_force;
                 sums.stored_normal += pair.stored_normal();
                 sums.stored_tangential += pair.stored_tangential();
@@ -206,8 +210,8 @@ impl PenaltyContact {
                 sums.slipping += usize::from(pair.state == State::Slip);
                 sums.max_penetration = sums.max_penetration.max(-pair.gap);
             }
-            sums.force[slave] = add(sums.force[slave], total);
-            sums.force[1 - slave] = sub(sums.force[1 - slave], total);
+            sums.force[slave] = add(sums.force[slave], own);
+            sums.force[1 - slave] = add(sums.force[1 - slave], other);
         }
         sums.sticking = sums.closed - sums.slipping;
         self.pairs = pairs;

@@ -89,6 +89,9 @@ const CHECK: usize = 20;
 const NODE_SHARE: f64 = 0.3;
 const HUB_SHARE: f64 = 2.0;
 
+/// Acceleration of a hub whose disk does not touch yet (m per iteration squared).
+const FALL: f64 = 1e-6;
+
 /// Largest growth of the estimated slowest frequency from one check to the next.
 const RISE: f64 = 1.005;
 
@@ -115,7 +118,7 @@ pub fn relax(
     let mut force = vec![Padded::ZERO; n];
     let still = force.clone();
     let mut hub = HubMotion { z: setup.start, v: 0.0, mass: 0.0, force_before: 0.0 };
-    let mut contact_bound = vec![0.0; n];
+    let (mut contact_bound, mut spring) = (vec![0.0; n], 0.0);
     let mut report = RelaxationReport::default();
     let (mut slowest, mut damping) = (1.0f64, 0.0);
     let mut window = Quotient::default();
@@ -133,8 +136,9 @@ pub fn relax(
                 contact_bound[i] = f64::max(contact_bound[i], bound[i]);
                 node.mass = NODE_SHARE * (setup.stiffness[i] + contact_bound[i]);
             }
-            let spring = contact_stiffness(contact, &setup.disk, n);
-            hub.mass = hub.mass.max(HUB_SHARE * spring);
+            // Until bodies touch, the load moves the hub by FALL per iteration squared.
+            spring = f64::max(spring, contact_stiffness(contact, &setup.disk, n));
+            hub.mass = if spring > 0.0 { HUB_SHARE * spring } else { setup.load / FALL };
         }
         // The disk's internal forces cancel: what moves the hub is load, contact and spin.
         let hub_force = touching.force[0][2] + pull - setup.load;

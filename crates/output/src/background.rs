@@ -1,7 +1,7 @@
 //! Writing beside the time loop, which then need not wait for compression.
 
 use crate::{History, OutputError, TransientGrid, Values};
-use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 /// The HDF5 files of one run.
@@ -18,17 +18,20 @@ pub struct RunFiles {
 /// A thread that owns the files of a run and appends what it is sent, in that order, so that the
 /// files hold the same bits as without it.
 ///
-/// Data are copied into buffers that come back for reuse; when [`Self::WAITING`] messages wait,
-/// the sender waits too. An error stops the thread and is returned by the next call.
+/// Data are copied into buffers that come back for reuse, per file, since their sizes differ by
+/// orders of magnitude; when [`Self::BUFFERS`] of a file are under way, the sender waits for one.
+/// An error stops the thread and is returned by the next call.
 #[derive(Debug)]
 pub struct BackgroundWriter {
-    sender: SyncSender<Message>,
-    spare: Receiver<Buffer>,
+    sender: Sender<Message>,
+    spare: [Receiver<Buffer>; 3],
+    made: [usize; 3],
     thread: Option<JoinHandle<Result<RunFiles, OutputError>>>,
 }
 
 #[derive(Clone, Copy)]
 enum Target {
+    // in the order of `BackgroundWriter::BUFFERS`
     Fields,
     Contact,
     History,
@@ -55,15 +58,16 @@ struct Shape {
 }
 
 impl BackgroundWriter {
-    /// Messages that may wait before a sender waits.
-    pub const WAITING: usize = 4;
+    /// Buffers per file (fields, contact, history): each holds one snapshot or block of rows.
+    pub const BUFFERS: [usize; 3] = [2, 8, 4];
 
     /// Starts the thread.
     pub fn start(files: RunFiles) -> Self {
-        let (sender, inbox) = sync_channel(Self::WAITING);
-        let (outbox, spare) = channel();
+        let (sender, inbox) = channel();
+        let pools = [(); 3].map(|()| channel());
+        let outbox = pools.each_ref().map(|(give, _)| give.clone());
         let thread = std::thread::spawn(move || write_all(files, &inbox, &outbox));
-        Self { sender, spare, thread: Some(thread) }
+        Self { sender, spare: pools.map(|(_, take)| take), made: [0; 3], thread: Some(thread) }
     }
 
     /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].
@@ -94,7 +98,18 @@ impl BackgroundWriter {
         time: f64,
         fill: impl FnOnce(&mut Buffer),
     ) -> Result<(), OutputError> {
-        let mut buffer = self.spare.try_recv().unwrap_or_default();
+        let file = target as usize;
+        let mut buffer = if self.made[file] < Self::BUFFERS[file] {
+            self.spare[file].try_recv().unwrap_or_else(|_| {
+                self.made[file] += 1;
+                Buffer::default()
+            })
+        } else {
+            match self.spare[file].recv() {
+                Ok(buffer) => buffer,
+                Err(_) => return join(self.thread.take()).and(Err(OutputError::Stopped)),
+            }
+        };
         buffer.clear();
         fill(&mut buffer);
         match self.sender.send(Message { target, time, buffer }) {
@@ -157,7 +172,7 @@ impl Buffer {
 fn write_all(
     mut files: RunFiles,
     inbox: &Receiver<Message>,
-    outbox: &Sender<Buffer>,
+    outbox: &[Sender<Buffer>; 3],
 ) -> Result<RunFiles, OutputError> {
     for Message { target, time, buffer } in inbox {
         match target {
@@ -166,7 +181,7 @@ fn write_all(
             Target::History => files.history.append(&buffer.numbers)?,
         }
         // A sender that has finished takes no buffers back.
-        let _ = outbox.send(buffer);
+        let _ = outbox[target as usize].send(buffer);
     }
     Ok(files)
 }

@@ -28,23 +28,28 @@ pub(crate) struct LayOut<'a> {
     pub description: &'a str,
 }
 
-/// A file being created.
+/// A file being created, beside its place until it is closed: a process killed meanwhile leaves no
+/// half a file under the name that readers look for.
 pub(crate) struct Creator {
     path: PathBuf,
+    partial: PathBuf,
     file: H5File,
 }
 
 impl Creator {
     pub fn new(path: &Path, provenance: &Provenance) -> Result<Self, OutputError> {
+        let mut partial = path.as_os_str().to_owned();
+        partial.push(".partial");
+        let partial = PathBuf::from(partial);
         let open = || -> H5Result<H5File> {
-            let file = H5File::options().no_locking().libver(LibverBound::V110).create(path)?;
+            let file = H5File::options().no_locking().libver(LibverBound::V110).create(&partial)?;
             file.set_attr_string("creepage_version", &provenance.creepage_version)?;
             file.set_attr_string("case_hash", &provenance.case_hash)?;
             file.set_attr_string("created", &provenance.created)?;
             Ok(file)
         };
         let file = open().map_err(|error| create_error(path, error))?;
-        Ok(Self { path: path.to_owned(), file })
+        Ok(Self { path: path.to_owned(), partial, file })
     }
 
     fn check<T>(&self, result: H5Result<T>) -> Result<T, OutputError> {
@@ -143,7 +148,11 @@ impl Creator {
     }
 
     pub fn close(self) -> Result<(), OutputError> {
-        self.file.close().map_err(|error| create_error(&self.path, error))
+        let placed = self.file.close().and_then(|()| {
+            std::fs::rename(&self.partial, &self.path)?;
+            Ok(())
+        });
+        placed.map_err(|error| create_error(&self.path, error))
     }
 }
 

@@ -42,6 +42,8 @@ pub(crate) struct Blocks {
     pub(crate) blocks: Vec<Block>,
     /// Indices into `blocks`, colour by colour.
     pub(crate) colours: Vec<Vec<u32>>,
+    /// First element and first batch of each body.
+    starts: Vec<(usize, usize)>,
 }
 
 impl Blocks {
@@ -50,8 +52,10 @@ impl Blocks {
         let mut batches = Vec::with_capacity(mesh.hexes.len() / BATCH + 1);
         let mut blocks = Vec::new();
         let mut ranges = Vec::new();
+        let mut starts = Vec::new();
         for (body, part) in mesh.bodies.iter().enumerate() {
             let mut start = part.hexes.start;
+            starts.push((start, batches.len()));
             while start < part.hexes.end {
                 let end = (start + BLOCK_ELEMENTS).min(part.hexes.end);
                 let first = batches.len();
@@ -71,7 +75,16 @@ impl Blocks {
             }
         }
         let colours = colour(mesh, &ranges);
-        Self { batches, blocks, colours }
+        Self { batches, blocks, colours, starts }
+    }
+
+    /// Nodes of an element. Blocks hold a multiple of eight elements but for the last of a body,
+    /// so a body's batches are full but for the last.
+    pub(crate) fn hex(&self, body: usize, element: usize) -> [u32; 8] {
+        let (first, batch) = self.starts[body];
+        let local = element - first;
+        let nodes = &self.batches[batch + local / BATCH].nodes;
+        nodes.map(|corner| corner[local % BATCH])
     }
 }
 
@@ -125,5 +138,8 @@ mod tests {
             }
         }
         assert_eq!(owned, mesh.hexes.len());
+        for (e, hex) in mesh.hexes.iter().enumerate() {
+            assert_eq!(blocks.hex(0, e), *hex);
+        }
     }
 }

@@ -93,7 +93,6 @@ pub struct Solid {
     sums: Vec<Sums>,
     level: Level,
     viscous: bool,
-    hexes: Vec<[u32; 8]>,
     bodies: Vec<(std::ops::Range<usize>, Material)>,
 }
 
@@ -147,7 +146,6 @@ impl Solid {
             constants,
             level,
             viscous: viscosity.any(),
-            hexes: mesh.hexes.clone(),
             bodies: mesh.bodies.iter().map(|b| b.hexes.clone()).zip(materials.to_vec()).collect(),
         })
     }
@@ -164,14 +162,12 @@ impl Solid {
 
     /// Number of elements.
     pub fn elements(&self) -> usize {
-        self.hexes.len()
+        self.bodies.last().map_or(0, |(range, _)| range.end)
     }
 
-    /// Bytes held per element for the time loop: connectivity in batches.
+    /// Bytes held for the time loop: connectivity in batches, reference positions.
     pub fn bytes(&self) -> usize {
-        self.blocks.batches.len() * size_of::<Batch>()
-            + self.reference.len() * size_of::<Padded>()
-            + self.hexes.len() * size_of::<[u32; 8]>()
+        self.blocks.batches.len() * size_of::<Batch>() + self.reference.len() * size_of::<Padded>()
     }
 
     /// `force -= f_int(u, v)` (N). Viscous stresses take `velocity` at the last half step (m/s).
@@ -230,7 +226,7 @@ impl Solid {
             force: force.as_mut_ptr(),
         });
         let sums = SharedSums(self.sums.as_mut_ptr());
-        let Blocks { batches, blocks, colours } = &self.blocks;
+        let Blocks { batches, blocks, colours, .. } = &self.blocks;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
@@ -267,15 +263,19 @@ impl Solid {
 
     /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts.
     pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
-        for (range, material) in &self.bodies {
-            stress[range.clone()].par_iter_mut().zip(&self.hexes[range.clone()]).for_each(
-                |(out, hex)| {
-                    let x = hex.map(|n| self.reference[n as usize].xyz());
-                    let u = hex.map(|n| displacement[n as usize].xyz());
-                    *out = cauchy(&displacement_gradient(&x, &u).0, material);
-                },
-            );
+        for (body, (range, material)) in self.bodies.iter().enumerate() {
+            stress[range.clone()].par_iter_mut().zip(range.clone()).for_each(|(out, element)| {
+                *out = cauchy(&self.gradient(displacement, body, element), material);
+            });
         }
+    }
+
+    /// Displacement gradient of an element.
+    fn gradient(&self, displacement: &[Padded], body: usize, element: usize) -> [[f64; 3]; 3] {
+        let hex = self.blocks.hex(body, element);
+        let x = hex.map(|n| self.reference[n as usize].xyz());
+        let u = hex.map(|n| displacement[n as usize].xyz());
+        displacement_gradient(&x, &u).0
     }
 
     /// The element with the smallest det F, its body and the value: below zero it is inside out.
@@ -283,10 +283,7 @@ impl Solid {
         let mut worst = (0, 0, f64::INFINITY);
         for (body, (range, _)) in self.bodies.iter().enumerate() {
             for element in range.clone() {
-                let hex = self.hexes[element];
-                let x = hex.map(|n| self.reference[n as usize].xyz());
-                let u = hex.map(|n| displacement[n as usize].xyz());
-                let det = determinant(&deformation(&displacement_gradient(&x, &u).0));
+                let det = determinant(&deformation(&self.gradient(displacement, body, element)));
                 if det < worst.2 || det.is_nan() {
                     worst = (element, body, det);
                     if det.is_nan() {
@@ -301,7 +298,8 @@ impl Solid {
     /// Centre of an element in the reference configuration (m).
     pub fn centre(&self, element: usize) -> [f64; 3] {
         let mut c = [0.0; 3];
-        for n in self.hexes[element] {
+        let body = self.bodies.iter().position(|(range, _)| range.contains(&element));
+        for n in self.blocks.hex(body.unwrap_or(0), element) {
             for i in 0..3 {
                 c[i] += self.reference[n as usize].0[i] / 8.0;
             }

@@ -52,10 +52,6 @@ fn title(out: &mut String, summary: &Value) {
         digits(scaled(at("/dt"), 1e9), 4)
     );
     let _ = writeln!(out, "{}", if steps > 0.0 { &rolled } else { "  nothing rolled" });
-    let diagnosis = word(summary, "/diagnosis");
-    if !diagnosis.is_empty() {
-        let _ = writeln!(out, "  {diagnosis}");
-    }
 }
 
 /// A quantity of the contact: label, key, factor to the unit, unit.
@@ -281,10 +277,14 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_ended_in_its_preload_tells_only_why() {
-        let ended = json!({ "name": "quick", "status": "interrupted", "steps": 0, "wall_s": 1.0,
-                            "diagnosis": "interrupted during dynamic relaxation" });
+    fn a_run_that_ended_in_its_preload_has_no_sections() {
+        let ended = json!({ "name": "quick", "status": "interrupted", "steps": 0, "wall_s": 1.0 });
         let page = text(&ended, Path::new("x"));
-        assert!(page.contains("interrupted during") && !page.contains("Energy"), "{page}");
+        assert!(
+            page.contains("interrupted after")
+                && page.contains("nothing rolled")
+                && !page.contains("Energy"),
+            "{page}"
+        );
     }
 }
