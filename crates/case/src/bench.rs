@@ -11,6 +11,7 @@ use crate::start::start;
 use mesh::Padded;
 use rayon::prelude::*;
 use serde_json::json;
+use solid::Level;
 
 /// Steps or kernel calls per sample, and samples, of which the median counts.
 const REPEATS: usize = 40;
@@ -30,24 +31,24 @@ method = \"none\"
 ";
 
 /// Measures kernel, whole step and memory bandwidth with the given number of threads, on the
-/// reference disk and bar at 1 mm.
-pub fn bench(threads: usize) -> Result<serde_json::Value, RunError> {
+/// reference disk and bar at 1 mm, with the given kernels (by default the machine's best).
+pub fn bench(threads: usize, kernels: Option<Level>) -> Result<serde_json::Value, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    pool.install(|| measure(threads))
+    pool.install(|| measure(threads, kernels.unwrap_or_else(Level::detect)))
 }
 
-fn measure(threads: usize) -> Result<serde_json::Value, RunError> {
+fn measure(threads: usize, kernels: Level) -> Result<serde_json::Value, RunError> {
     let mut case = Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), &[])?;
     debug_assert_eq!(case.preload.method, PreloadMethod::None);
     // Pressed rigidly by Hertz's approach, contact is as busy as after a preload.
     case.disk.lift = -hertz(&case).approach;
-    let model = Model::build(&case)?;
+    let mut model = Model::build(&case)?;
+    model.kernels = kernels;
     let elements = model.mesh.hexes.len() as f64;
     let nodes = model.mesh.nodes.len();
     let bandwidth = triad();
 
     let mut solid = model.solid(&case)?;
-    let level = solid.level().name();
     let u = vec![Padded::ZERO; nodes];
     let mut force = u.clone();
     let kernel = median(|| {
@@ -73,7 +74,7 @@ fn measure(threads: usize) -> Result<serde_json::Value, RunError> {
     let roofline = bytes / bandwidth; // ns: bytes over GB/s
     Ok(json!({
         "threads": threads,
-        "kernels": level,
+        "kernels": kernels.name(),
         "elements": elements as u64,
         "bandwidth_gb_s": bandwidth,
         "kernel_ns_per_element": per(kernel),

@@ -34,3 +34,4 @@ pub use mesh_report::mesh_report;
 pub use progress::{Progress, Stage};
 pub use run::{RunError, RunOptions, run};
 pub use schema::Case;
+pub use solid::Level;

@@ -4,16 +4,12 @@ use std::path::Path;
 use std::time::{Instant, SystemTime};
 
 use crate::model::Model;
-use crate::run::RunError;
+use crate::run::{BYTES_PER_ELEMENT, RunError};
 use crate::schema::Case;
 use crate::start::elastic_frequency;
 use mesh::Padded;
 use output::{Cells, FieldSpec, GridSpec, Provenance, StaticField, TransientGrid, Values};
 use serde_json::json;
-
-/// Bytes per node that a run holds beside the elements: displacement, velocity, force, inverse
-/// mass, and the snapshot that the writer compresses meanwhile.
-const BYTES_PER_NODE: f64 = (3 * size_of::<Padded>() + size_of::<f64>() + 6 * 8) as f64;
 
 /// Builds the mesh of a case, writes it to `out` (`.vtu` or `.vtkhdf`) if given, and reports on
 /// it.
@@ -62,8 +58,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
             "step": step,
         },
         "estimate": {
-            "memory_mb": (solid.bytes() as f64 + nodes as f64 * BYTES_PER_NODE
-                          + elements as f64 * 48.0) / 1e6,
+            "memory_mb": elements as f64 * BYTES_PER_ELEMENT / 1e6,
             "steps": steps,
             "run_time_s": steps * per_step,
         },

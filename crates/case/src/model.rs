@@ -19,6 +19,8 @@ pub(crate) struct Model {
     pub(crate) mesh: Mesh,
     pub(crate) materials: [Material; 2],
     pub(crate) element: Element,
+    /// Instruction set of the element kernels.
+    pub(crate) kernels: Level,
     /// Lumped masses (kg).
     pub(crate) mass: Vec<f64>,
     /// The whole contact surfaces.
@@ -74,6 +76,7 @@ impl Model {
         Ok(Self {
             materials,
             element: Element { hourglass: case.element.hourglass },
+            kernels: Level::detect(),
             mass,
             surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
             zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
@@ -84,15 +87,14 @@ impl Model {
         })
     }
 
-    /// The elements, on the best instruction set of this machine.
+    /// The elements.
     pub(crate) fn solid(&self, case: &Case) -> Result<Solid, RunError> {
         let viscosity = Viscosity {
             bulk_linear: case.damping.bulk_linear,
             bulk_quadratic: case.damping.bulk_quadratic,
             kelvin_voigt: case.damping.kelvin_voigt,
         };
-        let level = Level::detect();
-        Ok(Solid::new(&self.mesh, &self.materials, self.element, viscosity, level)?)
+        Ok(Solid::new(&self.mesh, &self.materials, self.element, viscosity, self.kernels)?)
     }
 
     /// The contact of disk and bar.

@@ -444,7 +444,7 @@ impl Log {
 }
 
 /// Bytes per element of a whole run, output included.
-const BYTES_PER_ELEMENT: f64 = 500.0;
+pub(crate) const BYTES_PER_ELEMENT: f64 = 500.0;
 
 /// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
 fn enough_memory(elements: usize) -> Result<(), RunError> {

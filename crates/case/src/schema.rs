@@ -112,12 +112,13 @@ pub enum LoadMode {
 pub struct Drive {
     /// Rolling speed V in +x (m/s). Required.
     pub speed: f64,
-    /// `"creepage"`: the angular velocity is prescribed as (1 + creepage) V/R; `"torque"`: the
+    /// `"creepage"`: the angular velocity is prescribed as (1 + creepage) V/R_eff; `"torque"`: the
     /// torque about the hub is. Default: `"torque"` where `drive.torque` is given, else
     /// `"creepage"`.
     #[serde(default)]
     pub mode: DriveMode,
-    /// Nominal longitudinal creepage (omega R - V)/V (dimensionless); positive when driving.
+    /// Longitudinal creepage (omega R_eff - V)/V (dimensionless), positive when driving; R_eff is
+    /// the effective rolling radius that the preload gives.
     /// Required with `mode = "creepage"`, refused with `"torque"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub creepage: Option<f64>,

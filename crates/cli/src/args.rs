@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use case::Level;
 use clap::{ArgAction, Parser, Subcommand};
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
@@ -94,6 +95,19 @@ pub struct BenchArgs {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<usize>,
+    /// Instruction set of the element kernels [default: the best of this machine]
+    #[arg(long, value_name = "avx512|avx2|portable", value_parser = kernels)]
+    pub kernels: Option<Level>,
+}
+
+fn kernels(text: &str) -> Result<Level, String> {
+    let level =
+        [Level::Avx512, Level::Avx2, Level::Portable].into_iter().find(|l| l.name() == text);
+    match level {
+        Some(level) if level.available() => Ok(level),
+        Some(_) => Err("this machine does not have these instructions".into()),
+        None => Err("one of avx512, avx2, portable is needed".into()),
+    }
 }
 
 fn threads(text: &str) -> Result<usize, String> {

@@ -144,7 +144,7 @@ fn check_mesh_file(out: &Path) -> Result<(), Failure> {
 }
 
 fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
-    let found = case::bench(options.threads.unwrap_or_else(all_cores))?;
+    let found = case::bench(options.threads.unwrap_or_else(all_cores), options.kernels)?;
     if args.json {
         report::print_json(&found);
     } else if !args.quiet {

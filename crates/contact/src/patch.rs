@@ -75,15 +75,19 @@ pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
     })
 }
 
+/// A node counts as in contact above this share of the largest pressure: nodes around the patch
+/// carry a little force that faces under a loaded node hand on to them.
+const IN_CONTACT: f64 = 0.02;
+
 /// Area-weighted measures from nodal pressure (Pa), area (m^2) and state (1 stick, 2 slip).
 pub fn areas(pressure: &[f64], area: &[f64], state: &[u8]) -> PatchAreas {
-    let (mut contact, mut stick, mut slip, mut peak) = (0.0, 0.0, 0.0, 0.0_f64);
+    let (mut contact, mut stick, mut slip) = (0.0, 0.0, 0.0);
+    let peak = pressure.iter().copied().fold(0.0, f64::max);
     for ((&p, &a), &state) in pressure.iter().zip(area).zip(state) {
-        if p > 0.0 {
+        if p > IN_CONTACT * peak {
             contact += a;
             stick += if state == 1 { a } else { 0.0 };
             slip += if state == 2 { a } else { 0.0 };
-            peak = peak.max(p);
         }
     }
     let part = |a: f64| if contact > 0.0 { a / contact } else { 0.0 };
@@ -162,7 +166,8 @@ mod tests {
 
     #[test]
     fn areas_weigh_nodes_by_their_area() {
-        let found = areas(&[0.0, 2.0, 5.0, 1.0], &[9.0, 1.0, 2.0, 1.0], &[0, 1, 2, 1]);
+        let found =
+            areas(&[0.0, 2.0, 5.0, 1.0, 0.09], &[9.0, 1.0, 2.0, 1.0, 4.0], &[0, 1, 2, 1, 2]);
         assert_eq!(found.contact, 4.0);
         assert_eq!(found.stick_fraction, 0.5);
         assert_eq!(found.slip_fraction, 0.5);

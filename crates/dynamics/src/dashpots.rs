@@ -42,12 +42,13 @@ impl RigidMotion {
         self.v == [0.0; 2] && self.omega == 0.0
     }
 
-    /// Velocity (m/s) at the undeformed place of a point, and its arm (x, z) from the centre (m).
+    /// Velocity (m/s) at the undeformed place of a point, padded, and its arm (x, z) from the
+    /// centre (m).
     #[inline(always)]
-    pub(crate) fn at(&self, reference: Padded) -> ([f64; 3], [f64; 2]) {
+    pub(crate) fn at(&self, reference: Padded) -> ([f64; 4], [f64; 2]) {
         let (x, z) = (reference.0[0] - self.centre[0], reference.0[2] - self.centre[2]);
         let (sin, cos) = self.turn;
         let arm = [cos * x + sin * z, cos * z - sin * x];
-        ([self.v[0] + self.omega * arm[1], 0.0, self.v[1] - self.omega * arm[0]], arm)
+        ([self.v[0] + self.omega * arm[1], 0.0, self.v[1] - self.omega * arm[0], 0.0], arm)
     }
 }

@@ -235,7 +235,7 @@ impl Simulation {
                 Some(rigid) if self.disk.contains(&node) => {
                     rigid.at(self.solid.reference()[node]).0
                 }
-                _ => [0.0; 3],
+                _ => [0.0; 4],
             };
             let speed = (0..3).map(|i| (v.0[i] - at[i]).powi(2)).sum::<f64>().sqrt();
             if speed > place.speed || !speed.is_finite() {
