@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::hertz::hertz;
 use crate::model::Model;
-use crate::run::RunError;
+use crate::run_error::RunError;
 use crate::schema::{Case, PreloadMethod};
 use crate::start::start;
 use mesh::Padded;

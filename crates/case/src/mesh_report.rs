@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::time::{Instant, SystemTime};
 
+use crate::memory::BYTES_PER_ELEMENT;
 use crate::model::Model;
-use crate::run::{BYTES_PER_ELEMENT, RunError};
+use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::elastic_frequency;
 use mesh::Padded;

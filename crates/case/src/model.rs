@@ -1,6 +1,6 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
-use crate::run::RunError;
+use crate::run_error::RunError;
 use crate::schema::{Case, Ends};
 use contact::{
     BodyMaterial, Coulomb, Exponential, FrictionLaw, PenaltyContact, PenaltySettings,

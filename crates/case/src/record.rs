@@ -1,7 +1,9 @@
 //! What a run writes while it rolls, and when.
 
+use crate::means::Means;
 use crate::model::{BAR, DISK, Model};
-use crate::run::RunError;
+use crate::probes::Probes;
+use crate::run_error::RunError;
 use crate::schema::{Case, Window};
 use contact::{NodalContact, patch};
 use dynamics::{Simulation, StepReport};
@@ -93,7 +95,7 @@ pub(crate) struct Recorder {
     history_every: u64,
     rows: Vec<f64>,
     probes: Option<Probes>,
-    stress: Option<Vec<[f64; 6]>>,
+    stress: bool,
     points: [Vec<[f64; 3]>; 2],
     centreline: Vec<usize>,
     line: Vec<(f64, bool)>,
@@ -109,81 +111,6 @@ pub(crate) struct Recorder {
 struct Schedule {
     interval: f64,
     next: f64,
-}
-
-/// Surface nodes recorded at every step.
-struct Probes {
-    history: History,
-    tables: [NodalContact; 2],
-    /// Side and row in that side's table.
-    rows: Vec<(usize, usize)>,
-    buffer: Vec<f64>,
-}
-
-/// Columns of `probes.h5` per probe.
-const PROBE: [(&str, &str, &str); 11] = [
-    ("pressure", "Pa", "contact pressure"),
-    ("shear_x", "Pa", "shear traction on this surface, x"),
-    ("shear_y", "Pa", "shear traction on this surface, y"),
-    ("shear_z", "Pa", "shear traction on this surface, z"),
-    ("slip_velocity_x", "m/s", "velocity relative to the other surface, x"),
-    ("slip_velocity_y", "m/s", "velocity relative to the other surface, y"),
-    ("slip_velocity_z", "m/s", "velocity relative to the other surface, z"),
-    ("slip_x", "m", "relative motion since contact began, x"),
-    ("mu", "1", "coefficient of friction used"),
-    ("state", "1", "0 open, 1 stick, 2 slip"),
-    ("gap", "m", "gap"),
-];
-
-/// Running mean and standard deviation.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Mean {
-    count: f64,
-    mean: f64,
-    squares: f64,
-}
-
-impl Mean {
-    /// Takes a sample in (Welford 1962); values that are not numbers are left out.
-    pub(crate) fn add(&mut self, x: f64) {
-        if x.is_finite() {
-            self.count += 1.0;
-            let away = x - self.mean;
-            self.mean += away / self.count;
-            self.squares += away * (x - self.mean);
-        }
-    }
-
-    /// The mean; zero without samples.
-    pub(crate) fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    /// The standard deviation; zero without samples.
-    pub(crate) fn deviation(&self) -> f64 {
-        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
-    }
-}
-
-/// Means over the evaluation window and extremes over the run.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Means {
-    pub(crate) force: [Mean; 3],
-    pub(crate) traction: Mean,
-    pub(crate) creepage: Mean,
-    pub(crate) torque: Mean,
-    pub(crate) half_length: Mean,
-    pub(crate) half_width: Mean,
-    pub(crate) peak_pressure: Mean,
-    pub(crate) peak_shear: Mean,
-    pub(crate) area: Mean,
-    pub(crate) stick: Mean,
-    pub(crate) slip: Mean,
-    pub(crate) stick_border: Mean,
-    pub(crate) penetration: Mean,
-    pub(crate) hourglass_share: Mean,
-    pub(crate) worst_cone: f64,
-    pub(crate) worst_mismatch: f64,
 }
 
 /// What the recorder needs to know beside the case.
@@ -239,7 +166,7 @@ impl Recorder {
             windows: case.output.window.iter().map(window).collect(),
             history_every: case.output.history_interval,
             rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.len()),
-            stress: case.output.stress.then(|| vec![[0.0; 6]; model.mesh.hexes.len()]),
+            stress: case.output.stress,
             points,
             centreline,
             effective_radius: basis.effective_radius,
@@ -413,14 +340,17 @@ impl Recorder {
     }
 
     fn write_fields(&mut self, simulation: &Simulation) -> Result<(), RunError> {
-        let displacement: Vec<_> = simulation.displacement().iter().map(|u| u.xyz()).collect();
-        let velocity: Vec<_> = simulation.velocity().iter().map(|v| v.xyz()).collect();
-        let mut values = vec![Values::Vector(&displacement), Values::Vector(&velocity)];
-        if let Some(stress) = &mut self.stress {
-            simulation.solid().cauchy_stress(simulation.displacement(), stress);
-            values.push(Values::Tensor(stress));
-        }
-        Ok(self.writer.append_fields(simulation.time(), &values)?)
+        let stress = self.stress;
+        Ok(self.writer.append_fields_with(simulation.time(), |snapshot| {
+            snapshot.vectors(simulation.displacement().iter().map(|u| u.xyz()));
+            snapshot.vectors(simulation.velocity().iter().map(|v| v.xyz()));
+            if stress {
+                let solid = simulation.solid();
+                snapshot.tensors(solid.elements(), |out| {
+                    solid.cauchy_stress(simulation.displacement(), out);
+                });
+            }
+        })?)
     }
 
     fn write_contact(&mut self, time: f64) -> Result<(), RunError> {
@@ -556,94 +486,4 @@ fn labels(counts: &[usize]) -> Vec<u8> {
 
 fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
-}
-
-impl Probes {
-    /// The probes of a case, if it has any.
-    fn new(
-        case: &Case,
-        model: &Model,
-        simulation: &Simulation,
-        basis: &Basis<'_>,
-    ) -> Result<Option<Self>, RunError> {
-        let probes = &case.output.probes;
-        if probes.bar.is_empty() && probes.disk.is_empty() {
-            return Ok(None);
-        }
-        let contact = simulation.contact().ok_or(RunError::NoContact)?;
-        let radius = case.disk.radius;
-        // The tread point at arc length s lies at angle s/R from the lowest point.
-        let on_disk = |[s, y]: [f64; 2]| {
-            let angle = s / radius;
-            [radius * angle.sin(), y, radius * (1.0 - angle.cos())]
-        };
-        let wanted: Vec<(usize, [f64; 3])> = (probes.disk.iter().map(|p| (DISK, on_disk(*p))))
-            .chain(probes.bar.iter().map(|p| (BAR, [p[0], p[1], 0.0])))
-            .collect();
-        let mut chosen = Vec::new();
-        for (side, point) in &wanted {
-            let distance = |n: u32| {
-                let x = model.mesh.nodes[n as usize];
-                // height is ignored on the bar, whose crown the user need not compute
-                let dz = if *side == BAR { 0.0 } else { x[2] - point[2] };
-                (x[0] - point[0]).powi(2) + (x[1] - point[1]).powi(2) + dz * dz
-            };
-            let nodes = model.zones[*side].iter().flat_map(|f| f.nodes);
-            let nearest = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-            chosen.push((*side, nearest.ok_or(RunError::NoContact)?));
-        }
-        let tables = [DISK, BAR].map(|side| {
-            let around: Vec<Face> = model.zones[side]
-                .iter()
-                .filter(|f| chosen.iter().any(|&(s, n)| s == side && f.nodes.contains(&n)))
-                .copied()
-                .collect();
-            contact.nodal_table_of(side, &around)
-        });
-        let rows = chosen
-            .iter()
-            .map(|&(side, n)| {
-                Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?))
-            })
-            .collect::<Result<Vec<_>, RunError>>()?;
-        let mut columns = vec![Column::new("time", "s", "time since the start of rolling")];
-        for (k, &(side, n)) in chosen.iter().enumerate() {
-            let [x, y, z] = model.mesh.nodes[n as usize];
-            let body = if side == DISK { "disk" } else { "bar" };
-            for (name, units, text) in PROBE {
-                let text = format!("{text}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m");
-                columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
-            }
-        }
-        let history = History::create(basis.folder.join("probes.h5"), &columns, &basis.provenance)?;
-        Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
-    }
-
-    fn record(
-        &mut self,
-        contact: &contact::PenaltyContact,
-        report: &StepReport,
-    ) -> Result<(), RunError> {
-        self.tables.iter_mut().for_each(|t| contact.nodal(t));
-        self.buffer.push(report.time);
-        for &(side, row) in &self.rows {
-            let t = &self.tables[side];
-            self.buffer.push(t.pressure[row]);
-            self.buffer.extend(t.shear[row]);
-            self.buffer.extend(t.slip_velocity[row]);
-            self.buffer.extend([t.slip[row][0], t.mu[row], f64::from(t.state[row]), t.gap[row]]);
-        }
-        if self.buffer.len() >= 256 * (1 + PROBE.len() * self.rows.len()) {
-            self.flush()?;
-        }
-        Ok(())
-    }
-
-    fn flush(&mut self) -> Result<(), RunError> {
-        if !self.buffer.is_empty() {
-            self.history.append(&self.buffer)?;
-            self.buffer.clear();
-        }
-        Ok(())
-    }
 }

@@ -3,7 +3,7 @@
 use crate::hertz::hertz;
 use crate::model::{BAR, DISK, Model};
 use crate::progress::{Progress, Stage};
-use crate::run::RunError;
+use crate::run_error::RunError;
 use crate::schema::{Case, DriveMode, LoadMode, PreloadMethod};
 use contact::{PenaltyContact, StabilityScale};
 use dynamics::{
@@ -44,14 +44,22 @@ pub(crate) struct RollingRadius {
     pub(crate) effective: f64,
 }
 
-/// A simulation ready to roll.
-pub(crate) struct Start {
-    pub(crate) simulation: Simulation,
+/// What is known once the start is made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Facts {
     pub(crate) stability: Stability,
     pub(crate) radius: RollingRadius,
     pub(crate) preload: Option<RelaxationReport>,
-    pub(crate) steps: u64,
+    /// Wall time of the preload (s).
     pub(crate) preload_wall: f64,
+    /// Time steps to take.
+    pub(crate) steps: u64,
+}
+
+/// A simulation ready to roll.
+pub(crate) struct Start {
+    pub(crate) simulation: Simulation,
+    pub(crate) facts: Facts,
 }
 
 /// Preloads the model and sets it rolling.
@@ -193,7 +201,8 @@ pub(crate) fn start(
         mass_damping: case.damping.mass,
     });
     let radius = RollingRadius { nominal, effective };
-    Ok(Start { simulation, stability, radius, preload, steps: steps as u64, preload_wall })
+    let facts = Facts { stability, radius, preload, preload_wall, steps: steps as u64 };
+    Ok(Start { simulation, facts })
 }
 
 /// Inverse masses with held and carried nodes at zero.

@@ -44,13 +44,14 @@ struct Message {
 }
 
 /// Flat copies of the values of one snapshot, or of history rows.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Buffer {
     shapes: Vec<Shape>,
     numbers: Vec<f64>,
     integers: Vec<u8>,
 }
 
+#[derive(Debug)]
 struct Shape {
     components: usize,
     integer: bool,
@@ -59,7 +60,7 @@ struct Shape {
 
 impl BackgroundWriter {
     /// Buffers per file (fields, contact, history): each holds one snapshot or block of rows.
-    pub const BUFFERS: [usize; 3] = [2, 8, 4];
+    pub const BUFFERS: [usize; 3] = [1, 8, 4];
 
     /// Starts the thread.
     pub fn start(files: RunFiles) -> Self {
@@ -73,6 +74,16 @@ impl BackgroundWriter {
     /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].
     pub fn append_fields(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.send(Target::Fields, time, |buffer| buffer.fill(values))
+    }
+
+    /// Sends a snapshot for `fields.vtkhdf` that `fill` writes into the buffer itself, field after
+    /// field in the order of the file: no second copy of a large model.
+    pub fn append_fields_with(
+        &mut self,
+        time: f64,
+        fill: impl FnOnce(&mut Snapshot<'_>),
+    ) -> Result<(), OutputError> {
+        self.send(Target::Fields, time, |buffer| fill(&mut Snapshot(buffer)))
     }
 
     /// Sends a snapshot for `contact.vtkhdf`; see [`TransientGrid::append`].
@@ -116,6 +127,30 @@ impl BackgroundWriter {
             Ok(()) => Ok(()),
             Err(_) => join(self.thread.take()).and(Err(OutputError::Stopped)),
         }
+    }
+}
+
+/// A snapshot being filled.
+#[derive(Debug)]
+pub struct Snapshot<'a>(&'a mut Buffer);
+
+impl Snapshot<'_> {
+    /// The next field: a vector at every point.
+    pub fn vectors(&mut self, values: impl ExactSizeIterator<Item = [f64; 3]>) {
+        let count = values.len();
+        self.0.numbers.reserve_exact(3 * count);
+        self.0.numbers.extend(values.flatten());
+        self.0.shapes.push(Shape { components: 3, integer: false, count });
+    }
+
+    /// The next field: `count` symmetric tensors, written by `fill`.
+    pub fn tensors(&mut self, count: usize, fill: impl FnOnce(&mut [[f64; 6]])) {
+        let numbers = &mut self.0.numbers;
+        let start = numbers.len();
+        numbers.reserve_exact(6 * count);
+        numbers.resize(start + 6 * count, 0.0);
+        fill(numbers[start..].as_chunks_mut().0);
+        self.0.shapes.push(Shape { components: 6, integer: false, count });
     }
 }
 

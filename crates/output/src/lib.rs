@@ -32,7 +32,7 @@ mod room;
 pub mod summary;
 mod vtu;
 
-pub use background::{BackgroundWriter, RunFiles};
+pub use background::{BackgroundWriter, RunFiles, Snapshot};
 pub use error::OutputError;
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
 pub use history::{Column, History};

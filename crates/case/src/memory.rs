@@ -1,0 +1,27 @@
+//! Memory: what a run needs, what the machine has, what was used.
+
+use crate::run_error::RunError;
+
+/// Bytes per element of a whole run, output included.
+pub(crate) const BYTES_PER_ELEMENT: f64 = 500.0;
+
+/// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
+pub(crate) fn enough_memory(elements: usize) -> Result<(), RunError> {
+    let table = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = table.lines().find_map(|l| l.strip_prefix("MemAvailable:"));
+    let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
+    let free_gb = kib.map_or(f64::INFINITY, |k| k * 1024.0 / 1e9);
+    let needed_gb = elements as f64 * BYTES_PER_ELEMENT / 1e9;
+    if needed_gb > free_gb {
+        return Err(RunError::Memory { elements, needed_gb, free_gb });
+    }
+    Ok(())
+}
+
+/// Largest resident memory of this process so far (MB); zero where the system does not tell.
+pub(crate) fn peak_rss_mb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
+    let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
+    kib.map_or(0.0, |k| k * 1024.0 / 1e6)
+}

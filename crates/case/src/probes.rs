@@ -1,0 +1,124 @@
+//! Surface nodes recorded at every step, in `probes.h5`.
+
+use crate::model::{BAR, DISK, Model};
+use crate::record::Basis;
+use crate::run_error::RunError;
+use crate::schema::Case;
+use contact::NodalContact;
+use dynamics::{Simulation, StepReport};
+use mesh::Face;
+use output::{Column, History};
+
+/// Surface nodes recorded at every step.
+pub(crate) struct Probes {
+    history: History,
+    tables: [NodalContact; 2],
+    /// Side and row in that side's table.
+    rows: Vec<(usize, usize)>,
+    buffer: Vec<f64>,
+}
+
+/// Columns of `probes.h5` per probe.
+const PROBE: [(&str, &str, &str); 11] = [
+    ("pressure", "Pa", "contact pressure"),
+    ("shear_x", "Pa", "shear traction on this surface, x"),
+    ("shear_y", "Pa", "shear traction on this surface, y"),
+    ("shear_z", "Pa", "shear traction on this surface, z"),
+    ("slip_velocity_x", "m/s", "velocity relative to the other surface, x"),
+    ("slip_velocity_y", "m/s", "velocity relative to the other surface, y"),
+    ("slip_velocity_z", "m/s", "velocity relative to the other surface, z"),
+    ("slip_x", "m", "relative motion since contact began, x"),
+    ("mu", "1", "coefficient of friction used"),
+    ("state", "1", "0 open, 1 stick, 2 slip"),
+    ("gap", "m", "gap"),
+];
+
+impl Probes {
+    /// The probes of a case, if it has any.
+    pub(crate) fn new(
+        case: &Case,
+        model: &Model,
+        simulation: &Simulation,
+        basis: &Basis<'_>,
+    ) -> Result<Option<Self>, RunError> {
+        let probes = &case.output.probes;
+        if probes.bar.is_empty() && probes.disk.is_empty() {
+            return Ok(None);
+        }
+        let contact = simulation.contact().ok_or(RunError::NoContact)?;
+        let radius = case.disk.radius;
+        // The tread point at arc length s lies at angle s/R from the lowest point.
+        let on_disk = |[s, y]: [f64; 2]| {
+            let angle = s / radius;
+            [radius * angle.sin(), y, radius * (1.0 - angle.cos())]
+        };
+        let wanted: Vec<(usize, [f64; 3])> = (probes.disk.iter().map(|p| (DISK, on_disk(*p))))
+            .chain(probes.bar.iter().map(|p| (BAR, [p[0], p[1], 0.0])))
+            .collect();
+        let mut chosen = Vec::new();
+        for (side, point) in &wanted {
+            let distance = |n: u32| {
+                let x = model.mesh.nodes[n as usize];
+                // height is ignored on the bar, whose crown the user need not compute
+                let dz = if *side == BAR { 0.0 } else { x[2] - point[2] };
+                (x[0] - point[0]).powi(2) + (x[1] - point[1]).powi(2) + dz * dz
+            };
+            let nodes = model.zones[*side].iter().flat_map(|f| f.nodes);
+            let nearest = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            chosen.push((*side, nearest.ok_or(RunError::NoContact)?));
+        }
+        let tables = [DISK, BAR].map(|side| {
+            let around: Vec<Face> = model.zones[side]
+                .iter()
+                .filter(|f| chosen.iter().any(|&(s, n)| s == side && f.nodes.contains(&n)))
+                .copied()
+                .collect();
+            contact.nodal_table_of(side, &around)
+        });
+        let rows = chosen
+            .iter()
+            .map(|&(side, n)| {
+                Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?))
+            })
+            .collect::<Result<Vec<_>, RunError>>()?;
+        let mut columns = vec![Column::new("time", "s", "time since the start of rolling")];
+        for (k, &(side, n)) in chosen.iter().enumerate() {
+            let [x, y, z] = model.mesh.nodes[n as usize];
+            let body = if side == DISK { "disk" } else { "bar" };
+            for (name, units, text) in PROBE {
+                let text = format!("{text}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m");
+                columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
+            }
+        }
+        let history = History::create(basis.folder.join("probes.h5"), &columns, &basis.provenance)?;
+        Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
+    }
+
+    pub(crate) fn record(
+        &mut self,
+        contact: &contact::PenaltyContact,
+        report: &StepReport,
+    ) -> Result<(), RunError> {
+        self.tables.iter_mut().for_each(|t| contact.nodal(t));
+        self.buffer.push(report.time);
+        for &(side, row) in &self.rows {
+            let t = &self.tables[side];
+            self.buffer.push(t.pressure[row]);
+            self.buffer.extend(t.shear[row]);
+            self.buffer.extend(t.slip_velocity[row]);
+            self.buffer.extend([t.slip[row][0], t.mu[row], f64::from(t.state[row]), t.gap[row]]);
+        }
+        if self.buffer.len() >= 256 * (1 + PROBE.len() * self.rows.len()) {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn flush(&mut self) -> Result<(), RunError> {
+        if !self.buffer.is_empty() {
+            self.history.append(&self.buffer)?;
+            self.buffer.clear();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,108 @@
+//! Why a run did not come to its end.
+
+use std::path::PathBuf;
+
+/// Why a run did not come to its end.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum RunError {
+    /// The run folder cannot be used.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Folder(#[from] crate::folder::FolderError),
+    /// The mesh cannot be built.
+    #[error(transparent)]
+    #[diagnostic(help("change the keys of [disk], [bar] or [mesh] that it names"))]
+    Mesh(#[from] mesh::MeshError),
+    /// The elements cannot be set up.
+    #[error(transparent)]
+    #[diagnostic(help("change the keys of [material], [disk], [bar] or [mesh] that it names"))]
+    Solid(#[from] solid::SolidError),
+    /// The contact cannot be set up.
+    #[error(transparent)]
+    #[diagnostic(help("change the keys of [contact.penalty]"))]
+    Contact(#[from] contact::ContactError),
+    /// The machine has too little memory for the mesh.
+    #[error(
+        "the run of {elements} elements needs about {needed_gb:.1} GB of memory, more than the \
+         {free_gb:.1} GB that are free: enlarge mesh.zone.size or shrink the zone"
+    )]
+    #[diagnostic(help("`creepage mesh` tells what a mesh needs"))]
+    Memory {
+        /// Elements of both bodies.
+        elements: usize,
+        /// Estimate of what the run needs (GB).
+        needed_gb: f64,
+        /// What the system has free (GB).
+        free_gb: f64,
+    },
+    /// A surface of the mesh is missing.
+    #[error("the mesh has no contact surface in its fine zone")]
+    #[diagnostic(help("enlarge mesh.zone"))]
+    NoContact,
+    /// The preload was not found.
+    #[error(transparent)]
+    #[diagnostic(help("{}", preload_remedy(.0)))]
+    Preload(#[from] dynamics::RelaxationError),
+    /// Results cannot be written.
+    #[error(transparent)]
+    #[diagnostic(help("the run has stopped; what was written before stays readable"))]
+    Output(#[from] output::OutputError),
+    /// A file beside the results cannot be written.
+    #[error("cannot write {}: {cause}", path.display())]
+    #[diagnostic(help(
+        "the run has stopped; check that its folder is still there and that the disk has room"
+    ))]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        cause: std::io::Error,
+    },
+    /// A built-in case is wrong.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Case(#[from] crate::error::CaseError),
+    /// Threads cannot be started.
+    #[error("threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl RunError {
+    /// The key of the case that the error is about, where it is about one.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::Mesh(mesh::MeshError::OutOfRange { parameter, .. }) => Some(parameter),
+            Self::Mesh(mesh::MeshError::TooManyElements { .. }) | Self::Memory { .. } => {
+                Some("mesh.zone.size")
+            }
+            _ => None,
+        }
+    }
+
+    /// Exit code of the process: 2 for bad input, 3 where the run's own guards stopped it, 130
+    /// when interrupted.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
+            Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
+            Self::Preload(dynamics::RelaxationError::Interrupted) => 130,
+            Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
+        }
+    }
+}
+
+/// What to do where the preload was not found.
+pub(crate) fn preload_remedy(error: &dynamics::RelaxationError) -> &'static str {
+    match error {
+        dynamics::RelaxationError::Slow { .. } => {
+            "raise preload.max_iterations, or raise preload.tolerance to a ratio that it reaches"
+        }
+        dynamics::RelaxationError::BlowUp { .. } => {
+            "look at the quality of the mesh with `creepage mesh`; lower contact.penalty.normal, \
+             or mesh.growth"
+        }
+        dynamics::RelaxationError::Interrupted => {
+            "the disk had not begun to roll, so there are no results yet"
+        }
+    }
+}

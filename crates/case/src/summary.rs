@@ -1,0 +1,180 @@
+//! The summary of a run.
+
+use std::time::{Duration, Instant};
+
+use crate::hertz::Hertz;
+use crate::means::Means;
+use crate::memory::peak_rss_mb;
+use crate::model::Model;
+use crate::run_error::preload_remedy;
+use crate::schema::Case;
+use crate::start::Facts;
+use dynamics::{Diagnosis, Energies, Simulation};
+use output::summary::{Contact, Energy, Files, Status, Summary};
+use serde_json::json;
+
+/// How a run ended.
+pub(crate) struct Ending {
+    pub(crate) status: Status,
+    pub(crate) diagnosis: Option<Diagnosis>,
+    /// The last energies read.
+    pub(crate) energies: Energies,
+    pub(crate) means: Means,
+    pub(crate) elements: usize,
+    pub(crate) nodes: usize,
+    pub(crate) threads: usize,
+    /// Wall time of everything, of rolling, and of output on the time loop's side.
+    pub(crate) wall: Duration,
+    pub(crate) rolling: Duration,
+    pub(crate) output: Duration,
+}
+
+/// The summary of a run that rolled.
+pub(crate) fn summary(
+    case: &Case,
+    simulation: &Simulation,
+    facts: &Facts,
+    hertz: &Hertz,
+    ending: &Ending,
+) -> Summary {
+    let timers = simulation.timers();
+    let seconds = |d: Duration| d.as_secs_f64();
+    let steps = simulation.steps() as u64;
+    let elements = ending.elements as f64;
+    let (last, means) = (&ending.energies, &ending.means);
+    let mut summary = Summary {
+        name: case.name.clone(),
+        status: ending.status,
+        steps,
+        dt: simulation.dt(),
+        t_end: simulation.time(),
+        elements: ending.elements as u64,
+        nodes: ending.nodes as u64,
+        threads: ending.threads as u64,
+        wall_s: seconds(ending.wall),
+        element_steps_per_s: elements * steps as f64 / seconds(ending.rolling),
+        peak_rss_mb: peak_rss_mb(),
+        energy: Energy {
+            kinetic: last.kinetic,
+            internal: last.internal,
+            hourglass: last.hourglass,
+            contact_stored: last.contact_stored,
+            friction_dissipated: last.friction_dissipated,
+            damping_dissipated: last.damping_dissipated,
+            external_work: last.external_work,
+            balance_error: simulation.ledger().balance_error(),
+        },
+        contact: contact_means(means),
+        files: Files::default(),
+        stages: [
+            ("preload", facts.preload_wall),
+            ("rolling", seconds(ending.rolling)),
+            ("internal_force", seconds(timers.internal_force)),
+            ("contact", seconds(timers.contact)),
+            ("boundary", seconds(timers.boundary)),
+            ("nodes", seconds(timers.nodes)),
+            ("output", seconds(ending.output)),
+        ]
+        .map(|(k, v)| (k.to_owned(), v))
+        .into(),
+        extra: Default::default(),
+    };
+    let half_space = json!({ "half_length": hertz.a, "half_width": hertz.b,
+        "peak_pressure": hertz.p0, "approach": hertz.approach });
+    let checks =
+        json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch });
+    let preload = facts.preload.map(|p| {
+        json!({ "iterations": p.iterations, "normal_force": p.normal_force,
+                "kinetic_ratio": p.kinetic_ratio, "hub_displacement": p.hub })
+    });
+    let sections = [
+        ("kernels", json!(simulation.solid().level().name())),
+        ("stability", json!(facts.stability)),
+        ("rolling_radius", json!(facts.radius)),
+        ("half_space", half_space),
+        ("window", window(case, means)),
+        ("checks", checks),
+        ("time_loop_bytes_per_element", json!(simulation.bytes() as f64 / elements)),
+        ("preload", json!(preload)),
+    ];
+    summary.extra = sections.map(|(k, v)| (k.to_owned(), v)).into();
+    if let Some(d) = &ending.diagnosis {
+        let text = format!("{d}; remedy: {}", d.remedy());
+        summary.extra.insert("diagnosis".into(), json!(text));
+    }
+    summary
+}
+
+/// The summary of a run that ended in its preload: nothing rolled, so there are no results.
+pub(crate) fn without_rolling(
+    case: &Case,
+    model: &Model,
+    threads: usize,
+    wall: Instant,
+    error: &dynamics::RelaxationError,
+) -> Summary {
+    let wall_s = wall.elapsed().as_secs_f64();
+    let none = String::new;
+    Summary {
+        name: case.name.clone(),
+        status: match error {
+            dynamics::RelaxationError::Interrupted => Status::Interrupted,
+            _ => Status::Failed,
+        },
+        steps: 0,
+        dt: 0.0,
+        t_end: 0.0,
+        elements: model.mesh.hexes.len() as u64,
+        nodes: model.mesh.nodes.len() as u64,
+        threads: threads as u64,
+        wall_s,
+        element_steps_per_s: 0.0,
+        peak_rss_mb: peak_rss_mb(),
+        energy: Energy::default(),
+        contact: Contact::default(),
+        files: Files { fields: none(), contact: none(), history: none() },
+        stages: [("preload".to_owned(), wall_s)].into(),
+        extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", preload_remedy(error))))]
+            .into(),
+    }
+}
+
+fn contact_means(means: &Means) -> Contact {
+    let [tangential, lateral, normal] = means.force;
+    Contact {
+        normal_force: normal.mean(),
+        tangential_force: tangential.mean(),
+        lateral_force: lateral.mean(),
+        traction_coefficient: means.traction.mean(),
+        creepage: means.creepage.mean(),
+        patch_half_length: means.half_length.mean(),
+        patch_half_width: means.half_width.mean(),
+        patch_area: means.area.mean(),
+        peak_pressure: means.peak_pressure.mean(),
+        stick_fraction: means.stick.mean(),
+        slip_fraction: means.slip.mean(),
+    }
+}
+
+/// The evaluation window: what it spans, means that the contract's `contact` does not name, and
+/// standard deviations.
+fn window(case: &Case, means: &Means) -> serde_json::Value {
+    json!({
+        "from": case.evaluate_from(),
+        "to": case.duration(),
+        "stick_border": means.stick_border.mean(),
+        "peak_shear": means.peak_shear.mean(),
+        "torque": means.torque.mean(),
+        "max_penetration": means.penetration.mean(),
+        "hourglass_share": means.hourglass_share.mean(),
+        "deviation": {
+            "normal_force": means.force[2].deviation(),
+            "tangential_force": means.force[0].deviation(),
+            "traction_coefficient": means.traction.deviation(),
+            "patch_half_length": means.half_length.deviation(),
+            "patch_half_width": means.half_width.deviation(),
+            "peak_pressure": means.peak_pressure.deviation(),
+            "stick_border": means.stick_border.deviation(),
+        },
+    })
+}
