@@ -182,8 +182,7 @@ pub(crate) fn start(
     let mut quiet = quiet;
     if preload.is_some() {
         let mut force = vec![Padded::ZERO; model.mass.len()];
-        let still = force.clone();
-        solid.subtract_internal_force(&displacement, &still, &mut force, false);
+        solid.subtract_elastic_force(&displacement, &mut force, false);
         quiet.keep_reactions(&force);
     }
     let simulation = Simulation::new(Setup {

@@ -116,7 +116,6 @@ pub fn relax(
     let mut u = vec![Padded::ZERO; n];
     u[setup.disk.clone()].iter_mut().for_each(|u| u.0[2] = setup.start);
     let mut force = vec![Padded::ZERO; n];
-    let still = force.clone();
     let mut hub = HubMotion { z: setup.start, v: 0.0, mass: 0.0, force_before: 0.0 };
     let (mut contact_bound, mut spring) = (vec![0.0; n], 0.0);
     let mut report = RelaxationReport::default();
@@ -126,7 +125,7 @@ pub fn relax(
     for iteration in 0..setup.max_iterations {
         let check = iteration % CHECK == 0;
         let pull = centrifugal(setup, &reference, &u, hub.z, &mut force, &mut partial);
-        let sums = solid.subtract_internal_force(&u, &still, &mut force, check);
+        let sums = solid.subtract_elastic_force(&u, &mut force, check);
         let touching: ContactSums = contact.apply_frictionless(&reference, &u, &mut force);
         if check {
             // Pairs close while the bodies settle: the bounds only grow.

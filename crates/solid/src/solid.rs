@@ -186,25 +186,26 @@ impl Solid {
         self.run(displacement, velocity, force, energies, self.viscous)
     }
 
-    /// `y += K x` with the stiffness of the undeformed state (N, for x in m).
+    /// `force -= f_int(u)` without viscous stresses, for bodies at rest (N).
     ///
-    /// The element has no separate tangent: x is scaled so small that the force is linear in it
-    /// to 1e-9, which costs no accuracy because H is formed from displacements alone.
+    /// # Panics
+    /// As [`subtract_internal_force`](Self::subtract_internal_force).
+    pub fn subtract_elastic_force(
+        &mut self,
+        displacement: &[Padded],
+        force: &mut [Padded],
+        energies: bool,
+    ) -> ForceSums {
+        self.run(displacement, &[], force, energies, false)
+    }
+
+    /// `y += K x` with the stiffness of the undeformed state (N), for x so small (m) that the
+    /// force is linear in it: the element has no separate tangent.
     pub fn add_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
-        let largest = x.iter().flat_map(|v| v.xyz()).fold(0.0f64, |m, c| m.max(c.abs()));
-        if largest == 0.0 {
-            return;
-        }
-        const AMPLITUDE: f64 = 1e-13; // m: strains near 1e-10 in millimetre elements
-        let factor = AMPLITUDE / largest;
-        let scaled: Vec<_> = x.iter().map(|v| Padded(v.0.map(|c| c * factor))).collect();
-        let mut force = vec![Padded::ZERO; y.len()];
-        self.run(&scaled, &[], &mut force, false, false);
-        for (y, f) in y.iter_mut().zip(&force) {
-            for i in 0..3 {
-                y.0[i] -= f.0[i] / factor;
-            }
-        }
+        let negate = |y: &mut [Padded]| y.iter_mut().for_each(|y| *y = Padded(y.0.map(|c| -c)));
+        negate(y);
+        self.run(x, &[], y, false, false);
+        negate(y);
     }
 
     fn run(

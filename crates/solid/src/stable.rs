@@ -74,9 +74,15 @@ fn lightest_node(x: &[[f64; 3]; 8], density: f64) -> f64 {
     density * crate::mass::nodal_volumes(x).into_iter().fold(f64::INFINITY, f64::min)
 }
 
+/// Largest displacement (m) that [`largest_frequency`] hands to its product: strains near 1e-10 in
+/// millimetre elements, where the elements' force is linear to 1e-10 and, formed from displacements
+/// alone, as accurate as ever.
+const AMPLITUDE: f64 = 1e-13;
+
 /// Largest frequency (rad/s) of M^-1 K by `iterations` Lanczos steps on M^-1/2 K M^-1/2.
 ///
-/// `product(x, y)` adds K x to y. Nodes of zero inverse mass are held. The value approaches the
+/// `product(x, y)` adds K x to y; the entries of x are at most [`AMPLITUDE`], so that the force of
+/// the elements may stand for K x. Nodes of zero inverse mass are held. The value approaches the
 /// true one from below; 40 steps bring it within about 1 % (see the test), which the caller adds
 /// as a margin. The start vector is fixed, so the result is reproducible.
 pub fn largest_frequency(
@@ -109,13 +115,18 @@ pub fn largest_frequency(
     let (mut alphas, mut betas) = (Vec::new(), Vec::new());
     let mut beta = 0.0;
     for _ in 0..iterations.max(1) {
+        let largest = q
+            .iter()
+            .zip(&root)
+            .fold(0.0, |m: f64, (q, r)| q.xyz().into_iter().fold(m, |m, c| m.max((c * r).abs())));
+        let small = AMPLITUDE / largest;
         for ((x, q), r) in x.iter_mut().zip(&q).zip(&root) {
-            *x = Padded(q.0.map(|c| c * r));
+            *x = Padded(q.0.map(|c| c * r * small));
         }
         y.fill(Padded::ZERO);
         product(&x, &mut y);
         for (y, r) in y.iter_mut().zip(&root) {
-            *y = Padded(y.0.map(|c| c * r));
+            *y = Padded(y.0.map(|c| c * r / small));
         }
         let alpha: f64 = y.iter().zip(&q).map(|(a, b)| inner(a, b)).sum();
         for ((y, q), p) in y.iter_mut().zip(&q).zip(&previous) {
