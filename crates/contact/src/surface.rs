@@ -1,7 +1,6 @@
 //! One contact surface: its nodes, faces, neighbours, tributary areas and masses.
 
 use crate::face::Bilinear;
-use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use crate::{BodyMaterial, ContactError};
 use mesh::{Mesh, SmoothSurface, Surface};
 use std::collections::BTreeMap;
@@ -68,8 +67,8 @@ impl ContactSurface {
                 return Err(outside);
             }
             let corners = face.nodes.map(|n| mesh.nodes[n as usize]);
-            let volume = hexahedron_volume(hex.map(|n| mesh.nodes[n as usize]));
-            let shares = corner_areas(corners);
+            let volume = mesh::hex_volume(&hex.map(|n| mesh.nodes[n as usize]));
+            let shares = mesh::quad_corner_areas(&corners);
             let area: f64 = shares.iter().sum();
             let sound = area > 0.0 && volume > 0.0 && (area + volume).is_finite();
             if !sound {
@@ -118,57 +117,6 @@ impl ContactSurface {
         }
         Ok(())
     }
-}
-
-/// Integral of each corner's shape function over a bilinear face, by 2 x 2 Gauss points: exact
-/// for a plane face.
-fn corner_areas(x: [Vec3; 4]) -> [f64; 4] {
-    let g = 1.0 / 3.0_f64.sqrt();
-    let mut shares = [0.0; 4];
-    for (xi, eta) in [(-g, -g), (g, -g), (g, g), (-g, g)] {
-        let mut a = [0.0; 3];
-        let mut b = [0.0; 3];
-        for i in 0..3 {
-            a[i] = ((1.0 - eta) * (x[1][i] - x[0][i]) + (1.0 + eta) * (x[2][i] - x[3][i])) / 4.0;
-            b[i] = ((1.0 - xi) * (x[3][i] - x[0][i]) + (1.0 + xi) * (x[2][i] - x[1][i])) / 4.0;
-        }
-        let jacobian = norm(cross(a, b));
-        for (share, weight) in shares.iter_mut().zip(crate::face::shape(xi, eta)) {
-            *share += jacobian * weight;
-        }
-    }
-    shares
-}
-
-/// Volume of a trilinear hexahedron by 2 x 2 x 2 Gauss points (exact).
-fn hexahedron_volume(x: [Vec3; 8]) -> f64 {
-    const SIGNS: [[f64; 3]; 8] = [
-        [-1.0, -1.0, -1.0],
-        [1.0, -1.0, -1.0],
-        [1.0, 1.0, -1.0],
-        [-1.0, 1.0, -1.0],
-        [-1.0, -1.0, 1.0],
-        [1.0, -1.0, 1.0],
-        [1.0, 1.0, 1.0],
-        [-1.0, 1.0, 1.0],
-    ];
-    let g = 1.0 / 3.0_f64.sqrt();
-    let mut volume = 0.0;
-    for point in SIGNS {
-        let p = scale(g, point);
-        let mut columns = [[0.0; 3]; 3];
-        for (corner, s) in x.iter().zip(SIGNS) {
-            let f = [1.0 + s[0] * p[0], 1.0 + s[1] * p[1], 1.0 + s[2] * p[2]];
-            let gradient = [s[0] * f[1] * f[2], s[1] * f[0] * f[2], s[2] * f[0] * f[1]];
-            for axis in 0..3 {
-                // Relative to the first corner: no cancellation far from the origin.
-                let arm = sub(*corner, x[0]);
-                columns[axis] = add(columns[axis], scale(gradient[axis] / 8.0, arm));
-            }
-        }
-        volume += dot(columns[0], cross(columns[1], columns[2]));
-    }
-    volume
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Lysmer's quiet boundary at the ends of the bar.
 
-use mesh::{Mesh, Padded, Surface};
+use mesh::{Mesh, Padded, Surface, quad_corner_areas};
 use solid::Material;
 
 /// Dashpots t = -rho c_p v_n n - rho c_s v_t (Lysmer and Kuhlemeyer 1969) on the nodes of an end,
@@ -33,7 +33,11 @@ impl QuietEnd {
     pub fn new(mesh: &Mesh, ends: &[&Surface], material: &Material, held: &[u32]) -> Self {
         let mut area = std::collections::BTreeMap::<u32, f64>::new();
         for face in ends.iter().flat_map(|s| &s.faces) {
-            for (n, a) in face.nodes.iter().zip(nodal_areas(mesh, &face.nodes)) {
+            for (n, a) in face
+                .nodes
+                .iter()
+                .zip(quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize])))
+            {
                 *area.entry(*n).or_default() += a;
             }
         }
@@ -88,29 +92,4 @@ impl QuietEnd {
         }
         work
     }
-}
-
-/// Integral of each shape function over a flat quadrilateral (m^2), 2x2 Gauss.
-fn nodal_areas(mesh: &Mesh, nodes: &[u32; 4]) -> [f64; 4] {
-    const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let p = 1.0 / 3f64.sqrt();
-    let mut areas = [0.0; 4];
-    for point in SIGNS {
-        let (r, s) = (point[0] * p, point[1] * p);
-        let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
-        for (sign, &n) in SIGNS.iter().zip(nodes) {
-            let x = mesh.nodes[n as usize];
-            for i in 0..3 {
-                a[i] += sign[0] * (1.0 + s * sign[1]) / 4.0 * x[i];
-                b[i] += sign[1] * (1.0 + r * sign[0]) / 4.0 * x[i];
-            }
-        }
-        let cross =
-            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let jacobian = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
-        for (area, sign) in areas.iter_mut().zip(SIGNS) {
-            *area += (1.0 + r * sign[0]) * (1.0 + s * sign[1]) / 4.0 * jacobian;
-        }
-    }
-    areas
 }

@@ -25,8 +25,8 @@ pub(crate) const EDGES: [[usize; 2]; 12] = [
 pub(crate) const NEIGHBOURS: [[usize; 3]; 8] =
     [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
-/// Reference coordinates of the corners.
-const CORNERS: [[f64; 3]; 8] = [
+/// Local coordinates (xi, eta, zeta) of the corners in `VTK_HEXAHEDRON` order.
+pub const HEX_CORNERS: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],
@@ -60,12 +60,12 @@ pub(crate) fn area(p: [[f64; 3]; 4]) -> [f64; 3] {
 }
 
 /// Volume of the trilinear hexahedron (m^3): 2x2x2 Gauss points integrate its Jacobian exactly.
-pub(crate) fn volume(p: &[[f64; 3]; 8]) -> f64 {
+pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
     let g = 1.0 / 3f64.sqrt();
     let mut volume = 0.0;
-    for at in CORNERS {
+    for at in HEX_CORNERS {
         let mut jacobian = [[0.0; 3]; 3];
-        for (corner, x) in CORNERS.iter().zip(p) {
+        for (corner, x) in HEX_CORNERS.iter().zip(p) {
             let s = [
                 1.0 + corner[0] * at[0] * g,
                 1.0 + corner[1] * at[1] * g,
@@ -85,4 +85,41 @@ pub(crate) fn volume(p: &[[f64; 3]; 8]) -> f64 {
         volume += dot(jacobian[0], cross(jacobian[1], jacobian[2]));
     }
     volume
+}
+
+/// Integral of each corner's shape function over a bilinear face (m^2), by 2x2 Gauss points: exact
+/// for a plane face.
+pub fn quad_corner_areas(x: &[[f64; 3]; 4]) -> [f64; 4] {
+    const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let g = 1.0 / 3f64.sqrt();
+    let mut areas = [0.0; 4];
+    for [xi, eta] in CORNERS.map(|c| [c[0] * g, c[1] * g]) {
+        let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
+        for (corner, x) in CORNERS.iter().zip(x) {
+            for i in 0..3 {
+                a[i] += 0.25 * corner[0] * (1.0 + corner[1] * eta) * x[i];
+                b[i] += 0.25 * corner[1] * (1.0 + corner[0] * xi) * x[i];
+            }
+        }
+        let jacobian = norm(cross(a, b));
+        for (area, corner) in areas.iter_mut().zip(CORNERS) {
+            *area += 0.25 * (1.0 + corner[0] * xi) * (1.0 + corner[1] * eta) * jacobian;
+        }
+    }
+    areas
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corner_areas_of_a_trapezium_have_its_area_and_its_first_moments() {
+        let x = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [3.0, 2.0, 1.0], [1.0, 2.0, 1.0]];
+        let areas = quad_corner_areas(&x);
+        // area 6, centroid y = h/3 (a + 2b)/(a + b) = 8/9 with a = 4, b = 2, h = 2
+        assert!((areas.iter().sum::<f64>() - 6.0).abs() < 1e-14);
+        let moment: f64 = areas.iter().zip(x).map(|(a, x)| a * x[1]).sum();
+        assert!((moment - 6.0 * 8.0 / 9.0).abs() < 1e-14);
+    }
 }

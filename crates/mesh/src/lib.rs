@@ -23,7 +23,7 @@ pub use check::check;
 pub use disk::{Disk, disk};
 pub use error::{MAX_ELEMENTS, MeshError};
 pub use grid::block;
-pub use hex::HEX_FACES;
+pub use hex::{HEX_CORNERS, HEX_FACES, hex_volume, quad_corner_areas};
 pub use join::join;
 pub use padded::Padded;
 pub use quality::{Quality, quality};

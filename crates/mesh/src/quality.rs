@@ -1,7 +1,7 @@
 //! Shape of the elements.
 
 use crate::Mesh;
-use crate::hex::{EDGES, area, cross, dot, norm, sub, volume};
+use crate::hex::{EDGES, area, cross, dot, hex_volume, norm, sub};
 use crate::{HEX_FACES, hex};
 
 /// Measures of the element shapes of a mesh.
@@ -67,7 +67,7 @@ pub fn quality(mesh: &Mesh) -> Quality {
         for face in HEX_FACES {
             largest = largest.max(norm(area(face.map(|c| p[c]))));
         }
-        let volume = volume(&p);
+        let volume = hex_volume(&p);
         q.volume += volume;
         if volume / largest < q.min_thickness {
             q.min_thickness = volume / largest;

@@ -1,19 +1,7 @@
 //! The uniform gradient of one hexahedron in plain scalar form: the reference for the vector
 //! kernel, and what set-up and output use.
 
-use mesh::{Mesh, Padded};
-
-/// Local coordinates (xi, eta, zeta) of the corners in `VTK_HEXAHEDRON` order.
-pub(crate) const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
+use mesh::{HEX_CORNERS as CORNERS, Mesh, Padded};
 
 /// Volume V (m^3) and B_I = dV/dx_I (m^2) of a trilinear hexahedron, so that B_I/V is the mean
 /// gradient of the shape function of corner I (Flanagan and Belytschko 1981, Eqs 15–18).

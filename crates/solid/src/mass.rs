@@ -1,7 +1,7 @@
 //! Lumped mass.
 
-use crate::geometry::{CORNERS, cross, dot};
-use mesh::Mesh;
+use crate::geometry::{cross, dot};
+use mesh::{HEX_CORNERS as CORNERS, Mesh};
 
 /// Row-sum lumped nodal mass m_I = integral of rho N_I (kg), 2x2x2 Gauss.
 ///

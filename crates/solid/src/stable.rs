@@ -81,7 +81,7 @@ const AMPLITUDE: f64 = 1e-13;
 
 /// Largest frequency (rad/s) of M^-1 K by `iterations` Lanczos steps on M^-1/2 K M^-1/2.
 ///
-/// `product(x, y)` adds K x to y; the entries of x are at most [`AMPLITUDE`], so that the force of
+/// `product(x, y)` adds K x to y; the entries of x are at most 1e-13 m, so that the force of
 /// the elements may stand for K x. Nodes of zero inverse mass are held. The value approaches the
 /// true one from below; 40 steps bring it within about 1 % (see the test), which the caller adds
 /// as a margin. The start vector is fixed, so the result is reproducible.

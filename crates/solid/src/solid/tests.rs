@@ -1,8 +1,7 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
-use crate::geometry::CORNERS;
 use crate::{lumped_mass, mean_gradient};
-use mesh::Body;
+use mesh::{Body, HEX_CORNERS as CORNERS};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 const ELEMENT: Element = Element { hourglass: 0.05 };
