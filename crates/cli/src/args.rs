@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::slider::SliderArgs;
 use case::Level;
 use clap::{ArgAction, Parser, Subcommand};
 
@@ -47,6 +48,10 @@ pub enum Command {
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,
+    /// The 1-D slider of the paper: a block on a belt with falling friction
+    #[command(after_help = "Examples:\n  creepage slider --tables\n  creepage slider --method \
+        explicit --dt 3e-5 --csv slider.csv")]
+    Slider(SliderArgs),
     /// Measure the element kernel and whole step on this machine
     #[command(after_help = "Example:\n  creepage bench --threads 2 --json")]
     Bench(BenchArgs),

@@ -68,6 +68,7 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
             report::print_json(&case::json_schema());
             Ok(0)
         }
+        Command::Slider(options) => crate::slider::command(args, options),
         Command::Bench(options) => bench(args, options),
     }
 }
