@@ -183,3 +183,42 @@ fn a_kill_at_any_moment_leaves_readable_files() {
     }
     assert!(seen.windows(2).any(|w| w[0] != w[1]), "kills fell at different moments: {seen:?}");
 }
+
+#[test]
+fn a_kill_while_the_files_are_created_leaves_no_half_file_under_its_name() {
+    let mut chance = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut early = 0;
+    for kill in 0..8 {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("run");
+        let mut run = start(&out, &[&LONG[..], &["--set", "preload.method='none'"]].concat());
+        let begun = |name: &str| {
+            out.join(name).exists() || out.join(name).with_extension("vtkhdf.partial").exists()
+        };
+        let clock = Instant::now();
+        while !begun("fields.vtkhdf") {
+            assert!(clock.elapsed() < Duration::from_secs(60), "no file");
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        chance ^= chance << 13;
+        chance ^= chance >> 7;
+        chance ^= chance << 17;
+        // The first at once, so that at least one falls before the last file is in place.
+        let wait = if kill == 0 { 0 } else { chance % 30_000 };
+        std::thread::sleep(Duration::from_micros(wait));
+        run.kill().unwrap();
+        run.wait().unwrap();
+        for name in ["fields.vtkhdf", "contact.vtkhdf"] {
+            if out.join(name).exists() {
+                GridFile::open(out.join(name)).unwrap_or_else(|e| panic!("kill {kill}: {e}"));
+            } else {
+                early += 1;
+            }
+        }
+        if out.join("history.h5").exists() {
+            HistoryFile::open(out.join("history.h5"))
+                .unwrap_or_else(|e| panic!("kill {kill}: {e}"));
+        }
+    }
+    assert!(early > 0, "some kills fell before the files were in place");
+}

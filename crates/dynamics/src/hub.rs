@@ -125,21 +125,6 @@ impl Hub {
         }
     }
 
-    /// Position of the centre (m).
-    pub fn position(&self) -> [f64; 3] {
-        [self.centre[0] + self.state.x, self.centre[1], self.centre[2] + self.state.z]
-    }
-
-    /// Angular velocity that the drive prescribes at time `t` (rad/s), if it does.
-    pub fn prescribed_omega(&self, t: f64) -> Option<f64> {
-        match self.spin {
-            Spin::Creepage { free, creepage, ramp } => {
-                Some(free * (1.0 + creepage * smoothstep(t, ramp)))
-            }
-            Spin::Torque { .. } => None,
-        }
-    }
-
     /// Resultant force (x, z) and torque about y of `force` on the hub's nodes (N, N m).
     pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> [f64; 3] {
         let mut sum = [0.0; 3];

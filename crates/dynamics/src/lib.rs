@@ -1,9 +1,9 @@
 //! Explicit dynamics of the disk on the bar.
 //!
 //! Central difference with half-step velocities v^{n-1/2} and lumped mass. A step reads as the
-//! method does: internal force, boundary and damping force, contact (which sees the trial
-//! motion), hub, then velocity and position of every node in one pass, with the energy ledger in
-//! the form that the scheme conserves.
+//! method does: internal force, contact, quiet ends, then velocity and position of every node in one
+//! pass (with mass damping) and the hub, with the energy ledger in the form that the scheme
+//! conserves.
 
 mod dashpots;
 mod guard;

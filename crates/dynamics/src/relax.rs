@@ -50,7 +50,7 @@ pub struct RelaxationReport {
     pub kinetic_ratio: f64,
     /// Contact normal force (N).
     pub normal_force: f64,
-    /// |normal force - load|/load.
+    /// |load, contact and centrifugal force on hub and disk together|/load.
     pub force_error: f64,
     /// Displacement of the hub in z (m).
     pub hub: f64,

@@ -10,7 +10,7 @@ use mesh::Mesh;
 
 /// Largest number of elements in a block: small enough that its nodes stay in the second-level
 /// cache and that many threads find work, large enough that starting a block costs nothing.
-pub const BLOCK_ELEMENTS: usize = 512;
+pub(crate) const BLOCK_ELEMENTS: usize = 512;
 
 /// Elements per batch; the widest vector has as many lanes.
 pub(crate) const BATCH: usize = 8;

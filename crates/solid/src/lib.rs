@@ -14,7 +14,6 @@ mod material;
 mod solid;
 mod stable;
 
-pub use blocks::BLOCK_ELEMENTS;
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;
 pub use mass::lumped_mass;
