@@ -49,9 +49,14 @@ pub enum Command {
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,
     /// The 1-D slider of the paper: a block on a belt with falling friction
-    #[command(after_help = "Examples:\n  creepage slider --tables\n  creepage slider --method \
-        explicit --dt 3e-5 --csv slider.csv")]
-    Slider(SliderArgs),
+    #[command(
+        after_help = "Examples:\n  creepage slider --tables\n  creepage slider --thresholds \
+        --mass 0.1\n  creepage slider --method explicit --dt 3e-5 --csv slider.csv\n  creepage \
+        slider --plot figures\n  creepage slider --method penalty --stiffness 1e5 --dt 1e-5\n  \
+        creepage slider --method exact --expression \"0.3 + 0.2*exp(-2*s)\"\n  creepage slider \
+        --config slider.toml --mass 0.02"
+    )]
+    Slider(Box<SliderArgs>),
     /// Measure the element kernel and whole step on this machine
     #[command(after_help = "Example:\n  creepage bench --threads 2 --json")]
     Bench(BenchArgs),

@@ -16,8 +16,10 @@ use crate::report;
 
 /// Exit code: bad input.
 pub const BAD_INPUT: u8 = 2;
-const STOPPED_BY_GUARD: u8 = 3;
-const INTERRUPTED: u8 = 130;
+/// Exit code: stopped by the run's own guards.
+pub const STOPPED_BY_GUARD: u8 = 3;
+/// Exit code: interrupted by Ctrl-C or SIGTERM.
+pub const INTERRUPTED: u8 = 130;
 
 /// A command that failed: what to say and the exit code.
 pub struct Failure {
@@ -179,7 +181,7 @@ fn all_cores() -> usize {
 }
 
 /// The first Ctrl-C or SIGTERM asks the run to end in order, the second ends the process.
-fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+pub fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     ctrlc::set_handler(move || {

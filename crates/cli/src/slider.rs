@@ -1,111 +1,179 @@
 //! `creepage slider`.
 
-use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+mod csv_file;
+mod page;
+mod settings;
 
-use clap::ValueEnum;
-use contact::FrictionLaw;
+use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::miette;
 use serde_json::{Value, json};
-use slider::tables::{Row, Tables, tables};
-use slider::{Method, Parameters, State, run};
+use slider::figures::{figure_6, figure_7, figure_8, time_step_map};
+use slider::{BlowUp, Method, Outcome, Parameters, Threshold, tables};
 
 use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure};
+use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD, stop_flag};
 use crate::report;
+use csv_file::{CsvFile, Unwritable};
+use settings::{SettingError, Settings, Sources};
 
 /// Options of `slider`.
 #[derive(Debug, clap::Args)]
 pub struct SliderArgs {
-    /// Time stepping: backward Euler (Eqs 19-27) or the paper's explicit method (Eqs 28-32)
-    #[arg(long, value_enum, default_value = "implicit")]
-    pub method: Stepping,
-    /// Time step (s)
-    #[arg(long, value_name = "S", default_value_t = 1e-4, allow_negative_numbers = true)]
-    pub dt: f64,
-    /// Mass (kg)
-    #[arg(long, value_name = "KG", default_value_t = 0.01, allow_negative_numbers = true)]
-    pub mass: f64,
-    /// Damping (N s/m)
-    #[arg(long, value_name = "C", default_value_t = 0.04, allow_negative_numbers = true)]
-    pub damping: f64,
-    /// Simulated time (s)
-    #[arg(long, value_name = "S", default_value_t = 5.0, allow_negative_numbers = true)]
-    pub t_end: f64,
+    #[command(flatten)]
+    settings: Settings,
+    /// Read parameters from a TOML file with the options' names as keys (t_end = 5); options on
+    /// the command line come before it
+    #[arg(long, value_name = "FILE.toml")]
+    config: Option<PathBuf>,
     /// Write time, position, velocity, slip velocity, friction coefficient and forces of every step
     #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
+    csv: Option<PathBuf>,
+    /// Draw the paper's Figures 6, 7 and 8 (implicit against explicit, or against --method) and a
+    /// map of the time step, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plot: Option<PathBuf>,
+    /// Print the time steps above which the explicit method chatters (dt_1) and collapses too
+    /// early (dt_2), by formula and by bisection on runs
+    #[arg(long, conflicts_with_all = ["csv", "plot", "tables", "method"])]
+    thresholds: bool,
     /// Compute Tables 2, 3 and 4 of the paper and set them beside the printed values
-    #[arg(long, conflicts_with_all = ["csv", "dt", "mass", "damping", "t_end", "method"])]
-    pub tables: bool,
-}
-
-/// The methods by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Stepping {
-    /// Backward Euler
-    Implicit,
-    /// Explicit
-    Explicit,
+    #[arg(long, conflicts_with_all = ["Settings", "config", "csv", "plot"])]
+    tables: bool,
 }
 
 /// Runs the command.
 pub fn command(args: &Args, options: &SliderArgs) -> Result<u8, Failure> {
     if options.tables {
-        let tables = tables();
-        show(args, &json!(tables), || tables_page(&tables));
+        let tables = tables::tables()?;
+        show(args, &json!(tables), || page::tables(&tables));
         return Ok(0);
     }
-    let parameters = Parameters {
-        dt: options.dt,
-        mass: options.mass,
-        damping: options.damping,
-        end: options.t_end,
-        ..Parameters::default()
-    };
-    let parameters = parameters.checked().map_err(|error| {
-        bad_input(miette!(help = "`creepage slider --help` lists the options", "{error}"))
-    })?;
-    let (method, name) = match options.method {
-        Stepping::Implicit => (Method::Implicit, "implicit"),
-        Stepping::Explicit => (Method::Explicit, "explicit"),
-    };
-    let mut csv = options.csv.as_deref().map(|path| Csv::new(path, parameters)).transpose()?;
-    let out = run(&parameters, method, |time, state| {
-        if let Some(csv) = &mut csv {
-            csv.row(time, state);
-        }
-    });
-    if let Some(csv) = csv {
-        csv.finish()?;
+    let sources = Sources::new(&options.settings, options.config.as_deref())?;
+    let parameters = sources.parameters()?;
+    if options.thresholds {
+        let found = slider::thresholds(&parameters).map_err(|e| sources.out_of_range(&e))?;
+        let document = json!({
+            "dt_1": threshold(found.chatter), "dt_2": found.collapse.map(threshold),
+        });
+        show(args, &document, || page::thresholds(&found));
+        return Ok(0);
     }
-    let x_max = out.x_max.is_finite().then_some(out.x_max);
-    let document = json!({
-        "method": name, "dt": parameters.dt, "mass": parameters.mass,
-        "damping": parameters.damping, "x_min": out.x_min, "x_max": x_max, "v_max": out.v_max,
-        "steps": out.steps, "picard_iterations": out.picard, "fallback_steps": out.fallbacks,
-    });
+    let method = sources.method().unwrap_or(Method::Implicit);
+    let out = simulate(args, &parameters, method, options.csv.as_deref())?;
+    let mut document = document(&parameters, method, &out);
+    let mut drawn = Vec::new();
+    if let (Some(folder), false) = (&options.plot, out.stopped) {
+        let other = sources.method().filter(|m| *m != Method::Implicit);
+        drawn = plot(args, &parameters, other.unwrap_or(Method::Explicit), folder)?;
+        document["figures"] = json!(drawn);
+    }
     show(args, &document, || {
-        let mut page = format!("{name}, dt {:e} s, {} steps\n", parameters.dt, out.steps);
-        let _ = writeln!(page, "  x_min              {:10.5} m", out.x_min);
-        let _ = match x_max {
-            Some(x) => writeln!(page, "  x_max (t > 0.7 s)  {x:10.5} m"),
-            None => writeln!(page, "  x_max (t > 0.7 s)           - (the run ends before)"),
-        };
-        let _ = writeln!(page, "  v_max              {:10.3} m/s", out.v_max);
-        if method == Method::Implicit {
-            let mean = out.picard as f64 / out.steps as f64;
-            let _ = writeln!(
-                page,
-                "  {mean:.2} Picard iterations per step; {} steps by bisection",
-                out.fallbacks
-            );
-        }
-        page
+        let figures = drawn.iter().map(|path| format!("{}\n", path.display()));
+        page::outcome(&parameters, method, &out) + &figures.collect::<String>()
     });
-    Ok(0)
+    Ok(if out.stopped { INTERRUPTED } else { 0 })
+}
+
+/// Steps between looks at Ctrl-C and at the bar.
+const LOOK: u64 = 1 << 16;
+
+fn simulate(
+    args: &Args,
+    p: &Parameters,
+    method: Method,
+    csv: Option<&Path>,
+) -> Result<Outcome, Failure> {
+    let mut csv = csv.map(CsvFile::new).transpose()?;
+    let stop = stop_flag()?;
+    let bar = bar(args, (p.end / p.dt).round() as u64);
+    let mut step = 0u64;
+    let result = slider::run(p, method, |time, state| {
+        if let Some(csv) = &mut csv {
+            csv.row(p, time, state);
+        }
+        step += 1;
+        if step.is_multiple_of(LOOK) {
+            bar.set_position(step);
+            if stop.load(Ordering::Relaxed) || csv.as_ref().is_some_and(CsvFile::failed) {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    bar.finish_and_clear();
+    // what was computed is written even if the run blew up
+    csv.map_or(Ok(()), CsvFile::finish)?;
+    Ok(result?)
+}
+
+fn bar(args: &Args, steps: u64) -> ProgressBar {
+    let bar = ProgressBar::new(steps);
+    bar.set_draw_target(if !args.quiet && std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr_with_hz(8)
+    } else {
+        ProgressDrawTarget::hidden()
+    });
+    let style = ProgressStyle::with_template("slider  {percent:>3}% {bar:12} {eta} left");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Draws all figures into a folder; returns their paths.
+fn plot(
+    args: &Args,
+    p: &Parameters,
+    other: Method,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Failure> {
+    let methods = [Method::Implicit, other];
+    let mut paths = Vec::new();
+    let mut write = |figure: figure::Figure, stem: &str| -> Result<(), Failure> {
+        paths.extend(figure.write(folder, stem).map_err(|error| {
+            bad_input(miette!(
+                help = "give --plot a folder that you may write to",
+                "--plot {}: {error}",
+                folder.display()
+            ))
+        })?);
+        Ok(())
+    };
+    write(figure_6(p, methods)?, "figure-6")?;
+    write(figure_7(p, methods)?, "figure-7")?;
+    write(figure_8(p, other, zoom(p))?, "figure-8")?;
+    if !args.quiet {
+        let _ = writeln!(std::io::stderr(), "running the map of the time step, a few seconds");
+    }
+    write(time_step_map(p), "time-step-map")?;
+    Ok(paths)
+}
+
+/// The paper's t in [0.78, 0.80] s, or the same share of a shorter or longer run.
+fn zoom(p: &Parameters) -> [f64; 2] {
+    [0.156 * p.end, 0.160 * p.end]
+}
+
+fn document(p: &Parameters, method: Method, out: &Outcome) -> Value {
+    // numbers that do not exist are null
+    let number = |value: f64| value.is_finite().then_some(value);
+    let ringing = out.ringing.map(
+        |r| json!({ "capture": r.capture, "peak": r.peak, "rms": r.rms, "later_rms": r.later_rms }),
+    );
+    json!({
+        "method": method.name(), "dt": p.dt, "mass": p.mass, "damping": p.damping,
+        "x_min": out.x_min, "x_max": number(out.x_max), "v_max": out.v_max,
+        "status": if out.stopped { "interrupted" } else { "completed" },
+        "steps": out.steps, "adhesion_slip": number(out.adhesion_slip), "ringing": ringing,
+        "picard_iterations": out.picard, "most_picard_iterations": out.most_picard,
+        "fallback_steps": out.fallbacks,
+    })
+}
+
+fn threshold(t: Threshold) -> Value {
+    json!({ "formula": t.formula, "bisection": t.bisection })
 }
 
 fn show(args: &Args, document: &Value, page: impl FnOnce() -> String) {
@@ -120,92 +188,29 @@ fn bad_input(report: miette::Report) -> Failure {
     Failure { report, code: BAD_INPUT }
 }
 
-fn tables_page(tables: &Tables) -> String {
-    let mut page = String::new();
-    let named = [
-        ("Table 2: implicit, refinement of the time step", &tables.table2),
-        ("Table 3: implicit, mass and damping", &tables.table3),
-        ("Table 4: explicit, refinement of the time step", &tables.table4),
-    ];
-    for (title, rows) in named {
-        let _ = writeln!(page, "{title}");
-        let _ = writeln!(
-            page,
-            "      m       c      dt      x_min    paper     diff    x_max    paper     diff    \
-             v_max    paper    diff"
+impl From<Box<SettingError>> for Failure {
+    fn from(error: Box<SettingError>) -> Self {
+        bad_input((*error).into())
+    }
+}
+
+impl From<BlowUp> for Failure {
+    fn from(error: BlowUp) -> Self {
+        let report = miette!(
+            help = "`creepage slider --thresholds` prints the limits of the explicit method",
+            "{error}"
         );
-        rows.iter().for_each(|row| line(&mut page, row));
-        page.push('\n');
-    }
-    page += "chaotic: the run chatters through adhesion; its digits depend on the last bit of every \
-             operation, so that only about 0.01 in x can be compared\n";
-    page
-}
-
-fn line(page: &mut String, row: &Row) {
-    let (a, b) = (row.computed, row.paper);
-    let _ = writeln!(
-        page,
-        "{:7} {:7} {:7.0e}  {:9.5} {:8.5} {:8.5}  {:8.5} {:8.5} {:8.5}  {:7.3} {:8.3} {:7.3}{}",
-        row.mass,
-        row.damping,
-        row.dt,
-        a.x_min,
-        b.x_min,
-        a.x_min - b.x_min,
-        a.x_max,
-        b.x_max,
-        a.x_max - b.x_max,
-        a.v_max,
-        b.v_max,
-        a.v_max - b.v_max,
-        if row.chaotic { "  chaotic" } else { "" }
-    );
-}
-
-/// The history of a run; the first error is kept for the end.
-struct Csv {
-    path: PathBuf,
-    out: BufWriter<File>,
-    parameters: Parameters,
-    error: Option<std::io::Error>,
-}
-
-impl Csv {
-    fn new(path: &Path, parameters: Parameters) -> Result<Self, Failure> {
-        let header = "t_s,x_m,v_m_s,s_m_s,mu,friction_N,spring_N\n";
-        let open = || -> std::io::Result<BufWriter<File>> {
-            let mut out = BufWriter::new(File::create(path)?);
-            out.write_all(header.as_bytes())?;
-            Ok(out)
-        };
-        let out = open().map_err(|cause| unwritable(path, &cause))?;
-        Ok(Self { path: path.to_path_buf(), out, parameters, error: None })
-    }
-
-    fn row(&mut self, time: f64, State { x, v }: State) {
-        let p = &self.parameters;
-        let slip = v - p.belt;
-        let (mu, friction) = (p.law.mu(slip.abs()), p.friction(slip));
-        let spring = -p.damping * v - p.spring * x;
-        if self.error.is_none() {
-            let written = writeln!(self.out, "{time},{x},{v},{slip},{mu},{friction},{spring}");
-            self.error = written.err();
-        }
-    }
-
-    fn finish(mut self) -> Result<(), Failure> {
-        match self.error.take().or(self.out.flush().err()) {
-            None => Ok(()),
-            Some(cause) => Err(unwritable(&self.path, &cause)),
-        }
+        Self { report, code: STOPPED_BY_GUARD }
     }
 }
 
-fn unwritable(path: &Path, cause: &std::io::Error) -> Failure {
-    bad_input(miette!(
-        help = "give a path in a folder that you may write to",
-        "--csv {}: cannot write the file: {cause}",
-        path.display()
-    ))
+impl From<Unwritable> for Failure {
+    fn from(error: Unwritable) -> Self {
+        bad_input(miette!(
+            help = "give a path in a folder that you may write to",
+            "--csv {}: cannot write the file: {}",
+            error.path.display(),
+            error.cause
+        ))
+    }
 }

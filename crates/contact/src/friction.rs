@@ -1,5 +1,15 @@
 //! Friction laws: the coefficient of friction as a function of the slip speed.
 
+mod expression;
+mod memory;
+mod steady;
+mod table;
+
+pub use expression::{Expression, ExpressionError};
+pub use memory::Memory;
+pub use steady::{SteadyLaw, Strengthens};
+pub use table::{Table, TableError};
+
 use std::fmt::Debug;
 
 /// The coefficient of friction `mu(|s|)`: `|p_tau| <= mu p_n`.

@@ -22,7 +22,10 @@ mod tests;
 mod vector;
 
 pub use error::ContactError;
-pub use friction::{Coulomb, Exponential, FrictionLaw};
+pub use friction::{
+    Coulomb, Exponential, Expression, ExpressionError, FrictionLaw, Memory, SteadyLaw, Strengthens,
+    Table, TableError,
+};
 pub use nodal::NodalContact;
 pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};

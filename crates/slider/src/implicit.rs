@@ -1,4 +1,4 @@
-//! The implicit method: backward Euler, Eqs (19)-(23), by Picard iteration, Eqs (25) and (27).
+//! The implicit method: backward Euler, Eqs (19)-(24), by Picard iteration, Eqs (25) and (27).
 
 use crate::{Parameters, State};
 
@@ -7,64 +7,169 @@ use crate::{Parameters, State};
 pub struct Iterations {
     /// Picard iterations.
     pub picard: u32,
-    /// Bisections of the fallback; zero where Picard converged.
-    pub bisection: u32,
+    /// Iterations of the bracketing fallback; zero where Picard converged.
+    pub bracketing: u32,
 }
 
 /// Picard iterations after which the bracketing fallback takes over.
 const MOST_PICARD: u32 = 2000;
 
-/// Change of the velocity at which Picard has converged, relative to the belt's velocity or 1 m/s.
-const TOLERANCE: f64 = 1e-13;
+/// Imbalance at which Eq (24) counts as solved, relative to the sum of its terms.
+const TOLERANCE: f64 = 1e-14;
+
+/// Eq (24) of one step, with the slip velocity as the unknown: v^{n+1} = v_ref + s keeps the digits
+/// of a slip far below the belt's velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct ImplicitEquation {
+    /// m + c dt + k dt^2 (kg).
+    inertia: f64,
+    /// m v^n - dt k x^n (kg m/s).
+    known: f64,
+    /// dt mu_S F_n/s_adhes (kg), the linear term of Eq (26).
+    adhesion: f64,
+}
+
+impl ImplicitEquation {
+    /// The equation of the step from `state`.
+    pub fn new(p: &Parameters, state: &State) -> Self {
+        Self {
+            inertia: p.mass + p.damping * p.dt + p.spring * p.dt * p.dt,
+            known: p.mass * state.v - p.dt * p.spring * state.x,
+            adhesion: p.dt * p.law_at_rest() * p.normal_force / p.adhesion,
+        }
+    }
+
+    /// Right-hand minus left-hand side of Eq (24) (kg m/s) at a slip velocity, and the sum of the
+    /// magnitudes of its terms, against which it is small.
+    pub fn imbalance(&self, p: &Parameters, slip: f64) -> [f64; 2] {
+        let (friction, left) = (p.dt * p.friction(slip), self.inertia * (p.belt + slip));
+        let scale = self.known.abs() + friction.abs() + left.abs() + self.inertia * slip.abs();
+        [self.known + friction - left, scale]
+    }
+}
 
 /// One step.
 ///
-/// In sliding Picard iterates Eq (25); in adhesion, where friction is nearly linear in the slip,
-/// Eq (27), which moves that part to the left-hand side. Iterates that jump over the whole adhesion
-/// zone are set to v_ref, as in the paper. Where Picard does not converge, the root is bracketed.
+/// In sliding Picard iterates Eq (25), `s += imbalance/inertia`; in adhesion, where friction is
+/// nearly linear in the slip, Eq (27), `s += imbalance/(inertia + adhesion)`. Iterates that jump
+/// over the whole adhesion zone are set to v_ref, as in the paper. Where Picard does not converge,
+/// the root is bracketed.
 pub fn implicit_step(p: &Parameters, state: State) -> (State, Iterations) {
-    let (dt, belt) = (p.dt, p.belt);
-    let left = p.mass + p.damping * dt + p.spring * dt * dt;
-    let linear = dt * p.law.mu_static * p.normal_force / p.adhesion;
-    let known = p.mass * state.v - dt * p.spring * state.x;
-    let tolerance = TOLERANCE * belt.abs().max(1.0);
+    let equation = ImplicitEquation::new(p, &state);
     let mut count = Iterations::default();
-    let mut v = state.v;
+    let mut slip = state.v - p.belt;
+    let mut adhesive = slip.abs() <= p.adhesion;
     while count.picard < MOST_PICARD {
         count.picard += 1;
-        let slip = v - belt;
-        let right = known + dt * p.friction(slip);
-        let mut next = if slip.abs() <= p.adhesion {
-            (right + linear * v) / (left + linear) // (27)
-        } else {
-            right / left // (25)
-        };
-        let new_slip = next - belt;
-        let skips = slip.abs() > p.adhesion && new_slip.abs() > p.adhesion;
-        if skips && slip * new_slip < 0.0 {
-            next = belt;
+        let [imbalance, scale] = equation.imbalance(p, slip);
+        if imbalance.abs() <= TOLERANCE * scale {
+            return (advanced(p, &state, slip), count);
         }
-        if (next - v).abs() < tolerance {
-            return (advanced(p, state, next), count);
+        let weight = equation.inertia + if adhesive { equation.adhesion } else { 0.0 };
+        let next = slip + imbalance / weight; // (25), (27)
+        if next == slip {
+            return (advanced(p, &state, slip), count); // no closer number exists
         }
-        v = next;
+        let next_adhesive = next.abs() <= p.adhesion;
+        let skips = !adhesive && !next_adhesive && slip * next < 0.0;
+        (slip, adhesive) = if skips { (0.0, true) } else { (next, next_adhesive) };
     }
-    // The residual rises without bound on both sides: left v - known - dt F(v - v_ref), |F| <= F_n mu.
-    let residual = |v: f64| left * v - known - dt * p.friction(v - belt);
-    let bound = dt * p.normal_force * p.law.mu_static.max(p.law.mu_dynamic);
-    let (mut low, mut high) = ((known - bound) / left, (known + bound) / left);
-    while count.bisection < 200 && low < high {
-        count.bisection += 1;
+    slip = bracketed(p, &equation, &mut count);
+    (advanced(p, &state, slip), count)
+}
+
+/// A root of Eq (24) by bisection: friction is bounded, so that the imbalance is positive far to
+/// the left and negative far to the right.
+fn bracketed(p: &Parameters, equation: &ImplicitEquation, count: &mut Iterations) -> f64 {
+    let positive = |slip: f64| equation.imbalance(p, slip)[0] > 0.0;
+    let centre = equation.known / equation.inertia - p.belt;
+    let mut width = p.dt * p.law_at_rest() * p.normal_force / equation.inertia + p.adhesion;
+    let brackets = |width: f64| positive(centre - width) && !positive(centre + width);
+    while count.bracketing < 1000 && !brackets(width) {
+        count.bracketing += 1;
+        width *= 2.0;
+    }
+    let (mut low, mut high) = (centre - width, centre + width);
+    loop {
+        count.bracketing += 1;
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
             break;
         }
-        if residual(middle) > 0.0 { high = middle } else { low = middle }
+        if positive(middle) { low = middle } else { high = middle }
     }
-    (advanced(p, state, 0.5 * (low + high)), count)
+    let size = |slip: f64| equation.imbalance(p, slip)[0].abs();
+    if size(low) <= size(high) { low } else { high }
 }
 
-/// Eq (19).
-fn advanced(p: &Parameters, state: State, v: f64) -> State {
-    State { x: state.x + p.dt * v, v }
+/// Eqs (19), (21)-(23) with the slip velocity found.
+fn advanced(p: &Parameters, state: &State, slip: f64) -> State {
+    let v = p.belt + slip;
+    State { x: state.x + p.dt * v, v, slip, friction: p.friction(slip), mu: p.mu(slip) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use contact::{Exponential, SteadyLaw};
+    use proptest::prelude::*;
+
+    prop_compose! {
+        fn parameters()(
+            belt in -5.0..5.0f64,
+            normal_force in 0.0..200.0f64,
+            mass in -5.0..1.0f64,
+            spring in 0.0..1e3f64,
+            damping in 0.0..2.0f64,
+            adhesion in -5.0..-1.0f64,
+            mu_static in 0.0..1.0f64,
+            fall in 0.0..1.0f64,
+            decay in 0.0..50.0f64,
+            dt in -6.0..-2.0f64,
+            x0 in -1.0..1.0f64,
+            v0 in -10.0..10.0f64,
+        ) -> Parameters {
+            let mu_dynamic = mu_static * fall;
+            Parameters {
+                belt,
+                normal_force,
+                mass: 10f64.powf(mass),
+                spring,
+                damping,
+                adhesion: 10f64.powf(adhesion),
+                law: SteadyLaw::Exponential(Exponential { mu_static, mu_dynamic, decay }),
+                dt: 10f64.powf(dt),
+                x0,
+                v0,
+                ..Parameters::default()
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(512))]
+        #[test]
+        fn every_step_ends_finite_and_satisfies_the_discrete_equations(p in parameters()) {
+            let mut state = p.start();
+            for _ in 0..200 {
+                let (next, count) = implicit_step(&p, state);
+                prop_assert!(count.picard <= MOST_PICARD && count.bracketing < 3000);
+                prop_assert!(next.x.is_finite() && next.v.is_finite());
+                // Eqs (19), (20), (23) as printed, in terms of velocities
+                let (dt, m) = (p.dt, p.mass);
+                let moved = (next.x - state.x) - dt * next.v;
+                prop_assert!(moved.abs() <= 1e-9 * (next.x.abs() + state.x.abs()), "(19): {moved}");
+                let mu = p.mu(next.slip);
+                let friction = -mu * p.normal_force * next.slip / p.adhesion.max(next.slip.abs());
+                let terms = [
+                    m * next.v, -m * state.v, dt * p.damping * next.v, dt * p.spring * next.x,
+                    -dt * friction,
+                ];
+                let (sum, size) =
+                    terms.iter().fold((0.0, 0.0), |(a, b), t| (a + t, f64::max(b, t.abs())));
+                prop_assert!(f64::abs(sum) <= 1e-9 * size, "(20): {sum:e} of {size:e}");
+                state = next;
+            }
+        }
+    }
 }

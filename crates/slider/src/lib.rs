@@ -1,13 +1,27 @@
 //! The 1-D slider of Vollebregt (2017), section 6: a block on a belt, held by a spring, with
 //! friction that falls with slip velocity. Equation numbers are that paper's.
 
+mod exact;
 mod explicit;
+pub mod figures;
 mod implicit;
+mod map;
 mod parameters;
+mod penalty;
 mod run;
+mod stick;
 pub mod tables;
+mod thresholds;
 
+pub use exact::{exact_step, memory_step};
 pub use explicit::explicit_step;
-pub use implicit::{Iterations, implicit_step};
-pub use parameters::{ParameterError, Parameters};
-pub use run::{Method, Outcome, State, run};
+pub use implicit::{ImplicitEquation, Iterations, implicit_step};
+pub use map::{MapPoint, map};
+pub use parameters::{MOST_STEPS, ParameterError, Parameters};
+pub use penalty::{penalty_stable_step, penalty_step};
+pub use run::{BlowUp, Method, Outcome, State, run, unobserved};
+pub use stick::Ringing;
+pub use thresholds::{Threshold, Thresholds, chatter_step, collapse_step, thresholds};
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,11 @@
-//! Table 1.
+//! Table 1, and what the further methods need.
 
-use contact::{Exponential, FrictionLaw};
+use crate::State;
+use contact::{Exponential, FrictionLaw, Memory, SteadyLaw};
 use thiserror::Error;
 
 /// Parameters of the slider; the default is Table 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Parameters {
     /// Velocity of the belt v_ref (m/s).
     pub belt: f64,
@@ -18,8 +19,12 @@ pub struct Parameters {
     pub damping: f64,
     /// Slip velocity s_adhes below which friction is linear, Eq (18) (m/s).
     pub adhesion: f64,
-    /// mu(s), Eq (17).
-    pub law: Exponential,
+    /// mu(s); Eq (17) in the paper.
+    pub law: SteadyLaw,
+    /// Stiffness k_t of the friction spring of the penalty method (N/m).
+    pub stiffness: f64,
+    /// Memory of friction of the memory method.
+    pub memory: Memory,
     /// Time step (s).
     pub dt: f64,
     /// End of the simulated time (s).
@@ -39,7 +44,13 @@ impl Default for Parameters {
             spring: 10.0,
             damping: 0.04,
             adhesion: 1e-3,
-            law: Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 },
+            law: SteadyLaw::Exponential(Exponential {
+                mu_static: 0.5,
+                mu_dynamic: 0.32,
+                decay: 6.0,
+            }),
+            stiffness: 1e6,
+            memory: Memory::default(),
             dt: 1e-4,
             end: 5.0,
             x0: 0.0,
@@ -48,64 +59,118 @@ impl Default for Parameters {
     }
 }
 
+/// Most steps of a run: about a minute of the explicit method.
+pub const MOST_STEPS: f64 = 1e10;
+
 /// A parameter outside its range.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{key} = {value} must be {allowed}")]
+#[error("{key} = {value} {unit} is out of range: it must be {allowed}")]
 pub struct ParameterError {
-    /// Name of the parameter.
+    /// Name of the parameter, as in a parameter file.
     pub key: &'static str,
     /// Its value.
     pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
     /// What is allowed.
     pub allowed: &'static str,
 }
 
+const POSITIVE: &str = "a finite number above 0";
+const NOT_NEGATIVE: &str = "a finite number of at least 0";
+
 impl Parameters {
     /// The parameters, if every one is within its range.
+    ///
+    /// # Errors
+    /// The first parameter that is not.
     pub fn checked(self) -> Result<Self, ParameterError> {
         let positive = [
-            ("dt", self.dt),
-            ("mass", self.mass),
-            ("adhesion", self.adhesion),
-            ("t-end", self.end),
+            ("dt", self.dt, "s"),
+            ("mass", self.mass, "kg"),
+            ("adhesion", self.adhesion, "m/s"),
+            ("t_end", self.end, "s"),
+            ("stiffness", self.stiffness, "N/m"),
+            ("memory_distance", self.memory.distance, "m"),
         ];
-        let not_negative = [
-            ("normal force", self.normal_force),
-            ("spring", self.spring),
-            ("damping", self.damping),
-            ("mu static", self.law.mu_static),
-            ("mu dynamic", self.law.mu_dynamic),
-            ("decay", self.law.decay),
+        let mut not_negative = vec![
+            ("normal_force", self.normal_force, "N"),
+            ("spring", self.spring, "N/m"),
+            ("damping", self.damping, "N s/m"),
+            ("memory_floor", self.memory.floor, "m/s"),
         ];
-        for (key, value) in positive {
+        match &self.law {
+            SteadyLaw::Coulomb(law) => not_negative.push(("mu_static", law.mu, "")),
+            SteadyLaw::Exponential(law) => not_negative.extend([
+                ("mu_static", law.mu_static, ""),
+                ("mu_dynamic", law.mu_dynamic, ""),
+                ("decay", law.decay, "s/m"),
+            ]),
+            // checked when they were made
+            SteadyLaw::Table(_) | SteadyLaw::Expression(_) => {}
+        }
+        for (key, value, unit) in positive {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(ParameterError { key, value, allowed: "a finite number above 0" });
+                return Err(ParameterError { key, value, unit, allowed: POSITIVE });
             }
         }
-        for (key, value) in not_negative {
+        for (key, value, unit) in not_negative {
             if !(value >= 0.0 && value.is_finite()) {
-                return Err(ParameterError {
-                    key,
-                    value,
-                    allowed: "a finite number of at least 0",
-                });
+                return Err(ParameterError { key, value, unit, allowed: NOT_NEGATIVE });
             }
         }
-        for (key, value) in [("belt", self.belt), ("x0", self.x0), ("v0", self.v0)] {
+        for (key, value, unit) in
+            [("belt", self.belt, "m/s"), ("x0", self.x0, "m"), ("v0", self.v0, "m/s")]
+        {
             if !value.is_finite() {
-                return Err(ParameterError { key, value, allowed: "a finite number" });
+                return Err(ParameterError { key, value, unit, allowed: "a finite number" });
             }
         }
-        if self.end / self.dt > 1e10 {
-            let allowed = "at least t-end/1e10: more steps would take hours";
-            return Err(ParameterError { key: "dt", value: self.dt, allowed });
+        if self.end / self.dt > MOST_STEPS {
+            let allowed = "at least t_end/1e10: more steps would take too long";
+            return Err(ParameterError { key: "dt", value: self.dt, unit: "s", allowed });
         }
         Ok(self)
     }
 
-    /// F_fric(s) (N), Eqs (17)-(18): -mu(|s|) F_n s/max(s_adhes, |s|).
+    /// The block at t = 0: no force in the friction spring, friction rested.
+    pub fn start(&self) -> State {
+        State {
+            x: self.x0,
+            v: self.v0,
+            slip: self.v0 - self.belt,
+            friction: 0.0,
+            mu: self.law_at_rest(),
+        }
+    }
+
+    /// mu at a slip velocity (m/s).
+    #[inline]
+    pub fn mu(&self, slip: f64) -> f64 {
+        self.law.mu(slip.abs())
+    }
+
+    /// mu_S, the coefficient at rest.
+    #[inline]
+    pub fn law_at_rest(&self) -> f64 {
+        self.law.mu_static()
+    }
+
+    /// F_fric (N) of a coefficient `mu` at a slip velocity, Eq (18): -mu F_n s/max(s_adhes, |s|).
+    #[inline]
+    pub fn regularised(&self, mu: f64, slip: f64) -> f64 {
+        -mu * self.normal_force * slip / self.adhesion.max(slip.abs())
+    }
+
+    /// F_fric(s) (N), Eqs (17) and (18).
+    #[inline]
     pub fn friction(&self, slip: f64) -> f64 {
-        let speed = slip.abs();
-        -self.law.mu(speed) * self.normal_force * slip / self.adhesion.max(speed)
+        self.regularised(self.mu(slip), slip)
+    }
+
+    /// Position (m, a magnitude) at which the spring pulls with static friction: mu_S F_n/k_spring;
+    /// infinite without a spring.
+    pub fn reach(&self) -> f64 {
+        self.law_at_rest() * self.normal_force / self.spring
     }
 }

@@ -1,14 +1,23 @@
 //! A run and its characteristic values.
 
-use crate::{Parameters, explicit_step, implicit_step};
+use crate::stick::{Ringing, StickWatch};
+use crate::{Parameters, exact_step, explicit_step, implicit_step, memory_step, penalty_step};
+use std::ops::ControlFlow;
+use thiserror::Error;
 
-/// Position (m) and velocity (m/s) of the block.
+/// The block at the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Position.
+    /// Position (m).
     pub x: f64,
-    /// Velocity.
+    /// Velocity (m/s).
     pub v: f64,
+    /// Slip velocity s = v - v_ref (m/s).
+    pub slip: f64,
+    /// Friction force F_fric that acted in the step (N).
+    pub friction: f64,
+    /// Coefficient of friction that the method used in the step; with memory its value at the end.
+    pub mu: f64,
 }
 
 /// The time-stepping methods.
@@ -18,9 +27,32 @@ pub enum Method {
     Implicit,
     /// Eqs (28)-(32).
     Explicit,
+    /// The friction spring of Eqs (10) and (11), explicit.
+    Penalty,
+    /// Explicit with exact friction.
+    Exact,
+    /// Explicit with exact friction that remembers.
+    Memory,
 }
 
-/// The characteristic values of the paper's tables, and the solver's effort.
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 5] =
+        [Self::Implicit, Self::Explicit, Self::Penalty, Self::Exact, Self::Memory];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Implicit => "implicit",
+            Self::Explicit => "explicit",
+            Self::Penalty => "penalty",
+            Self::Exact => "exact",
+            Self::Memory => "memory",
+        }
+    }
+}
+
+/// The characteristic values of the paper's tables, the quality of adhesion, and the effort.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// Smallest position (m).
@@ -29,41 +61,123 @@ pub struct Outcome {
     pub x_max: f64,
     /// Largest velocity (m/s).
     pub v_max: f64,
+    /// Root mean square of the slip velocity (m/s) in the first adhesion, from t = 0 until the
+    /// spring pulls with half of static friction; NaN if the block does not start at rest on the
+    /// belt.
+    pub adhesion_slip: f64,
+    /// Slip after the first capture, if the run has one.
+    pub ringing: Option<Ringing>,
     /// Steps taken.
     pub steps: u64,
-    /// Picard iterations of all steps; zero for the explicit method.
+    /// Whether the run was stopped before its end.
+    pub stopped: bool,
+    /// Picard iterations of all steps; zero for the other methods.
     pub picard: u64,
+    /// Most Picard iterations of one step.
+    pub most_picard: u32,
     /// Steps that needed the bracketing fallback.
     pub fallbacks: u64,
 }
 
+/// A run whose numbers left the finite ones.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error(
+    "the {} method blew up in step {step}, t = {time:.6e} s: x = {:e} m, v = {:e} m/s; a smaller dt is needed",
+    method.name(), state.x, state.v
+)]
+pub struct BlowUp {
+    /// The method.
+    pub method: Method,
+    /// Step of the first number out of bounds.
+    pub step: u64,
+    /// Its time (s).
+    pub time: f64,
+    /// The state.
+    pub state: State,
+}
+
+/// Position and velocity beyond which a run is taken for blown up (m, m/s).
+const RUNAWAY: f64 = 1e30;
+
 /// Start of the time over which `x_max` is taken (s): after the first collapse.
 const AFTER_COLLAPSE: f64 = 0.7;
 
-/// Runs the slider; `observe` sees time and state at t = 0 and after every step.
-pub fn run(p: &Parameters, method: Method, mut observe: impl FnMut(f64, State)) -> Outcome {
-    let steps = (p.end / p.dt).round().max(1.0) as u64;
-    let mut state = State { x: p.x0, v: p.v0 };
-    let mut out =
-        Outcome { x_min: state.x, x_max: f64::NAN, v_max: state.v, steps, picard: 0, fallbacks: 0 };
-    observe(0.0, state);
-    for n in 1..=steps {
-        state = match method {
-            Method::Explicit => explicit_step(p, state),
-            Method::Implicit => {
+/// Runs the slider; `observe` sees time and state at t = 0 and after every step, and may stop the
+/// run.
+///
+/// # Errors
+/// A blow-up; `observe` has seen all steps before it.
+pub fn run(
+    p: &Parameters,
+    method: Method,
+    observe: impl FnMut(f64, &State) -> ControlFlow<()>,
+) -> Result<Outcome, BlowUp> {
+    match method {
+        Method::Explicit => steps(p, method, |state, _| explicit_step(p, state), observe),
+        Method::Penalty => steps(p, method, |state, _| penalty_step(p, state), observe),
+        Method::Exact => steps(p, method, |state, _| exact_step(p, state), observe),
+        Method::Memory => steps(p, method, |state, _| memory_step(p, state), observe),
+        Method::Implicit => {
+            let implicit = |state, out: &mut Outcome| {
                 let (next, count) = implicit_step(p, state);
                 out.picard += u64::from(count.picard);
-                out.fallbacks += u64::from(count.bisection > 0);
+                out.most_picard = out.most_picard.max(count.picard);
+                out.fallbacks += u64::from(count.bracketing > 0);
                 next
-            }
-        };
-        let time = n as f64 * p.dt;
+            };
+            steps(p, method, implicit, observe)
+        }
+    }
+}
+
+/// An observer that looks on.
+pub fn unobserved(_: f64, _: &State) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+fn steps(
+    p: &Parameters,
+    method: Method,
+    mut advance: impl FnMut(State, &mut Outcome) -> State,
+    mut observe: impl FnMut(f64, &State) -> ControlFlow<()>,
+) -> Result<Outcome, BlowUp> {
+    let steps = (p.end / p.dt).round().max(1.0) as u64;
+    let mut state = p.start();
+    let mut out = Outcome {
+        x_min: state.x,
+        x_max: f64::NAN,
+        v_max: state.v,
+        adhesion_slip: f64::NAN,
+        ringing: None,
+        steps: 0,
+        stopped: false,
+        picard: 0,
+        most_picard: 0,
+        fallbacks: 0,
+    };
+    let mut watch = StickWatch::new(p);
+    if observe(0.0, &state).is_break() {
+        return Ok(Outcome { stopped: true, ..out });
+    }
+    for step in 1..=steps {
+        state = advance(state, &mut out);
+        let time = step as f64 * p.dt;
+        if !(state.x.abs() < RUNAWAY && state.v.abs() < RUNAWAY) {
+            return Err(BlowUp { method, step, time, state });
+        }
         out.x_min = out.x_min.min(state.x);
         out.v_max = out.v_max.max(state.v);
         if time > AFTER_COLLAPSE {
             out.x_max = out.x_max.max(state.x);
         }
-        observe(time, state);
+        watch.see(p, time, &state);
+        out.steps = step;
+        if observe(time, &state).is_break() {
+            out.stopped = step < steps;
+            break;
+        }
     }
-    out
+    out.adhesion_slip = watch.adhesion_slip();
+    out.ringing = watch.ringing();
+    Ok(out)
 }

@@ -1,0 +1,134 @@
+//! Files.
+
+use crate::draw::{self, Joints};
+use crate::{Figure, font};
+use plotters::prelude::*;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a figure was not written.
+#[derive(Debug, Error)]
+pub enum FigureError {
+    /// The file or its folder cannot be written.
+    #[error("cannot write the figure {path}: {cause}")]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// The drawing library failed.
+    #[error("cannot draw the figure {path}: {cause}")]
+    Draw {
+        /// The file.
+        path: PathBuf,
+        /// What it says.
+        cause: String,
+    },
+}
+
+/// Pixels per point: fine enough that rounding to pixels does not show in print.
+const SVG_UNIT: u32 = 4;
+const PNG_UNIT: u32 = 2;
+
+impl Figure {
+    /// Writes `stem.svg` and `stem.png` into `folder`, which is made if it is missing; returns
+    /// their paths.
+    ///
+    /// # Errors
+    /// A folder or file that cannot be written.
+    pub fn write(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], FigureError> {
+        let [svg, png] = ["svg", "png"].map(|kind| folder.join(format!("{stem}.{kind}")));
+        let failed = |path: &Path, cause| FigureError::Write { path: path.into(), cause };
+        std::fs::create_dir_all(folder).map_err(|cause| failed(folder, cause))?;
+        std::fs::write(&svg, self.svg(&svg)?).map_err(|cause| failed(&svg, cause))?;
+        // the encoder names no cause when the file cannot be made
+        std::fs::write(&png, []).map_err(|cause| failed(&png, cause))?;
+        let backend = BitMapBackend::new(&png, self.pixels(PNG_UNIT));
+        draw_on(self, backend, PNG_UNIT, Joints::Open, &png)?;
+        Ok([svg, png])
+    }
+
+    /// The figure as the text of an SVG file that carries its font.
+    fn svg(&self, path: &Path) -> Result<String, FigureError> {
+        let mut text = String::new();
+        let (width, height) = self.pixels(SVG_UNIT);
+        let backend = SVGBackend::with_string(&mut text, (width, height));
+        draw_on(self, backend, SVG_UNIT, Joints::Viewer, path)?;
+        // the size of the page in points, and the font
+        let page = format!("width=\"{width}\" height=\"{height}\"");
+        let points = format!("width=\"{}\" height=\"{}\"", self.size[0], self.size[1]);
+        let text = text.replacen(&page, &points, 1);
+        let head = text.find("<svg").and_then(|at| Some(at + text[at..].find('>')? + 1));
+        let (head, rest) = text.split_at(head.unwrap_or(0));
+        Ok(format!("{head}\n{}{rest}", font::style_sheet()))
+    }
+
+    fn pixels(&self, unit: u32) -> (u32, u32) {
+        (self.size[0] * unit, self.size[1] * unit)
+    }
+}
+
+fn draw_on<DB: DrawingBackend>(
+    figure: &Figure,
+    backend: DB,
+    unit: u32,
+    joints: Joints,
+    path: &Path,
+) -> Result<(), FigureError> {
+    let failed = |cause: String| FigureError::Draw { path: path.into(), cause };
+    if !font::register() {
+        return Err(failed("the font cannot be read".into()));
+    }
+    let area = backend.into_drawing_area();
+    draw::figure(figure, &area, f64::from(unit), joints).map_err(|e| failed(e.to_string()))?;
+    area.present().map_err(|e| failed(e.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Axis, Draw, Mark, Panel, Series, colour};
+
+    fn figure() -> Figure {
+        let points = (0..100).map(|i| [f64::from(i), f64::from(i).sin()]).collect();
+        let panel = Panel {
+            title: "A title".into(),
+            x: Axis::linear("t (s)"),
+            y: Axis::linear("x (m)"),
+            series: vec![Series { label: "sine".into(), points, draw: Draw::Line(colour::BLUE) }],
+            marks: vec![Mark { x: 50.0, label: "half".into(), colour: colour::RED }],
+        };
+        Figure { size: [400, 300], columns: 1, panels: vec![panel] }
+    }
+
+    #[test]
+    fn a_figure_is_written_as_svg_with_its_font_and_labels_and_as_png() {
+        let folder = tempfile::tempdir().unwrap();
+        let [svg, png] = figure().write(&folder.path().join("new"), "one").unwrap();
+        let svg = std::fs::read_to_string(svg).unwrap();
+        for part in ["width=\"400\"", "@font-face", "t (s)", "x (m)", "sine", "half", "A title"] {
+            assert!(svg.contains(part), "{part}");
+        }
+        let png = std::fs::read(png).unwrap();
+        assert_eq!(&png[1..4], b"PNG");
+        assert_eq!(png[16..24], [0, 0, 3, 32, 0, 0, 2, 88]); // 800 x 600
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_made_is_named() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let error = figure().write(&file.path().join("in"), "one").unwrap_err();
+        assert!(error.to_string().contains("cannot write the figure"), "{error}");
+    }
+
+    #[test]
+    fn data_that_are_not_numbers_leave_gaps_and_do_no_harm() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut figure = figure();
+        figure.panels[0].series[0].points[7][1] = f64::NAN;
+        figure.panels[0].series[0].points[9][0] = f64::INFINITY;
+        figure.panels[0].y = Axis::log("x (m)");
+        figure.write(folder.path(), "gaps").unwrap();
+    }
+}

@@ -1,0 +1,37 @@
+//! What becomes of x_min and of adhesion as the time step changes.
+
+use crate::{Method, Parameters, penalty_stable_step, run, unobserved};
+use rayon::prelude::*;
+
+/// The run at one time step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPoint {
+    /// Time step (s).
+    pub dt: f64,
+    /// Smallest position (m).
+    pub x_min: f64,
+    /// Root mean square of the slip velocity in the first adhesion, [`crate::Outcome`] (m/s).
+    pub adhesion_slip: f64,
+}
+
+/// Steps per decade of dt.
+const PER_DECADE: i32 = 24;
+
+/// Runs at time steps between the decades `10^from` and `10^to`, up to the first collapse.
+///
+/// Steps at which the method blows up or, with a penalty, the spring is unstable, are left out.
+pub fn map(p: &Parameters, method: Method, from: i32, to: i32) -> Vec<MapPoint> {
+    let end = p.end.min(1.2 * p.reach() / p.belt.abs());
+    (from * PER_DECADE..=to * PER_DECADE)
+        .into_par_iter()
+        .filter_map(|i| {
+            let dt = 10f64.powf(f64::from(i) / f64::from(PER_DECADE));
+            let p = Parameters { dt, end, ..p.clone() };
+            if method == Method::Penalty && dt > penalty_stable_step(&p) {
+                return None;
+            }
+            let out = run(&p, method, unobserved).ok()?;
+            Some(MapPoint { dt, x_min: out.x_min, adhesion_slip: out.adhesion_slip })
+        })
+        .collect()
+}

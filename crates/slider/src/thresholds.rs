@@ -1,0 +1,193 @@
+//! The two thresholds of the explicit method's time step: by formula, and by bisection on runs.
+//!
+//! With `Lambda = dt mu_S F_n/(m s_adhes)` the map of the slip velocity over a step in adhesion is
+//! `s -> (1 - Lambda) s + Lambda p s_adhes`, p the pull of the spring over static friction.
+//! - It is stable up to `Lambda = 2`: **dt_1**. Above, the block chatters in adhesion.
+//! - Chatter starts its largest kick at the edge of the adhesion zone; two steps later the slip is
+//!   `s_adhes (1 + Lambda (Lambda - 2)(1 - p))`. If friction has fallen below the pull there, the
+//!   block collapses. With the slope `kappa = -mu'(0)` that happens at pulls well below static
+//!   friction once `Lambda (Lambda - 2) kappa s_adhes >= mu_S`: **dt_2**.
+
+use crate::{ParameterError, Parameters, State, explicit_step};
+
+/// A threshold by both routes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Threshold {
+    /// By the formula (s).
+    pub formula: f64,
+    /// By bisection on runs (s); `None` if runs at a third and at three times the formula do not
+    /// bracket it.
+    pub bisection: Option<f64>,
+}
+
+/// Both thresholds of the explicit method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// Above it the block chatters in adhesion.
+    pub chatter: Threshold,
+    /// Above it the chatter makes the block collapse too early; `None` for a law that does not
+    /// fall with slip speed.
+    pub collapse: Option<Threshold>,
+}
+
+/// dt_1 = 2 m s_adhes/(mu_S F_n) (s).
+pub fn chatter_step(p: &Parameters) -> f64 {
+    2.0 * p.mass * p.adhesion / (p.law_at_rest() * p.normal_force)
+}
+
+/// dt_2 = m s_adhes/(mu_S F_n) (1 + sqrt(1 + mu_S/(kappa s_adhes))) (s) with kappa = -mu'(0), which
+/// is k (mu_S - mu_D) for Eq (17); `None` where friction does not fall.
+pub fn collapse_step(p: &Parameters) -> Option<f64> {
+    let fall = p.law.fall_at_rest() * p.adhesion;
+    (fall > 0.0).then(|| 0.5 * chatter_step(p) * (1.0 + (1.0 + p.law_at_rest() / fall).sqrt()))
+}
+
+/// Most steps of a run up to the static pull: with 16 starts and 20 bisections about a minute.
+const MOST_STEPS: f64 = 2e7;
+
+/// Both thresholds for the parameters `p`; its time step, start and end are not used.
+///
+/// # Errors
+/// Parameters with which the block never sticks or never breaks loose, or so slowly that the
+/// bisection would take too long.
+pub fn thresholds(p: &Parameters) -> Result<Thresholds, ParameterError> {
+    let needed = [
+        ("normal_force", p.normal_force, "N"),
+        ("spring", p.spring, "N/m"),
+        ("mu_static", p.law_at_rest(), ""),
+        ("belt", p.belt.abs(), "m/s"),
+    ];
+    for (key, value, unit) in needed {
+        if value == 0.0 {
+            let allowed = "other than 0: the thresholds are those of a block that sticks to a \
+                           moving belt until its spring pulls it off";
+            return Err(ParameterError { key, value, unit, allowed });
+        }
+    }
+    let shortest = collapse_step(p).unwrap_or(f64::INFINITY).min(10.0 * chatter_step(p));
+    if p.reach() / p.belt.abs() > MOST_STEPS * shortest {
+        let allowed = "larger: the block would stick for so many steps that the bisection would \
+                       take hours";
+        return Err(ParameterError { key: "spring", value: p.spring, unit: "N/m", allowed });
+    }
+    let threshold = |formula: f64, above: fn(&Parameters, f64) -> bool| Threshold {
+        formula,
+        bisection: bisect(p, [formula / 3.0, 3.0 * formula], above),
+    };
+    Ok(Thresholds {
+        chatter: threshold(chatter_step(p), chatters),
+        collapse: collapse_step(p).map(|formula| threshold(formula, collapses_early)),
+    })
+}
+
+/// Width at which a bisection ends, relative to the step.
+const RESOLUTION: f64 = 1e-4;
+
+fn bisect(
+    p: &Parameters,
+    [mut low, mut high]: [f64; 2],
+    above: fn(&Parameters, f64) -> bool,
+) -> Option<f64> {
+    if above(p, low) || !above(p, high) {
+        return None;
+    }
+    while high - low > RESOLUTION * high {
+        let middle = 0.5 * (low + high);
+        if above(p, middle) { high = middle } else { low = middle }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// Steps over which a disturbance may grow.
+const GROWTH: u64 = 100_000;
+
+/// Whether a disturbance of half the adhesion zone has not died out of the unloaded block.
+fn chatters(p: &Parameters, dt: f64) -> bool {
+    let p = Parameters { dt, x0: 0.0, v0: p.belt + 0.5 * p.adhesion, ..p.clone() };
+    // the load stays below a tenth of static friction
+    let steps = (0.1 * p.reach() / (p.belt.abs() * dt)).min(GROWTH as f64) as u64;
+    let (mut state, mut change) = (p.start(), 0.0);
+    for _ in 0..steps.max(2) {
+        let next = explicit_step(&p, state);
+        change = (next.slip - state.slip).abs();
+        state = next;
+    }
+    change.is_nan() || change >= 1e-3 * p.adhesion
+}
+
+/// Starts that are tried: chatter is chaotic, and one run may pass the moments at which a kick is
+/// large enough.
+const STARTS: u32 = 16;
+
+/// Share of the static pull below which a collapse counts as early.
+const EARLY: f64 = 0.99;
+
+/// Whether the block collapses before the spring pulls with 99 % of the friction that adhesion can
+/// bear, mu(s_adhes) F_n, from any of several starts.
+fn collapses_early(p: &Parameters, dt: f64) -> bool {
+    let bearable = p.mu(p.adhesion) * p.normal_force / p.spring;
+    (0..STARTS).any(|start| {
+        let share = f64::from(start) / f64::from(STARTS);
+        let p = Parameters { dt, x0: 0.0, v0: p.belt + share * p.adhesion, ..p.clone() };
+        let mut state: State = p.start();
+        while state.x.abs() < EARLY * bearable {
+            state = explicit_step(&p, state);
+            // driven back by the spring
+            if state.v * p.belt < 0.0 && state.x * p.belt > 0.0 {
+                return true;
+            }
+        }
+        false
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use contact::{Coulomb, Exponential, SteadyLaw};
+
+    /// Relative differences of the bisections from the formulas.
+    fn differences(p: &Parameters) -> [f64; 2] {
+        let found = thresholds(p).unwrap();
+        [found.chatter, found.collapse.unwrap()].map(|t| t.bisection.unwrap() / t.formula - 1.0)
+    }
+
+    #[test]
+    fn table_1_has_the_thresholds_2_and_22_54_microseconds() {
+        let p = Parameters::default();
+        assert!((chatter_step(&p) - 2.0e-6).abs() < 1e-18);
+        assert!((collapse_step(&p).unwrap() - 2.254e-5).abs() < 5e-9);
+        assert!(differences(&p).iter().all(|d| d.abs() < 0.02), "{:?}", differences(&p));
+    }
+
+    #[test]
+    fn formulas_and_bisection_agree_for_other_parameters() {
+        let law = Exponential { mu_static: 0.4, mu_dynamic: 0.3, decay: 2.0 };
+        for p in [
+            Parameters { mass: 0.1, ..Parameters::default() },
+            Parameters { spring: 100.0, ..Parameters::default() },
+            Parameters { law: SteadyLaw::Exponential(law), ..Parameters::default() },
+        ] {
+            assert!(differences(&p).iter().all(|d| d.abs() < 0.05), "{:?}", differences(&p));
+        }
+    }
+
+    #[test]
+    fn friction_that_does_not_fall_never_collapses_early() {
+        let law = SteadyLaw::Coulomb(Coulomb { mu: 0.4 });
+        let p = Parameters { law, ..Parameters::default() };
+        assert_eq!(thresholds(&p).unwrap().collapse, None);
+    }
+
+    #[test]
+    fn a_block_that_never_sticks_or_never_breaks_loose_is_refused() {
+        for p in [
+            Parameters { spring: 0.0, ..Parameters::default() },
+            Parameters { spring: 1e-9, ..Parameters::default() },
+            Parameters { belt: 0.0, v0: 0.0, ..Parameters::default() },
+            Parameters { normal_force: 0.0, ..Parameters::default() },
+        ] {
+            assert!(thresholds(&p).is_err());
+        }
+    }
+}
