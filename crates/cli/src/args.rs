@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::slider::SliderArgs;
+use crate::verify::VerifyArgs;
 use case::Level;
 use clap::{ArgAction, Parser, Subcommand};
 
@@ -57,6 +58,12 @@ pub enum Command {
         --config slider.toml --mass 0.02"
     )]
     Slider(Box<SliderArgs>),
+    /// Run verification problems against their references; exit code 1 if one misses its limit
+    #[command(
+        after_help = "Examples:\n  creepage verify --list\n  creepage verify hertz-wheel\n  \
+        creepage verify --quick --json > verify.json"
+    )]
+    Verify(VerifyArgs),
     /// Measure the element kernel and whole step on this machine
     #[command(after_help = "Example:\n  creepage bench --threads 2 --json")]
     Bench(BenchArgs),

@@ -71,6 +71,7 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
             Ok(0)
         }
         Command::Slider(options) => crate::slider::command(args, options),
+        Command::Verify(options) => crate::verify::command(args, options),
         Command::Bench(options) => bench(args, options),
     }
 }

@@ -5,6 +5,7 @@ mod commands;
 mod progress;
 mod report;
 mod slider;
+mod verify;
 
 use std::io::Write;
 use std::process::ExitCode;

@@ -1,0 +1,16 @@
+//! The verification ladder: problems with a known answer, from the patch test to rolling contact,
+//! that any user can run.
+//!
+//! A [`Problem`] gives [`Row`]s: a quantity computed here beside its reference. The limit of a row
+//! never comes from its result: it is round-off for what the method does exactly, and otherwise the
+//! uncertainty that the problem's own mesh convergence shows ([`Convergence`]).
+
+mod convergence;
+mod problem;
+mod row;
+
+mod slider_tables;
+
+pub use convergence::{Convergence, Sample};
+pub use problem::{PROBLEMS, Problem, Set, Size, VerifyError, find};
+pub use row::Row;

@@ -1,0 +1,71 @@
+//! The list of problems.
+
+use crate::{Row, slider_tables};
+use thiserror::Error;
+
+/// When a problem runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Set {
+    /// Unless other problems are named.
+    Default,
+    /// With `--long`, or by name.
+    Long,
+}
+
+/// How large a problem is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// Coarse meshes, seconds: for continuous integration.
+    Quick,
+    /// The meshes of the documentation.
+    Full,
+}
+
+/// A verification problem.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What it verifies, in one sentence.
+    pub about: &'static str,
+    /// When it runs.
+    pub set: Set,
+    pub(crate) run: fn(Size) -> Outcome,
+}
+
+/// Why a problem could not be run to its end.
+#[derive(Debug, Error)]
+#[error("verification problem '{name}': {cause}")]
+pub struct VerifyError {
+    /// The problem.
+    pub name: &'static str,
+    /// What went wrong in it.
+    pub cause: Box<dyn std::error::Error + Send + Sync>,
+}
+
+/// What a problem's own function returns: its rows, or the error of the solver that failed.
+pub(crate) type Outcome = Result<Vec<Row>, Box<dyn std::error::Error + Send + Sync>>;
+
+/// All problems, from the element to rolling contact.
+pub const PROBLEMS: &[Problem] = &[Problem {
+    name: "slider-tables",
+    about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
+    set: Set::Default,
+    run: slider_tables::run,
+}];
+
+/// The problem of a name.
+pub fn find(name: &str) -> Option<&'static Problem> {
+    PROBLEMS.iter().find(|problem| problem.name == name)
+}
+
+impl Problem {
+    /// Runs the problem.
+    ///
+    /// # Errors
+    /// A solver that fails; a row that does not pass is no error.
+    pub fn run(&self, size: Size) -> Result<Vec<Row>, VerifyError> {
+        let rows = (self.run)(size).map_err(|cause| VerifyError { name: self.name, cause })?;
+        Ok(rows.into_iter().map(|row| Row { name: self.name, ..row }).collect())
+    }
+}
