@@ -13,7 +13,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::miette;
 use serde_json::{Value, json};
 use slider::figures::{figure_6, figure_7, figure_8, time_step_map};
-use slider::{BlowUp, Method, Outcome, Parameters, Threshold, tables};
+use slider::{BlowUp, Method, Outcome, Parameters, Threshold, figures, tables};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD, stop_flag};
@@ -62,6 +62,9 @@ pub fn command(args: &Args, options: &SliderArgs) -> Result<u8, Failure> {
         });
         show(args, &document, || page::thresholds(&found));
         return Ok(0);
+    }
+    if options.plot.is_some() {
+        figures::drawable(&parameters).map_err(|e| sources.out_of_range(&e))?;
     }
     let method = sources.method().unwrap_or(Method::Implicit);
     let out = simulate(args, &parameters, method, options.csv.as_deref())?;

@@ -42,6 +42,7 @@ fn bad_parameters_exit_2_and_are_named() {
         (["--mu-dynamic", "0.6"], "mu_dynamic = 0.6"),
         (["--law", "table"], "--table"),
         (["--belt", "inf"], "belt = inf"),
+        (["--plot=figures", "--dt=1e-8"], "dt = 0.00000001"),
     ] {
         let output = slider(&options);
         assert_eq!(output.status.code(), Some(2), "{options:?}");

@@ -12,7 +12,7 @@ use contact::FrictionLaw;
 pub fn exact_step(p: &Parameters, state: State) -> State {
     let (free, reach) = (free_slip(p, &state), reach(p));
     let speed = free.abs();
-    let sticks = speed <= reach * p.law_at_rest();
+    let sticks = speed <= reach * p.mu_static();
     let slipped_on = state.slip * free > 0.0;
     let slip = match (sticks, slipped_on) {
         (true, false) => 0.0,
@@ -21,7 +21,7 @@ pub fn exact_step(p: &Parameters, state: State) -> State {
         (false, _) => slipping(p, speed, reach).unwrap_or(0.0),
     };
     let slip = slip.copysign(free);
-    let mu = if slip == 0.0 { p.law_at_rest() } else { p.mu(slip) };
+    let mu = if slip == 0.0 { p.mu_static() } else { p.mu(slip) };
     advanced(p, &state, free, slip, mu)
 }
 

@@ -11,6 +11,29 @@ type Sample = (f64, State);
 /// Pixel columns for which lines are thinned.
 const COLUMNS: usize = 1500;
 
+/// Most steps of a run that is drawn: every step is kept, in 40 bytes.
+const MOST_DRAWN: f64 = 2e7;
+
+/// Most steps of the map's run at its smallest time step: minutes for the whole map.
+const MOST_MAPPED: f64 = 5e8;
+
+/// Whether the figures can be drawn in the memory and time that a machine has.
+///
+/// # Errors
+/// A time step or an end with too many steps.
+pub fn drawable(p: &Parameters) -> Result<(), ParameterError> {
+    if p.end / p.dt > MOST_DRAWN {
+        let allowed = "at least t_end/2e7 for figures: they keep every step in memory";
+        return Err(ParameterError { key: "dt", value: p.dt, unit: "s", allowed });
+    }
+    if map_end(p) / SMALLEST_STEP > MOST_MAPPED {
+        let allowed = "at most 50 s for the map of the time step, unless the block breaks loose \
+                       before";
+        return Err(ParameterError { key: "t_end", value: p.end, unit: "s", allowed });
+    }
+    Ok(())
+}
+
 fn history(p: &Parameters, method: Method) -> Result<Vec<Sample>, BlowUp> {
     let mut samples = Vec::new();
     run(p, method, |time, state| {

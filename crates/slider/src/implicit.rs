@@ -35,7 +35,7 @@ impl ImplicitEquation {
         Self {
             inertia: p.mass + p.damping * p.dt + p.spring * p.dt * p.dt,
             known: p.mass * state.v - p.dt * p.spring * state.x,
-            adhesion: p.dt * p.law_at_rest() * p.normal_force / p.adhesion,
+            adhesion: p.dt * p.mu_static() * p.normal_force / p.adhesion,
         }
     }
 
@@ -83,7 +83,7 @@ pub fn implicit_step(p: &Parameters, state: State) -> (State, Iterations) {
 fn bracketed(p: &Parameters, equation: &ImplicitEquation, count: &mut Iterations) -> f64 {
     let positive = |slip: f64| equation.imbalance(p, slip)[0] > 0.0;
     let centre = equation.known / equation.inertia - p.belt;
-    let mut width = p.dt * p.law_at_rest() * p.normal_force / equation.inertia + p.adhesion;
+    let mut width = p.dt * p.mu_static() * p.normal_force / equation.inertia + p.adhesion;
     let brackets = |width: f64| positive(centre - width) && !positive(centre + width);
     while count.bracketing < 1000 && !brackets(width) {
         count.bracketing += 1;

@@ -14,6 +14,14 @@ pub struct MapPoint {
     pub adhesion_slip: f64,
 }
 
+/// Smallest time step of the map (s).
+pub(crate) const SMALLEST_STEP: f64 = 1e-7;
+
+/// End of the map's runs (s): just after the first collapse.
+pub(crate) fn map_end(p: &Parameters) -> f64 {
+    p.end.min(1.2 * p.reach() / p.belt.abs())
+}
+
 /// Steps per decade of dt.
 const PER_DECADE: i32 = 24;
 
@@ -21,7 +29,7 @@ const PER_DECADE: i32 = 24;
 ///
 /// Steps at which the method blows up or, with a penalty, the spring is unstable, are left out.
 pub fn map(p: &Parameters, method: Method, from: i32, to: i32) -> Vec<MapPoint> {
-    let end = p.end.min(1.2 * p.reach() / p.belt.abs());
+    let end = map_end(p);
     (from * PER_DECADE..=to * PER_DECADE)
         .into_par_iter()
         .filter_map(|i| {

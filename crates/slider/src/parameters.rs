@@ -140,7 +140,7 @@ impl Parameters {
             v: self.v0,
             slip: self.v0 - self.belt,
             friction: 0.0,
-            mu: self.law_at_rest(),
+            mu: self.mu_static(),
         }
     }
 
@@ -152,7 +152,7 @@ impl Parameters {
 
     /// mu_S, the coefficient at rest.
     #[inline]
-    pub fn law_at_rest(&self) -> f64 {
+    pub fn mu_static(&self) -> f64 {
         self.law.mu_static()
     }
 
@@ -171,6 +171,6 @@ impl Parameters {
     /// Position (m, a magnitude) at which the spring pulls with static friction: mu_S F_n/k_spring;
     /// infinite without a spring.
     pub fn reach(&self) -> f64 {
-        self.law_at_rest() * self.normal_force / self.spring
+        self.mu_static() * self.normal_force / self.spring
     }
 }

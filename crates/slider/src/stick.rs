@@ -64,7 +64,7 @@ impl StickWatch {
         let at_rest = (p.v0 - p.belt).abs() <= p.adhesion;
         Self {
             phase: if at_rest { Phase::Adhesion } else { Phase::Loading },
-            half: 0.5 * p.law_at_rest() * p.normal_force,
+            half: 0.5 * p.mu_static() * p.normal_force,
             tenth: 0.1 * p.reach() / p.belt.abs(),
             adhesion: Mean::default(),
             windows: [Mean::default(); 2],

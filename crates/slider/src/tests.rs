@@ -88,7 +88,7 @@ fn after_a_capture_the_penalty_spring_rings_as_hard_as_the_bound_lets_it() {
         })
         .unwrap();
         // the bound with mu at the largest slip and at rest
-        let bound = [p.mu(ringing.peak), p.law_at_rest()].map(|mu| mu * p.normal_force);
+        let bound = [p.mu(ringing.peak), p.mu_static()].map(|mu| mu * p.normal_force);
         assert!((bound[0]..1.01 * bound[1]).contains(&force), "{stiffness:e}: {force} {bound:?}");
     }
 }

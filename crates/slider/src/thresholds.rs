@@ -32,14 +32,14 @@ pub struct Thresholds {
 
 /// dt_1 = 2 m s_adhes/(mu_S F_n) (s).
 pub fn chatter_step(p: &Parameters) -> f64 {
-    2.0 * p.mass * p.adhesion / (p.law_at_rest() * p.normal_force)
+    2.0 * p.mass * p.adhesion / (p.mu_static() * p.normal_force)
 }
 
 /// dt_2 = m s_adhes/(mu_S F_n) (1 + sqrt(1 + mu_S/(kappa s_adhes))) (s) with kappa = -mu'(0), which
 /// is k (mu_S - mu_D) for Eq (17); `None` where friction does not fall.
 pub fn collapse_step(p: &Parameters) -> Option<f64> {
     let fall = p.law.fall_at_rest() * p.adhesion;
-    (fall > 0.0).then(|| 0.5 * chatter_step(p) * (1.0 + (1.0 + p.law_at_rest() / fall).sqrt()))
+    (fall > 0.0).then(|| 0.5 * chatter_step(p) * (1.0 + (1.0 + p.mu_static() / fall).sqrt()))
 }
 
 /// Most steps of a run up to the static pull: with 16 starts and 20 bisections about a minute.
@@ -54,7 +54,7 @@ pub fn thresholds(p: &Parameters) -> Result<Thresholds, ParameterError> {
     let needed = [
         ("normal_force", p.normal_force, "N"),
         ("spring", p.spring, "N/m"),
-        ("mu_static", p.law_at_rest(), ""),
+        ("mu_static", p.mu_static(), ""),
         ("belt", p.belt.abs(), "m/s"),
     ];
     for (key, value, unit) in needed {
