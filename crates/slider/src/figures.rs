@@ -1,6 +1,10 @@
 //! The paper's Figures 6 to 8 and the map of the time step.
 
-use crate::{BlowUp, MapPoint, Method, Parameters, State, chatter_step, collapse_step, map, run};
+use crate::map::{SMALLEST_STEP, map_end};
+use crate::{
+    BlowUp, MapPoint, Method, ParameterError, Parameters, State, chatter_step, collapse_step, map,
+    run,
+};
 use std::ops::ControlFlow;
 
 use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
