@@ -1,11 +1,12 @@
 //! A free block in explicit dynamics against five other codes.
 #![allow(clippy::unwrap_used)]
 
+use dynamics::{QuietEnd, Setup, Simulation};
 use mesh::Padded;
 use solid::{Level, Material, Solid, Viscosity, Volumetric};
 
-/// The density is that of the references: they are met to the last digit at 7800 kg/m^3 only, which
-/// the four values, each of other waves, leave no doubt about.
+/// The density is the one at which the references were made: with 7800 kg/m^3 all four are met in
+/// every digit, with the 7850 that is sometimes quoted beside them none is (n = 4: -1.073219e-6).
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
 
 /// The references are of small strain and of a velocity of 1 m/s at the top; so much slower, finite
@@ -22,25 +23,28 @@ fn corner(n: usize) -> f64 {
     let size = n as f64 * 1e-3;
     let mesh = mesh::block([n; 3], [size; 3]);
     let viscosity = Viscosity::default();
-    let mut solid =
-        Solid::new(&mesh, &[STEEL], Volumetric::Full, viscosity, Level::detect()).unwrap();
+    let solid = Solid::new(&mesh, &[STEEL], Volumetric::Full, viscosity, Level::detect()).unwrap();
     let mass = solid::lumped_mass(&mesh, &[STEEL.density]);
-    let dt = 1e-7;
-    let mut u = vec![Padded::ZERO; mesh.nodes.len()];
     let start = |x: &[f64; 3]| Padded::new([0.0, 0.0, -SCALE * x[2] / size]);
-    let mut v: Vec<_> = mesh.nodes.iter().map(start).collect();
-    let mut f = u.clone();
-    for _ in 0..20 {
-        f.fill(Padded::ZERO);
-        solid.subtract_internal_force(&u, &[], &mut f, false);
-        for (((u, v), f), m) in u.iter_mut().zip(&mut v).zip(&f).zip(&mass) {
-            for i in 0..3 {
-                v.0[i] += dt * f.0[i] / m;
-                u.0[i] += dt * v.0[i];
-            }
-        }
-    }
-    u.last().unwrap().0[2] / SCALE
+    let dt = 1e-7;
+    let mut simulation = Simulation::new(Setup {
+        solid,
+        contact: None,
+        hub: None,
+        quiet: QuietEnd::default(),
+        held: Vec::new(),
+        disk: 0..0,
+        mass,
+        displacement: vec![Padded::ZERO; mesh.nodes.len()],
+        velocity: mesh.nodes.iter().map(start).collect(),
+        dt,
+        omega_max: 2.0 / dt,
+        mass_damping: 0.0,
+    });
+    (0..20).for_each(|_| {
+        simulation.step(false);
+    });
+    simulation.displacement().last().unwrap().0[2] / SCALE
 }
 
 #[test]
