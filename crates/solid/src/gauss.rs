@@ -53,3 +53,39 @@ impl GaussPoint {
         h
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::mean_gradient;
+    use crate::geometry::tests::distorted;
+
+    #[test]
+    fn the_points_of_a_distorted_element_sum_to_its_volume_and_its_mean_gradient() {
+        let x = distorted();
+        let (volume, b) = mean_gradient(&x);
+        let points = gauss_points(&x);
+        assert!((points.iter().map(|p| p.volume).sum::<f64>() - volume).abs() < 1e-14);
+        for node in 0..8 {
+            for i in 0..3 {
+                let sum: f64 = points.iter().map(|p| p.volume * p.gradient[node][i]).sum();
+                assert!((sum - b[node][i]).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn the_gradient_of_an_affine_field_is_exact_at_every_point() {
+        let x = distorted();
+        let h = [[0.1, -0.2, 0.3], [0.05, 0.4, -0.1], [-0.3, 0.2, 0.15]];
+        let u = x.map(|p| [0, 1, 2].map(|i| 7.0 + dot(h[i], p)));
+        for point in gauss_points(&x) {
+            let computed = point.displacement_gradient(&u);
+            for i in 0..3 {
+                for j in 0..3 {
+                    assert!((computed[i][j] - h[i][j]).abs() < 1e-13);
+                }
+            }
+        }
+    }
+}
