@@ -40,6 +40,9 @@ fn annotate(schema: &mut Map<String, Value>, key: &Key) {
         let kept = types.iter().find(|name| *name != "null").cloned();
         schema.insert("type".into(), kept.unwrap_or(Value::Null));
     }
+    if let Some(Value::Array(choices)) = schema.get_mut("anyOf") {
+        choices.retain(|choice| choice.get("type") != Some(&json!("null")));
+    }
     if schema.get("default") == Some(&Value::Null) {
         schema.remove("default");
     }

@@ -190,6 +190,9 @@ pub const KEYS: &[Key] = &[
         "-",
         "0.05 is usual; 0.01 to 0.1 is the sensible range",
     ),
+    key("element.contact_layers", Word(&["one-point", "full"]), "", "choose one of the words"),
+    key("element.layers", Count(1, 1000), "layers", "give a whole number: 2"),
+    key("element.volumetric", Word(&["mean", "full"]), "", "choose one of the words"),
     needed(
         "load.normal",
         Number(over(0.0, 1e8)),

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
-use crate::schema::{Case, DriveMode, FrictionLaw};
+use crate::schema::{Case, ContactLayers, DriveMode, FrictionLaw};
 use crate::sense;
 
 impl Case {
@@ -90,6 +90,10 @@ fn write_defaults(case: &mut Case) {
     if case.friction.law == FrictionLaw::Exponential {
         case.friction.dynamic.get_or_insert(sense::DYNAMIC);
         case.friction.decay.get_or_insert(sense::DECAY);
+    }
+    if case.element.contact_layers == ContactLayers::Full {
+        case.element.layers.get_or_insert(sense::LAYERS);
+        case.element.volumetric.get_or_insert_default();
     }
     if case.time.duration.is_none() {
         case.time.roll = Some(case.rolled());

@@ -19,7 +19,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
     let mut solid = model.solid(case)?;
     let quality = mesh::quality(&model.mesh);
     let (bound, bound_element) =
-        solid::element_frequency_bound(&model.mesh, &model.materials, model.element);
+        solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
     let omega = elastic_frequency(&model, &mut solid);
     let elements = model.mesh.hexes.len();
     let nodes = model.mesh.nodes.len();
@@ -42,6 +42,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
     Ok(json!({
         "name": case.name,
         "elements": elements,
+        "fully_integrated": model.fully_integrated(),
         "nodes": nodes,
         "bodies": bodies,
         "quality": {

@@ -1,13 +1,14 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
 use crate::run_error::RunError;
-use crate::schema::{Case, Ends};
+use crate::schema::{Case, ContactLayers, Ends};
+use crate::sense::LAYERS;
 use contact::{
     BodyMaterial, Coulomb, Exponential, FrictionLaw, PenaltyContact, PenaltySettings,
     StabilityScale,
 };
 use mesh::{Face, FineZone, Mesh, Surface};
-use solid::{Element, Level, Material, Solid, Viscosity};
+use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 
 /// Index of the disk among bodies and contact sides.
 pub(crate) const DISK: usize = 0;
@@ -18,7 +19,10 @@ pub(crate) const BAR: usize = 1;
 pub(crate) struct Model {
     pub(crate) mesh: Mesh,
     pub(crate) materials: [Material; 2],
-    pub(crate) element: Element,
+    element: Element,
+    /// Which elements are fully integrated, one entry per element; empty where none is.
+    full: Vec<bool>,
+    volumetric: Volumetric,
     /// Instruction set of the element kernels.
     pub(crate) kernels: Level,
     /// Lumped masses (kg).
@@ -76,6 +80,11 @@ impl Model {
         Ok(Self {
             materials,
             element: Element { hourglass: case.element.hourglass },
+            full: fully_integrated(case, &mesh),
+            volumetric: match case.element.volumetric.unwrap_or_default() {
+                crate::schema::Volumetric::Mean => Volumetric::Mean,
+                crate::schema::Volumetric::Full => Volumetric::Full,
+            },
             kernels: Level::detect(),
             mass,
             surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
@@ -87,6 +96,16 @@ impl Model {
         })
     }
 
+    /// How the elements are integrated.
+    pub(crate) fn elements(&self) -> Elements<'_> {
+        Elements::mixed(self.element, &self.full, self.volumetric)
+    }
+
+    /// Number of fully integrated elements.
+    pub(crate) fn fully_integrated(&self) -> usize {
+        self.full.iter().filter(|full| **full).count()
+    }
+
     /// The elements.
     pub(crate) fn solid(&self, case: &Case) -> Result<Solid, RunError> {
         let viscosity = Viscosity {
@@ -94,7 +113,7 @@ impl Model {
             bulk_quadratic: case.damping.bulk_quadratic,
             kelvin_voigt: case.damping.kelvin_voigt,
         };
-        Ok(Solid::new(&self.mesh, &self.materials, self.element, viscosity, self.kernels)?)
+        Ok(Solid::new(&self.mesh, &self.materials, self.elements(), viscosity, self.kernels)?)
     }
 
     /// The contact of disk and bar.
@@ -116,6 +135,21 @@ impl Model {
         ];
         Ok(PenaltyContact::new(&self.mesh, sides, &settings, Some(scale), law(case))?)
     }
+}
+
+/// The elements in the contact layers of the fine zones, if they are to be fully integrated.
+fn fully_integrated(case: &Case, mesh: &Mesh) -> Vec<bool> {
+    if case.element.contact_layers == ContactLayers::OnePoint {
+        return Vec::new();
+    }
+    let layers = case.element.layers.unwrap_or(LAYERS) as usize;
+    let mut full = vec![false; mesh.hexes.len()];
+    for body in &mesh.bodies {
+        let faces = body.surfaces.get("zone").map_or(&[][..], |zone| &zone.faces);
+        let below = mesh::layers_below(mesh, body, faces, layers);
+        below.into_iter().for_each(|e| full[e as usize] = true);
+    }
+    full
 }
 
 fn material(m: crate::schema::Material) -> Material {

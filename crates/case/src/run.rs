@@ -71,6 +71,9 @@ fn run_in_pool(
     case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
     let elements = model.mesh.hexes.len();
     log.say(&format!("mesh: {elements} elements, {} nodes", model.mesh.nodes.len()))?;
+    if model.fully_integrated() > 0 {
+        log.say(&format!("fully integrated: {} elements", model.fully_integrated()))?;
+    }
     observe(&stage(case, Stage::Mesh));
 
     let begun = match start(case, &model, stop, observe) {

@@ -66,18 +66,59 @@ pub struct Case {
     pub output: Output,
 }
 
-/// The one-point hexahedron.
+/// The hexahedron.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Element {
-    /// Flanagan-Belytschko hourglass stiffness coefficient (dimensionless). Default 0.05.
+    /// Flanagan-Belytschko hourglass stiffness coefficient of the one-point element
+    /// (dimensionless). Default 0.05.
     pub hourglass: f64,
+    /// Integration of the elements below the fine zone of each contact surface: `"one-point"`, as
+    /// everywhere else, or `"full"` (2x2x2 points, no hourglass modes, about three times the time
+    /// of each such element). Default `"one-point"`.
+    pub contact_layers: ContactLayers,
+    /// Layers of elements below each surface that `contact_layers` speaks of (count). Default 2
+    /// with `contact_layers = "full"`, refused with `"one-point"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<u64>,
+    /// Volumetric part of the fully integrated elements: `"mean"` (its mean over the element, which
+    /// does not lock as Poisson's ratio nears 1/2) or `"full"` (at every point).
+    /// Default `"mean"` with `contact_layers = "full"`, refused with `"one-point"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volumetric: Option<Volumetric>,
 }
 
 impl Default for Element {
     fn default() -> Self {
-        Self { hourglass: 0.05 }
+        Self {
+            hourglass: 0.05,
+            contact_layers: ContactLayers::OnePoint,
+            layers: None,
+            volumetric: None,
+        }
     }
+}
+
+/// How the elements below the contact surfaces are integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactLayers {
+    /// One point and hourglass stiffness.
+    #[default]
+    OnePoint,
+    /// 2x2x2 Gauss points.
+    Full,
+}
+
+/// How the volumetric part of a fully integrated element is integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Volumetric {
+    /// By its mean over the element.
+    #[default]
+    Mean,
+    /// At every Gauss point.
+    Full,
 }
 
 /// The load.

@@ -6,13 +6,17 @@ use crate::hertz::hertz;
 use crate::keys::number;
 use crate::layers::{Layers, Origin, key_error_in};
 use crate::schema::{
-    Case, Crown, DriveMode, FrictionLaw, LoadMode, Material, PreloadMethod, Stiffness,
+    Case, ContactLayers, Crown, DriveMode, FrictionLaw, LoadMode, Material, PreloadMethod,
+    Stiffness,
 };
 
 /// Coefficient at high slip velocity where an exponential law gives none.
 pub const DYNAMIC: f64 = 0.32;
 /// Decay (s/m) where an exponential law gives none.
 pub const DECAY: f64 = 6.0;
+
+/// Fully integrated layers where a case with them does not say how many.
+pub const LAYERS: u64 = 2;
 
 /// More elements than this in the fine zones is a slip of a digit.
 const MOST_ELEMENTS: f64 = 2e8;
@@ -126,6 +130,18 @@ fn check_choices(case: &Case, found: &mut Findings) {
                 "in [drive] give the torque: `torque = 12.9e3`",
             );
         }
+    }
+    let element = &case.element;
+    for (key, given) in [
+        ("element.layers", element.layers.is_some()),
+        ("element.volumetric", element.volumetric.is_some()),
+    ] {
+        found.require(
+            !given || element.contact_layers == ContactLayers::Full,
+            &[key],
+            || format!("{key} is not used with element.contact_layers = \"one-point\""),
+            "leave it out, or set element.contact_layers = \"full\"",
+        );
     }
     let friction = &case.friction;
     match friction.law {

@@ -94,7 +94,7 @@ pub(crate) fn start(
                 stiffness: &solid::nodal_stiffness_bounds(
                     &model.mesh,
                     &model.materials,
-                    model.element,
+                    model.elements(),
                 ),
                 start: -hertz(case).approach,
                 tolerance: case.preload.tolerance,
@@ -140,7 +140,7 @@ pub(crate) fn start(
             LANCZOS,
         );
     let (element_bound, _) =
-        solid::element_frequency_bound(&model.mesh, &model.materials, model.element);
+        solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
     let contact_bound = contact.rigorous_omega_squared(&inverse_mass);
     // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
     let xi = 0.5 * case.damping.kelvin_voigt * omega_max;

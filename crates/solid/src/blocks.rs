@@ -1,16 +1,21 @@
 //! A fixed partition of the elements for parallel assembly with the same bits on any number of
 //! threads.
 //!
-//! Elements are cut, in mesh order, into blocks of at most [`BLOCK_ELEMENTS`] of one body, and
-//! the blocks are coloured so that blocks of one colour share no nodes. Colours run one after
+//! Elements are cut, in mesh order, into blocks of at most [`BLOCK_ELEMENTS`] of one body and one
+//! formulation, and the blocks are coloured so that blocks of one colour share no nodes. Colours run one after
 //! the other, blocks of a colour in any order: each node receives its contributions in the order
 //! of colours and, within a block, of elements, whatever the number of threads.
 
+use crate::formulation::Elements;
 use mesh::Mesh;
 
-/// Largest number of elements in a block: small enough that its nodes stay in the second-level
-/// cache and that many threads find work, large enough that starting a block costs nothing.
+/// Largest number of elements in a block of one-point elements: small enough that its nodes stay in
+/// the second-level cache and that many threads find work, large enough that starting a block costs
+/// nothing.
 pub(crate) const BLOCK_ELEMENTS: usize = 512;
+
+/// The same for fully integrated elements, each of which takes about three times as long.
+pub(crate) const BLOCK_FULL_ELEMENTS: usize = 128;
 
 /// Elements per batch; the widest vector has as many lanes.
 pub(crate) const BATCH: usize = 8;
@@ -24,7 +29,7 @@ pub(crate) struct Batch {
     pub(crate) nodes: [[u32; BATCH]; 8],
 }
 
-/// A run of batches of one body.
+/// A run of batches of one body and one formulation.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     /// First batch and one past the last.
@@ -33,6 +38,8 @@ pub(crate) struct Block {
     pub(crate) elements: usize,
     /// Index of the body, hence of the material.
     pub(crate) body: usize,
+    /// Whether its elements are fully integrated.
+    pub(crate) full: bool,
 }
 
 /// All batches and the coloured blocks that own them.
@@ -42,72 +49,100 @@ pub(crate) struct Blocks {
     pub(crate) blocks: Vec<Block>,
     /// Indices into `blocks`, colour by colour.
     pub(crate) colours: Vec<Vec<u32>>,
-    /// First element and first batch of each body.
-    starts: Vec<(usize, usize)>,
+    /// Where the elements of each body are.
+    bodies: Vec<Places>,
+}
+
+/// Where the elements of a body are: its one-point elements fill batches in mesh order, then its
+/// fully integrated ones do.
+#[derive(Clone, Debug)]
+struct Places {
+    /// Index of the body's first element in the mesh.
+    first: usize,
+    /// Fully integrated elements of the body, ascending.
+    full: Vec<u32>,
+    /// First batch of the one-point and of the fully integrated elements.
+    batches: [usize; 2],
 }
 
 impl Blocks {
     /// Cuts and colours the elements of `mesh`.
-    pub(crate) fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh, elements: &Elements) -> Self {
         let mut batches = Vec::with_capacity(mesh.hexes.len() / BATCH + 1);
         let mut blocks = Vec::new();
-        let mut ranges = Vec::new();
-        let mut starts = Vec::new();
+        let mut bodies = Vec::new();
         for (body, part) in mesh.bodies.iter().enumerate() {
-            let mut start = part.hexes.start;
-            starts.push((start, batches.len()));
-            while start < part.hexes.end {
-                let end = (start + BLOCK_ELEMENTS).min(part.hexes.end);
-                let first = batches.len();
-                for chunk in mesh.hexes[start..end].chunks(BATCH) {
-                    let mut batch = Batch { nodes: [[0; BATCH]; 8] };
-                    for lane in 0..BATCH {
-                        let hex = chunk[lane.min(chunk.len() - 1)];
-                        for corner in 0..8 {
-                            batch.nodes[corner][lane] = hex[corner];
-                        }
-                    }
-                    batches.push(batch);
+            let (full, one_point): (Vec<u32>, Vec<u32>) =
+                part.hexes.clone().map(|e| e as u32).partition(|&e| elements.is_full(e as usize));
+            let mut places = Places { first: part.hexes.start, full, batches: [0; 2] };
+            for (list, full, size) in
+                [(&one_point, false, BLOCK_ELEMENTS), (&places.full, true, BLOCK_FULL_ELEMENTS)]
+            {
+                places.batches[usize::from(full)] = batches.len();
+                for elements in list.chunks(size) {
+                    let first = batches.len();
+                    batches.extend(elements.chunks(BATCH).map(|chunk| batch(mesh, chunk)));
+                    let batches = first..batches.len();
+                    blocks.push(Block { batches, elements: elements.len(), body, full });
                 }
-                blocks.push(Block { batches: first..batches.len(), elements: end - start, body });
-                ranges.push(start..end);
-                start = end;
             }
+            bodies.push(places);
         }
-        let colours = colour(mesh, &ranges);
-        Self { batches, blocks, colours, starts }
+        let colours = colour(mesh.nodes.len(), &batches, &blocks);
+        Self { batches, blocks, colours, bodies }
     }
 
-    /// Nodes of an element. Blocks hold a multiple of eight elements but for the last of a body,
-    /// so a body's batches are full but for the last.
+    /// Nodes of an element. Blocks hold a multiple of eight elements but for the last of a body's
+    /// formulation, so its batches are full but for the last.
     pub(crate) fn hex(&self, body: usize, element: usize) -> [u32; 8] {
-        let (first, batch) = self.starts[body];
-        let local = element - first;
-        let nodes = &self.batches[batch + local / BATCH].nodes;
-        nodes.map(|corner| corner[local % BATCH])
+        let places = &self.bodies[body];
+        let (batch, slot) = match places.full.binary_search(&(element as u32)) {
+            Ok(slot) => (places.batches[1], slot),
+            Err(before) => (places.batches[0], element - places.first - before),
+        };
+        let nodes = &self.batches[batch + slot / BATCH].nodes;
+        nodes.map(|corner| corner[slot % BATCH])
+    }
+
+    /// Whether an element is fully integrated.
+    pub(crate) fn is_full(&self, body: usize, element: usize) -> bool {
+        self.bodies[body].full.binary_search(&(element as u32)).is_ok()
     }
 }
 
-/// Greedy colouring of element ranges that share nodes, in order.
-fn colour(mesh: &Mesh, ranges: &[std::ops::Range<usize>]) -> Vec<Vec<u32>> {
+/// The batch of at most eight elements.
+fn batch(mesh: &Mesh, elements: &[u32]) -> Batch {
+    let mut batch = Batch { nodes: [[0; BATCH]; 8] };
+    for lane in 0..BATCH {
+        let hex = mesh.hexes[elements[lane.min(elements.len() - 1)] as usize];
+        for corner in 0..8 {
+            batch.nodes[corner][lane] = hex[corner];
+        }
+    }
+    batch
+}
+
+/// Greedy colouring of blocks that share nodes, in order.
+fn colour(nodes: usize, batches: &[Batch], blocks: &[Block]) -> Vec<Vec<u32>> {
     // One bit per colour already present at each node; 64 is far beyond what a 3-D mesh needs,
     // and a block that finds none free opens a colour of its own.
-    let mut used = vec![0u64; mesh.nodes.len()];
+    let mut used = vec![0u64; nodes];
     let mut colours: Vec<Vec<u32>> = Vec::new();
     let mut lonely = Vec::new();
-    for (block, range) in ranges.iter().enumerate() {
-        let nodes = || mesh.hexes[range.clone()].iter().flatten().map(|&n| n as usize);
+    for (index, block) in blocks.iter().enumerate() {
+        let own = &batches[block.batches.clone()];
+        let nodes = || own.iter().flat_map(|b| b.nodes.as_flattened()).map(|&n| n as usize);
         let taken = nodes().fold(0u64, |bits, n| bits | used[n]);
         let free = (!taken).trailing_zeros() as usize;
         if free >= 64 {
-            lonely.push(vec![block as u32]);
+            lonely.push(vec![index as u32]);
             continue;
         }
         nodes().for_each(|n| used[n] |= 1 << free);
         if free == colours.len() {
             colours.push(Vec::new());
         }
-        colours[free].push(block as u32);
+        colours[free].push(index as u32);
     }
     colours.append(&mut lonely);
     colours
@@ -117,12 +152,25 @@ fn colour(mesh: &Mesh, ranges: &[std::ops::Range<usize>]) -> Vec<Vec<u32>> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::{Element, Volumetric};
     use std::collections::HashSet;
 
     #[test]
     fn blocks_of_one_colour_share_no_nodes_and_every_element_is_owned_once() {
         let mesh = mesh::block([17, 13, 11], [1.0, 1.0, 1.0]);
-        let blocks = Blocks::new(&mesh);
+        let some: Vec<bool> = (0..mesh.hexes.len()).map(|e| e % 7 == 3 || e > 2100).collect();
+        let one_point = Element { hourglass: 0.05 };
+        for elements in [
+            Elements::from(one_point),
+            Elements::from(Volumetric::Mean),
+            Elements::mixed(one_point, &some, Volumetric::Mean),
+        ] {
+            check(&mesh, &elements);
+        }
+    }
+
+    fn check(mesh: &Mesh, elements: &Elements) {
+        let blocks = Blocks::new(mesh, elements);
         let mut owned = 0;
         for colour in &blocks.colours {
             let mut seen = HashSet::new();
@@ -140,6 +188,7 @@ mod tests {
         assert_eq!(owned, mesh.hexes.len());
         for (e, hex) in mesh.hexes.iter().enumerate() {
             assert_eq!(blocks.hex(0, e), *hex);
+            assert_eq!(blocks.is_full(0, e), elements.is_full(e));
         }
     }
 }

@@ -1,6 +1,7 @@
-//! The internal force of a block of elements, eight elements or fewer at a time.
+//! The internal force of a block of elements, eight elements or fewer at a time, and the one-point
+//! element; the fully integrated one is [`crate::full`].
 //!
-//! Per element, in the Hadamard modes of the corner values (sums of the coordinates over the
+//! Per one-point element, in the Hadamard modes of the corner values (sums of the coordinates over the
 //! corners with the signs of xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta):
 //!
 //! * mean gradient B_I = dV/dx_I (Flanagan and Belytschko 1981; see [`crate::mean_gradient`]),
@@ -17,20 +18,22 @@ use crate::blocks::{BATCH, Batch};
 use crate::lanes::Lanes;
 use mesh::Padded;
 
-/// Material and element constants of a body, in the scaling of the kernel.
+/// Material and element constants of a body, in the scaling of a kernel: `w` is the volume that
+/// the plain sums of its modes give over the true one, 64 for the one-point element and 512 for
+/// the sum over the Gauss points of the fully integrated one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    /// lambda/64 (Pa)
+    /// lambda/w (Pa)
     pub(crate) lambda: f64,
-    /// G/64 (Pa)
+    /// G/w (Pa)
     pub(crate) shear: f64,
-    /// kappa (lambda + 2G)/192 (Pa)
+    /// kappa (lambda + 2G)/192 (Pa); of the one-point element only
     pub(crate) hourglass: f64,
     /// Kelvin–Voigt time eta (s): S_v = eta C : dE/dt
     pub(crate) kelvin_voigt: f64,
-    /// Linear bulk viscosity: coefficient times rho c_p/64 (Pa s/m)
+    /// Linear bulk viscosity: coefficient times rho c_p/w (Pa s/m)
     pub(crate) bulk_linear: f64,
-    /// Quadratic bulk viscosity: coefficient squared times rho/64 (kg/m^3)
+    /// Quadratic bulk viscosity: coefficient squared times rho/w (kg/m^3)
     pub(crate) bulk_quadratic: f64,
 }
 
@@ -46,14 +49,31 @@ pub(crate) struct Arrays {
 /// Energies of a block: internal (J), hourglass (J), viscous dissipation (W).
 pub(crate) type Sums = [f64; 3];
 
-type Vector<L> = [L; 3];
-type Matrix<L> = [[L; 3]; 3];
+pub(crate) type Vector<L> = [L; 3];
+pub(crate) type Matrix<L> = [[L; 3]; 3];
 
 /// Signed sums of corner values: xi, eta, zeta, then eta zeta, zeta xi, xi eta, xi eta zeta.
-struct Modes<L> {
-    linear: [Vector<L>; 3],
-    hourglass: [Vector<L>; 4],
+pub(crate) struct Modes<L> {
+    pub(crate) linear: [Vector<L>; 3],
+    pub(crate) hourglass: [Vector<L>; 4],
 }
+
+/// The force of one vector of elements by one formulation.
+pub(crate) trait Kernel {
+    /// # Safety
+    /// As [`block_force`], for `count` elements of `batch` from `lane` on.
+    unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
+        batch: &Batch,
+        lane: usize,
+        count: usize,
+        k: &Constants,
+        arrays: Arrays,
+        sums: &mut Sums,
+    );
+}
+
+/// The one-point element with hourglass stiffness.
+pub(crate) struct OnePoint;
 
 /// Subtracts the internal force of a block from `arrays.force` and returns its energies (zero
 /// unless `ENERGY`; the viscous power unless `VISCOUS`).
@@ -63,7 +83,7 @@ struct Modes<L> {
 /// (in `velocity` only if `VISCOUS`); nobody else writes those arrays or reads the forces of the
 /// block's nodes meanwhile; `elements` is at least 1 and fills all batches but the last.
 #[inline(always)]
-pub(crate) unsafe fn block_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
+pub(crate) unsafe fn block_force<K: Kernel, L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
     batches: &[Batch],
     elements: usize,
     constants: &Constants,
@@ -80,7 +100,7 @@ pub(crate) unsafe fn block_force<L: Lanes, const ENERGY: bool, const VISCOUS: bo
             if count > 0 {
                 // SAFETY: as the caller's; lane + L::N <= 8 because N divides 8.
                 unsafe {
-                    elements_force::<L, ENERGY, VISCOUS>(
+                    K::elements_force::<L, ENERGY, VISCOUS>(
                         batch, lane, count, constants, arrays, &mut sums,
                     );
                 }
@@ -93,19 +113,132 @@ pub(crate) unsafe fn block_force<L: Lanes, const ENERGY: bool, const VISCOUS: bo
     sums
 }
 
-/// One vector of elements.
+impl Kernel for OnePoint {
+    #[inline(always)]
+    unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
+        batch: &Batch,
+        lane: usize,
+        count: usize,
+        k: &Constants,
+        arrays: Arrays,
+        sums: &mut Sums,
+    ) {
+        // SAFETY: as the caller's throughout.
+        unsafe {
+            let x = modes::<L>(arrays.reference, batch, lane);
+            let g = &x.hourglass;
+            let Gradient { b, c, w, squares } = mean_gradient(&x);
+            let per_w = L::splat(1.0).div(w);
+
+            let u = modes::<L>(arrays.displacement, batch, lane);
+            let h = gradient(&u, &b, &c, per_w);
+            let e = green(&h);
+            let two_g = L::splat(2.0 * k.shear);
+            let pressure = L::splat(k.lambda).mul(trace(&e));
+            // S/64
+            let mut s = elastic(&e, two_g, pressure);
+
+            if ENERGY {
+                // V (lambda/2 tr(E)^2 + G E:E), with V = W/64
+                let density = pressure
+                    .mul(trace(&e))
+                    .mul_add(L::splat(0.5), L::splat(k.shear).mul(contract(&e, &e)));
+                sums[0] += density.mul(w).sum(count);
+            }
+            if VISCOUS {
+                let v = modes::<L>(arrays.velocity, batch, lane);
+                let rate = green_rate(&h, &gradient(&v, &b, &c, per_w));
+                let eta = L::splat(k.kelvin_voigt);
+                let mut viscous =
+                    elastic(&rate, two_g.mul(eta), L::splat(k.lambda).mul(trace(&rate)).mul(eta));
+                let q = bulk_viscosity(trace(&rate), w, squares, k);
+                let mut i = 0;
+                while i < 3 {
+                    viscous[i][i] = viscous[i][i].add(q);
+                    i += 1;
+                }
+                sums[2] += contract(&viscous, &rate).mul(w).sum(count);
+                let mut i = 0;
+                while i < 3 {
+                    s[i] = [
+                        s[i][0].add(viscous[i][0]),
+                        s[i][1].add(viscous[i][1]),
+                        s[i][2].add(viscous[i][2]),
+                    ];
+                    i += 1;
+                }
+            }
+
+            let mut p = piola(&h, &s); // P/64
+
+            // Hourglass: K_h = kappa M squares/(192 W); its stress-like part lowers P/64 by
+            // K_h/W sum q_a (x) G_a.
+            let stiffness = L::splat(k.hourglass).mul(squares).mul(per_w);
+            let mut q = u.hourglass;
+            let mut amplitude = 0;
+            while amplitude < 4 {
+                let mut i = 0;
+                while i < 3 {
+                    let mut v = q[amplitude][i];
+                    v = h[i][0].neg_mul_add(g[amplitude][0], v);
+                    v = h[i][1].neg_mul_add(g[amplitude][1], v);
+                    v = h[i][2].neg_mul_add(g[amplitude][2], v);
+                    q[amplitude][i] = v;
+                    i += 1;
+                }
+                amplitude += 1;
+            }
+            if ENERGY {
+                let mut square = dot(q[0], q[0]);
+                square = dot_add(q[1], q[1], square);
+                square = dot_add(q[2], q[2], square);
+                square = dot_add(q[3], q[3], square);
+                sums[1] += square.mul(stiffness).mul(L::splat(0.5)).sum(count);
+            }
+            let mut amplitude = 0;
+            while amplitude < 4 {
+                q[amplitude] = scale(q[amplitude], stiffness);
+                let mut i = 0;
+                while i < 3 {
+                    let over_w = q[amplitude][i].mul(per_w);
+                    let mut j = 0;
+                    while j < 3 {
+                        p[i][j] = over_w.neg_mul_add(g[amplitude][j], p[i][j]);
+                        j += 1;
+                    }
+                    i += 1;
+                }
+                amplitude += 1;
+            }
+            let mut force = Modes { linear: b, hourglass: q };
+            let mut m = 0;
+            while m < 3 {
+                let mut i = 0;
+                while i < 3 {
+                    force.linear[m][i] = dot(p[i], b[m]);
+                    force.hourglass[m][i] = dot_add(p[i], c[m], q[m][i]);
+                    i += 1;
+                }
+                m += 1;
+            }
+            scatter(&force, arrays.force, batch, lane, count);
+        }
+    }
+}
+
+/// The mean gradient in modes: B_I = 1/64 (sum of the signs of corner I times b_k and c_a).
+pub(crate) struct Gradient<L> {
+    b: [Vector<L>; 3],
+    c: [Vector<L>; 3],
+    /// 64 V
+    pub(crate) w: L,
+    /// 512 B_iI B_iI
+    pub(crate) squares: L,
+}
+
 #[inline(always)]
-unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
-    batch: &Batch,
-    lane: usize,
-    count: usize,
-    k: &Constants,
-    arrays: Arrays,
-    sums: &mut Sums,
-) {
-    // SAFETY: as the caller's throughout.
+pub(crate) unsafe fn mean_gradient<L: Lanes>(x: &Modes<L>) -> Gradient<L> {
     unsafe {
-        let x = modes::<L>(arrays.reference, batch, lane);
         let (a, g) = (&x.linear, &x.hourglass);
         let third = L::splat(1.0 / 3.0);
         let mut b = [[L::splat(0.0); 3]; 3];
@@ -117,63 +250,36 @@ unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
             c[m] = cross_add(scale(a[o], third), g[n], scale(g[o], third), a[n]);
             m += 1;
         }
-        let w = dot(a[0], b[0]).add(dot(g[0], c[0])); // 64 V
-        let per_w = L::splat(1.0).div(w);
+        let w = dot(a[0], b[0]).add(dot(g[0], c[0]));
         let mut squares = dot(b[0], b[0]);
         squares = dot_add(b[1], b[1], squares);
         squares = dot_add(b[2], b[2], squares);
         squares = dot_add(c[0], c[0], squares);
         squares = dot_add(c[1], c[1], squares);
         squares = dot_add(c[2], c[2], squares);
+        Gradient { b, c, w, squares }
+    }
+}
 
-        let u = modes::<L>(arrays.displacement, batch, lane);
-        let h = gradient(&u, &b, &c, per_w);
-        let e = green(&h);
-        let two_g = L::splat(2.0 * k.shear);
-        let pressure = L::splat(k.lambda).mul(trace(&e));
-        // S/64
-        let mut s = elastic(&e, two_g, pressure);
+/// Bulk viscosity as a stress, in compression only (von Neumann and Richtmyer; Landshoff), from
+/// the mean of tr dE/dt; negative, a compression.
+///
+/// Length V sqrt(3/2)/|B|: the edge of a cube, the thickness of a flat element; with
+/// |B|^2 = 8 squares/4096 it is W sqrt(3/2)/sqrt(8 squares), W = 64 V.
+#[inline(always)]
+pub(crate) unsafe fn bulk_viscosity<L: Lanes>(rate: L, w: L, squares: L, k: &Constants) -> L {
+    unsafe {
+        let length = w.mul(L::splat(0.1875f64.sqrt())).div(squares.sqrt());
+        let closing = rate.min(L::splat(0.0)).mul(length);
+        closing.mul(closing.neg_mul_add(L::splat(k.bulk_quadratic), L::splat(k.bulk_linear)))
+    }
+}
 
-        if ENERGY {
-            // V (lambda/2 tr(E)^2 + G E:E), with V = W/64
-            let density = pressure
-                .mul(trace(&e))
-                .mul_add(L::splat(0.5), L::splat(k.shear).mul(contract(&e, &e)));
-            sums[0] += density.mul(w).sum(count);
-        }
-        if VISCOUS {
-            let v = modes::<L>(arrays.velocity, batch, lane);
-            let rate = green_rate(&h, &gradient(&v, &b, &c, per_w));
-            let eta = L::splat(k.kelvin_voigt);
-            let mut viscous =
-                elastic(&rate, two_g.mul(eta), L::splat(k.lambda).mul(trace(&rate)).mul(eta));
-            // Bulk viscosity acts in compression only (von Neumann and Richtmyer; Landshoff).
-            // Length V sqrt(3/2)/|B|: the edge of a cube, the thickness of a flat element;
-            // with |B|^2 = 8 squares/4096 it is W sqrt(3/2)/sqrt(8 squares).
-            let length = w.mul(L::splat(0.1875f64.sqrt())).div(squares.sqrt());
-            let closing = trace(&rate).min(L::splat(0.0)).mul(length);
-            let q = closing
-                .mul(closing.neg_mul_add(L::splat(k.bulk_quadratic), L::splat(k.bulk_linear)));
-            let mut i = 0;
-            while i < 3 {
-                // closing < 0, so q < 0: a compressive stress
-                viscous[i][i] = viscous[i][i].add(q);
-                i += 1;
-            }
-            sums[2] += contract(&viscous, &rate).mul(w).sum(count);
-            let mut i = 0;
-            while i < 3 {
-                s[i] = [
-                    s[i][0].add(viscous[i][0]),
-                    s[i][1].add(viscous[i][1]),
-                    s[i][2].add(viscous[i][2]),
-                ];
-                i += 1;
-            }
-        }
-
-        // P/64 = (I + H) S/64
-        let mut p = s;
+/// P = (I + H) S.
+#[inline(always)]
+pub(crate) unsafe fn piola<L: Lanes>(h: &Matrix<L>, s: &Matrix<L>) -> Matrix<L> {
+    unsafe {
+        let mut p = *s;
         let mut i = 0;
         while i < 3 {
             let mut j = 0;
@@ -185,64 +291,13 @@ unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
             }
             i += 1;
         }
-
-        // Hourglass: K_h = kappa M squares/(192 W); its stress-like part lowers P/64 by
-        // K_h/W sum q_a (x) G_a.
-        let stiffness = L::splat(k.hourglass).mul(squares).mul(per_w);
-        let mut q = u.hourglass;
-        let mut amplitude = 0;
-        while amplitude < 4 {
-            let mut i = 0;
-            while i < 3 {
-                let mut v = q[amplitude][i];
-                v = h[i][0].neg_mul_add(g[amplitude][0], v);
-                v = h[i][1].neg_mul_add(g[amplitude][1], v);
-                v = h[i][2].neg_mul_add(g[amplitude][2], v);
-                q[amplitude][i] = v;
-                i += 1;
-            }
-            amplitude += 1;
-        }
-        if ENERGY {
-            let mut square = dot(q[0], q[0]);
-            square = dot_add(q[1], q[1], square);
-            square = dot_add(q[2], q[2], square);
-            square = dot_add(q[3], q[3], square);
-            sums[1] += square.mul(stiffness).mul(L::splat(0.5)).sum(count);
-        }
-        let mut amplitude = 0;
-        while amplitude < 4 {
-            q[amplitude] = scale(q[amplitude], stiffness);
-            let mut i = 0;
-            while i < 3 {
-                let over_w = q[amplitude][i].mul(per_w);
-                let mut j = 0;
-                while j < 3 {
-                    p[i][j] = over_w.neg_mul_add(g[amplitude][j], p[i][j]);
-                    j += 1;
-                }
-                i += 1;
-            }
-            amplitude += 1;
-        }
-        let mut force = Modes { linear: b, hourglass: q };
-        let mut m = 0;
-        while m < 3 {
-            let mut i = 0;
-            while i < 3 {
-                force.linear[m][i] = dot(p[i], b[m]);
-                force.hourglass[m][i] = dot_add(p[i], c[m], q[m][i]);
-                i += 1;
-            }
-            m += 1;
-        }
-        scatter(&force, arrays.force, batch, lane, count);
+        p
     }
 }
 
 /// Gathers the corner values of a nodal array and forms their signed sums.
 #[inline(always)]
-unsafe fn modes<L: Lanes>(base: *const Padded, batch: &Batch, lane: usize) -> Modes<L> {
+pub(crate) unsafe fn modes<L: Lanes>(base: *const Padded, batch: &Batch, lane: usize) -> Modes<L> {
     unsafe {
         let zero = [L::splat(0.0); 3];
         let mut n = [zero; 8];
@@ -281,7 +336,7 @@ unsafe fn modes<L: Lanes>(base: *const Padded, batch: &Batch, lane: usize) -> Mo
 
 /// The transpose of [`modes`]: corner forces from their modes, subtracted from the nodes.
 #[inline(always)]
-unsafe fn scatter<L: Lanes>(
+pub(crate) unsafe fn scatter<L: Lanes>(
     force: &Modes<L>,
     base: *mut Padded,
     batch: &Batch,
@@ -351,7 +406,7 @@ unsafe fn gradient<L: Lanes>(
 
 /// E = (H + H^T + H^T H)/2.
 #[inline(always)]
-unsafe fn green<L: Lanes>(h: &Matrix<L>) -> Matrix<L> {
+pub(crate) unsafe fn green<L: Lanes>(h: &Matrix<L>) -> Matrix<L> {
     unsafe {
         let half = L::splat(0.5);
         let mut e = *h;
@@ -375,7 +430,7 @@ unsafe fn green<L: Lanes>(h: &Matrix<L>) -> Matrix<L> {
 
 /// dE/dt = sym(F^T dH/dt).
 #[inline(always)]
-unsafe fn green_rate<L: Lanes>(h: &Matrix<L>, rate: &Matrix<L>) -> Matrix<L> {
+pub(crate) unsafe fn green_rate<L: Lanes>(h: &Matrix<L>, rate: &Matrix<L>) -> Matrix<L> {
     unsafe {
         let half = L::splat(0.5);
         let mut e = *h;
@@ -402,7 +457,7 @@ unsafe fn green_rate<L: Lanes>(h: &Matrix<L>, rate: &Matrix<L>) -> Matrix<L> {
 
 /// 2G E + p I.
 #[inline(always)]
-unsafe fn elastic<L: Lanes>(e: &Matrix<L>, two_g: L, p: L) -> Matrix<L> {
+pub(crate) unsafe fn elastic<L: Lanes>(e: &Matrix<L>, two_g: L, p: L) -> Matrix<L> {
     unsafe {
         let (xy, xz, yz) = (two_g.mul(e[0][1]), two_g.mul(e[0][2]), two_g.mul(e[1][2]));
         [
@@ -414,13 +469,13 @@ unsafe fn elastic<L: Lanes>(e: &Matrix<L>, two_g: L, p: L) -> Matrix<L> {
 }
 
 #[inline(always)]
-unsafe fn trace<L: Lanes>(m: &Matrix<L>) -> L {
+pub(crate) unsafe fn trace<L: Lanes>(m: &Matrix<L>) -> L {
     unsafe { m[0][0].add(m[1][1]).add(m[2][2]) }
 }
 
 /// a : b of symmetric matrices.
 #[inline(always)]
-unsafe fn contract<L: Lanes>(a: &Matrix<L>, b: &Matrix<L>) -> L {
+pub(crate) unsafe fn contract<L: Lanes>(a: &Matrix<L>, b: &Matrix<L>) -> L {
     unsafe {
         let mut shear = a[0][1].mul(b[0][1]);
         shear = a[0][2].mul_add(b[0][2], shear);
@@ -432,12 +487,12 @@ unsafe fn contract<L: Lanes>(a: &Matrix<L>, b: &Matrix<L>) -> L {
 }
 
 #[inline(always)]
-unsafe fn dot<L: Lanes>(a: Vector<L>, b: Vector<L>) -> L {
+pub(crate) unsafe fn dot<L: Lanes>(a: Vector<L>, b: Vector<L>) -> L {
     unsafe { a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul(b[0]))) }
 }
 
 #[inline(always)]
-unsafe fn dot_add<L: Lanes>(a: Vector<L>, b: Vector<L>, c: L) -> L {
+pub(crate) unsafe fn dot_add<L: Lanes>(a: Vector<L>, b: Vector<L>, c: L) -> L {
     unsafe { a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul_add(b[0], c))) }
 }
 
@@ -448,7 +503,12 @@ unsafe fn scale<L: Lanes>(a: Vector<L>, s: L) -> Vector<L> {
 
 /// a x b + c x d.
 #[inline(always)]
-unsafe fn cross_add<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>, d: Vector<L>) -> Vector<L> {
+pub(crate) unsafe fn cross_add<L: Lanes>(
+    a: Vector<L>,
+    b: Vector<L>,
+    c: Vector<L>,
+    d: Vector<L>,
+) -> Vector<L> {
     unsafe {
         let mut out = a;
         let mut i = 0;
@@ -456,6 +516,21 @@ unsafe fn cross_add<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>, d: Vecto
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let v = c[k].neg_mul_add(d[j], c[j].mul(d[k]));
             out[i] = a[j].mul_add(b[k], a[k].neg_mul_add(b[j], v));
+            i += 1;
+        }
+        out
+    }
+}
+
+/// a x b.
+#[inline(always)]
+pub(crate) unsafe fn cross<L: Lanes>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
+    unsafe {
+        let mut out = a;
+        let mut i = 0;
+        while i < 3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            out[i] = a[k].neg_mul_add(b[j], a[j].mul(b[k]));
             i += 1;
         }
         out

@@ -1,11 +1,15 @@
-//! Linear-elastic one-point hexahedra under finite rotation.
+//! Linear-elastic hexahedra under finite rotation.
 //!
 //! The element is the uniform-gradient hexahedron of Flanagan and Belytschko (1981) in a
 //! Total-Lagrangian setting with a St. Venant–Kirchhoff law: exactly objective, no rate
-//! integration, no drift. Everything runs in batches of eight elements; the vector width of the
+//! integration, no drift. Chosen elements may be fully integrated instead. Everything runs in batches of eight elements; the vector width of the
 //! machine is chosen at run time.
 
 mod blocks;
+mod formulation;
+mod full;
+mod full_stiffness;
+mod gauss;
 mod geometry;
 mod kernel;
 mod lanes;
@@ -14,6 +18,8 @@ mod material;
 mod solid;
 mod stable;
 
+pub use formulation::{Elements, Formulation, Volumetric};
+pub use full_stiffness::full_stiffness;
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;
 pub use mass::lumped_mass;

@@ -1,8 +1,11 @@
 //! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
 use crate::blocks::{Batch, Block, Blocks};
+use crate::formulation::{Elements, Volumetric};
+use crate::full::FullyIntegrated;
+use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
-use crate::kernel::{Arrays, Constants, Sums, block_force};
+use crate::kernel::{Arrays, Constants, Kernel, OnePoint, Sums, block_force};
 use crate::lanes::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
@@ -11,7 +14,7 @@ use mesh::{Mesh, Padded};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Element options.
+/// Options of the one-point element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element {
     /// Flanagan–Belytschko hourglass stiffness coefficient kappa; 0.05 is usual.
@@ -70,6 +73,18 @@ pub enum SolidError {
         /// Its signed volume (m^3).
         volume: f64,
     },
+    /// A fully integrated element is folded at a Gauss point.
+    #[error(
+        "element {element} of body '{body}' is folded: its Jacobian at a Gauss point is {jacobian:e} of its mean"
+    )]
+    Folded {
+        /// Name of the body.
+        body: String,
+        /// Index in the mesh.
+        element: usize,
+        /// Volume at its worst Gauss point over an eighth of the element's, not positive.
+        jacobian: f64,
+    },
     /// The instruction set does not exist on this machine.
     #[error("this machine has no {0} instructions")]
     Level(&'static str),
@@ -83,13 +98,15 @@ pub enum SolidError {
     },
 }
 
-type Kernel = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
+type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
 
 /// All elements of a mesh with their materials.
 pub struct Solid {
     reference: Vec<Padded>,
     blocks: Blocks,
-    constants: Vec<Constants>,
+    /// Of each body, for its one-point and its fully integrated elements.
+    constants: Vec<[Constants; 2]>,
+    volumetric: Volumetric,
     sums: Vec<Sums>,
     level: Level,
     viscous: bool,
@@ -97,14 +114,19 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// One material per body of `mesh`, in order.
-    pub fn new(
+    /// One material per body of `mesh`, in order; `elements` may be an [`Element`] where all have
+    /// one point.
+    ///
+    /// # Errors
+    /// A material that is none, an element without volume or, if fully integrated, folded.
+    pub fn new<'a>(
         mesh: &Mesh,
         materials: &[Material],
-        element: Element,
+        elements: impl Into<Elements<'a>>,
         viscosity: Viscosity,
         level: Level,
     ) -> Result<Self, SolidError> {
+        let elements = elements.into();
         if mesh.bodies.len() != materials.len() {
             return Err(SolidError::Count {
                 bodies: mesh.bodies.len(),
@@ -125,25 +147,33 @@ impl Solid {
                     let body = body.name.clone();
                     return Err(SolidError::Inverted { body, element, volume });
                 }
+                if elements.is_full(element) {
+                    let points = gauss_points(&x).map(|point| point.volume * 8.0 / volume);
+                    let jacobian = points.into_iter().fold(f64::INFINITY, f64::min);
+                    if jacobian <= 0.0 {
+                        let body = body.name.clone();
+                        return Err(SolidError::Folded { body, element, jacobian });
+                    }
+                }
             }
         }
-        let constants = materials
-            .iter()
-            .map(|m| Constants {
-                lambda: m.lame() / 64.0,
-                shear: m.shear() / 64.0,
-                hourglass: element.hourglass * m.p_modulus() / 192.0,
-                kelvin_voigt: viscosity.kelvin_voigt,
-                bulk_linear: viscosity.bulk_linear * m.density * m.c_p() / 64.0,
-                bulk_quadratic: viscosity.bulk_quadratic.powi(2) * m.density / 64.0,
-            })
-            .collect();
-        let blocks = Blocks::new(mesh);
+        let hourglass = elements.one_point().hourglass;
+        let constants = |m: &Material, w: f64| Constants {
+            lambda: m.lame() / w,
+            shear: m.shear() / w,
+            hourglass: hourglass * m.p_modulus() / 192.0,
+            kelvin_voigt: viscosity.kelvin_voigt,
+            bulk_linear: viscosity.bulk_linear * m.density * m.c_p() / w,
+            bulk_quadratic: viscosity.bulk_quadratic.powi(2) * m.density / w,
+        };
+        let constants = materials.iter().map(|m| [64.0, 512.0].map(|w| constants(m, w))).collect();
+        let blocks = Blocks::new(mesh, &elements);
         Ok(Self {
             reference: mesh.nodes.iter().map(|x| Padded::new(*x)).collect(),
             sums: vec![[0.0; 3]; blocks.blocks.len()],
             blocks,
             constants,
+            volumetric: elements.volumetric(),
             level,
             viscous: viscosity.any(),
             bodies: mesh.bodies.iter().map(|b| b.hexes.clone()).zip(materials.to_vec()).collect(),
@@ -219,7 +249,8 @@ impl Solid {
         let nodes = self.reference.len();
         assert!(displacement.len() >= nodes && force.len() >= nodes);
         assert!(!viscous || velocity.len() >= nodes);
-        let kernel = kernel(self.level, energies, viscous);
+        let kernels = [None, Some(self.volumetric)]
+            .map(|full| block_force_of(self.level, full, energies, viscous));
         let arrays = Shared(Arrays {
             reference: self.reference.as_ptr(),
             displacement: displacement.as_ptr(),
@@ -236,10 +267,10 @@ impl Solid {
             // node count the asserts above compare; blocks of one colour share no nodes, colours
             // run one after the other, and each block writes its own entry of `sums`.
             unsafe {
-                *sums.0.add(b as usize) = kernel(
+                *sums.0.add(b as usize) = kernels[usize::from(block.full)](
                     &batches[block.batches.clone()],
                     block.elements,
-                    &constants[block.body],
+                    &constants[block.body][usize::from(block.full)],
                     arrays.0,
                 );
             }
@@ -262,29 +293,49 @@ impl Solid {
         ForceSums { internal: total[0], hourglass: total[1], viscous_power: total[2] }
     }
 
-    /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts.
+    /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts: of a fully
+    /// integrated element the mean over its deformed volume.
     pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
         for (body, (range, material)) in self.bodies.iter().enumerate() {
             stress[range.clone()].par_iter_mut().zip(range.clone()).for_each(|(out, element)| {
-                *out = cauchy(&self.gradient(displacement, body, element), material);
+                let (x, u) = self.corners(displacement, body, element);
+                *out = if self.blocks.is_full(body, element) {
+                    mean_cauchy(&x, &u, material, self.volumetric)
+                } else {
+                    cauchy(&displacement_gradient(&x, &u).0, material)
+                };
             });
         }
     }
 
-    /// Displacement gradient of an element.
-    fn gradient(&self, displacement: &[Padded], body: usize, element: usize) -> [[f64; 3]; 3] {
+    /// Corners of an element in the reference configuration and their displacements.
+    fn corners(
+        &self,
+        displacement: &[Padded],
+        body: usize,
+        element: usize,
+    ) -> ([[f64; 3]; 8], [[f64; 3]; 8]) {
         let hex = self.blocks.hex(body, element);
         let x = hex.map(|n| self.reference[n as usize].xyz());
-        let u = hex.map(|n| displacement[n as usize].xyz());
-        displacement_gradient(&x, &u).0
+        (x, hex.map(|n| displacement[n as usize].xyz()))
     }
 
     /// The element with the smallest det F, its body and the value: below zero it is inside out.
+    /// Of a fully integrated element every Gauss point counts.
     pub fn smallest_jacobian(&self, displacement: &[Padded]) -> (usize, usize, f64) {
         let mut worst = (0, 0, f64::INFINITY);
         for (body, (range, _)) in self.bodies.iter().enumerate() {
             for element in range.clone() {
-                let det = determinant(&deformation(&self.gradient(displacement, body, element)));
+                let (x, u) = self.corners(displacement, body, element);
+                let det = if self.blocks.is_full(body, element) {
+                    let points = gauss_points(&x);
+                    let dets =
+                        points.map(|p| determinant(&deformation(&p.displacement_gradient(&u))));
+                    dets.into_iter()
+                        .fold(f64::INFINITY, |a, b| if b < a || b.is_nan() { b } else { a })
+                } else {
+                    determinant(&deformation(&displacement_gradient(&x, &u).0))
+                };
                 if det < worst.2 || det.is_nan() {
                     worst = (element, body, det);
                     if det.is_nan() {
@@ -323,20 +374,50 @@ fn determinant(f: &[[f64; 3]; 3]) -> f64 {
 
 /// sigma = F S F^T/det F with S = lambda tr(E) I + 2G E.
 fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
+    let e = green(h);
     let f = deformation(h);
-    let mut e = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            let quadratic: f64 = (0..3).map(|k| h[k][i] * h[k][j]).sum();
-            e[i][j] = 0.5 * (h[i][j] + h[j][i] + quadratic);
+    let det = determinant(&f);
+    kirchhoff(&f, &e, material, trace(&e)).map(|c| c / det)
+}
+
+/// Mean of the Cauchy stress over the deformed volume: sum w F S F^T/sum w det F over the Gauss
+/// points, with the element's mean of tr(E) where the volumetric part takes it.
+fn mean_cauchy(
+    x: &[[f64; 3]; 8],
+    u: &[[f64; 3]; 8],
+    material: &Material,
+    volumetric: Volumetric,
+) -> [f64; 6] {
+    let points = gauss_points(x).map(|p| (p.volume, p.displacement_gradient(u)));
+    let reference: f64 = points.iter().map(|(w, _)| w).sum();
+    let mean = points.iter().map(|(w, h)| w * trace(&green(h))).sum::<f64>() / reference;
+    let mut sum = [0.0; 6];
+    let mut volume = 0.0;
+    for (w, h) in &points {
+        let (e, f) = (green(h), deformation(h));
+        let dilatation = match volumetric {
+            Volumetric::Full => trace(&e),
+            Volumetric::Mean => mean,
+        };
+        for (sum, c) in sum.iter_mut().zip(kirchhoff(&f, &e, material, dilatation)) {
+            *sum += w * c;
         }
+        volume += w * determinant(&f);
     }
-    let pressure = material.lame() * (e[0][0] + e[1][1] + e[2][2]);
+    sum.map(|c| c / volume)
+}
+
+/// F S F^T with S = lambda theta I + 2G E; xx yy zz xy yz xz.
+fn kirchhoff(
+    f: &[[f64; 3]; 3],
+    e: &[[f64; 3]; 3],
+    material: &Material,
+    dilatation: f64,
+) -> [f64; 6] {
     let mut s = e.map(|row| row.map(|c| 2.0 * material.shear() * c));
     for i in 0..3 {
-        s[i][i] += pressure;
+        s[i][i] += material.lame() * dilatation;
     }
-    let det = determinant(&f);
     let component = |i: usize, j: usize| {
         let mut sum = 0.0;
         for k in 0..3 {
@@ -344,9 +425,25 @@ fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
                 sum += f[i][k] * s[k][l] * f[j][l];
             }
         }
-        sum / det
+        sum
     };
     [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| component(i, j))
+}
+
+/// E = (H + H^T + H^T H)/2.
+fn green(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let mut e = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            let quadratic: f64 = (0..3).map(|k| h[k][i] * h[k][j]).sum();
+            e[i][j] = 0.5 * (h[i][j] + h[j][i] + quadratic);
+        }
+    }
+    e
+}
+
+fn trace(e: &[[f64; 3]; 3]) -> f64 {
+    e[0][0] + e[1][1] + e[2][2]
 }
 
 struct Shared(Arrays);
@@ -358,10 +455,10 @@ unsafe impl Sync for SharedSums {}
 
 macro_rules! level_kernels {
     ($name:ident, $lanes:ty $(, $features:literal)?) => {
-        /// The kernel for this level and these options.
-        fn $name(energies: bool, viscous: bool) -> Kernel {
+        /// The kernel for this level and these options; `full` of fully integrated elements.
+        fn $name(full: Option<Volumetric>, energies: bool, viscous: bool) -> BlockForce {
             $(#[target_feature(enable = $features)])?
-            unsafe fn run<const ENERGY: bool, const VISCOUS: bool>(
+            unsafe fn run<K: Kernel, const ENERGY: bool, const VISCOUS: bool>(
                 batches: &[Batch],
                 elements: usize,
                 constants: &Constants,
@@ -369,14 +466,21 @@ macro_rules! level_kernels {
             ) -> Sums {
                 // SAFETY: the caller's contract is that of `block_force`.
                 unsafe {
-                    block_force::<$lanes, ENERGY, VISCOUS>(batches, elements, constants, arrays)
+                    block_force::<K, $lanes, ENERGY, VISCOUS>(batches, elements, constants, arrays)
                 }
             }
-            match (energies, viscous) {
-                (false, false) => run::<false, false>,
-                (false, true) => run::<false, true>,
-                (true, false) => run::<true, false>,
-                (true, true) => run::<true, true>,
+            fn choose<K: Kernel>(energies: bool, viscous: bool) -> BlockForce {
+                match (energies, viscous) {
+                    (false, false) => run::<K, false, false>,
+                    (false, true) => run::<K, false, true>,
+                    (true, false) => run::<K, true, false>,
+                    (true, true) => run::<K, true, true>,
+                }
+            }
+            match full {
+                None => choose::<OnePoint>(energies, viscous),
+                Some(Volumetric::Full) => choose::<FullyIntegrated<false>>(energies, viscous),
+                Some(Volumetric::Mean) => choose::<FullyIntegrated<true>>(energies, viscous),
             }
         }
     };
@@ -388,13 +492,18 @@ level_kernels!(avx512, x86::F64x8, "avx512f,avx2,fma");
 level_kernels!(avx2, x86::F64x4, "avx2,fma");
 level_kernels!(portable, f64);
 
-fn kernel(level: Level, energies: bool, viscous: bool) -> Kernel {
+fn block_force_of(
+    level: Level,
+    full: Option<Volumetric>,
+    energies: bool,
+    viscous: bool,
+) -> BlockForce {
     match level {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512 => avx512(energies, viscous),
+        Level::Avx512 => avx512(full, energies, viscous),
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2 => avx2(energies, viscous),
-        _ => portable(energies, viscous),
+        Level::Avx2 => avx2(full, energies, viscous),
+        _ => portable(full, energies, viscous),
     }
 }
 

@@ -1,25 +1,28 @@
 //! The largest frequency of the assembled system, which sets the stable step 2/omega.
 
+use crate::full_stiffness::{full_stiffness, largest_eigenvalue_bound};
 use crate::material::Material;
-use crate::{Element, mean_gradient};
+use crate::{Element, Elements, Formulation, mean_gradient};
 use mesh::{Mesh, Padded};
 
 /// A rigorous upper bound of the largest frequency (rad/s) of the free elements, hence of the
 /// assembly (Irons): omega^2 <= lambda_max(K_e)/m_min with
-/// lambda_max(K_e) <= (lambda + 2G) B_iI B_iI/V + K_h sum |gamma_a|^2.
+/// lambda_max(K_e) <= (lambda + 2G) B_iI B_iI/V + K_h sum |gamma_a|^2 of a one-point element and
+/// (tr K_e^16)^(1/16) of a fully integrated one.
 ///
 /// Returns the bound and the element that sets it.
-pub fn element_frequency_bound(
+pub fn element_frequency_bound<'a>(
     mesh: &Mesh,
     materials: &[Material],
-    element: Element,
+    elements: impl Into<Elements<'a>>,
 ) -> (f64, usize) {
+    let elements = elements.into();
     let mut worst = (0.0, 0);
     for (body, material) in mesh.bodies.iter().zip(materials) {
         for e in body.hexes.clone() {
             let x = mesh.hexes[e].map(|n| mesh.nodes[n as usize]);
             let mass = lightest_node(&x, material.density);
-            let squared = stiffness_bound(&x, material, element) / mass;
+            let squared = stiffness_bound(&x, material, elements.formulation(e)) / mass;
             if squared > worst.0 {
                 worst = (squared, e);
             }
@@ -30,20 +33,36 @@ pub fn element_frequency_bound(
 
 /// The bound on lambda_max(K_e) of [`element_frequency_bound`], summed over the elements around
 /// each node (N/m): a quarter of it as fictitious mass makes a unit step stable.
-pub fn nodal_stiffness_bounds(mesh: &Mesh, materials: &[Material], element: Element) -> Vec<f64> {
+pub fn nodal_stiffness_bounds<'a>(
+    mesh: &Mesh,
+    materials: &[Material],
+    elements: impl Into<Elements<'a>>,
+) -> Vec<f64> {
+    let elements = elements.into();
     let mut bounds = vec![0.0; mesh.nodes.len()];
     for (body, material) in mesh.bodies.iter().zip(materials) {
-        for hex in &mesh.hexes[body.hexes.clone()] {
+        for e in body.hexes.clone() {
+            let hex = mesh.hexes[e];
             let x = hex.map(|n| mesh.nodes[n as usize]);
-            let bound = stiffness_bound(&x, material, element);
+            let bound = stiffness_bound(&x, material, elements.formulation(e));
             hex.iter().for_each(|&n| bounds[n as usize] += bound);
         }
     }
     bounds
 }
 
+/// Upper bound of the largest eigenvalue of an element's stiffness (N/m).
+fn stiffness_bound(x: &[[f64; 3]; 8], material: &Material, formulation: Formulation) -> f64 {
+    match formulation {
+        Formulation::OnePoint(element) => one_point_bound(x, material, element),
+        Formulation::Full(volumetric) => {
+            largest_eigenvalue_bound(full_stiffness(x, material, volumetric))
+        }
+    }
+}
+
 /// (lambda + 2G) B_iI B_iI/V + K_h sum |gamma_a|^2 (N/m).
-fn stiffness_bound(x: &[[f64; 3]; 8], material: &Material, element: Element) -> f64 {
+fn one_point_bound(x: &[[f64; 3]; 8], material: &Material, element: Element) -> f64 {
     let (volume, b) = mean_gradient(x);
     let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
     let stretch = material.p_modulus() * squares / volume;

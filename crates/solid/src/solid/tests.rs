@@ -1,6 +1,9 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
 use crate::{lumped_mass, mean_gradient};
+
+mod full;
+
 use mesh::{Body, HEX_CORNERS as CORNERS};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };

@@ -1,0 +1,264 @@
+//! The fully integrated hexahedron: 2x2x2 Gauss points, no hourglass modes.
+//!
+//! The derivatives by xi, eta, zeta of a trilinear field are bilinear in the other two
+//! coordinates, so that each takes four values at the eight Gauss points (+-p, p = 1/sqrt(3)); with
+//! the Hadamard modes A_k, G_a of the corner values (see [`crate::kernel`]), cyclic in k, l, m,
+//!
+//! * 8 dx/dxi_k = A_k + p xi_l G_m + p xi_m G_l + p^2 xi_l xi_m G_4.
+//!
+//! From them at each point, J_k = dx/dxi_k and D_k = du/dxi_k:
+//!
+//! * cofactors C_1 = J_2 x J_3 (cyclic), w = J_1 . C_1, H = sum D_k C_k^T/w,
+//! * E = (H + H^T + H^T H)/2, S = lambda tr(E) I + 2 G E, P = (I + H) S,
+//! * f_k = sum over the points of P C_k, the force on D_k.
+//!
+//! **Mean dilatation** (selective integration of the volumetric part, Malkus and Hughes 1978;
+//! Nagtegaal, Parks and Rice 1974): the energy is
+//! lambda/2 V `<tr E>`^2 + G sum w E : E with `<.>` the mean over the element, so it is objective
+//! and the force, its derivative, is conservative: lambda `<tr E>` takes the place of lambda tr(E).
+//!
+//! Kelvin–Voigt stresses are eta times the elastic law of dE/dt at each Gauss point, with the same
+//! mean: they damp every mode of the element in proportion to its stiffness. Bulk viscosity is one
+//! pressure per element from the mean of tr dE/dt, as in the one-point element, and works on that
+//! mean: it must not stiffen bending.
+//!
+//! A pressure that is uniform over the element is known only after all points: its force
+//! p sum (I + H) C_k is summed beside the rest and added at the end.
+
+use crate::blocks::Batch;
+use crate::kernel::{
+    Arrays, Constants, Kernel, Matrix, Modes, Sums, Vector, bulk_viscosity, contract, cross, dot,
+    dot_add, elastic, green, green_rate, mean_gradient, modes, piola, scatter, trace,
+};
+use crate::lanes::Lanes;
+
+/// The fully integrated element, `MEAN` with mean dilatation.
+pub(crate) struct FullyIntegrated<const MEAN: bool>;
+
+/// Derivatives by xi_k: `d[k][s]` with s = (xi_l > 0) + 2 (xi_m > 0), k, l, m cyclic; eight times
+/// the derivative.
+type Derivatives<L> = [[Vector<L>; 4]; 3];
+
+/// p and p^2, p = 1/sqrt(3) the place of the Gauss points.
+const P: f64 = 0.577_350_269_189_625_8;
+const P_SQUARED: f64 = 1.0 / 3.0;
+
+impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
+    #[inline(always)]
+    unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
+        batch: &Batch,
+        lane: usize,
+        count: usize,
+        k: &Constants,
+        arrays: Arrays,
+        sums: &mut Sums,
+    ) {
+        // SAFETY: as the caller's throughout.
+        unsafe {
+            let zero = L::splat(0.0);
+            let x = modes::<L>(arrays.reference, batch, lane);
+            let jacobian = derivatives(&x);
+            let u = derivatives(&modes::<L>(arrays.displacement, batch, lane));
+            let v = if VISCOUS {
+                derivatives(&modes::<L>(arrays.velocity, batch, lane))
+            } else {
+                [[[zero; 3]; 4]; 3]
+            };
+            let two_g = L::splat(2.0 * k.shear);
+            let lambda = L::splat(k.lambda);
+            let eta = L::splat(k.kelvin_voigt);
+
+            let mut force = [[[zero; 3]; 4]; 3];
+            let mut unit_pressure = [[[zero; 3]; 4]; 3];
+            let mut volume = zero; // 512 V
+            let (mut dilatation, mut dilatation_rate) = (zero, zero);
+            let (mut energy, mut power) = (zero, zero);
+            let mut point = 0;
+            while point < 8 {
+                let at = signs(point);
+                let [j1, j2, j3] = [jacobian[0][at[0]], jacobian[1][at[1]], jacobian[2][at[2]]];
+                let c = [cross(j2, j3), cross(j3, j1), cross(j1, j2)];
+                let w = dot(j1, c[0]);
+                let per_w = L::splat(1.0).div(w);
+                let h = gradient([u[0][at[0]], u[1][at[1]], u[2][at[2]]], &c, per_w);
+                let e = green(&h);
+                let tr = trace(&e);
+                let mut s = elastic(&e, two_g, if MEAN { zero } else { lambda.mul(tr) });
+                if MEAN || VISCOUS {
+                    volume = volume.add(w);
+                }
+                if MEAN {
+                    dilatation = tr.mul_add(w, dilatation);
+                }
+                if ENERGY {
+                    energy = contract(&s, &e).mul_add(w, energy);
+                }
+                if VISCOUS {
+                    let d = [v[0][at[0]], v[1][at[1]], v[2][at[2]]];
+                    let rate = green_rate(&h, &gradient(d, &c, per_w));
+                    let tr = trace(&rate);
+                    let pressure = if MEAN { zero } else { lambda.mul(tr).mul(eta) };
+                    let viscous = elastic(&rate, two_g.mul(eta), pressure);
+                    dilatation_rate = tr.mul_add(w, dilatation_rate);
+                    power = contract(&viscous, &rate).mul_add(w, power);
+                    let mut i = 0;
+                    while i < 3 {
+                        s[i] = [
+                            s[i][0].add(viscous[i][0]),
+                            s[i][1].add(viscous[i][1]),
+                            s[i][2].add(viscous[i][2]),
+                        ];
+                        i += 1;
+                    }
+                }
+                let p = piola(&h, &s);
+                let mut m = 0;
+                while m < 3 {
+                    let mut i = 0;
+                    while i < 3 {
+                        let f = force[m][at[m]][i];
+                        force[m][at[m]][i] = dot_add(p[i], c[m], f);
+                        if MEAN || VISCOUS {
+                            let f = unit_pressure[m][at[m]][i];
+                            unit_pressure[m][at[m]][i] = dot_add(h[i], c[m], f.add(c[m][i]));
+                        }
+                        i += 1;
+                    }
+                    m += 1;
+                }
+                point += 1;
+            }
+
+            if ENERGY {
+                energy = energy.mul(L::splat(0.5));
+            }
+            if MEAN || VISCOUS {
+                let per_volume = L::splat(1.0).div(volume);
+                let mut pressure = zero;
+                if MEAN {
+                    pressure = lambda.mul(dilatation).mul(per_volume);
+                    if ENERGY {
+                        energy = pressure.mul(dilatation).mul_add(L::splat(0.5), energy);
+                    }
+                }
+                if VISCOUS {
+                    let mean = mean_gradient(&x);
+                    let rate = dilatation_rate.mul(per_volume);
+                    let mut viscous = bulk_viscosity(rate, mean.w, mean.squares, k);
+                    if MEAN {
+                        viscous = lambda.mul(eta).mul_add(rate, viscous);
+                    }
+                    power = viscous.mul_add(dilatation_rate, power);
+                    pressure = pressure.add(viscous);
+                }
+                let mut m = 0;
+                while m < 3 {
+                    let mut s = 0;
+                    while s < 4 {
+                        let mut i = 0;
+                        while i < 3 {
+                            force[m][s][i] =
+                                pressure.mul_add(unit_pressure[m][s][i], force[m][s][i]);
+                            i += 1;
+                        }
+                        s += 1;
+                    }
+                    m += 1;
+                }
+            }
+            if ENERGY {
+                sums[0] += energy.sum(count);
+            }
+            if VISCOUS {
+                sums[2] += power.sum(count);
+            }
+            scatter(&transposed(&force), arrays.force, batch, lane, count);
+        }
+    }
+}
+
+/// Which of the four values of each derivative belongs to a Gauss point; bit k of `point` is set
+/// where xi_k > 0.
+#[inline(always)]
+fn signs(point: usize) -> [usize; 3] {
+    let bit = [point & 1, point >> 1 & 1, point >> 2 & 1];
+    [bit[1] + 2 * bit[2], bit[2] + 2 * bit[0], bit[0] + 2 * bit[1]]
+}
+
+/// The derivatives at the Gauss points from the modes.
+#[inline(always)]
+unsafe fn derivatives<L: Lanes>(x: &Modes<L>) -> Derivatives<L> {
+    unsafe {
+        let (p, p_squared) = (L::splat(P), L::splat(P_SQUARED));
+        let mut d = [[[p; 3]; 4]; 3];
+        let mut k = 0;
+        while k < 3 {
+            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
+            let mut i = 0;
+            while i < 3 {
+                let (a, g) = (x.linear[k][i], x.hourglass[m][i]);
+                let (minus, plus) = (p.neg_mul_add(g, a), p.mul_add(g, a));
+                let g = x.hourglass[l][i].mul(p);
+                let twist = x.hourglass[3][i].mul(p_squared);
+                let (slope_minus, slope_plus) = (g.sub(twist), g.add(twist));
+                d[k][0][i] = minus.sub(slope_minus);
+                d[k][1][i] = plus.sub(slope_plus);
+                d[k][2][i] = minus.add(slope_minus);
+                d[k][3][i] = plus.add(slope_plus);
+                i += 1;
+            }
+            k += 1;
+        }
+        d
+    }
+}
+
+/// The transpose of [`derivatives`].
+#[inline(always)]
+unsafe fn transposed<L: Lanes>(f: &Derivatives<L>) -> Modes<L> {
+    unsafe {
+        let (p, p_squared) = (L::splat(P), L::splat(P_SQUARED));
+        let zero = [L::splat(0.0); 3];
+        let mut out = Modes { linear: [zero; 3], hourglass: [zero; 4] };
+        let mut k = 0;
+        while k < 3 {
+            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
+            let mut i = 0;
+            while i < 3 {
+                let [f0, f1, f2, f3] = [f[k][0][i], f[k][1][i], f[k][2][i], f[k][3][i]];
+                let (minus, plus) = (f0.add(f2), f1.add(f3));
+                let (slope_minus, slope_plus) = (f2.sub(f0), f3.sub(f1));
+                out.linear[k][i] = minus.add(plus);
+                out.hourglass[m][i] = plus.sub(minus).mul_add(p, out.hourglass[m][i]);
+                let slope = slope_minus.add(slope_plus);
+                out.hourglass[l][i] = slope.mul_add(p, out.hourglass[l][i]);
+                let twist = slope_plus.sub(slope_minus);
+                out.hourglass[3][i] = twist.mul_add(p_squared, out.hourglass[3][i]);
+                i += 1;
+            }
+            k += 1;
+        }
+        out
+    }
+}
+
+/// H = sum D_k C_k^T/w.
+#[inline(always)]
+unsafe fn gradient<L: Lanes>(d: [Vector<L>; 3], c: &[Vector<L>; 3], per_w: L) -> Matrix<L> {
+    unsafe {
+        let mut h = *c;
+        let mut i = 0;
+        while i < 3 {
+            let mut j = 0;
+            while j < 3 {
+                let mut v = d[0][i].mul(c[0][j]);
+                v = d[1][i].mul_add(c[1][j], v);
+                v = d[2][i].mul_add(c[2][j], v);
+                h[i][j] = v.mul(per_w);
+                j += 1;
+            }
+            i += 1;
+        }
+        h
+    }
+}
