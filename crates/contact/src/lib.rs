@@ -8,6 +8,7 @@
 mod error;
 mod face;
 mod friction;
+mod gap;
 mod nodal;
 mod pair;
 pub mod patch;
@@ -23,6 +24,7 @@ mod vector;
 
 pub use error::ContactError;
 pub use friction::{Coulomb, Exponential, FrictionLaw};
+pub use gap::Gap;
 pub use nodal::NodalContact;
 pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};

@@ -398,5 +398,6 @@ fn kernel(level: Level, energies: bool, viscous: bool) -> Kernel {
     }
 }
 
+mod diagonal;
 #[cfg(test)]
 mod tests;
