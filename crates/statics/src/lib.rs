@@ -6,12 +6,14 @@
 //! matrix. SI units.
 
 mod cg;
+mod coarse;
 mod components;
 mod error;
 mod exact;
 mod link;
 mod newton;
 mod problem;
+mod skyline;
 mod space;
 mod supports;
 mod system;

@@ -6,9 +6,10 @@
 //! the normal. With `T` the map from the free coordinates to full vectors, conjugate gradients run
 //! on `T^T K T`, whose residual `T^T r` is kept in a full vector as well.
 
+use crate::coarse::Coarse;
 use crate::link::Link;
 use crate::supports::{Axis, Supports};
-use mesh::Padded;
+use mesh::{Mesh, Padded};
 use rayon::prelude::*;
 
 /// Nodes per parallel chunk; fixed, so that sums do not depend on the number of threads.
@@ -28,6 +29,8 @@ pub(crate) struct Space {
     pub(crate) groups: Vec<Group>,
     /// Slaves that follow their feet along the normal.
     pub(crate) links: Vec<Link>,
+    coarse: Coarse,
+    reference: Vec<Padded>,
     /// Partial sums, one per chunk.
     partial: Vec<f64>,
 }
@@ -57,6 +60,8 @@ impl Space {
     /// `blocks` are the diagonal blocks of the elastic stiffness; `product` adds K x to y for
     /// x up to 1e-13 m.
     pub(crate) fn new(
+        mesh: &Mesh,
+        reference: &[Padded],
         supports: &Supports,
         blocks: &[[[f64; 3]; 3]],
         mut product: impl FnMut(&[Padded], &mut [Padded]),
@@ -80,7 +85,11 @@ impl Space {
             }
         }
         let inverse = diagonal.iter().map(inverted).collect();
+        let is_free = |node: usize| diagonal[node][0] > 0.0;
+        let coarse = Coarse::new(mesh, reference, is_free, &groups, product);
         Self {
+            coarse,
+            reference: reference.to_vec(),
             inverse,
             diagonal,
             touched: Vec::new(),
@@ -105,19 +114,23 @@ impl Space {
             }
         }
         blocks.finish();
+        let springs = springs.iter().map(|(link, k)| (link, *k));
+        self.coarse.factorise(&self.reference, springs);
     }
 
     /// Ties the slaves of `links` to their feet along the normal, in place of those before. A
     /// slave's normal stiffness goes to its foot.
     pub(crate) fn set_links(&mut self, links: Vec<Link>) {
+        let stiffness: Vec<f64> =
+            links.iter().map(|l| along(&self.diagonal[l.slave], l.normal)).collect();
         let mut blocks = Blocks::new(self);
-        for link in &links {
-            let k = along(&blocks.space.diagonal[link.slave], link.normal);
+        for (link, k) in links.iter().zip(&stiffness) {
             for (weight, corner) in link.weights.iter().zip(link.corners) {
                 blocks.add(corner, k * weight * weight, link.normal);
             }
         }
         blocks.finish();
+        self.coarse.factorise(&self.reference, links.iter().zip(stiffness));
         self.links = links;
     }
 
@@ -137,7 +150,7 @@ impl Space {
         }
     }
 
-    /// `z = T D^-1 r` with the reduced residual `r`; returns `r . z` (N m).
+    /// `z = T (D^-1 + W A^-1 W^T) r` with the reduced residual `r`; returns `r . z` (N m).
     pub(crate) fn precondition(&mut self, r: &[Padded], z: &mut [Padded]) -> f64 {
         z.par_chunks_mut(CHUNK)
             .zip(r.par_chunks(CHUNK))
@@ -150,6 +163,7 @@ impl Space {
         for group in &self.groups {
             group.set(group.resultant(r) / group.stiffness, z);
         }
+        self.coarse.correct(&self.reference, &self.groups, r, z);
         self.follow(z);
         self.inner(r, z)
     }

@@ -59,8 +59,9 @@ impl<'a> System<'a> {
     ) -> Result<Self, StaticsError> {
         let parts = Parts::new(problem.mesh, problem.supports)?;
         let blocks = solid.stiffness_diagonal();
+        let reference = solid.reference().to_vec();
         let product = |x: &[Padded], y: &mut [Padded]| solid.add_stiffness_product(x, y);
-        let space = Space::new(problem.supports, &blocks, product);
+        let space = Space::new(problem.mesh, &reference, problem.supports, &blocks, product);
         let n = blocks.len();
         let mut spun = vec![false; n];
         if let Some(spin) = &problem.spin {
@@ -69,7 +70,6 @@ impl<'a> System<'a> {
             tied.for_each(|&n| spun[n as usize] = false);
         }
         let load = space.groups.iter().map(|g| g.load.abs()).sum();
-        let reference = solid.reference().to_vec();
         let cg = Cg::new(n);
         Ok(Self {
             solid,
