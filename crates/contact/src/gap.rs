@@ -1,8 +1,9 @@
 //! The gap kinematics of one pass, for solvers of equilibrium.
 
 use crate::PenaltyContact;
-use crate::face::{Positions, project, shape};
+use crate::face::{Positions, corner_normals, project, shape};
 use crate::pair::Pair;
+use crate::vector::{add, axpy, norm, scale};
 use mesh::Padded;
 
 /// A slave node over its foot on the master surface.
@@ -17,7 +18,9 @@ pub struct Gap {
     pub corners: [u32; 4],
     /// Shape functions `phi_I` of the corners at the foot.
     pub weights: [f64; 4],
-    /// Unit normal of the master surface at the foot, out of the master body.
+    /// Unit normal of the master surface at the foot, out of the master body. From
+    /// [`PenaltyContact::gaps`] it is continuous over the surface: the mean of the facets' normals at
+    /// each corner, interpolated; from [`PenaltyContact::springs`] it is the facet's.
     pub normal: [f64; 3],
     /// Gap (m), negative where the slave has penetrated.
     pub gap: f64,
@@ -42,6 +45,7 @@ impl PenaltyContact {
         let positions = Positions { reference, displacement };
         self.search.refresh(&self.sides, &positions, &mut self.pairs);
         gaps.clear();
+        let mut feet = Vec::new();
         let mut pairs = std::mem::take(&mut self.pairs[slave]);
         for pair in &mut pairs {
             let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
@@ -52,6 +56,7 @@ impl PenaltyContact {
                 if !pair.is_closed() {
                     (pair.face, pair.xi, pair.eta) = (foot.face, foot.xi, foot.eta);
                 }
+                feet.push(foot.face);
                 gaps.push(Gap {
                     node: own.nodes[pair.slave as usize],
                     corners: master.faces[foot.face as usize].nodes,
@@ -63,6 +68,42 @@ impl PenaltyContact {
             }
         }
         self.pairs[slave] = pairs;
+        self.smooth_normals(1 - slave, &positions, &feet, gaps);
+    }
+
+    /// Replaces the normals of `gaps`, whose feet lie on the faces `feet` of side `master`, by ones
+    /// that are continuous over the surface. A load dents facets against one another, so that a
+    /// slave over their common edge finds no equilibrium with either normal.
+    fn smooth_normals(
+        &self,
+        master: usize,
+        positions: &Positions<'_>,
+        feet: &[u32],
+        gaps: &mut [Gap],
+    ) {
+        let surface = &self.sides[master];
+        let mut wanted = vec![false; surface.nodes.len()];
+        for &face in feet {
+            surface.faces[face as usize].local.iter().for_each(|&n| wanted[n as usize] = true);
+        }
+        let mut sums = vec![[0.0; 3]; surface.nodes.len()];
+        for (index, face) in surface.faces.iter().enumerate() {
+            if face.local.iter().any(|&n| wanted[n as usize]) {
+                let normals =
+                    corner_normals(surface, index as u32, positions, self.settings.curvature);
+                for (normal, &n) in normals.iter().zip(&face.local) {
+                    sums[n as usize] = add(sums[n as usize], *normal);
+                }
+            }
+        }
+        for (gap, &face) in gaps.iter_mut().zip(feet) {
+            let mut normal = [0.0; 3];
+            for (weight, &n) in gap.weights.iter().zip(&surface.faces[face as usize].local) {
+                let sum = sums[n as usize];
+                normal = axpy(normal, weight / norm(sum), sum);
+            }
+            gap.normal = scale(1.0 / norm(normal), normal);
+        }
     }
 
     /// The normal springs of both passes that were closed at the last call, each with its

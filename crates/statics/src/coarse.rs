@@ -14,7 +14,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 /// Nodes per cluster: a larger number makes the coarse level cheaper and the iterations more.
-const CLUSTER: usize = 300;
+const CLUSTER: usize = 250;
 
 /// Clusters smaller than this part of [`CLUSTER`] join a neighbour.
 const SMALLEST: usize = 3;
@@ -42,6 +42,8 @@ pub(crate) struct Coarse {
     factor: Skyline,
     /// Coarse residual, then solution.
     vector: Vec<f64>,
+    /// The same in the order of the factor.
+    ordered: Vec<f64>,
 }
 
 /// Origin and size of a cluster: its rotations move nodes by at most about one.
@@ -106,6 +108,7 @@ impl Coarse {
             place: (0..blocks as u32).collect(),
             factor: Skyline::default(),
             vector: vec![0.0; MODES * blocks],
+            ordered: vec![0.0; MODES * blocks],
         };
         coarse.probe(mesh, reference, groups, product);
         coarse
@@ -127,7 +130,6 @@ impl Coarse {
             for mode in 0..MODES {
                 self.vector.fill(0.0);
                 colour.iter().for_each(|&c| self.vector[MODES * c as usize + mode] = AMPLITUDE);
-                x.par_iter_mut().for_each(|x| *x = Padded::ZERO);
                 y.par_iter_mut().for_each(|y| *y = Padded::ZERO);
                 self.prolong(reference, groups, &mut x);
                 product(&x, &mut y);
@@ -228,26 +230,32 @@ impl Coarse {
         self.factor = factor;
     }
 
-    /// `z += W A^-1 W^T r`.
-    pub(crate) fn correct(
-        &mut self,
-        reference: &[Padded],
-        groups: &[Group],
-        r: &[Padded],
-        z: &mut [Padded],
-    ) {
+    /// `A^-1 W^T r`, whose motions [`motion`](Self::motion) and
+    /// [`group_motion`](Self::group_motion) give.
+    pub(crate) fn solve(&mut self, reference: &[Padded], groups: &[Group], r: &[Padded]) {
         self.restrict(reference, groups, r);
-        let mut ordered = vec![0.0; self.vector.len()];
-        for (c, &at) in self.place.iter().enumerate() {
-            let at = MODES * at as usize;
-            ordered[at..at + MODES].copy_from_slice(&self.vector[MODES * c..MODES * (c + 1)]);
+        let Self { vector, ordered, place, factor, .. } = self;
+        for (own, &at) in vector.chunks(MODES).zip(&*place) {
+            ordered[MODES * at as usize..][..MODES].copy_from_slice(own);
         }
-        self.factor.solve(&mut ordered);
-        for (c, &at) in self.place.iter().enumerate() {
-            let at = MODES * at as usize;
-            self.vector[MODES * c..MODES * (c + 1)].copy_from_slice(&ordered[at..at + MODES]);
+        factor.solve(ordered);
+        for (own, &at) in vector.chunks_mut(MODES).zip(&*place) {
+            own.copy_from_slice(&ordered[MODES * at as usize..][..MODES]);
         }
-        self.prolong(reference, groups, z);
+    }
+
+    /// Motion of a node at `x` with its cluster; none if it belongs to none.
+    #[inline(always)]
+    pub(crate) fn motion(&self, node: usize, x: &Padded) -> [f64; 3] {
+        match self.cluster[node] {
+            NONE => [0.0; 3],
+            c => self.frames[c as usize].motion(x, &self.vector[MODES * c as usize..][..MODES]),
+        }
+    }
+
+    /// Motion of a group of tied nodes along its axis.
+    pub(crate) fn group_motion(&self, group: usize) -> f64 {
+        self.vector[MODES * (self.frames.len() + group)]
     }
 
     /// Resultants of `r` on clusters and groups, to `vector`.
@@ -268,24 +276,16 @@ impl Coarse {
         }
     }
 
-    /// Adds the motions `vector` of clusters and groups to `z`.
+    /// The motions `vector` of clusters and groups.
     fn prolong(&self, reference: &[Padded], groups: &[Group], z: &mut [Padded]) {
-        let Self { vector, cluster, frames, .. } = self;
-        z.par_chunks_mut(CHUNK)
-            .zip(cluster.par_chunks(CHUNK))
-            .zip(reference.par_chunks(CHUNK))
-            .for_each(|((z, cluster), x)| {
-                for ((z, &c), x) in z.iter_mut().zip(cluster).zip(x) {
-                    if c != NONE {
-                        let c = c as usize;
-                        let motion = frames[c].motion(x, &vector[MODES * c..MODES * (c + 1)]);
-                        (0..3).for_each(|i| z[i] += motion[i]);
-                    }
-                }
-            });
+        z.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, z)| {
+            for (i, z) in z.iter_mut().enumerate() {
+                let node = CHUNK * chunk + i;
+                *z = Padded::new(self.motion(node, &reference[node]));
+            }
+        });
         for (g, group) in groups.iter().enumerate() {
-            let by = vector[MODES * (frames.len() + g)];
-            group.nodes.iter().for_each(|&n| z[n as usize][group.axis] += by);
+            group.set(self.group_motion(g), z);
         }
     }
 }

@@ -100,7 +100,11 @@ pub(crate) fn solve(
             continue;
         }
         // Close the gaps first, by the slaves alone; then restore equilibrium with closed gaps.
-        let tolerance = if at.iteration == 1 { FIRST } else { forcing(at.residual, before) };
+        let tolerance = if at.iteration == 1 {
+            FIRST
+        } else {
+            forcing(at.residual, before, system.problem.tolerance)
+        };
         before = if changed { f64::INFINITY } else { at.residual };
         jump.iter_mut().for_each(|j| *j = Padded::ZERO);
         for (gap, link) in closed.iter().zip(&system.space.links) {

@@ -28,8 +28,11 @@ const KINKED: f64 = 1e-2;
 /// A residual that is this small and falls no further is round-off.
 const ROUND_OFF: f64 = 1e-7;
 
-pub(crate) fn forcing(residual: f64, before: f64) -> f64 {
-    (GAMMA * (residual / before).powi(2)).clamp(FINEST, COARSEST)
+/// Accuracy of the next linear step; no finer than what ends the iteration, with room for what the
+/// tangent leaves.
+pub(crate) fn forcing(residual: f64, before: f64, wanted: f64) -> f64 {
+    let enough = (0.3 * wanted / residual).min(COARSEST);
+    (GAMMA * (residual / before).powi(2)).clamp(FINEST, COARSEST).max(enough)
 }
 
 /// Equilibrium with the normal springs of the contact from `u`.
@@ -88,7 +91,7 @@ pub(crate) fn solve(
             before = f64::INFINITY;
             continue;
         }
-        let tolerance = forcing(at.residual, before);
+        let tolerance = forcing(at.residual, before, system.problem.tolerance);
         before = at.residual;
         r.copy_from_slice(&force);
         at.cg_iterations = system.step(&mut r, &mut d, tolerance, &at)?;

@@ -152,20 +152,32 @@ impl Space {
 
     /// `z = T (D^-1 + W A^-1 W^T) r` with the reduced residual `r`; returns `r . z` (N m).
     pub(crate) fn precondition(&mut self, r: &[Padded], z: &mut [Padded]) -> f64 {
-        z.par_chunks_mut(CHUNK)
-            .zip(r.par_chunks(CHUNK))
-            .zip(self.inverse.par_chunks(CHUNK))
-            .for_each(|((z, r), inverse)| {
-                for ((z, r), k) in z.iter_mut().zip(r).zip(inverse) {
-                    *z = Padded::new(times(k, r));
+        let Self { coarse, reference, groups, inverse, partial, .. } = self;
+        coarse.solve(reference, groups, r);
+        let coarse = &*coarse;
+        let chunks = z.par_chunks_mut(CHUNK).zip(r.par_chunks(CHUNK));
+        chunks.zip(inverse.par_chunks(CHUNK).zip(partial.par_iter_mut())).enumerate().for_each(
+            |(chunk, ((z, r), (inverse, sum)))| {
+                *sum = 0.0;
+                for (i, ((z, r), k)) in z.iter_mut().zip(r).zip(inverse).enumerate() {
+                    let node = CHUNK * chunk + i;
+                    let fine = times(k, r);
+                    let whole = coarse.motion(node, &reference[node]);
+                    *z = Padded::new([0, 1, 2].map(|i| fine[i] + whole[i]));
+                    *sum += product(r, z);
                 }
-            });
-        for group in &self.groups {
-            group.set(group.resultant(r) / group.stiffness, z);
+            },
+        );
+        // A linked slave's residual has no normal part: `T` changes nothing in `r . z`.
+        let mut rz: f64 = partial.iter().sum();
+        for (g, group) in groups.iter().enumerate() {
+            let pull = group.resultant(r);
+            let value = pull / group.stiffness + coarse.group_motion(g);
+            group.set(value, z);
+            rz += pull * value;
         }
-        self.coarse.correct(&self.reference, &self.groups, r, z);
         self.follow(z);
-        self.inner(r, z)
+        rz
     }
 
     /// `a . b`, summed in fixed chunks.
