@@ -245,14 +245,19 @@ pub const KEYS: &[Key] = &[
         "give 0.1 to 1 time steps, about 1e-8 s; 0 turns it off",
     ),
     key("damping.mass", Number(within(0.0, 1e6)), "1/s", "give a rate in 1/s; 0 turns it off"),
-    key("preload.method", Word(&["relaxation", "none"]), "", "choose one of the words"),
+    key("preload.method", Word(&["static", "relaxation", "none"]), "", "choose one of the words"),
     key(
         "preload.tolerance",
         Number(over(0.0, 1e-2)),
         "-",
-        "give the ratio of kinetic to internal energy: 1e-8",
+        "give the residual over the load (static) or the ratio of kinetic to internal energy: 1e-9",
     ),
-    key("preload.max_iterations", Count(100, 100_000_000), "steps", "give a whole number: 40000"),
+    key(
+        "preload.max_iterations",
+        Count(1, 100_000_000),
+        "-",
+        "give a whole number: 100 (static), 40000 (relaxation)",
+    ),
     key(
         "time.factor",
         Number(over(0.0, 2.0)),

@@ -98,6 +98,8 @@ fn write_defaults(case: &mut Case) {
     if case.time.duration.is_none() {
         case.time.roll = Some(case.rolled());
     }
+    case.preload.tolerance = Some(case.preload_tolerance());
+    case.preload.max_iterations = Some(case.preload_iterations());
     case.evaluate.last = Some(case.evaluate_last());
     case.output.fields_interval = Some(case.fields_interval());
 }

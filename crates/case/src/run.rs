@@ -87,14 +87,8 @@ fn run_in_pool(
     };
     let Start { mut simulation, facts } = begun;
     let (stability, steps) = (facts.stability, facts.steps);
-    if let Some(p) = &facts.preload {
-        log.say(&format!(
-            "preload: {} iterations, normal force {:.3} N, hub {:.3} um, kinetic/internal {:.1e}",
-            p.iterations,
-            p.normal_force,
-            p.hub * 1e6,
-            p.kinetic_ratio
-        ))?;
+    if let Some(preload) = &facts.preload {
+        log.say(&preload.line())?;
     }
     log.say(&format!(
         "step: {:.4e} s, {:.3} of the limit 2/omega_max (omega_max {:.4e} rad/s with contact, \

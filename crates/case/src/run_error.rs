@@ -41,8 +41,8 @@ pub enum RunError {
     NoContact,
     /// The preload was not found.
     #[error(transparent)]
-    #[diagnostic(help("{}", preload_remedy(.0)))]
-    Preload(#[from] dynamics::RelaxationError),
+    #[diagnostic(help("{}", .0.remedy()))]
+    Preload(#[from] crate::preload::PreloadError),
     /// Results cannot be written.
     #[error(transparent)]
     #[diagnostic(help("the run has stopped; what was written before stays readable"))]
@@ -85,24 +85,8 @@ impl RunError {
         match self {
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
             Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
-            Self::Preload(dynamics::RelaxationError::Interrupted) => 130,
+            Self::Preload(error) if error.is_interruption() => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
-        }
-    }
-}
-
-/// What to do where the preload was not found.
-pub(crate) fn preload_remedy(error: &dynamics::RelaxationError) -> &'static str {
-    match error {
-        dynamics::RelaxationError::Slow { .. } => {
-            "raise preload.max_iterations, or raise preload.tolerance to a ratio that it reaches"
-        }
-        dynamics::RelaxationError::BlowUp { .. } => {
-            "look at the quality of the mesh with `creepage mesh`; lower contact.penalty.normal, \
-             or mesh.growth"
-        }
-        dynamics::RelaxationError::Interrupted => {
-            "the disk had not begun to roll, so there are no results yet"
         }
     }
 }

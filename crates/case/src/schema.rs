@@ -286,31 +286,31 @@ pub struct Damping {
 }
 
 /// The preload.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Preload {
-    /// `"relaxation"` (dynamic relaxation to equilibrium under the load) or `"none"` (the load
-    /// acts suddenly). Default `"relaxation"`.
+    /// `"static"` (Newton's method for the equilibrium under the load), `"relaxation"` (dynamic
+    /// relaxation to it) or `"none"` (the load acts suddenly). Default `"static"`.
     pub method: PreloadMethod,
-    /// Ratio of kinetic to internal energy at which relaxation has converged (dimensionless).
-    /// Default 1e-8.
-    pub tolerance: f64,
-    /// Relaxation gives up after so many steps (count). Default 40000.
-    pub max_iterations: u64,
-}
-
-impl Default for Preload {
-    fn default() -> Self {
-        Self { method: PreloadMethod::Relaxation, tolerance: 1e-8, max_iterations: 40_000 }
-    }
+    /// Where the preload has converged (dimensionless): with `"static"` the residual force over
+    /// the load, default 1e-9; with `"relaxation"` the kinetic over the internal energy, default
+    /// 1e-8.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// The preload gives up after so many iterations (count). Default 100 of Newton's with
+    /// `"static"`, 40000 with `"relaxation"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_iterations: Option<u64>,
 }
 
 /// The preload methods.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PreloadMethod {
-    /// Dynamic relaxation.
+    /// Newton's method.
     #[default]
+    Static,
+    /// Dynamic relaxation.
     Relaxation,
     /// No preload.
     None,
@@ -443,6 +443,22 @@ impl Case {
     /// Rolled distance at the end over which means are taken (m).
     pub fn evaluate_last(&self) -> f64 {
         self.evaluate.last.unwrap_or_else(|| (self.rolled() / 3.0).min(0.020))
+    }
+
+    /// Where the preload has converged (dimensionless), by its method.
+    pub fn preload_tolerance(&self) -> f64 {
+        self.preload.tolerance.unwrap_or(match self.preload.method {
+            PreloadMethod::Static => 1e-9,
+            PreloadMethod::Relaxation | PreloadMethod::None => 1e-8,
+        })
+    }
+
+    /// Iterations after which the preload gives up, by its method.
+    pub fn preload_iterations(&self) -> u64 {
+        self.preload.max_iterations.unwrap_or(match self.preload.method {
+            PreloadMethod::Static => 100,
+            PreloadMethod::Relaxation | PreloadMethod::None => 40_000,
+        })
     }
 
     /// Interval between field snapshots (s).

@@ -196,7 +196,7 @@ fn check_choices(case: &Case, found: &mut Findings) {
         case.load.mode == LoadMode::Load || preloaded,
         &["load.mode"],
         || "load.mode = \"height\" holds the height of the preload, but there is none".into(),
-        "set preload.method = \"relaxation\", or load.mode = \"load\"",
+        "set preload.method = \"static\", or load.mode = \"load\"",
     );
 }
 

@@ -1,18 +1,16 @@
 //! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
 
-use crate::hertz::hertz;
 use crate::model::{BAR, DISK, Model};
-use crate::progress::{Progress, Stage};
+use crate::preload::{self, preload};
+use crate::progress::Progress;
 use crate::run_error::RunError;
-use crate::schema::{Case, DriveMode, LoadMode, PreloadMethod};
+use crate::schema::{Case, DriveMode, LoadMode};
 use contact::{PenaltyContact, StabilityScale};
-use dynamics::{
-    Hub, QuietEnd, Relaxation, RelaxationReport, RollingField, Setup, Simulation, Spin, Vertical,
-};
+use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
 use mesh::Padded;
 use serde::Serialize;
 use solid::Solid;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Lanczos steps for the largest frequency, and the margin on what they find.
@@ -49,7 +47,7 @@ pub(crate) struct RollingRadius {
 pub(crate) struct Facts {
     pub(crate) stability: Stability,
     pub(crate) radius: RollingRadius,
-    pub(crate) preload: Option<RelaxationReport>,
+    pub(crate) preload: Option<preload::Report>,
     /// Wall time of the preload (s).
     pub(crate) preload_wall: f64,
     /// Time steps to take.
@@ -80,54 +78,10 @@ pub(crate) fn start(
 
     let clock = Instant::now();
     let nominal = case.disk.radius;
-    let (displacement, preload) = match case.preload.method {
-        PreloadMethod::Relaxation => {
-            let mut held = model.clamped.clone();
-            held.extend(quiet.nodes());
-            let setup = Relaxation {
-                hub: &hub,
-                load: case.load.normal,
-                held: &held,
-                disk: model.mesh.bodies[DISK].nodes.clone(),
-                omega: case.drive.speed / nominal,
-                mass: &model.mass,
-                stiffness: &solid::nodal_stiffness_bounds(
-                    &model.mesh,
-                    &model.materials,
-                    model.elements(),
-                ),
-                start: -hertz(case).approach,
-                tolerance: case.preload.tolerance,
-                max_iterations: case.preload.max_iterations as usize,
-            };
-            let elements = model.mesh.hexes.len() as f64;
-            let (u, report) = dynamics::relax(&mut solid, &mut contact, &setup, |report| {
-                observe(&Progress {
-                    stage: Stage::Preload,
-                    step: report.iterations as u64,
-                    steps: case.preload.max_iterations,
-                    time: 0.0,
-                    end_time: case.duration(),
-                    normal_force: report.normal_force,
-                    tangential_force: 0.0,
-                    element_steps_per_s: elements * report.iterations as f64
-                        / clock.elapsed().as_secs_f64(),
-                });
-                !stop.load(Ordering::Relaxed)
-            })?;
-            (u, Some(report))
-        }
-        PreloadMethod::None => {
-            let mut u = vec![Padded::ZERO; model.mass.len()];
-            u[model.mesh.bodies[DISK].nodes.clone()]
-                .iter_mut()
-                .for_each(|u| u.0[2] = case.disk.lift);
-            // closes the pairs that touch, for the stable step
-            let mut unused = u.clone();
-            contact.apply_frictionless(solid.reference(), &u, &mut unused);
-            (u, None)
-        }
-    };
+    let mut held = model.clamped.clone();
+    held.extend(quiet.nodes());
+    let (displacement, preload) =
+        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe)?;
     let preload_wall = clock.elapsed().as_secs_f64();
 
     let omega_max = MARGIN
@@ -176,7 +130,7 @@ pub(crate) fn start(
         LoadMode::Load => Vertical::Load(case.load.normal),
         LoadMode::Height => Vertical::Held,
     };
-    hub.state.z = preload.map_or(case.disk.lift, |p| p.hub);
+    hub.state.z = preload.map_or(case.disk.lift, |p| p.hub());
     hub.state.vx = case.drive.speed;
     hub.state.omega = free;
     let mut quiet = quiet;

@@ -6,7 +6,7 @@ use crate::hertz::Hertz;
 use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
-use crate::run_error::preload_remedy;
+use crate::preload::PreloadError;
 use crate::schema::Case;
 use crate::start::Facts;
 use dynamics::{Diagnosis, Energies, Simulation};
@@ -83,10 +83,7 @@ pub(crate) fn summary(
         "peak_pressure": hertz.p0, "approach": hertz.approach });
     let checks =
         json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch });
-    let preload = facts.preload.map(|p| {
-        json!({ "iterations": p.iterations, "normal_force": p.normal_force,
-                "kinetic_ratio": p.kinetic_ratio, "hub_displacement": p.hub })
-    });
+    let preload = facts.preload.map(|p| p.json());
     let sections = [
         ("kernels", json!(simulation.solid().level().name())),
         ("stability", json!(facts.stability)),
@@ -111,16 +108,13 @@ pub(crate) fn without_rolling(
     model: &Model,
     threads: usize,
     wall: Instant,
-    error: &dynamics::RelaxationError,
+    error: &PreloadError,
 ) -> Summary {
     let wall_s = wall.elapsed().as_secs_f64();
     let none = String::new;
     Summary {
         name: case.name.clone(),
-        status: match error {
-            dynamics::RelaxationError::Interrupted => Status::Interrupted,
-            _ => Status::Failed,
-        },
+        status: if error.is_interruption() { Status::Interrupted } else { Status::Failed },
         steps: 0,
         dt: 0.0,
         t_end: 0.0,
@@ -134,8 +128,7 @@ pub(crate) fn without_rolling(
         contact: Contact::default(),
         files: Files { fields: none(), contact: none(), history: none() },
         stages: [("preload".to_owned(), wall_s)].into(),
-        extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", preload_remedy(error))))]
-            .into(),
+        extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", error.remedy())))].into(),
     }
 }
 

@@ -137,7 +137,8 @@ fn ctrl_c_while_rolling_ends_with_code_130_and_readable_results() {
 fn ctrl_c_during_the_preload_ends_with_code_130() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
-    let run = start(&out, &["--set", "preload.tolerance=1e-14"]);
+    let run =
+        start(&out, &["--set", "preload.method='relaxation'", "--set", "preload.tolerance=1e-14"]);
     let log = out.join("run.log");
     let clock = Instant::now();
     while !fs::read_to_string(&log).is_ok_and(|text| text.contains("mesh:")) {

@@ -181,6 +181,23 @@ impl<'a> FaceGeometry<'a> {
     }
 }
 
+/// Normals of a face at its corners, of the exact surface where it has one.
+pub(crate) fn corner_normals(
+    surface: &ContactSurface,
+    face: u32,
+    positions: &Positions<'_>,
+    curvature: bool,
+) -> [Vec3; 4] {
+    let geometry = FaceGeometry::new(surface, face, positions, curvature);
+    let mut normals = [[0.0; 3]; 4];
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    for (normal, [xi, eta]) in normals.iter_mut().zip(corners) {
+        let x = geometry.current.point(xi, eta);
+        *normal = geometry.evaluate(x, xi, eta).0.normal;
+    }
+    normals
+}
+
 /// A point of the master surface followed through one step: where the foot of the last step is
 /// now, and the new foot.
 pub(crate) struct Followed {

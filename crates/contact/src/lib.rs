@@ -8,6 +8,7 @@
 mod error;
 mod face;
 mod friction;
+mod gap;
 mod nodal;
 mod pair;
 pub mod patch;
@@ -26,6 +27,7 @@ pub use friction::{
     Coulomb, Exponential, Expression, ExpressionError, FrictionLaw, Memory, SteadyLaw, Strengthens,
     Table, TableError,
 };
+pub use gap::Gap;
 pub use nodal::NodalContact;
 pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};

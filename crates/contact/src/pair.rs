@@ -32,8 +32,8 @@ pub(crate) struct Pair {
     sleep: u32,
     /// Where the foot is; `NONE` where the node projects off the surface.
     pub face: u32,
-    xi: f64,
-    eta: f64,
+    pub xi: f64,
+    pub eta: f64,
     pub gap: f64,
     /// Normal and tangential stiffness (N/m), kept from closing to opening.
     pub stiffness: [f64; 2],

@@ -84,7 +84,7 @@ pub struct PenaltyContact {
     pub(crate) pairs: [Vec<Pair>; 2],
     pub(crate) law: Box<dyn FrictionLaw>,
     pub(crate) search: Search,
-    settings: PenaltySettings,
+    pub(crate) settings: PenaltySettings,
     stability: Option<StabilityScale>,
     /// [`PenaltyContact::nodal_stiffness_bound`] at the nodes of each side (N/m).
     bound: [Vec<f64>; 2],

@@ -78,6 +78,11 @@ impl Search {
         }
     }
 
+    /// Looks at the motion at the next call, however small it was so far.
+    pub fn expect_jump(&mut self) {
+        self.steps_to_check = 0;
+    }
+
     /// Whether the lists could be incomplete before the next check.
     pub fn is_due(
         &mut self,

@@ -507,5 +507,6 @@ fn block_force_of(
     }
 }
 
+mod diagonal;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,454 @@
+//! The coarse level of the preconditioner: clusters of nodes that move as rigid bodies.
+//!
+//! A two-level additive preconditioner `D^-1 + W A^-1 W^T` with `A = W^T K W` (Nicolaides 1987;
+//! rigid bodies for elasticity: Bulgakov 1993, Vanek, Mandel and Brezina 1996). Clusters grow by distance along the
+//! edges of the mesh, so that stretched elements are coarsened across their short edges, where
+//! their nodes are coupled most.
+
+use crate::link::Link;
+use crate::skyline::Skyline;
+use crate::space::{CHUNK, Group};
+use mesh::{Mesh, Padded};
+use rayon::prelude::*;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+
+/// Nodes per cluster: a larger number makes the coarse level cheaper and the iterations more.
+const CLUSTER: usize = 250;
+
+/// Clusters smaller than this part of [`CLUSTER`] join a neighbour.
+const SMALLEST: usize = 3;
+
+/// Largest displacement (m) of the motions that the products see.
+const AMPLITUDE: f64 = 1e-13;
+
+const NONE: u32 = u32::MAX;
+const MODES: usize = 6;
+type Block = [[f64; MODES]; MODES];
+
+/// The coarse level.
+pub(crate) struct Coarse {
+    /// Cluster of each node; none for nodes that are not free.
+    cluster: Vec<u32>,
+    /// The nodes of all clusters, one after the other, and where each cluster's begin.
+    nodes: Vec<u32>,
+    begin: Vec<usize>,
+    frames: Vec<Frame>,
+    /// `W^T K W` in blocks (a, b), `a >= b`; groups of tied nodes come after the clusters and use
+    /// the first unknown of their block.
+    elastic: BTreeMap<(u32, u32), Block>,
+    /// Place of each block in the factor.
+    place: Vec<u32>,
+    factor: Skyline,
+    /// Coarse residual, then solution.
+    vector: Vec<f64>,
+    /// The same in the order of the factor.
+    ordered: Vec<f64>,
+}
+
+/// Origin and size of a cluster: its rotations move nodes by at most about one.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    centre: [f64; 3],
+    per_size: f64,
+}
+
+impl Frame {
+    /// Arm of a point, in sizes of the cluster.
+    #[inline(always)]
+    fn arm(&self, x: &Padded) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.per_size * (x[i] - self.centre[i]))
+    }
+
+    /// Motion `t + w x arm` of a point under `[t, w]`.
+    #[inline(always)]
+    fn motion(&self, x: &Padded, q: &[f64]) -> [f64; 3] {
+        let [a, b, c] = self.arm(x);
+        [q[0] + q[4] * c - q[5] * b, q[1] + q[5] * a - q[3] * c, q[2] + q[3] * b - q[4] * a]
+    }
+
+    /// Adds the resultant `[f, arm x f]` of a force.
+    #[inline(always)]
+    fn collect(&self, x: &Padded, f: &Padded, to: &mut [f64]) {
+        let [a, b, c] = self.arm(x);
+        to[0] += f[0];
+        to[1] += f[1];
+        to[2] += f[2];
+        to[3] += b * f[2] - c * f[1];
+        to[4] += c * f[0] - a * f[2];
+        to[5] += a * f[1] - b * f[0];
+    }
+}
+
+impl Coarse {
+    /// Clusters the free nodes of `mesh`; `product` adds K x to y for x up to 1e-13 m.
+    pub(crate) fn new(
+        mesh: &Mesh,
+        reference: &[Padded],
+        is_free: impl Fn(usize) -> bool,
+        groups: &[Group],
+        product: impl FnMut(&[Padded], &mut [Padded]),
+    ) -> Self {
+        let neighbours = edges(mesh);
+        let (cluster, count) = clusters(reference, &neighbours, is_free);
+        let mut begin = vec![0; count + 1];
+        cluster.iter().filter(|&&c| c != NONE).for_each(|&c| begin[c as usize + 1] += 1);
+        (0..count).for_each(|c| begin[c + 1] += begin[c]);
+        let mut nodes: Vec<u32> =
+            (0..cluster.len() as u32).filter(|&n| cluster[n as usize] != NONE).collect();
+        nodes.sort_by_key(|&n| (cluster[n as usize], n));
+        let frames = (0..count).map(|c| frame(reference, &nodes[begin[c]..begin[c + 1]])).collect();
+        let blocks = count + groups.len();
+        let mut coarse = Self {
+            cluster,
+            nodes,
+            begin,
+            frames,
+            elastic: BTreeMap::new(),
+            place: (0..blocks as u32).collect(),
+            factor: Skyline::default(),
+            vector: vec![0.0; MODES * blocks],
+            ordered: vec![0.0; MODES * blocks],
+        };
+        coarse.probe(mesh, reference, groups, product);
+        coarse
+    }
+
+    /// `W^T K W` from products with sets of clusters so far apart that no cluster feels two.
+    fn probe(
+        &mut self,
+        mesh: &Mesh,
+        reference: &[Padded],
+        groups: &[Group],
+        mut product: impl FnMut(&[Padded], &mut [Padded]),
+    ) {
+        let near = self.adjacency(mesh, groups);
+        let colours = colours(&near);
+        let (mut x, mut y) =
+            (vec![Padded::ZERO; reference.len()], vec![Padded::ZERO; reference.len()]);
+        for colour in &colours {
+            for mode in 0..MODES {
+                self.vector.fill(0.0);
+                colour.iter().for_each(|&c| self.vector[MODES * c as usize + mode] = AMPLITUDE);
+                y.par_iter_mut().for_each(|y| *y = Padded::ZERO);
+                self.prolong(reference, groups, &mut x);
+                product(&x, &mut y);
+                self.restrict(reference, groups, &y);
+                for &a in colour {
+                    for &b in near[a as usize].range(a..) {
+                        let block = self.elastic.entry((b, a)).or_insert([[0.0; MODES]; MODES]);
+                        for i in 0..MODES {
+                            block[i][mode] = self.vector[MODES * b as usize + i] / AMPLITUDE;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Blocks that share an element with each block, itself included.
+    fn adjacency(&self, mesh: &Mesh, groups: &[Group]) -> Vec<BTreeSet<u32>> {
+        let clusters = self.frames.len();
+        let mut groups_at = BTreeMap::<u32, Vec<u32>>::new();
+        for (g, group) in groups.iter().enumerate() {
+            let block = (clusters + g) as u32;
+            group.nodes.iter().for_each(|&n| groups_at.entry(n).or_default().push(block));
+        }
+        let mut near: Vec<BTreeSet<u32>> =
+            (0..(clusters + groups.len()) as u32).map(|c| BTreeSet::from([c])).collect();
+        let mut here = Vec::new();
+        for hex in &mesh.hexes {
+            here.clear();
+            for n in hex {
+                let c = self.cluster[*n as usize];
+                if c != NONE {
+                    here.push(c);
+                } else if let Some(blocks) = groups_at.get(n) {
+                    here.extend(blocks);
+                }
+            }
+            here.sort_unstable();
+            here.dedup();
+            if here.len() > 1 {
+                for &a in &here {
+                    near[a as usize].extend(&here);
+                }
+            }
+        }
+        near
+    }
+
+    /// Factorises `W^T K W` with springs (N/m) along `links`.
+    pub(crate) fn factorise<'l>(
+        &mut self,
+        reference: &[Padded],
+        springs: impl Iterator<Item = (&'l Link, f64)>,
+    ) {
+        let mut matrix = self.elastic.clone();
+        for (link, k) in springs {
+            let mut row = BTreeMap::<u32, [f64; MODES]>::new();
+            let foot = link.corners.iter().zip(link.weights).map(|(&n, w)| (n, -w));
+            for (node, weight) in [(link.slave, 1.0)].into_iter().chain(foot) {
+                let c = self.cluster[node];
+                if c != NONE {
+                    let pull = Padded::new(link.normal.map(|n| weight * n));
+                    let entry = row.entry(c).or_insert([0.0; MODES]);
+                    self.frames[c as usize].collect(&reference[node], &pull, entry);
+                }
+            }
+            for (&b, left) in &row {
+                for (&a, right) in row.range(..=b) {
+                    let block = matrix.entry((b, a)).or_insert([[0.0; MODES]; MODES]);
+                    for i in 0..MODES {
+                        for j in 0..MODES {
+                            block[i][j] += k * left[i] * right[j];
+                        }
+                    }
+                }
+            }
+        }
+        self.place = order(self.place.len(), matrix.keys());
+        let mut first: Vec<usize> = (0..self.place.len()).collect();
+        let place = |c: u32| self.place[c as usize] as usize;
+        for &(b, a) in matrix.keys() {
+            let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
+            first[high] = first[high].min(low);
+        }
+        let rows = first.iter().flat_map(|&f| [MODES * f; MODES]).collect();
+        let mut factor = Skyline::zero(rows);
+        for (&(b, a), block) in &matrix {
+            for i in 0..MODES {
+                for j in 0..MODES {
+                    let (row, column) = (MODES * place(b) + i, MODES * place(a) + j);
+                    if a != b || column <= row {
+                        *factor.entry(row.max(column), row.min(column)) = block[i][j];
+                    }
+                }
+            }
+        }
+        factor.factorise();
+        self.factor = factor;
+    }
+
+    /// `A^-1 W^T r`, whose motions [`motion`](Self::motion) and
+    /// [`group_motion`](Self::group_motion) give.
+    pub(crate) fn solve(&mut self, reference: &[Padded], groups: &[Group], r: &[Padded]) {
+        self.restrict(reference, groups, r);
+        let Self { vector, ordered, place, factor, .. } = self;
+        for (own, &at) in vector.chunks(MODES).zip(&*place) {
+            ordered[MODES * at as usize..][..MODES].copy_from_slice(own);
+        }
+        factor.solve(ordered);
+        for (own, &at) in vector.chunks_mut(MODES).zip(&*place) {
+            own.copy_from_slice(&ordered[MODES * at as usize..][..MODES]);
+        }
+    }
+
+    /// Motion of a node at `x` with its cluster; none if it belongs to none.
+    #[inline(always)]
+    pub(crate) fn motion(&self, node: usize, x: &Padded) -> [f64; 3] {
+        match self.cluster[node] {
+            NONE => [0.0; 3],
+            c => self.frames[c as usize].motion(x, &self.vector[MODES * c as usize..][..MODES]),
+        }
+    }
+
+    /// Motion of a group of tied nodes along its axis.
+    pub(crate) fn group_motion(&self, group: usize) -> f64 {
+        self.vector[MODES * (self.frames.len() + group)]
+    }
+
+    /// Resultants of `r` on clusters and groups, to `vector`.
+    fn restrict(&mut self, reference: &[Padded], groups: &[Group], r: &[Padded]) {
+        let Self { vector, nodes, begin, frames, .. } = self;
+        let (clusters, tied) = vector.split_at_mut(MODES * frames.len());
+        clusters.par_chunks_mut(MODES).zip(frames.par_iter()).enumerate().for_each(
+            |(c, (sum, frame))| {
+                sum.fill(0.0);
+                for &n in &nodes[begin[c]..begin[c + 1]] {
+                    frame.collect(&reference[n as usize], &r[n as usize], sum);
+                }
+            },
+        );
+        for (sum, group) in tied.chunks_mut(MODES).zip(groups) {
+            sum.fill(0.0);
+            sum[0] = group.resultant(r);
+        }
+    }
+
+    /// The motions `vector` of clusters and groups.
+    fn prolong(&self, reference: &[Padded], groups: &[Group], z: &mut [Padded]) {
+        z.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, z)| {
+            for (i, z) in z.iter_mut().enumerate() {
+                let node = CHUNK * chunk + i;
+                *z = Padded::new(self.motion(node, &reference[node]));
+            }
+        });
+        for (g, group) in groups.iter().enumerate() {
+            group.set(self.group_motion(g), z);
+        }
+    }
+}
+
+/// Ends of the element edges at each node.
+fn edges(mesh: &Mesh) -> Vec<Vec<u32>> {
+    const EDGES: [[usize; 2]; 12] = [
+        [0, 1],
+        [1, 2],
+        [2, 3],
+        [3, 0],
+        [4, 5],
+        [5, 6],
+        [6, 7],
+        [7, 4],
+        [0, 4],
+        [1, 5],
+        [2, 6],
+        [3, 7],
+    ];
+    let mut ends = vec![Vec::new(); mesh.nodes.len()];
+    for hex in &mesh.hexes {
+        for [a, b] in EDGES {
+            ends[hex[a] as usize].push(hex[b]);
+            ends[hex[b] as usize].push(hex[a]);
+        }
+    }
+    for ends in &mut ends {
+        ends.sort_unstable();
+        ends.dedup();
+    }
+    ends
+}
+
+/// Cluster of each free node, and how many there are: from the first node left, the nearest along
+/// edges until the cluster is full.
+fn clusters(
+    reference: &[Padded],
+    neighbours: &[Vec<u32>],
+    is_free: impl Fn(usize) -> bool,
+) -> (Vec<u32>, usize) {
+    let n = reference.len();
+    let mut cluster = vec![NONE; n];
+    let mut members: Vec<Vec<u32>> = Vec::new();
+    let mut heap = BinaryHeap::new();
+    for seed in 0..n {
+        if cluster[seed] != NONE || !is_free(seed) {
+            continue;
+        }
+        let label = members.len() as u32;
+        let mut own = Vec::new();
+        heap.clear();
+        heap.push((Reverse(0u64), Reverse(seed as u32)));
+        while let Some((_, Reverse(node))) = heap.pop() {
+            let at = node as usize;
+            if cluster[at] != NONE {
+                continue;
+            }
+            cluster[at] = label;
+            own.push(node);
+            if own.len() == CLUSTER {
+                break;
+            }
+            for &next in &neighbours[at] {
+                if cluster[next as usize] == NONE && is_free(next as usize) {
+                    let d: f64 = (0..3)
+                        .map(|i| (reference[next as usize][i] - reference[seed][i]).powi(2))
+                        .sum();
+                    // Bits of positive numbers order as the numbers do.
+                    heap.push((Reverse(d.to_bits()), Reverse(next)));
+                }
+            }
+        }
+        let host = (own.len() < CLUSTER / SMALLEST).then(|| {
+            let around = own.iter().flat_map(|&n| &neighbours[n as usize]);
+            around.map(|&n| cluster[n as usize]).find(|&c| c != NONE && c != label)
+        });
+        if let Some(Some(host)) = host {
+            own.iter().for_each(|&n| cluster[n as usize] = host);
+            members[host as usize].extend(own);
+        } else {
+            members.push(own);
+        }
+    }
+    (cluster, members.len())
+}
+
+fn frame(reference: &[Padded], nodes: &[u32]) -> Frame {
+    let mut centre = [0.0; 3];
+    for &n in nodes {
+        (0..3).for_each(|i| centre[i] += reference[n as usize][i] / nodes.len() as f64);
+    }
+    let mut size = 0.0_f64;
+    for &n in nodes {
+        let squares = (0..3).map(|i| (reference[n as usize][i] - centre[i]).powi(2));
+        size = size.max(squares.sum::<f64>().sqrt());
+    }
+    Frame { centre, per_size: if size > 0.0 { 1.0 / size } else { 0.0 } }
+}
+
+/// Sets of blocks of which no two are near a common block, greedily.
+fn colours(near: &[BTreeSet<u32>]) -> Vec<Vec<u32>> {
+    let mut colour = vec![NONE; near.len()];
+    let mut sets: Vec<Vec<u32>> = Vec::new();
+    for c in 0..near.len() {
+        let taken: BTreeSet<u32> = near[c]
+            .iter()
+            .flat_map(|&b| &near[b as usize])
+            .map(|&b| colour[b as usize])
+            .filter(|&k| k != NONE)
+            .collect();
+        let free = (0..).find(|k| !taken.contains(k)).unwrap_or(0);
+        colour[c] = free;
+        if free as usize == sets.len() {
+            sets.push(Vec::new());
+        }
+        sets[free as usize].push(c as u32);
+    }
+    sets
+}
+
+/// Places of the blocks in the reverse order of Cuthill and McKee (1969), which keeps the envelope
+/// small.
+fn order<'a>(blocks: usize, pairs: impl Iterator<Item = &'a (u32, u32)>) -> Vec<u32> {
+    let mut near = vec![Vec::new(); blocks];
+    for &(b, a) in pairs {
+        if a != b {
+            near[a as usize].push(b);
+            near[b as usize].push(a);
+        }
+    }
+    let degree: Vec<usize> = near.iter().map(Vec::len).collect();
+    for list in &mut near {
+        list.sort_by_key(|&c| (degree[c as usize], c));
+    }
+    let walk = |start: usize, seen: &mut [bool], to: &mut Vec<u32>| {
+        let mut next = to.len();
+        seen[start] = true;
+        to.push(start as u32);
+        while next < to.len() {
+            let here = to[next] as usize;
+            next += 1;
+            for &c in &near[here] {
+                if !std::mem::replace(&mut seen[c as usize], true) {
+                    to.push(c);
+                }
+            }
+        }
+    };
+    let mut seen = vec![false; blocks];
+    let mut sequence = Vec::with_capacity(blocks);
+    for start in 0..blocks {
+        if !seen[start] {
+            // The last block of a walk from anywhere lies at an end of the part.
+            let mut trial = Vec::new();
+            walk(start, &mut seen.clone(), &mut trial);
+            let end = trial.last().map_or(start, |&c| c as usize);
+            walk(end, &mut seen, &mut sequence);
+        }
+    }
+    let mut place = vec![0; blocks];
+    for (at, c) in sequence.iter().rev().enumerate() {
+        place[*c as usize] = at as u32;
+    }
+    place
+}

@@ -1,0 +1,141 @@
+//! The static problem and its solution.
+
+use crate::error::StaticsError;
+use crate::supports::Supports;
+use crate::{exact, newton, system::System};
+use contact::PenaltyContact;
+use mesh::{Mesh, Padded};
+use solid::Solid;
+use std::ops::Range;
+
+/// How contact is enforced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Enforcement {
+    /// The normal springs of the contact, in two passes, without damper and friction.
+    Penalty,
+    /// Exactly and without friction, in the pass whose slaves are the nodes of this side: gap and
+    /// pressure are complementary at every slave.
+    Exact {
+        /// 0 or 1; the finer surface serves better.
+        slave: usize,
+    },
+}
+
+/// The centrifugal force of a body that turns about y: m omega^2 times the distance from the axis.
+#[derive(Clone, Debug)]
+pub struct Spin<'a> {
+    /// A point of the axis in the reference configuration (m).
+    pub centre: [f64; 3],
+    /// Angular velocity (rad/s).
+    pub omega: f64,
+    /// Nodes of the body. Tied nodes among them are left out: their group is a rigid body whose
+    /// centre of mass lies on the axis.
+    pub nodes: Range<usize>,
+    /// Lumped masses of all nodes (kg).
+    pub mass: &'a [f64],
+    /// The group of tied nodes, by its place in [`Supports::tied`], that the axis moves with.
+    pub hub: usize,
+}
+
+/// A static problem.
+#[derive(Clone, Debug)]
+pub struct Problem<'a> {
+    /// The mesh of the solid.
+    pub mesh: &'a Mesh,
+    /// What holds and presses.
+    pub supports: &'a Supports,
+    /// Centrifugal force, if a body turns.
+    pub spin: Option<Spin<'a>>,
+    /// How contact is enforced.
+    pub enforcement: Enforcement,
+    /// Residual over load at which the solution is accepted.
+    pub tolerance: f64,
+    /// Newton iterations after which it gives up.
+    pub max_iterations: usize,
+}
+
+/// A look at the solution under way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Iteration {
+    /// Newton iterations done.
+    pub iteration: usize,
+    /// Euclidean norm of the residual over the load; over the reactions where nothing is loaded.
+    pub residual: f64,
+    /// Sum of the contact's normal forces (N).
+    pub normal_force: f64,
+    /// Contact pairs closed.
+    pub closed: usize,
+    /// Conjugate-gradient iterations in the last step.
+    pub cg_iterations: usize,
+    /// Length of the last step over Newton's.
+    pub step: f64,
+}
+
+/// What ended the iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The residual fell below the tolerance.
+    Tolerance,
+    /// The residual fell no further: the round-off of the forces.
+    RoundOff,
+}
+
+/// How the solution went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// The last state.
+    pub last: Iteration,
+    /// Conjugate-gradient iterations in all.
+    pub cg_iterations: usize,
+    /// What ended it.
+    pub ending: Ending,
+    /// The residual over the load once normals that had to be held follow the facets again; zero
+    /// where none were held. Slaves over the edge of two facets, whose normals differ, cause it; it
+    /// acts along the surface.
+    pub facets: f64,
+    /// Strain and hourglass energy (J).
+    pub internal: f64,
+}
+
+/// An equilibrium.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// Displacements (m).
+    pub displacement: Vec<Padded>,
+    /// Forces on all nodes (N), contact included: minus the reaction at supports, else the
+    /// residual.
+    pub force: Vec<Padded>,
+    /// Slaves of exact contact under pressure, ascending by node: gap and normal force (N).
+    pub pressed: Vec<(contact::Gap, f64)>,
+    /// How it went.
+    pub report: Report,
+}
+
+/// Equilibrium of `solid` with `contact` from the displacements `start` (m).
+///
+/// Supports override `start`; nodes tied along a loaded axis start with their first node. With
+/// [`Enforcement::Penalty`] the contact is left in the state of the solution. `observe` sees every
+/// iteration and returns false to stop.
+///
+/// The result does not depend on the number of threads.
+///
+/// # Errors
+/// See [`StaticsError`].
+///
+/// # Panics
+/// If `start` or `spin.mass` has fewer entries than the mesh has nodes, or `solid` and `contact`
+/// belong to another mesh.
+pub fn solve(
+    solid: &mut Solid,
+    contact: Option<&mut PenaltyContact>,
+    problem: &Problem<'_>,
+    start: &[Padded],
+    mut observe: impl FnMut(&Iteration) -> bool,
+) -> Result<Equilibrium, StaticsError> {
+    let mut system = System::new(solid, contact, problem)?;
+    let start = system.admissible(start)?;
+    match problem.enforcement {
+        Enforcement::Penalty => newton::solve(&mut system, start, &mut observe),
+        Enforcement::Exact { slave } => exact::solve(&mut system, slave, start, &mut observe),
+    }
+}

@@ -1,0 +1,334 @@
+//! Residual, tangent and guards that both enforcements share.
+
+use crate::cg::{Cg, Outcome};
+use crate::components::{Drift, Parts, body_of};
+use crate::error::StaticsError;
+use crate::link::Link;
+use crate::problem::{Iteration, Problem};
+use crate::space::{CHUNK, Space};
+use crate::supports::Axis;
+use contact::PenaltyContact;
+use mesh::Padded;
+use rayon::prelude::*;
+use solid::Solid;
+
+/// Conjugate-gradient iterations in one Newton step after which it gives up.
+const MOST_CG: usize = 20_000;
+
+/// Springs (N/m) with their feet and normals as they were at the displacements `at`, where the gaps
+/// were `gaps` (m).
+struct Held {
+    springs: Vec<(Link, f64)>,
+    gaps: Vec<f64>,
+    at: Vec<Padded>,
+}
+
+/// What the normal springs did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Pressed {
+    /// Sum of their forces (N).
+    pub(crate) normal_force: f64,
+    /// How many are closed.
+    pub(crate) closed: usize,
+}
+
+/// The problem with everything that is set up once.
+pub(crate) struct System<'a> {
+    pub(crate) solid: &'a mut Solid,
+    pub(crate) contact: Option<&'a mut PenaltyContact>,
+    pub(crate) problem: &'a Problem<'a>,
+    pub(crate) space: Space,
+    pub(crate) parts: Parts,
+    /// Normal springs of the tangent.
+    pub(crate) springs: Vec<(Link, f64)>,
+    /// Springs with feet and normals held.
+    held: Option<Held>,
+    cg: Cg,
+    reference: Vec<Padded>,
+    /// Whether the centrifugal force acts on a node: not on tied ones.
+    spun: Vec<bool>,
+    /// Sum of the loads' magnitudes (N).
+    load: f64,
+}
+
+impl<'a> System<'a> {
+    pub(crate) fn new(
+        solid: &'a mut Solid,
+        contact: Option<&'a mut PenaltyContact>,
+        problem: &'a Problem<'a>,
+    ) -> Result<Self, StaticsError> {
+        let parts = Parts::new(problem.mesh, problem.supports)?;
+        let blocks = solid.stiffness_diagonal();
+        let reference = solid.reference().to_vec();
+        let product = |x: &[Padded], y: &mut [Padded]| solid.add_stiffness_product(x, y);
+        let space = Space::new(problem.mesh, &reference, problem.supports, &blocks, product);
+        let n = blocks.len();
+        let mut spun = vec![false; n];
+        if let Some(spin) = &problem.spin {
+            spun[spin.nodes.clone()].fill(true);
+            let tied = problem.supports.tied.iter().flat_map(|t| &t.nodes);
+            tied.for_each(|&n| spun[n as usize] = false);
+        }
+        let load = space.groups.iter().map(|g| g.load.abs()).sum();
+        let cg = Cg::new(n);
+        Ok(Self {
+            solid,
+            contact,
+            problem,
+            space,
+            parts,
+            springs: Vec::new(),
+            held: None,
+            cg,
+            reference,
+            spun,
+            load,
+        })
+    }
+
+    /// `start` with the supports' displacements over it.
+    pub(crate) fn admissible(&self, start: &[Padded]) -> Result<Vec<Padded>, StaticsError> {
+        let mut u = start[..self.reference.len()].to_vec();
+        for &n in &self.problem.supports.held {
+            u[n as usize] = Padded::ZERO;
+        }
+        for tied in &self.problem.supports.tied {
+            for (axis, motion) in tied.axes.iter().enumerate() {
+                let value = match *motion {
+                    Axis::Moved(value) => value,
+                    Axis::Loaded(_) => u[tied.nodes[0] as usize][axis],
+                };
+                tied.nodes.iter().for_each(|&n| u[n as usize][axis] = value);
+            }
+        }
+        match u.iter().flat_map(|u| u.xyz()).find(|c| !c.is_finite()) {
+            Some(value) => Err(StaticsError::NotANumber { value }),
+            None => Ok(u),
+        }
+    }
+
+    /// Loads, centrifugal and elastic force at `u` (N); returns the strain energy if asked for.
+    pub(crate) fn force(&mut self, u: &[Padded], force: &mut [Padded], energy: bool) -> f64 {
+        let (reference, spun) = (&self.reference, &self.spun);
+        let spin = self.problem.spin.as_ref().map(|spin| {
+            let hub = u[self.problem.supports.tied[spin.hub].nodes[0] as usize];
+            let axis = [spin.centre[0] + hub[0], spin.centre[2] + hub[2]];
+            (spin.mass, spin.omega * spin.omega, axis)
+        });
+        force.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, force)| {
+            for (k, f) in force.iter_mut().enumerate() {
+                let i = chunk * CHUNK + k;
+                *f = Padded::ZERO;
+                if let (Some((mass, squared, axis)), true) = (spin, spun[i]) {
+                    let pull = mass[i] * squared;
+                    f[0] = pull * (reference[i][0] + u[i][0] - axis[0]);
+                    f[2] = pull * (reference[i][2] + u[i][2] - axis[1]);
+                }
+            }
+        });
+        for group in &self.space.groups {
+            force[group.nodes[0] as usize][group.axis] += group.load;
+        }
+        let sums = self.solid.subtract_elastic_force(u, force, energy);
+        sums.internal + sums.hourglass
+    }
+
+    /// Adds the normal springs of the contact at `u`.
+    pub(crate) fn add_springs(&mut self, u: &[Padded], force: &mut [Padded]) -> Pressed {
+        let mut pressed = Pressed::default();
+        if let Some(held) = &self.held {
+            for ((link, k), gap) in held.springs.iter().zip(&held.gaps) {
+                let gap = gap + link.opening(u) - link.opening(&held.at);
+                if gap < 0.0 {
+                    link.push(-k * gap, force);
+                    pressed.normal_force -= k * gap;
+                    pressed.closed += 1;
+                }
+            }
+        } else if let Some(contact) = &mut self.contact {
+            contact.expect_jump();
+            let sums = contact.apply_frictionless(&self.reference, u, force);
+            (pressed.normal_force, pressed.closed) = (sums.normal_force, sums.closed);
+        }
+        pressed
+    }
+
+    /// Takes the springs closed at `u` into the tangent.
+    pub(crate) fn set_springs(&mut self, u: &[Padded]) {
+        self.springs = match (&self.held, &self.contact) {
+            (Some(held), _) => {
+                let gap = |link: &Link, gap: &f64| gap + link.opening(u) - link.opening(&held.at);
+                let all = held.springs.iter().zip(&held.gaps);
+                all.filter(|((link, _), g)| gap(link, g) < 0.0).map(|(s, _)| *s).collect()
+            }
+            (None, Some(contact)) => {
+                contact.springs().map(|(gap, k)| (Link::new(&gap), k)).collect()
+            }
+            (None, None) => Vec::new(),
+        };
+        self.space.set_springs(&self.springs);
+    }
+
+    /// Holds feet and normals of the springs closed at the last evaluation, that of `u`.
+    pub(crate) fn hold_normals(&mut self, u: &[Padded]) {
+        let springs = self.contact.iter().flat_map(|c| c.springs());
+        let (springs, gaps) = springs.map(|(g, k)| ((Link::new(&g), k), g.gap)).unzip();
+        self.held = Some(Held { springs, gaps, at: u.to_vec() });
+    }
+
+    pub(crate) fn normals_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Lets feet and normals go; whether the springs closed at `u` are those closed while held.
+    /// Sets `force` to the force at `u` with the present feet and normals.
+    pub(crate) fn release_normals(&mut self, u: &[Padded], force: &mut [Padded]) -> bool {
+        let slaves = |springs: &[(Link, f64)]| -> Vec<usize> {
+            springs.iter().map(|(link, _)| link.slave).collect()
+        };
+        self.set_springs(u);
+        let before = slaves(&self.springs);
+        self.held = None;
+        self.force(u, force, false);
+        self.add_springs(u, force);
+        self.set_springs(u);
+        slaves(&self.springs) == before
+    }
+
+    /// What a residual is measured by (N): the loads, or without them the reactions.
+    pub(crate) fn scale(&self, force: &[Padded]) -> f64 {
+        if self.load > 0.0 {
+            return self.load;
+        }
+        let held = force.iter().enumerate().filter(|&(n, _)| !self.space.is_free(n));
+        let squares: f64 = held.map(|(_, f)| f.xyz().iter().map(|c| c * c).sum::<f64>()).sum();
+        squares.sqrt().max(f64::MIN_POSITIVE)
+    }
+
+    /// `y -= K x` with the stiffness of the undeformed state.
+    pub(crate) fn subtract_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
+        let largest = x.iter().flat_map(|x| x.xyz()).fold(0.0, |m: f64, c| m.max(c.abs()));
+        if largest == 0.0 {
+            return;
+        }
+        let small = 1e-13 / largest;
+        let scaled: Vec<Padded> = x.iter().map(|x| Padded(x.0.map(|c| small * c))).collect();
+        let mut product = vec![Padded::ZERO; x.len()];
+        self.solid.subtract_elastic_force(&scaled, &mut product, false);
+        for (y, p) in y.iter_mut().zip(&product) {
+            (0..3).for_each(|i| y[i] += p[i] / small);
+        }
+    }
+
+    /// Gaps of a pass at `u`.
+    pub(crate) fn gaps(&mut self, slave: usize, u: &[Padded], gaps: &mut Vec<contact::Gap>) {
+        if let Some(contact) = &mut self.contact {
+            contact.gaps(slave, &self.reference, u, gaps);
+        }
+    }
+
+    /// The linear step under the reduced residual `r`, which is used up.
+    pub(crate) fn step(
+        &mut self,
+        r: &mut [Padded],
+        x: &mut [Padded],
+        tolerance: f64,
+        at: &Iteration,
+    ) -> Result<usize, StaticsError> {
+        let Self { cg, solid, space, springs, .. } = self;
+        match cg.solve(solid, space, springs, r, x, tolerance, MOST_CG) {
+            Outcome::Converged(iterations) => Ok(iterations),
+            Outcome::Slow(iterations) => Err(StaticsError::Linear { iterations, at: *at }),
+            Outcome::Flat(node) => {
+                Err(StaticsError::Flat { node, body: self.body(node), position: self.at(node) })
+            }
+        }
+    }
+
+    /// A drift that none of `links` resists.
+    pub(crate) fn unresisted<'l>(
+        &self,
+        links: impl Iterator<Item = &'l Link> + Clone,
+    ) -> Option<Drift> {
+        let resists = |drift: &Drift, link: &Link| {
+            let inside = |n: usize| f64::from(u8::from(self.parts.contains(drift, n)));
+            let foot: f64 = link.weights.iter().zip(link.corners).map(|(w, n)| w * inside(n)).sum();
+            link.normal[drift.axis].abs() * (inside(link.slave) - foot).abs() > 1e-9
+        };
+        let free = |drift: &&Drift| !links.clone().any(|link| resists(drift, link));
+        self.parts.drifts.iter().find(free).cloned()
+    }
+
+    /// Moves a part under the force on it until `touches` says that contact has closed.
+    pub(crate) fn close(
+        &mut self,
+        drift: &Drift,
+        u: &mut [Padded],
+        force: &[Padded],
+        mut touches: impl FnMut(&mut Self, &[Padded]) -> bool,
+    ) -> Result<(), StaticsError> {
+        const FIRST: f64 = 1e-9;
+        let nodes: Vec<usize> = (0..u.len()).filter(|&n| self.parts.contains(drift, n)).collect();
+        let pull: f64 = nodes.iter().map(|&n| force[n][drift.axis]).sum();
+        let start: Vec<f64> = nodes.iter().map(|&n| u[n][drift.axis]).collect();
+        let reach = self.extent();
+        let mut shift = FIRST;
+        while pull != 0.0 && shift < reach {
+            for (&n, start) in nodes.iter().zip(&start) {
+                u[n][drift.axis] = start + shift.copysign(pull);
+            }
+            if touches(self, u) {
+                return Ok(());
+            }
+            shift *= 2.0;
+        }
+        let body = self.problem.mesh.bodies[drift.body].name.clone();
+        Err(StaticsError::Open { body, axis: ['x', 'y', 'z'][drift.axis], force: pull })
+    }
+
+    /// Largest extent of the mesh along an axis (m).
+    fn extent(&self) -> f64 {
+        (0..3).fold(0.0, |extent: f64, i| {
+            let all = || self.reference.iter().map(|x| x[i]);
+            extent.max(all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min))
+        })
+    }
+
+    /// Refuses a state with an element turned inside out.
+    pub(crate) fn not_inverted(&self, u: &[Padded]) -> Result<(), StaticsError> {
+        let (element, body, jacobian) = self.solid.smallest_jacobian(u);
+        if jacobian > 0.0 {
+            return Ok(());
+        }
+        let body = self.problem.mesh.bodies[body].name.clone();
+        Err(StaticsError::Inverted { element, body, centre: self.solid.centre(element), jacobian })
+    }
+
+    /// Newton gave up in the state `at` with the reduced residual `r`.
+    pub(crate) fn slow(&self, at: Iteration, r: &[Padded]) -> StaticsError {
+        let (node, _) = self.space.worst(r);
+        let (body, position) = (self.body(node), self.at(node));
+        StaticsError::Slow { at, tolerance: self.problem.tolerance, node, body, position }
+    }
+
+    fn body(&self, node: usize) -> String {
+        self.problem.mesh.bodies[body_of(self.problem.mesh, node)].name.clone()
+    }
+
+    fn at(&self, node: usize) -> [f64; 3] {
+        self.reference[node].xyz()
+    }
+}
+
+/// `u + alpha d`.
+pub(crate) fn moved(u: &[Padded], alpha: f64, d: &[Padded], to: &mut [Padded]) {
+    to.par_chunks_mut(CHUNK).zip(u.par_chunks(CHUNK).zip(d.par_chunks(CHUNK))).for_each(
+        |(to, (u, d))| {
+            for (to, (u, d)) in to.iter_mut().zip(u.iter().zip(d)) {
+                for i in 0..3 {
+                    to[i] = u[i] + alpha * d[i];
+                }
+            }
+        },
+    );
+}
