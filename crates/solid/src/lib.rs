@@ -13,6 +13,7 @@ mod mass;
 mod material;
 mod solid;
 mod stable;
+mod stiffness;
 
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;
@@ -20,3 +21,4 @@ pub use mass::lumped_mass;
 pub use material::{Material, MaterialError};
 pub use solid::{Element, ForceSums, Solid, SolidError, Viscosity};
 pub use stable::{element_frequency_bound, largest_frequency, nodal_stiffness_bounds};
+pub use stiffness::element_stiffness;
