@@ -3,6 +3,7 @@
 use crate::SurfaceCompliance;
 use faer::Mat;
 use mesh::{Mesh, Surface};
+use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// A point of potential contact: a node of the slave surface.
@@ -16,6 +17,31 @@ pub struct Point {
     pub area: f64,
     /// Distance of the undeformed surfaces along the normal (m).
     pub gap: f64,
+}
+
+impl Point {
+    /// The nodes of `surface` that lie `within` the potential contact, by node, with `gap` of
+    /// their position; areas are those of the whole surface, so that a point inside it has its
+    /// full share whatever the choice.
+    pub fn on_surface(
+        mesh: &Mesh,
+        surface: &Surface,
+        within: impl Fn([f64; 3]) -> bool,
+        gap: impl Fn([f64; 3]) -> f64,
+    ) -> Vec<Self> {
+        let mut areas = BTreeMap::new();
+        for face in &surface.faces {
+            let shares = mesh::quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize]));
+            for (node, share) in face.nodes.iter().zip(shares) {
+                *areas.entry(*node).or_insert(0.0) += share;
+            }
+        }
+        let point = |(node, area): (u32, f64)| {
+            let at = mesh.nodes[node as usize];
+            within(at).then(|| Self { node, at, area, gap: gap(at) })
+        };
+        areas.into_iter().filter_map(point).collect()
+    }
 }
 
 /// Why an influence matrix cannot be set up.
@@ -96,8 +122,8 @@ impl Influence {
         Ok(Self { points, closing: vec![1.0; n], normal, shear, coupling: None })
     }
 
-    /// The slave nodes `points` against the faces of the master surface, whose nodes `master`
-    /// holds; `mesh` holds both.
+    /// The slave nodes `points` against the faces of a master surface: `master` holds the nodes of
+    /// the faces under the points, `surface` the faces and `mesh` their coordinates.
     ///
     /// Kinematics are those of the reference configuration: the foot of a node on its face and
     /// the normal stay. The normal is that of the exact master surface where there is one.
@@ -208,7 +234,7 @@ fn places(compliance: &SurfaceCompliance, points: &[Point]) -> Result<Vec<usize>
     if points.is_empty() {
         return Err(InfluenceError::Empty);
     }
-    let slots: std::collections::BTreeMap<u32, usize> =
+    let slots: BTreeMap<u32, usize> =
         compliance.nodes().iter().enumerate().map(|(i, &n)| (n, i)).collect();
     points
         .iter()
@@ -246,6 +272,10 @@ impl Foot {
             let Some(shape) = inside(corners, target) else { continue };
             let mut weights = [(0, 0.0); 4];
             for (k, node) in face.nodes.iter().enumerate() {
+                // A foot on an edge of the face does not load the corners off that edge.
+                if shape[k].abs() < 1e-9 {
+                    continue;
+                }
                 let Some(slot) = master.nodes().iter().position(|m| m == node) else {
                     return Err(InfluenceError::Unknown { node: *node });
                 };

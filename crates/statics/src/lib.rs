@@ -7,18 +7,22 @@
 //! shift and rolling ([`Rolling`]) with exact contact conditions: no penalty, no inertia, the
 //! finite bodies as meshed. SI units.
 
+mod block;
 mod compliance;
 mod dissection;
 mod friction;
 mod influence;
+mod measures;
 mod normal;
 mod rolling;
 mod sparse;
 mod supports;
 
+pub use block::{Block, BlockError, Lateral};
 pub use compliance::{FactorSize, SurfaceCompliance};
 pub use friction::{FrictionError, Rigid};
 pub use influence::{Influence, InfluenceError, Point};
+pub use measures::{Ellipsoid, ellipsoid, peak_shear, stick_border, stick_fraction};
 pub use normal::{Press, PressError, Pressed, press};
 pub use rolling::{Adhesion, Rolling, RollingError};
 pub use sparse::{ElementStiffness, Factor, SparseError, Stiffness, Symbolic, Unknowns};
