@@ -1,5 +1,7 @@
 //! Graded divisions of a line.
 
+use crate::MeshError;
+use crate::error::{MAX_ELEMENTS, positive};
 use std::ops::Range;
 
 /// A gap next to the zone that is shorter than this many elements joins the zone.
@@ -53,6 +55,42 @@ impl Axis {
         let graded = 2.0 * (coarsest / size).ln() / growth.ln();
         fine / size + (gap / coarsest + graded).min(gap / size)
     }
+}
+
+/// Planes (m, ascending) that divide `span` with cells of `size` over the stretch `fine`, growing by
+/// about `growth` outside it up to `coarsest`; sizes are adjusted so that they fit exactly.
+///
+/// # Errors
+/// [`MeshError::OutOfRange`] for sizes that are not positive, a growth outside (1, 3] or a stretch
+/// that does not lie in the span.
+pub fn graded_line(
+    span: [f64; 2],
+    fine: [f64; 2],
+    size: f64,
+    growth: f64,
+    coarsest: f64,
+) -> Result<Vec<f64>, MeshError> {
+    positive("line.size", size)?;
+    positive("line.span", span[1] - span[0])?;
+    positive("line.fine", fine[1] - fine[0])?;
+    let within = fine[0] >= span[0] && fine[1] <= span[1];
+    if !within {
+        let allowed = format!("within {} to {}", span[0], span[1]);
+        return Err(MeshError::range("line.fine", fine[0], allowed, "shrink the fine stretch"));
+    }
+    if !(growth > 1.0 && growth <= 3.0) {
+        let allowed = "above 1 and at most 3";
+        return Err(MeshError::range("line.growth", growth, allowed, "1.35 is a good value"));
+    }
+    if coarsest.is_nan() || coarsest < size {
+        let allowed = format!("at least line.size = {size}");
+        return Err(MeshError::range("line.coarsest", coarsest, allowed, "raise it"));
+    }
+    let estimate = Axis::estimate(span[1] - span[0], fine[1] - fine[0], size, growth, coarsest);
+    if estimate > MAX_ELEMENTS {
+        return Err(MeshError::TooManyElements { body: "line", size, estimate });
+    }
+    Ok(Axis::new(span, fine, size, growth, coarsest).points)
 }
 
 /// `length` rounded up to whole cells of `size`, but for round-off.

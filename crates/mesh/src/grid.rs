@@ -1,6 +1,7 @@
 //! Tensor-product grids: the bar and the block.
 
-use crate::{Body, Face, HEX_FACES, Mesh, Surface};
+use crate::error::MAX_ELEMENTS;
+use crate::{Body, Face, HEX_FACES, Mesh, MeshError, Surface};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -96,16 +97,51 @@ pub(crate) fn nodes_of(faces: &[Face]) -> Vec<u32> {
     nodes
 }
 
+/// A box of cells between the planes `x = divisions[0][i]` and so on (m, ascending).
+///
+/// Body `"block"`; surfaces and node sets `"x-"`, `"x+"`, `"y-"`, `"y+"`, `"z-"`, `"z+"`. Divisions
+/// come from [`graded_line`](crate::graded_line) or are any ascending numbers.
+///
+/// # Errors
+/// [`MeshError::OutOfRange`] for a division with fewer than two planes or not ascending, and
+/// [`MeshError::TooManyElements`].
+pub fn graded_block(divisions: [&[f64]; 3]) -> Result<Mesh, MeshError> {
+    const NAMES: [&str; 3] = ["block.x", "block.y", "block.z"];
+    for (name, planes) in NAMES.into_iter().zip(divisions) {
+        let fault = match planes.windows(2).find(|w| w[0].is_nan() || w[1] <= w[0] || w[1].is_nan())
+        {
+            Some(w) => Some(w[1]),
+            None if planes.len() < 2 => planes.first().copied().or(Some(f64::NAN)),
+            None => None,
+        };
+        if let Some(value) = fault {
+            let remedy = "give at least two planes in ascending order";
+            return Err(MeshError::range(name, value, "above the plane before it", remedy));
+        }
+    }
+    let cells = divisions.map(|d| d.len() - 1);
+    let estimate = cells.iter().map(|&n| n as f64).product::<f64>();
+    if estimate > MAX_ELEMENTS {
+        let size = divisions[0][1] - divisions[0][0];
+        return Err(MeshError::TooManyElements { body: "block", size, estimate });
+    }
+    Ok(named_block(cells, divisions))
+}
+
 /// A box of `n` equal cells along each axis and edge lengths `size` (m), one corner at the origin.
 ///
 /// Body `"block"`; surfaces and node sets `"x-"`, `"x+"`, `"y-"`, `"y+"`, `"z-"`, `"z+"`. Counts of
 /// zero are raised to one.
 pub fn block(n: [usize; 3], size: [f64; 3]) -> Mesh {
     let cells = n.map(|n| n.max(1));
-    let grid = Grid { cells };
     let [xs, ys, zs] = [0, 1, 2]
         .map(|a| (0..=cells[a]).map(|i| size[a] * i as f64 / cells[a] as f64).collect::<Vec<_>>());
-    let mut mesh = grid.mesh("block", &xs, &ys, &zs);
+    named_block(cells, [&xs, &ys, &zs])
+}
+
+fn named_block(cells: [usize; 3], [xs, ys, zs]: [&[f64]; 3]) -> Mesh {
+    let grid = Grid { cells };
+    let mut mesh = grid.mesh("block", xs, ys, zs);
     for (side, name) in ["x-", "x+", "y-", "y+", "z-", "z+"].into_iter().enumerate() {
         let faces = grid.side(&mesh, side);
         let body = &mut mesh.bodies[0];

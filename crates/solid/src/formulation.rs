@@ -21,6 +21,18 @@ pub enum Formulation {
     Full(Volumetric),
 }
 
+impl From<Element> for Formulation {
+    fn from(element: Element) -> Self {
+        Self::OnePoint(element)
+    }
+}
+
+impl From<Volumetric> for Formulation {
+    fn from(volumetric: Volumetric) -> Self {
+        Self::Full(volumetric)
+    }
+}
+
 /// How the elements of a mesh are integrated.
 ///
 /// An [`Element`] converts into one-point elements throughout, a [`Volumetric`] into fully

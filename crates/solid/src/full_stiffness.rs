@@ -13,7 +13,7 @@ use crate::material::Material;
 /// K_IJ = sum w (lambda B_I B_J^T + G B_J B_I^T + G (B_I . B_J) 1);
 ///
 /// with mean dilatation the first term is lambda `V <B_I> <B_J>^T`, `<.>` the mean over the element.
-pub fn full_stiffness(
+pub(crate) fn full_stiffness(
     corners: &[[f64; 3]; 8],
     material: &Material,
     volumetric: Volumetric,

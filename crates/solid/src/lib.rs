@@ -2,8 +2,8 @@
 //!
 //! The element is the uniform-gradient hexahedron of Flanagan and Belytschko (1981) in a
 //! Total-Lagrangian setting with a St. Venant–Kirchhoff law: exactly objective, no rate
-//! integration, no drift. Chosen elements may be fully integrated instead. Everything runs in batches of eight elements; the vector width of the
-//! machine is chosen at run time.
+//! integration, no drift. Chosen elements may be fully integrated instead. Everything runs in
+//! batches of eight elements; the vector width of the machine is chosen at run time.
 
 mod blocks;
 mod formulation;
@@ -17,12 +17,13 @@ mod mass;
 mod material;
 mod solid;
 mod stable;
+mod stiffness;
 
 pub use formulation::{Elements, Formulation, Volumetric};
-pub use full_stiffness::full_stiffness;
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;
 pub use mass::lumped_mass;
 pub use material::{Material, MaterialError};
 pub use solid::{Element, ForceSums, Solid, SolidError, Viscosity};
 pub use stable::{element_frequency_bound, largest_frequency, nodal_stiffness_bounds};
+pub use stiffness::element_stiffness;

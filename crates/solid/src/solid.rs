@@ -1,7 +1,7 @@
 //! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
 use crate::blocks::{Batch, Block, Blocks};
-use crate::formulation::{Elements, Volumetric};
+use crate::formulation::{Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
@@ -106,6 +106,7 @@ pub struct Solid {
     blocks: Blocks,
     /// Of each body, for its one-point and its fully integrated elements.
     constants: Vec<[Constants; 2]>,
+    one_point: Element,
     volumetric: Volumetric,
     sums: Vec<Sums>,
     level: Level,
@@ -173,6 +174,7 @@ impl Solid {
             sums: vec![[0.0; 3]; blocks.blocks.len()],
             blocks,
             constants,
+            one_point: elements.one_point(),
             volumetric: elements.volumetric(),
             level,
             viscous: viscosity.any(),
@@ -305,6 +307,15 @@ impl Solid {
                     cauchy(&displacement_gradient(&x, &u).0, material)
                 };
             });
+        }
+    }
+
+    /// How an element of a body is integrated.
+    fn formulation(&self, body: usize, element: usize) -> Formulation {
+        if self.blocks.is_full(body, element) {
+            Formulation::Full(self.volumetric)
+        } else {
+            Formulation::OnePoint(self.one_point)
         }
     }
 

@@ -1,7 +1,7 @@
 //! The fully integrated element, alone and beside one-point elements.
 
 use super::*;
-use crate::full_stiffness;
+use crate::full_stiffness::full_stiffness;
 use nalgebra::{DMatrix, DVector, SMatrix, SymmetricEigen};
 
 const BOTH: [Volumetric; 2] = [Volumetric::Full, Volumetric::Mean];

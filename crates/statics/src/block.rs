@@ -1,0 +1,136 @@
+//! Two equal half-spaces as finite bodies: a block that is large beside the contact, on its own
+//! mirror image.
+
+use crate::sparse::{ElementStiffness, SparseError};
+use crate::{Axis, Influence, InfluenceError, Point, Supports, SurfaceCompliance, Tied};
+use mesh::{Mesh, MeshError, graded_block, graded_line};
+use solid::Material;
+use thiserror::Error;
+
+/// The largest elements, over the half extent of the block.
+const COARSEST: f64 = 0.25;
+
+/// How the block continues across y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lateral {
+    /// Both sides of y = 0.
+    Full,
+    /// y >= 0 alone, y = 0 being a plane of symmetry: forces, areas and loads are those of the
+    /// half.
+    Symmetric,
+    /// One slice of elements, as wide as they are long, that cannot move along y: forces, areas
+    /// and loads are those of the slice.
+    PlaneStrain,
+}
+
+/// A block below z = 0 with its far sides held, finely meshed about the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    /// Size of the elements where contact may be (m).
+    pub size: f64,
+    /// Half extent of the potential contact along x and y (m), rounded up to whole elements.
+    pub reach: [f64; 2],
+    /// Depth of the fine elements (m).
+    pub depth: f64,
+    /// Half length, half width and height of the block (m).
+    pub extent: f64,
+    /// Ratio of successive element sizes outside the fine part.
+    pub growth: f64,
+    /// How the block continues across y.
+    pub lateral: Lateral,
+    /// What it is made of.
+    pub material: Material,
+}
+
+/// Why a block has no influence matrix.
+#[derive(Debug, Error)]
+pub enum BlockError {
+    /// Its mesh cannot be made.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Its stiffness cannot be factored.
+    #[error(transparent)]
+    Sparse(#[from] SparseError),
+    /// It has no contact points.
+    #[error(transparent)]
+    Influence(#[from] InfluenceError),
+}
+
+impl Block {
+    /// The mesh of the block.
+    ///
+    /// # Errors
+    /// [`MeshError`] for sizes that make none.
+    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+        let Self { size: h, extent, growth, .. } = *self;
+        let whole = |r: f64| ((r / h - 1e-9).ceil() * h).max(h);
+        let line = |span, fine| graded_line(span, fine, h, growth, h.max(COARSEST * extent));
+        let [rx, ry] = self.reach.map(whole);
+        let xs = line([-extent, extent], [-rx, rx])?;
+        let ys = match self.lateral {
+            Lateral::Full => line([-extent, extent], [-ry, ry])?,
+            Lateral::Symmetric => line([0.0, extent], [0.0, ry])?,
+            Lateral::PlaneStrain => vec![0.0, h],
+        };
+        let zs = line([-extent, 0.0], [-whole(self.depth), 0.0])?;
+        graded_block([&xs, &ys, &zs])
+    }
+
+    /// The far sides are held; on a plane of symmetry and in plane strain nodes cannot move along
+    /// y, in plane strain those of both faces of the slice move together.
+    fn supports(&self, mesh: &Mesh) -> Supports {
+        let sets = &mesh.bodies[0].node_sets;
+        let far: &[&str] = match self.lateral {
+            Lateral::Full => &["z-", "x-", "x+", "y-", "y+"],
+            Lateral::Symmetric => &["z-", "x-", "x+", "y+"],
+            Lateral::PlaneStrain => &["z-", "x-", "x+"],
+        };
+        let mut held: Vec<u32> = far.iter().flat_map(|s| &sets[*s]).copied().collect();
+        held.sort_unstable();
+        held.dedup();
+        let axes = [Axis::Loaded(0.0), Axis::Moved(0.0), Axis::Loaded(0.0)];
+        let near = sets["y-"].iter().zip(&sets["y+"]);
+        let free = |(near, _): &(&u32, &u32)| held.binary_search(near).is_err();
+        let tied = match self.lateral {
+            Lateral::Full => Vec::new(),
+            Lateral::Symmetric => {
+                near.filter(free).map(|(&n, _)| Tied { nodes: vec![n], axes }).collect()
+            }
+            Lateral::PlaneStrain => {
+                near.filter(free).map(|(&n, &f)| Tied { nodes: vec![n, f], axes }).collect()
+            }
+        };
+        Supports { held, tied }
+    }
+
+    /// The influence of the block on its mirror image ([`Influence::mirrored`]); `gap` is that of
+    /// the undeformed surfaces (m) at x and y.
+    ///
+    /// # Errors
+    /// [`BlockError`].
+    pub fn influence(
+        &self,
+        element: &ElementStiffness<'_>,
+        gap: impl Fn(f64, f64) -> f64,
+    ) -> Result<Influence, BlockError> {
+        let mesh = self.mesh()?;
+        let slack = 1e-6 * self.size;
+        let reach = self.reach.map(|r| ((r / self.size - 1e-9).ceil()) * self.size + slack);
+        let slice = self.lateral == Lateral::PlaneStrain;
+        let within = |[x, y, _]: [f64; 3]| {
+            let across = if slice { y < slack } else { y.abs() <= reach[1] };
+            x.abs() <= reach[0] && across
+        };
+        let top = &mesh.bodies[0].surfaces["z+"];
+        let mut points = Point::on_surface(&mesh, top, within, |[x, y, _]| gap(x, y));
+        if slice {
+            // A point stands for both of its tied nodes.
+            points.iter_mut().for_each(|p| p.area *= 2.0);
+        }
+        let nodes: Vec<u32> = points.iter().map(|p| p.node).collect();
+        let supports = self.supports(&mesh);
+        let compliance =
+            SurfaceCompliance::new(&mesh, &[self.material], element, &supports, &nodes)?;
+        Ok(Influence::mirrored(&compliance, points)?)
+    }
+}

@@ -1,0 +1,290 @@
+//! Coulomb friction on a contact area with given normal forces, in condensed form.
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, MatRef};
+use thiserror::Error;
+
+/// The condition of Coulomb holds to this fraction of the largest bound.
+const TOLERANCE: f64 = 1e-11;
+
+/// Newton's steps between two stretches of relaxation.
+const NEWTON: usize = 15;
+
+/// Sweeps of block Gauss–Seidel after a stretch of Newton that did not converge.
+const SWEEPS: usize = 40;
+
+const ROUNDS: usize = 40;
+
+/// Relative rigid motion of the bodies along one tangent over a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rigid {
+    /// The motion of the master relative to the slave (m).
+    Moved(f64),
+    /// Whatever gives this force on the slave (N).
+    Forced(f64),
+}
+
+/// Why the tangential problem has no solution, or was not solved.
+#[derive(Debug, Error, PartialEq)]
+pub enum FrictionError {
+    /// More force than friction carries.
+    #[error("a tangential force of {force} N exceeds what friction carries, {most} N")]
+    Slides {
+        /// The force asked for (N).
+        force: f64,
+        /// Sum of the bounds (N).
+        most: f64,
+    },
+    /// The iteration did not converge.
+    #[error(
+        "friction did not converge: Coulomb's law is violated by {violation:e} of the largest \
+         bound at point {point}"
+    )]
+    Stalled {
+        /// Largest violation over the largest bound.
+        violation: f64,
+        /// Index among the points in contact.
+        point: usize,
+    },
+}
+
+/// Tangential forces that satisfy Coulomb's law.
+#[derive(Clone, Debug)]
+pub(crate) struct Solution {
+    /// Force on each contact point (N), by point, then t1, t2.
+    pub force: Vec<f64>,
+    /// Slip of the slave relative to the master over the step (m), in the same order.
+    pub slip: Vec<f64>,
+    /// Rigid motion of the master relative to the slave (m).
+    pub moved: [f64; 2],
+}
+
+/// Points in contact: the displacement that tangential forces cause, and what friction carries.
+pub(crate) struct Coulomb<'a> {
+    /// Tangential displacement per force among the contact points (m/N), by point, then t1, t2.
+    pub compliance: MatRef<'a, f64>,
+    /// mu times the normal force of each point (N), positive.
+    pub bound: &'a [f64],
+}
+
+impl Coulomb<'_> {
+    /// Forces p with slip s = offset + W p - b at every point and Coulomb's law
+    /// |p| <= g, p = -g s/|s| where s is not zero.
+    ///
+    /// The law in one equation is p = P(p - r s) with P the projection on the disk of radius g
+    /// (Alart and Curnier 1991). For given normal forces it is the minimum of a convex function,
+    /// so the solution is unique: semismooth Newton finds it in a few steps; where it wanders,
+    /// sweeps of block Gauss–Seidel, which always descend, bring it back.
+    pub fn solve(
+        &self,
+        offset: &[f64],
+        rigid: [Rigid; 2],
+        start: &[f64],
+    ) -> Result<Solution, FrictionError> {
+        let m = self.bound.len();
+        let most: f64 = self.bound.iter().sum();
+        let asked = rigid.map(|r| if let Rigid::Forced(f) = r { f } else { 0.0 });
+        let force = asked[0].hypot(asked[1]);
+        if force.is_nan() || force >= most {
+            return Err(FrictionError::Slides { force, most });
+        }
+        let mut state = State {
+            force: start.to_vec(),
+            moved: rigid.map(|r| if let Rigid::Moved(b) = r { b } else { 0.0 }),
+            slip: vec![0.0; 2 * m],
+        };
+        let mut worst = (f64::INFINITY, 0);
+        for round in 0..ROUNDS {
+            for _ in 0..NEWTON {
+                self.update_slip(&mut state, offset);
+                worst = self.violation(&state, rigid, most);
+                if worst.0 <= TOLERANCE {
+                    let State { force, slip, moved } = state;
+                    return Ok(Solution { force, slip, moved });
+                }
+                self.newton(&mut state, rigid);
+            }
+            for _ in 0..SWEEPS * (round + 1) {
+                self.sweep(&mut state, offset);
+            }
+        }
+        Err(FrictionError::Stalled { violation: worst.0, point: worst.1 })
+    }
+
+    fn update_slip(&self, state: &mut State, offset: &[f64]) {
+        for (k, slip) in state.slip.iter_mut().enumerate() {
+            *slip = offset[k] - state.moved[k % 2];
+        }
+        for (column, &force) in state.force.iter().enumerate() {
+            if force != 0.0 {
+                let column = self.compliance.col(column);
+                for (slip, w) in state.slip.iter_mut().zip(column.iter()) {
+                    *slip += w * force;
+                }
+            }
+        }
+    }
+
+    /// The weight r of the slip in p - r s: the inverse of the point's own compliance.
+    fn weight(&self, i: usize) -> f64 {
+        let w = self.compliance;
+        2.0 / (w[(2 * i, 2 * i)] + w[(2 * i + 1, 2 * i + 1)])
+    }
+
+    /// p - r s of a point.
+    fn trial(&self, state: &State, i: usize) -> [f64; 2] {
+        let r = self.weight(i);
+        [2 * i, 2 * i + 1].map(|k| state.force[k] - r * state.slip[k])
+    }
+
+    /// Largest |p - P(p - r s)| over the largest bound, and where; a missing force counts too.
+    fn violation(&self, state: &State, rigid: [Rigid; 2], most: f64) -> (f64, usize) {
+        let largest = self.bound.iter().fold(0.0f64, |m, g| m.max(*g));
+        let mut worst = (0.0, 0);
+        for (axis, rigid) in rigid.iter().enumerate() {
+            if let Rigid::Forced(force) = rigid {
+                let sum: f64 = state.force.iter().skip(axis).step_by(2).sum();
+                worst.0 = f64::max(worst.0, (sum - force).abs() / most);
+            }
+        }
+        for (i, &g) in self.bound.iter().enumerate() {
+            let p = project(self.trial(state, i), g);
+            let off = (p[0] - state.force[2 * i]).hypot(p[1] - state.force[2 * i + 1]) / largest;
+            if off > worst.0 || off.is_nan() {
+                worst = (off, i);
+            }
+        }
+        worst
+    }
+
+    /// One step of Newton's method on p = P(p - r s): stick rows demand s = 0, slip rows
+    /// dp - M (dp - r ds) = P - p with M = (g/|q|)(I - q q/|q|^2), q = p - r s.
+    fn newton(&self, state: &mut State, rigid: [Rigid; 2]) {
+        let m = self.bound.len();
+        let free: Vec<usize> = (0..2).filter(|&a| matches!(rigid[a], Rigid::Forced(_))).collect();
+        let size = 2 * m + free.len();
+        let mut matrix = Mat::<f64>::zeros(size, size);
+        let mut right = Mat::<f64>::zeros(size, 1);
+        let w = self.compliance;
+        // Row operators: dp coefficient (own) and ds coefficient (own 2x2), per point.
+        let mut own = vec![[[0.0; 2]; 2]; m];
+        let mut slip = vec![[[0.0; 2]; 2]; m];
+        for (i, &g) in self.bound.iter().enumerate() {
+            let r = self.weight(i);
+            let q = self.trial(state, i);
+            let length = q[0].hypot(q[1]);
+            if length <= g {
+                slip[i] = [[1.0, 0.0], [0.0, 1.0]];
+                for a in 0..2 {
+                    right[(2 * i + a, 0)] = -state.slip[2 * i + a];
+                }
+            } else {
+                let e = [q[0] / length, q[1] / length];
+                let p = [g * e[0], g * e[1]];
+                for a in 0..2 {
+                    for b in 0..2 {
+                        let unit = if a == b { 1.0 } else { 0.0 };
+                        let turn = g / length * (unit - e[a] * e[b]);
+                        // Scaled by 1/r so that all rows are displacements.
+                        own[i][a][b] = (unit - turn) / r;
+                        slip[i][a][b] = turn;
+                    }
+                    right[(2 * i + a, 0)] = (p[a] - state.force[2 * i + a]) / r;
+                }
+            }
+        }
+        for column in 0..2 * m {
+            for i in 0..m {
+                let (x, y) = (w[(2 * i, column)], w[(2 * i + 1, column)]);
+                for a in 0..2 {
+                    let mut entry = slip[i][a][0] * x + slip[i][a][1] * y;
+                    if column / 2 == i {
+                        entry += own[i][a][column % 2];
+                    }
+                    matrix[(2 * i + a, column)] = entry;
+                }
+            }
+        }
+        for (k, &axis) in free.iter().enumerate() {
+            for i in 0..m {
+                for a in 0..2 {
+                    matrix[(2 * i + a, 2 * m + k)] = -slip[i][a][axis];
+                }
+                matrix[(2 * m + k, 2 * i + axis)] = 1.0;
+            }
+            if let Rigid::Forced(force) = rigid[axis] {
+                let sum: f64 = state.force.iter().skip(axis).step_by(2).sum();
+                right[(2 * m + k, 0)] = force - sum;
+            }
+        }
+        let step = matrix.partial_piv_lu().solve(&right);
+        for k in 0..2 * m {
+            state.force[k] += step[(k, 0)];
+        }
+        for (k, &axis) in free.iter().enumerate() {
+            state.moved[axis] += step[(2 * m + k, 0)];
+        }
+    }
+
+    /// One sweep of block Gauss–Seidel: each point in turn satisfies Coulomb's law exactly.
+    fn sweep(&self, state: &mut State, offset: &[f64]) {
+        let m = self.bound.len();
+        for i in 0..m {
+            let p = [state.force[2 * i], state.force[2 * i + 1]];
+            let p = project(p, self.bound[i]);
+            [state.force[2 * i], state.force[2 * i + 1]] = p;
+        }
+        self.update_slip(state, offset);
+        for i in 0..m {
+            let w = [0, 1].map(|a| [0, 1].map(|b| self.compliance[(2 * i + a, 2 * i + b)]));
+            let old = [state.force[2 * i], state.force[2 * i + 1]];
+            let without =
+                [0, 1].map(|a| state.slip[2 * i + a] - w[a][0] * old[0] - w[a][1] * old[1]);
+            let new = point_force(w, without, self.bound[i]);
+            for a in 0..2 {
+                let change = new[a] - old[a];
+                if change != 0.0 {
+                    let column = self.compliance.col(2 * i + a);
+                    for (slip, w) in state.slip.iter_mut().zip(column.iter()) {
+                        *slip += w * change;
+                    }
+                }
+                state.force[2 * i + a] = new[a];
+            }
+        }
+    }
+}
+
+struct State {
+    force: Vec<f64>,
+    slip: Vec<f64>,
+    moved: [f64; 2],
+}
+
+/// Projection on the disk of radius `g`.
+fn project(q: [f64; 2], g: f64) -> [f64; 2] {
+    let length = q[0].hypot(q[1]);
+    if length <= g { q } else { [q[0] * g / length, q[1] * g / length] }
+}
+
+/// The force of one point with slip s = w p + s_0 under Coulomb's law: w p + s_0 = 0 if that needs
+/// no more than `g`, else (w + l I) p = -s_0 with l >= 0 such that |p| = g.
+fn point_force(w: [[f64; 2]; 2], s0: [f64; 2], g: f64) -> [f64; 2] {
+    let at = |l: f64| {
+        let (a, d) = (w[0][0] + l, w[1][1] + l);
+        let det = a * d - w[0][1] * w[1][0];
+        [(-d * s0[0] + w[0][1] * s0[1]) / det, (w[1][0] * s0[0] - a * s0[1]) / det]
+    };
+    let stick = at(0.0);
+    if stick[0].hypot(stick[1]) <= g {
+        return stick;
+    }
+    // |p| falls with l; above |s_0|/g it is below g.
+    let (mut low, mut high) = (0.0, s0[0].hypot(s0[1]) / g);
+    for _ in 0..60 {
+        let l = 0.5 * (low + high);
+        let p = at(l);
+        if p[0].hypot(p[1]) > g { low = l } else { high = l }
+    }
+    project(at(0.5 * (low + high)), g)
+}

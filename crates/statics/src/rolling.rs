@@ -1,0 +1,296 @@
+//! Friction between two bodies that are pressed together: the Cattaneo shift, and rolling in steps
+//! of one pitch of the grid.
+
+use crate::friction::{Coulomb, FrictionError, Rigid};
+use crate::{Influence, Pressed};
+use faer::Mat;
+use thiserror::Error;
+
+/// Two coordinates of the grid are the same within this fraction of its pitch.
+const SAME: f64 = 0.05;
+
+/// No point upstream: the leading edge of the grid.
+const NONE: usize = usize::MAX;
+
+/// Why rolling cannot be computed.
+#[derive(Debug, Error, PartialEq)]
+pub enum RollingError {
+    /// The points are no grid that is uniform along x.
+    #[error("rolling needs points at one pitch along x; at x = {x} m, y = {y} m there is none")]
+    Grid {
+        /// Coordinate of the point without its neighbour (m).
+        x: f64,
+        /// Coordinate of the point without its neighbour (m).
+        y: f64,
+    },
+    /// The contact reaches the border of the potential contact area.
+    #[error(
+        "contact reaches the border of the potential contact area at x = {x} m, y = {y} m; \
+         enlarge it"
+    )]
+    Border {
+        /// Where (m).
+        x: f64,
+        /// Where (m).
+        y: f64,
+    },
+    /// No friction, or no number.
+    #[error("a coefficient of friction of {mu} cannot be used")]
+    Friction {
+        /// The coefficient.
+        mu: f64,
+    },
+    /// The tangential problem of a step failed.
+    #[error(transparent)]
+    Step(#[from] FrictionError),
+    /// Rolling did not become steady.
+    #[error("rolling is not steady after {steps} steps: forces still change by {change:e}")]
+    Unsteady {
+        /// Steps made.
+        steps: usize,
+        /// Largest change of a force in the last step, over the largest bound.
+        change: f64,
+    },
+}
+
+/// A steady state of rolling is reached when no force changes by more than this fraction of the
+/// largest bound over a step.
+const STEADY: f64 = 1e-8;
+
+/// State of a contact point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Adhesion {
+    /// No slip.
+    Stick,
+    /// The bound is reached.
+    Slip,
+}
+
+/// Two bodies in contact with friction of Coulomb, in the frame that moves with the contact.
+///
+/// The slave rolls towards +x: particles enter the contact at its leading edge, at +x, and leave
+/// at -x. Over a step of one pitch h the particle at a point comes from the point upstream, so
+/// that with w the tangential displacement of the slave relative to the master (Kalker 1990)
+///
+/// s_i = w_i(t) - w_up(i)(t - dt) - xi h.
+///
+/// Creepage xi is that of the master relative to the slave over the speed of rolling: a slave
+/// driven faster than it rolls, xi_x = (omega R - V)/V > 0, receives a force along +x. Spin is
+/// zero. A displacement common to all points cancels in the steady state: the compliance of the
+/// bodies at large does not change the creepage of steady rolling.
+///
+/// Normal forces are those given: they are not changed by the tangential ones.
+pub struct Rolling<'a> {
+    influence: &'a Influence,
+    contact: Vec<usize>,
+    bound: Vec<f64>,
+    /// Compliance among the contact points.
+    matrix: Mat<f64>,
+    /// The point upstream of each point; [`NONE`] at the leading edge of the grid.
+    upstream: Vec<usize>,
+    pitch: f64,
+    /// Displacement due to the normal forces, all points.
+    pressed: Vec<f64>,
+    force: Vec<f64>,
+    slip: Vec<f64>,
+    moved: [f64; 2],
+    /// Displacement of all points at the end of the last step.
+    displacement: Vec<f64>,
+}
+
+impl<'a> Rolling<'a> {
+    /// Bodies pressed together, without tangential force, with friction coefficient `mu`.
+    ///
+    /// # Errors
+    /// [`RollingError::Grid`], [`RollingError::Border`], [`RollingError::Friction`].
+    pub fn new(influence: &'a Influence, pressed: &Pressed, mu: f64) -> Result<Self, RollingError> {
+        let rough = mu > 0.0 && mu.is_finite();
+        if !rough {
+            return Err(RollingError::Friction { mu });
+        }
+        let (upstream, pitch) = upstream(influence)?;
+        let contact = pressed.contact.clone();
+        let mut fed = vec![false; upstream.len()];
+        upstream.iter().filter(|&&u| u != NONE).for_each(|&u| fed[u] = true);
+        if let Some(&i) = contact.iter().find(|&&i| upstream[i] == NONE || !fed[i]) {
+            let [x, y, _] = influence.points[i].at;
+            return Err(RollingError::Border { x, y });
+        }
+        let m = contact.len();
+        let place = |k: usize| 2 * contact[k / 2] + k % 2;
+        let matrix = Mat::from_fn(2 * m, 2 * m, |i, j| influence.shear[(place(i), place(j))]);
+        let n = influence.points.len();
+        let mut normal = vec![0.0; 2 * n];
+        if let Some(coupling) = &influence.coupling {
+            for &j in &contact {
+                for (k, u) in normal.iter_mut().enumerate() {
+                    *u += coupling[(k, j)] * pressed.force[j];
+                }
+            }
+        }
+        Ok(Self {
+            influence,
+            bound: contact.iter().map(|&i| mu * pressed.force[i]).collect(),
+            contact,
+            matrix,
+            upstream,
+            pitch,
+            displacement: normal.clone(),
+            pressed: normal,
+            force: vec![0.0; 2 * m],
+            slip: vec![0.0; 2 * m],
+            moved: [0.0; 2],
+        })
+    }
+
+    /// Moves the bodies along the tangents without rolling: the problem of Cattaneo and Mindlin
+    /// when it is the first step.
+    ///
+    /// # Errors
+    /// [`RollingError::Step`].
+    pub fn shift(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
+        let before = |_: &Self, i: usize| i;
+        self.step(rigid, before)
+    }
+
+    /// Rolls by one pitch; the rigid motion over the step is the creepage times the pitch.
+    ///
+    /// # Errors
+    /// [`RollingError::Step`].
+    pub fn roll(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
+        let before = |rolling: &Self, i: usize| rolling.upstream[i];
+        self.step(rigid, before)
+    }
+
+    /// Rolls until the forces no longer change, at most `steps` pitches, and returns the number.
+    ///
+    /// # Errors
+    /// [`RollingError::Step`], [`RollingError::Unsteady`].
+    pub fn steady(&mut self, rigid: [Rigid; 2], steps: usize) -> Result<usize, RollingError> {
+        let largest = self.bound.iter().fold(0.0f64, |m, g| m.max(*g));
+        let mut change = f64::INFINITY;
+        for step in 1..=steps {
+            let before = self.force.clone();
+            self.roll(rigid)?;
+            change = before.iter().zip(&self.force).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+                / largest;
+            if change <= STEADY {
+                return Ok(step);
+            }
+        }
+        Err(RollingError::Unsteady { steps, change })
+    }
+
+    fn step(
+        &mut self,
+        rigid: [Rigid; 2],
+        before: impl Fn(&Self, usize) -> usize,
+    ) -> Result<(), RollingError> {
+        let m = self.contact.len();
+        let mut offset = vec![0.0; 2 * m];
+        for (k, &i) in self.contact.iter().enumerate() {
+            let from = before(self, i);
+            for a in 0..2 {
+                offset[2 * k + a] = self.pressed[2 * i + a] - self.displacement[2 * from + a];
+            }
+        }
+        let friction = Coulomb { compliance: self.matrix.as_ref(), bound: &self.bound };
+        let solution = friction.solve(&offset, rigid, &self.force)?;
+        self.force = solution.force;
+        self.slip = solution.slip;
+        self.moved = solution.moved;
+        self.displacement.copy_from_slice(&self.pressed);
+        for (k, &force) in self.force.iter().enumerate() {
+            let column = self.influence.shear.col(2 * self.contact[k / 2] + k % 2);
+            for (u, w) in self.displacement.iter_mut().zip(column.iter()) {
+                *u += w * force;
+            }
+        }
+        Ok(())
+    }
+
+    /// The pitch of the grid along x (m).
+    pub fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
+    /// The contact points (indices into [`Influence::points`]), to which the lists below belong.
+    pub fn contact(&self) -> &[usize] {
+        &self.contact
+    }
+
+    /// Tangential force on the slave at each contact point (N).
+    pub fn force(&self) -> Vec<[f64; 2]> {
+        self.force.chunks_exact(2).map(|p| [p[0], p[1]]).collect()
+    }
+
+    /// What friction carries at each contact point (N).
+    pub fn bound(&self) -> &[f64] {
+        &self.bound
+    }
+
+    /// Slip of the slave relative to the master at each contact point over the last step (m);
+    /// over the pitch and times the speed of rolling it is the slip velocity.
+    pub fn slip(&self) -> Vec<[f64; 2]> {
+        self.slip.chunks_exact(2).map(|s| [s[0], s[1]]).collect()
+    }
+
+    /// State of each contact point in the last step: slip where the force is the bound.
+    pub fn adhesion(&self) -> Vec<Adhesion> {
+        let bounds = self.bound.iter().zip(self.force.chunks_exact(2));
+        bounds
+            .map(|(g, p)| {
+                let slips = p[0].hypot(p[1]) >= g * (1.0 - 1e-9);
+                if slips { Adhesion::Slip } else { Adhesion::Stick }
+            })
+            .collect()
+    }
+
+    /// Sum of the tangential forces on the slave (N).
+    pub fn total(&self) -> [f64; 2] {
+        let sum = |a: usize| self.force.iter().skip(a).step_by(2).sum();
+        [sum(0), sum(1)]
+    }
+
+    /// Rigid motion of the master relative to the slave over the last step (m).
+    pub fn moved(&self) -> [f64; 2] {
+        self.moved
+    }
+
+    /// Creepage of the last step: the rigid motion over the pitch.
+    pub fn creepage(&self) -> [f64; 2] {
+        self.moved.map(|b| b / self.pitch)
+    }
+}
+
+/// The point upstream (at +x) of each point, and the pitch.
+fn upstream(influence: &Influence) -> Result<(Vec<usize>, f64), RollingError> {
+    let points = &influence.points;
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    let at = |i: usize| points[i].at;
+    // The pitch is the least distance of two columns.
+    let mut xs: Vec<f64> = points.iter().map(|p| p.at[0]).collect();
+    xs.sort_by(f64::total_cmp);
+    let span = xs[xs.len() - 1] - xs[0];
+    let none = RollingError::Grid { x: xs[0], y: points[0].at[1] };
+    let pitch =
+        xs.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 1e-6 * span).fold(span, f64::min);
+    if pitch.is_nan() || pitch <= 0.0 {
+        return Err(none);
+    }
+    let cell = |v: f64| (v / (SAME * pitch)).round();
+    order.sort_by(|&a, &b| {
+        cell(at(a)[1]).total_cmp(&cell(at(b)[1])).then(at(a)[0].total_cmp(&at(b)[0]))
+    });
+    let mut next = vec![NONE; points.len()];
+    for pair in order.windows(2) {
+        let ([x, y, _], [x_up, y_up, _]) = (at(pair[0]), at(pair[1]));
+        if (y_up - y).abs() <= 2.0 * SAME * pitch {
+            if (x_up - x - pitch).abs() > SAME * pitch {
+                return Err(RollingError::Grid { x, y });
+            }
+            next[pair[0]] = pair[1];
+        }
+    }
+    Ok((next, pitch))
+}
