@@ -75,16 +75,25 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
                 energy: zero,
                 power: zero,
             };
-            // Written out, not looped over: with constant indices no address is computed and
-            // totals stay in registers, a quarter faster.
-            add_point::<L, MEAN, ENERGY, VISCOUS, 0>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 1>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 2>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 3>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 4>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 5>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 6>(&fields, k, &mut total);
-            add_point::<L, MEAN, ENERGY, VISCOUS, 7>(&fields, k, &mut total);
+            if L::N == 8 {
+                // With 32 registers it pays to write the points out: constant indices leave no
+                // addresses to compute, and totals stay in registers.
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(0));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(1));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(2));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(3));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(4));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(5));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(6));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(7));
+            } else {
+                // With fewer, everything spills and the code would outgrow its cache.
+                let mut point = 0;
+                while point < 8 {
+                    add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(point));
+                    point += 1;
+                }
+            }
 
             let Total {
                 mut force,
@@ -168,25 +177,19 @@ struct Total<L> {
     power: L,
 }
 
-/// Adds one Gauss point; bit k of `POINT` is set where xi_k > 0.
+/// Adds the Gauss point whose derivatives are number `at` of the four of each direction.
 #[inline(always)]
-unsafe fn add_point<
-    L: Lanes,
-    const MEAN: bool,
-    const ENERGY: bool,
-    const VISCOUS: bool,
-    const POINT: usize,
->(
+unsafe fn add_point<L: Lanes, const MEAN: bool, const ENERGY: bool, const VISCOUS: bool>(
     fields: &Fields<L>,
     k: &Constants,
     total: &mut Total<L>,
+    at: [usize; 3],
 ) {
     unsafe {
         let zero = L::splat(0.0);
         let two_g = L::splat(2.0 * k.shear);
         let lambda = L::splat(k.lambda);
         let Fields { x, u, v } = fields;
-        let at = const { signs(POINT) };
         let [j1, j2, j3] = [x[0][at[0]], x[1][at[1]], x[2][at[2]]];
         let c = [cross(j2, j3), cross(j3, j1), cross(j1, j2)];
         let w = dot(j1, c[0]);
@@ -242,7 +245,9 @@ unsafe fn add_point<
     }
 }
 
-/// Which of the four values of each derivative belongs to a Gauss point.
+/// Which of the four values of each derivative belongs to a Gauss point; bit k of `point` is set
+/// where xi_k > 0.
+#[inline(always)]
 const fn signs(point: usize) -> [usize; 3] {
     let bit = [point & 1, point >> 1 & 1, point >> 2 & 1];
     [bit[1] + 2 * bit[2], bit[2] + 2 * bit[0], bit[0] + 2 * bit[1]]
