@@ -74,7 +74,7 @@ pub struct Element {
     /// (dimensionless). Default 0.05.
     pub hourglass: f64,
     /// Integration of the elements below the fine zone of each contact surface: `"one-point"`, as
-    /// everywhere else, or `"full"` (2x2x2 points, no hourglass modes, about three times the time
+    /// everywhere else, or `"full"` (2x2x2 points, no hourglass modes, two to three times the time
     /// of each such element). Default `"one-point"`.
     pub contact_layers: ContactLayers,
     /// Layers of elements below each surface that `contact_layers` speaks of (count). Default 2

@@ -57,78 +57,53 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
         unsafe {
             let zero = L::splat(0.0);
             let x = modes::<L>(arrays.reference, batch, lane);
-            let jacobian = derivatives(&x);
-            let u = derivatives(&modes::<L>(arrays.displacement, batch, lane));
-            let v = if VISCOUS {
-                derivatives(&modes::<L>(arrays.velocity, batch, lane))
-            } else {
-                [[[zero; 3]; 4]; 3]
+            let fields = Fields {
+                x: derivatives(&x),
+                u: derivatives(&modes::<L>(arrays.displacement, batch, lane)),
+                v: if VISCOUS {
+                    derivatives(&modes::<L>(arrays.velocity, batch, lane))
+                } else {
+                    [[[zero; 3]; 4]; 3]
+                },
             };
-            let two_g = L::splat(2.0 * k.shear);
-            let lambda = L::splat(k.lambda);
-            let eta = L::splat(k.kelvin_voigt);
-
-            let mut force = [[[zero; 3]; 4]; 3];
-            let mut unit_pressure = [[[zero; 3]; 4]; 3];
-            let mut volume = zero; // 512 V
-            let (mut dilatation, mut dilatation_rate) = (zero, zero);
-            let (mut energy, mut power) = (zero, zero);
-            let mut point = 0;
-            while point < 8 {
-                let at = signs(point);
-                let [j1, j2, j3] = [jacobian[0][at[0]], jacobian[1][at[1]], jacobian[2][at[2]]];
-                let c = [cross(j2, j3), cross(j3, j1), cross(j1, j2)];
-                let w = dot(j1, c[0]);
-                let per_w = L::splat(1.0).div(w);
-                let h = gradient([u[0][at[0]], u[1][at[1]], u[2][at[2]]], &c, per_w);
-                let e = green(&h);
-                let tr = trace(&e);
-                let mut s = elastic(&e, two_g, if MEAN { zero } else { lambda.mul(tr) });
-                if MEAN || VISCOUS {
-                    volume = volume.add(w);
+            let mut total = Total {
+                force: [[[zero; 3]; 4]; 3],
+                unit_pressure: [[[zero; 3]; 4]; 3],
+                volume: zero,
+                dilatation: zero,
+                dilatation_rate: zero,
+                energy: zero,
+                power: zero,
+            };
+            if L::N == 8 {
+                // With 32 registers it pays to write the points out: constant indices leave no
+                // addresses to compute, and totals stay in registers.
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(0));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(1));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(2));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(3));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(4));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(5));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(6));
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(7));
+            } else {
+                // With fewer, everything spills and the code would outgrow its cache.
+                let mut point = 0;
+                while point < 8 {
+                    add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(point));
+                    point += 1;
                 }
-                if MEAN {
-                    dilatation = tr.mul_add(w, dilatation);
-                }
-                if ENERGY {
-                    energy = contract(&s, &e).mul_add(w, energy);
-                }
-                if VISCOUS {
-                    let d = [v[0][at[0]], v[1][at[1]], v[2][at[2]]];
-                    let rate = green_rate(&h, &gradient(d, &c, per_w));
-                    let tr = trace(&rate);
-                    let pressure = if MEAN { zero } else { lambda.mul(tr).mul(eta) };
-                    let viscous = elastic(&rate, two_g.mul(eta), pressure);
-                    dilatation_rate = tr.mul_add(w, dilatation_rate);
-                    power = contract(&viscous, &rate).mul_add(w, power);
-                    let mut i = 0;
-                    while i < 3 {
-                        s[i] = [
-                            s[i][0].add(viscous[i][0]),
-                            s[i][1].add(viscous[i][1]),
-                            s[i][2].add(viscous[i][2]),
-                        ];
-                        i += 1;
-                    }
-                }
-                let p = piola(&h, &s);
-                let mut m = 0;
-                while m < 3 {
-                    let mut i = 0;
-                    while i < 3 {
-                        let f = force[m][at[m]][i];
-                        force[m][at[m]][i] = dot_add(p[i], c[m], f);
-                        if MEAN || VISCOUS {
-                            let f = unit_pressure[m][at[m]][i];
-                            unit_pressure[m][at[m]][i] = dot_add(h[i], c[m], f.add(c[m][i]));
-                        }
-                        i += 1;
-                    }
-                    m += 1;
-                }
-                point += 1;
             }
 
+            let Total {
+                mut force,
+                unit_pressure,
+                volume,
+                dilatation,
+                dilatation_rate,
+                mut energy,
+                mut power,
+            } = total;
             if ENERGY {
                 energy = energy.mul(L::splat(0.5));
             }
@@ -136,7 +111,7 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
                 let per_volume = L::splat(1.0).div(volume);
                 let mut pressure = zero;
                 if MEAN {
-                    pressure = lambda.mul(dilatation).mul(per_volume);
+                    pressure = L::splat(k.lambda).mul(dilatation).mul(per_volume);
                     if ENERGY {
                         energy = pressure.mul(dilatation).mul_add(L::splat(0.5), energy);
                     }
@@ -146,7 +121,7 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
                     let rate = dilatation_rate.mul(per_volume);
                     let mut viscous = bulk_viscosity(rate, mean.w, mean.squares, k);
                     if MEAN {
-                        viscous = lambda.mul(eta).mul_add(rate, viscous);
+                        viscous = L::splat(k.lambda * k.kelvin_voigt).mul_add(rate, viscous);
                     }
                     power = viscous.mul_add(dilatation_rate, power);
                     pressure = pressure.add(viscous);
@@ -177,10 +152,103 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
     }
 }
 
+/// The derivatives of reference position, displacement and velocity.
+struct Fields<L> {
+    x: Derivatives<L>,
+    u: Derivatives<L>,
+    v: Derivatives<L>,
+}
+
+/// Sums over the Gauss points.
+struct Total<L> {
+    /// Force on the derivatives of the displacement, without uniform pressures.
+    force: Derivatives<L>,
+    /// The same of a uniform pressure of -1/512 Pa, that is S = I/512.
+    unit_pressure: Derivatives<L>,
+    /// 512 V
+    volume: L,
+    /// Integral of tr E, times 512
+    dilatation: L,
+    /// Integral of tr dE/dt, times 512
+    dilatation_rate: L,
+    /// Twice the energy, without that of the mean dilatation
+    energy: L,
+    /// Viscous power, without that of uniform pressures
+    power: L,
+}
+
+/// Adds the Gauss point whose derivatives are number `at` of the four of each direction.
+#[inline(always)]
+unsafe fn add_point<L: Lanes, const MEAN: bool, const ENERGY: bool, const VISCOUS: bool>(
+    fields: &Fields<L>,
+    k: &Constants,
+    total: &mut Total<L>,
+    at: [usize; 3],
+) {
+    unsafe {
+        let zero = L::splat(0.0);
+        let two_g = L::splat(2.0 * k.shear);
+        let lambda = L::splat(k.lambda);
+        let Fields { x, u, v } = fields;
+        let [j1, j2, j3] = [x[0][at[0]], x[1][at[1]], x[2][at[2]]];
+        let c = [cross(j2, j3), cross(j3, j1), cross(j1, j2)];
+        let w = dot(j1, c[0]);
+        let per_w = L::splat(1.0).div(w);
+        let h = gradient([u[0][at[0]], u[1][at[1]], u[2][at[2]]], &c, per_w);
+        let e = green(&h);
+        let tr = trace(&e);
+        // S/512
+        let mut s = elastic(&e, two_g, if MEAN { zero } else { lambda.mul(tr) });
+        if MEAN || VISCOUS {
+            total.volume = total.volume.add(w);
+        }
+        if MEAN {
+            total.dilatation = tr.mul_add(w, total.dilatation);
+        }
+        if ENERGY {
+            total.energy = contract(&s, &e).mul_add(w, total.energy);
+        }
+        if VISCOUS {
+            let rate =
+                green_rate(&h, &gradient([v[0][at[0]], v[1][at[1]], v[2][at[2]]], &c, per_w));
+            let tr = trace(&rate);
+            let eta = L::splat(k.kelvin_voigt);
+            let pressure = if MEAN { zero } else { lambda.mul(tr).mul(eta) };
+            let viscous = elastic(&rate, two_g.mul(eta), pressure);
+            total.dilatation_rate = tr.mul_add(w, total.dilatation_rate);
+            total.power = contract(&viscous, &rate).mul_add(w, total.power);
+            let mut i = 0;
+            while i < 3 {
+                s[i] = [
+                    s[i][0].add(viscous[i][0]),
+                    s[i][1].add(viscous[i][1]),
+                    s[i][2].add(viscous[i][2]),
+                ];
+                i += 1;
+            }
+        }
+        let p = piola(&h, &s);
+        let mut m = 0;
+        while m < 3 {
+            let mut i = 0;
+            while i < 3 {
+                let f = &mut total.force[m][at[m]][i];
+                *f = dot_add(p[i], c[m], *f);
+                if MEAN || VISCOUS {
+                    let f = &mut total.unit_pressure[m][at[m]][i];
+                    *f = dot_add(h[i], c[m], f.add(c[m][i]));
+                }
+                i += 1;
+            }
+            m += 1;
+        }
+    }
+}
+
 /// Which of the four values of each derivative belongs to a Gauss point; bit k of `point` is set
 /// where xi_k > 0.
 #[inline(always)]
-fn signs(point: usize) -> [usize; 3] {
+const fn signs(point: usize) -> [usize; 3] {
     let bit = [point & 1, point >> 1 & 1, point >> 2 & 1];
     [bit[1] + 2 * bit[2], bit[2] + 2 * bit[0], bit[0] + 2 * bit[1]]
 }
