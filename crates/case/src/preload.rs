@@ -1,7 +1,6 @@
 //! The state before rolling: equilibrium under the load, by whichever method the case asks for.
 
 use crate::hertz::hertz;
-use crate::log::Log;
 use crate::model::{DISK, Model};
 use crate::progress::{Progress, Stage};
 use crate::run_error::RunError;
@@ -127,7 +126,7 @@ impl PreloadError {
 }
 
 /// Displacements of the preloaded bodies (m), and how they were found: not at all with
-/// `preload.method = "none"`. Leaves the contact in the state of the preload.
+/// `preload.method = "none"`. Says how Newton's iterations go. Leaves the contact in the state of the preload.
 pub(crate) fn preload(
     case: &Case,
     model: &Model,
@@ -137,7 +136,7 @@ pub(crate) fn preload(
     held: &[u32],
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-    log: &mut Log,
+    say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
 ) -> Result<(Vec<Padded>, Option<Report>), RunError> {
     let disk = model.mesh.bodies[DISK].nodes.clone();
     let lowered = |by: f64| {
@@ -188,7 +187,7 @@ pub(crate) fn preload(
             let mut said = Ok(());
             let found = statics::solve(solid, Some(contact), &problem, &start, |now| {
                 products += now.cg_iterations + 1;
-                said = log.say(&format!(
+                said = say(&format!(
                     "preload {:2}: residual {:.1e} of the load, normal force {:.1} N, {} pairs closed, \
                      {} iterations of conjugate gradients, step {:.2}",
                     now.iteration,

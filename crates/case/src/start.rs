@@ -1,6 +1,5 @@
 //! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
 
-use crate::log::Log;
 use crate::model::{BAR, DISK, Model};
 use crate::preload::{self, preload};
 use crate::progress::Progress;
@@ -67,7 +66,7 @@ pub(crate) fn start(
     model: &Model,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-    log: &mut Log,
+    say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
 ) -> Result<Start, RunError> {
     let mut solid = model.solid(case)?;
     let inverse_mass = inverse_mass(model);
@@ -83,7 +82,7 @@ pub(crate) fn start(
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
     let (displacement, preload) =
-        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, log)?;
+        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)?;
     let preload_wall = clock.elapsed().as_secs_f64();
 
     let omega_max = MARGIN
