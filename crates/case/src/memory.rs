@@ -2,8 +2,8 @@
 
 use crate::run_error::RunError;
 
-/// Bytes per element of a whole run, output included.
-pub(crate) const BYTES_PER_ELEMENT: f64 = 500.0;
+/// Bytes per element of a whole run; the static preload takes the most.
+pub(crate) const BYTES_PER_ELEMENT: f64 = 950.0;
 
 /// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
 pub(crate) fn enough_memory(elements: usize) -> Result<(), RunError> {

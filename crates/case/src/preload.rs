@@ -3,6 +3,7 @@
 use crate::hertz::hertz;
 use crate::model::{DISK, Model};
 use crate::progress::{Progress, Stage};
+use crate::run_error::RunError;
 use crate::schema::{Case, PreloadMethod};
 use contact::PenaltyContact;
 use dynamics::{Hub, Relaxation, RelaxationError, RelaxationReport};
@@ -125,7 +126,7 @@ impl PreloadError {
 }
 
 /// Displacements of the preloaded bodies (m), and how they were found: not at all with
-/// `preload.method = "none"`. Leaves the contact in the state of the preload.
+/// `preload.method = "none"`. Says how Newton's iterations go. Leaves the contact in the state of the preload.
 pub(crate) fn preload(
     case: &Case,
     model: &Model,
@@ -135,7 +136,8 @@ pub(crate) fn preload(
     held: &[u32],
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-) -> Result<(Vec<Padded>, Option<Report>), PreloadError> {
+    say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
+) -> Result<(Vec<Padded>, Option<Report>), RunError> {
     let disk = model.mesh.bodies[DISK].nodes.clone();
     let lowered = |by: f64| {
         let mut u = vec![Padded::ZERO; model.mass.len()];
@@ -182,20 +184,23 @@ pub(crate) fn preload(
             };
             let start = lowered(hertz(case).approach);
             let mut products = 0;
+            let mut said = Ok(());
             let found = statics::solve(solid, Some(contact), &problem, &start, |now| {
                 products += now.cg_iterations + 1;
-                tracing::debug!(
-                    "static preload {}: residual {:.2e}, normal force {:.6e} N, {} pairs, {} CG \
-                     iterations, step {:.3}",
+                said = say(&format!(
+                    "preload {:2}: residual {:.1e} of the load, normal force {:.1} N, {} pairs closed, \
+                     {} iterations of conjugate gradients, step {:.2}",
                     now.iteration,
                     now.residual,
                     now.normal_force,
                     now.closed,
                     now.cg_iterations,
                     now.step
-                );
-                look(now.iteration, products, now.normal_force)
-            })?;
+                ));
+                said.is_ok() && look(now.iteration, products, now.normal_force)
+            });
+            said?;
+            let found = found.map_err(PreloadError::from)?;
             let height = found.displacement[hub.nodes[0] as usize][2];
             Ok((found.displacement, Some(Report::Static(found.report, height))))
         }
@@ -218,7 +223,8 @@ pub(crate) fn preload(
             };
             let (u, report) = dynamics::relax(solid, contact, &setup, |now| {
                 look(now.iterations, now.iterations, now.normal_force)
-            })?;
+            })
+            .map_err(PreloadError::from)?;
             Ok((u, Some(Report::Relaxation(report))))
         }
         PreloadMethod::None => {

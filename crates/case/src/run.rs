@@ -76,7 +76,7 @@ fn run_in_pool(
     }
     observe(&stage(case, Stage::Mesh));
 
-    let begun = match start(case, &model, stop, observe) {
+    let begun = match start(case, &model, stop, observe, &mut |line| log.say(line)) {
         Err(RunError::Preload(error)) => {
             let summary = without_rolling(case, &model, options.threads, wall, &error);
             output::write_json_atomically(options.out.join("summary.json"), &summary)?;

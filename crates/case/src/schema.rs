@@ -292,12 +292,12 @@ pub struct Preload {
     /// `"static"` (Newton's method for the equilibrium under the load), `"relaxation"` (dynamic
     /// relaxation to it) or `"none"` (the load acts suddenly). Default `"static"`.
     pub method: PreloadMethod,
-    /// Where the preload has converged (dimensionless): with `"static"` the residual force over
-    /// the load, default 1e-9; with `"relaxation"` the kinetic over the internal energy, default
-    /// 1e-8.
+    /// Where the preload has converged (dimensionless): the residual force over the load with
+    /// `"static"`, the kinetic over the internal energy with `"relaxation"`. Default 1e-9 with
+    /// `"static"`, 1e-8 with `"relaxation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// The preload gives up after so many iterations (count). Default 100 of Newton's with
+    /// The preload gives up after so many iterations (dimensionless). Default 100 of Newton's with
     /// `"static"`, 40000 with `"relaxation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_iterations: Option<u64>,

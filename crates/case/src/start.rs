@@ -66,6 +66,7 @@ pub(crate) fn start(
     model: &Model,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
+    say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
 ) -> Result<Start, RunError> {
     let mut solid = model.solid(case)?;
     let inverse_mass = inverse_mass(model);
@@ -81,7 +82,7 @@ pub(crate) fn start(
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
     let (displacement, preload) =
-        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe)?;
+        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)?;
     let preload_wall = clock.elapsed().as_secs_f64();
 
     let omega_max = MARGIN

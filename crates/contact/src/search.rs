@@ -163,11 +163,14 @@ impl Search {
             spans.iter().map(|s| distance(s, &whole[1 - side]).max(far)).collect::<Vec<f64>>()
         });
         let reach = self.reach(&whole, far);
-        let leaves = reach[1].iter().map(|&f| (f as usize, aabb(&self.spans[1][f as usize], 0.0)));
+        // Leaves are numbered from zero: trees of one or two leaves take no other numbers.
+        let boxes = reach[1].iter().map(|&g| aabb(&self.spans[1][g as usize], 0.0));
+        let leaves = boxes.enumerate();
         let tree = Bvh::from_iter(BvhBuildStrategy::default(), leaves);
         for &f in &reach[0] {
             let near = aabb(&self.spans[0][f as usize], far);
-            for g in tree.intersect_aabb(&near) {
+            for leaf in tree.intersect_aabb(&near) {
+                let g = reach[1][leaf as usize];
                 let d = distance(&self.spans[0][f as usize], &self.spans[1][g as usize]);
                 for (side, face) in [(0, f), (1, g)] {
                     let c = &mut clearance[side][face as usize];

@@ -109,6 +109,9 @@ pub fn relax(
 ) -> Result<(Vec<Padded>, RelaxationReport), RelaxationError> {
     let reference = solid.reference().to_vec();
     let n = reference.len();
+    // The hub with its nodes is a rigid body whose centre of mass lies on the axis.
+    let mut spun = setup.mass[..n].to_vec();
+    setup.hub.nodes.iter().for_each(|&i| spun[i as usize] = 0.0);
     let mut nodes: Vec<Node> = vec![Node::default(); n];
     for &i in setup.held.iter().chain(&setup.hub.nodes) {
         nodes[i as usize].fixed = true;
@@ -124,7 +127,7 @@ pub fn relax(
     let mut partial = vec![Quotient::default(); n.div_ceil(CHUNK)];
     for iteration in 0..setup.max_iterations {
         let check = iteration % CHECK == 0;
-        let pull = centrifugal(setup, &reference, &u, hub.z, &mut force, &mut partial);
+        let pull = centrifugal(setup, &spun, &reference, &u, hub.z, &mut force, &mut partial);
         let sums = solid.subtract_elastic_force(&u, &mut force, check);
         let touching: ContactSums = contact.apply_frictionless(&reference, &u, &mut force);
         if check {
@@ -210,10 +213,11 @@ struct Quotient {
     pull: f64,
 }
 
-/// Sets `force` to the centrifugal force of the disk and to zero elsewhere (N); returns its
-/// resultant in z.
+/// Sets `force` to the centrifugal force of the disk's masses and to zero elsewhere (N); returns
+/// its resultant in z.
 fn centrifugal(
     setup: &Relaxation<'_>,
+    mass: &[f64],
     reference: &[Padded],
     u: &[Padded],
     hub: f64,
@@ -229,7 +233,7 @@ fn centrifugal(
                 let i = chunk * CHUNK + k;
                 *f = Padded::ZERO;
                 if setup.disk.contains(&i) {
-                    let pull = setup.mass[i] * squared;
+                    let pull = mass[i] * squared;
                     f.0[0] = pull * (reference[i].0[0] + u[i].0[0] - axis[0]);
                     f.0[2] = pull * (reference[i].0[2] + u[i].0[2] - axis[1]);
                     sum.pull += f.0[2];

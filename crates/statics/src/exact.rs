@@ -66,7 +66,7 @@ pub(crate) fn solve(
         let widest = closed.iter().fold(0.0, |w: f64, g| w.max(g.gap.abs()));
         at.closed = pressed.len();
         at.normal_force = pressed.iter().map(|p| p.1).sum();
-        let drift = system.unresisted(links.iter());
+        let drift = system.unresisted(&links);
         system.space.set_links(links);
         r.copy_from_slice(&force);
         system.space.reduce(&mut r);
@@ -79,6 +79,7 @@ pub(crate) fn solve(
         let found = settled && at.residual <= system.problem.tolerance;
         let stalled = settled && at.residual < ROUND_OFF && at.residual > 0.5 * before;
         if found || stalled {
+            system.is_pressed(&at, &force)?;
             let ending = if found { Ending::Tolerance } else { Ending::RoundOff };
             let report =
                 Report { last: at, cg_iterations: total, ending, facets: 0.0, internal: energy };
@@ -89,11 +90,11 @@ pub(crate) fn solve(
         }
         at.iteration += 1;
         if let Some(drift) = drift {
-            let touches = |system: &mut System<'_>, u: &[Padded]| {
+            let closed = |system: &mut System<'_>, u: &[Padded]| {
                 system.gaps(slave, u, &mut gaps);
-                gaps.iter().any(|g| g.gap < 0.0)
+                gaps.iter().filter(|g| g.gap < 0.0).map(Link::new).collect()
             };
-            system.close(&drift, &mut u, &force, touches)?;
+            system.close(&drift, &mut u, &force, closed)?;
             (at.cg_iterations, at.step) = (0, 0.0);
             energy = system.force(&u, &mut force, true);
             before = f64::INFINITY;

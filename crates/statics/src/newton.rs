@@ -1,6 +1,7 @@
 //! Penalty contact: semismooth Newton with a line search.
 
 use crate::error::StaticsError;
+use crate::link::Link;
 use crate::problem::{Ending, Equilibrium, Iteration, Report};
 use crate::system::{Pressed, System, moved};
 use mesh::Padded;
@@ -59,8 +60,10 @@ pub(crate) fn solve(
         let stalled = at.residual > STALLED * before;
         let found = at.residual <= system.problem.tolerance;
         system.set_springs(&u);
-        let drift = system.unresisted(system.springs.iter().map(|(link, _)| link));
+        let links: Vec<Link> = system.springs.iter().map(|(link, _)| *link).collect();
+        let drift = system.unresisted(&links);
         if (found || stalled && at.residual < ROUND_OFF) && drift.is_none() {
+            system.is_pressed(&at, &force)?;
             let ending = if found { Ending::Tolerance } else { Ending::RoundOff };
             let held = system.normals_held();
             let same = !held || system.release_normals(&u, &mut force);
@@ -82,9 +85,12 @@ pub(crate) fn solve(
         }
         at.iteration += 1;
         if let Some(drift) = drift {
-            let touches =
-                |system: &mut System<'_>, u: &[Padded]| system.add_springs(u, &mut r).closed > 0;
-            system.close(&drift, &mut u, &force, touches)?;
+            let closed = |system: &mut System<'_>, u: &[Padded]| {
+                system.add_springs(u, &mut r);
+                system.set_springs(u);
+                system.springs.iter().map(|(link, _)| *link).collect()
+            };
+            system.close(&drift, &mut u, &force, closed)?;
             (at.cg_iterations, at.step) = (0, 0.0);
             energy = system.force(&u, &mut force, true);
             sums = system.add_springs(&u, &mut force);

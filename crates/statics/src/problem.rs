@@ -59,7 +59,8 @@ pub struct Problem<'a> {
 pub struct Iteration {
     /// Newton iterations done.
     pub iteration: usize,
-    /// Euclidean norm of the residual over the load; over the reactions where nothing is loaded.
+    /// Euclidean norm of the residual over the load; where nothing is loaded, over that of the
+    /// largest forces met, those at supports included.
     pub residual: f64,
     /// Sum of the contact's normal forces (N).
     pub normal_force: f64,

@@ -49,6 +49,8 @@ pub(crate) struct System<'a> {
     spun: Vec<bool>,
     /// Sum of the loads' magnitudes (N).
     load: f64,
+    /// Largest norm of the forces so far, those at supports included (N).
+    largest: f64,
 }
 
 impl<'a> System<'a> {
@@ -83,6 +85,7 @@ impl<'a> System<'a> {
             reference,
             spun,
             load,
+            largest: f64::MIN_POSITIVE,
         })
     }
 
@@ -195,14 +198,13 @@ impl<'a> System<'a> {
         slaves(&self.springs) == before
     }
 
-    /// What a residual is measured by (N): the loads, or without them the reactions.
-    pub(crate) fn scale(&self, force: &[Padded]) -> f64 {
+    /// What a residual is measured by (N): the loads, or without them the largest forces so far.
+    pub(crate) fn scale(&mut self, force: &[Padded]) -> f64 {
         if self.load > 0.0 {
             return self.load;
         }
-        let held = force.iter().enumerate().filter(|&(n, _)| !self.space.is_free(n));
-        let squares: f64 = held.map(|(_, f)| f.xyz().iter().map(|c| c * c).sum::<f64>()).sum();
-        squares.sqrt().max(f64::MIN_POSITIVE)
+        self.largest = self.largest.max(self.space.inner(force, force).sqrt());
+        self.largest
     }
 
     /// `y -= K x` with the stiffness of the undeformed state.
@@ -246,26 +248,27 @@ impl<'a> System<'a> {
     }
 
     /// A drift that none of `links` resists.
-    pub(crate) fn unresisted<'l>(
-        &self,
-        links: impl Iterator<Item = &'l Link> + Clone,
-    ) -> Option<Drift> {
-        let resists = |drift: &Drift, link: &Link| {
-            let inside = |n: usize| f64::from(u8::from(self.parts.contains(drift, n)));
-            let foot: f64 = link.weights.iter().zip(link.corners).map(|(w, n)| w * inside(n)).sum();
-            link.normal[drift.axis].abs() * (inside(link.slave) - foot).abs() > 1e-9
-        };
-        let free = |drift: &&Drift| !links.clone().any(|link| resists(drift, link));
-        self.parts.drifts.iter().find(free).cloned()
+    pub(crate) fn unresisted(&self, links: &[Link]) -> Option<Drift> {
+        self.parts.drifts.iter().find(|drift| !self.resisted(drift, links)).cloned()
     }
 
-    /// Moves a part under the force on it until `touches` says that contact has closed.
+    fn resisted(&self, drift: &Drift, links: &[Link]) -> bool {
+        // Normals that are upright but for round-off hold nothing sideways.
+        const UPRIGHT: f64 = 1e-9;
+        let inside = |n: usize| f64::from(u8::from(self.parts.contains(drift, n)));
+        links.iter().any(|link| {
+            let foot: f64 = link.weights.iter().zip(link.corners).map(|(w, n)| w * inside(n)).sum();
+            link.normal[drift.axis].abs() * (inside(link.slave) - foot).abs() > UPRIGHT
+        })
+    }
+
+    /// Moves a part under the force on it until contact resists: `closed` gives the closed links.
     pub(crate) fn close(
         &mut self,
         drift: &Drift,
         u: &mut [Padded],
         force: &[Padded],
-        mut touches: impl FnMut(&mut Self, &[Padded]) -> bool,
+        mut closed: impl FnMut(&mut Self, &[Padded]) -> Vec<Link>,
     ) -> Result<(), StaticsError> {
         const FIRST: f64 = 1e-9;
         let nodes: Vec<usize> = (0..u.len()).filter(|&n| self.parts.contains(drift, n)).collect();
@@ -277,13 +280,32 @@ impl<'a> System<'a> {
             for (&n, start) in nodes.iter().zip(&start) {
                 u[n][drift.axis] = start + shift.copysign(pull);
             }
-            if touches(self, u) {
+            let links = closed(self, u);
+            if self.resisted(drift, &links) {
                 return Ok(());
             }
             shift *= 2.0;
         }
+        Err(self.open(drift, pull))
+    }
+
+    fn open(&self, drift: &Drift, force: f64) -> StaticsError {
         let body = self.problem.mesh.bodies[drift.body].name.clone();
-        Err(StaticsError::Open { body, axis: ['x', 'y', 'z'][drift.axis], force: pull })
+        StaticsError::Open { body, axis: ['x', 'y', 'z'][drift.axis], force }
+    }
+
+    /// Refuses an equilibrium in which contact that has to hold a body carries no more than the
+    /// residual.
+    pub(crate) fn is_pressed(
+        &mut self,
+        at: &Iteration,
+        force: &[Padded],
+    ) -> Result<(), StaticsError> {
+        let least = 10.0 * at.residual.max(self.problem.tolerance) * self.scale(force);
+        match self.parts.drifts.first() {
+            Some(drift) if at.normal_force <= least => Err(self.open(drift, 0.0)),
+            _ => Ok(()),
+        }
     }
 
     /// Largest extent of the mesh along an axis (m).

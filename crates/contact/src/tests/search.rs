@@ -117,3 +117,13 @@ fn positions_that_are_not_numbers_do_not_panic() {
     rig.contact.search = crate::search::Search::new(&rig.contact.sides);
     rig.apply();
 }
+
+#[test]
+fn surfaces_that_only_one_or_two_faces_share_are_found() {
+    for (along, faces) in [(7.5e-3, 1), (6.5e-3, 2)] {
+        // The last faces in reach of the upper plate are neither first nor second of their side.
+        let mut rig = Rig::plates(4, 8, Coulomb { mu: 0.0 });
+        let sums = rig.shift([along, 7.5e-3, -1e-6]);
+        assert!(sums.closed > 0, "{faces}: {sums:?}");
+    }
+}
