@@ -1,4 +1,4 @@
-//! The limits of the verification tests: what the convergence with the mesh demonstrates.
+//! Shared problems, and the limits of the verification tests: what the convergence with the mesh demonstrates.
 #![allow(dead_code)]
 
 use solid::{Element, Material, element_stiffness};
