@@ -124,6 +124,21 @@ fn a_body_that_floats_is_named() {
     let loose = Supports { held: Vec::new(), tied: vec![Tied { nodes: top.clone(), axes }] };
     let fault = SurfaceCompliance::new(&mesh, &[STEEL], &element, &loose, &top[..1]).err();
     assert!(matches!(fault, Some(SparseError::NotPositive { .. })), "{fault:?}");
+    // Of two bodies the one that floats is named.
+    let (block, supports) = clamped(5);
+    let mut other = block.clone();
+    other.nodes.iter_mut().for_each(|x| x[0] += 0.1);
+    let both = mesh::join(&[block, other]);
+    for last in [vec![], supports.held.clone(), vec![both.nodes.len() as u32 - 1]] {
+        let unknowns = Unknowns::new(&both, &supports, &last).unwrap();
+        let stiffness = Stiffness::assemble(&both, &[STEEL; 2], &element, &unknowns).unwrap();
+        match Symbolic::new(&stiffness).unwrap().factor(&stiffness, &unknowns).err() {
+            Some(SparseError::NotPositive { node, .. }) => {
+                assert!(both.bodies[1].nodes.contains(&node), "{node}");
+            }
+            fault => panic!("{fault:?}"),
+        }
+    }
     let twice = Supports { held: vec![3, 3], tied: Vec::new() };
     assert!(matches!(
         Unknowns::new(&mesh, &twice, &[]).err(),
