@@ -120,3 +120,42 @@ proptest! {
         prop_assert!(q.min_thickness > 0.75 * squeeze * slant * zone.size, "{:?}", q);
     }
 }
+
+#[test]
+fn a_graded_block_fills_its_box_and_is_fine_where_asked() {
+    let line =
+        |from: f64, fine: [f64; 2]| mesh::graded_line([from, 0.04], fine, 1e-3, 1.5, 0.01).unwrap();
+    let (xs, ys) = (line(-0.04, [-3e-3, 3e-3]), line(0.0, [0.0, 2e-3]));
+    let zs = line(-0.04, [-2e-3, 0.0]);
+    let block = mesh::graded_block([&xs, &ys, &zs]).unwrap();
+    mesh::check(&block).unwrap();
+    let volume: f64 =
+        block.hexes.iter().map(|h| mesh::hex_volume(&h.map(|n| block.nodes[n as usize]))).sum();
+    assert!((volume / (0.08 * 0.04 * 0.08) - 1.0).abs() < 1e-12);
+    let fine = |points: &[f64], at: f64| {
+        let i = points.partition_point(|x| *x <= at);
+        points[i] - points[i - 1]
+    };
+    for (points, at) in [(&xs, 0.0), (&ys, 1.5e-3), (&zs, -0.5e-3)] {
+        assert!((fine(points, at) - 1e-3).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_block_or_line_that_makes_no_mesh_is_refused() {
+    let good = [0.0, 1.0, 2.0];
+    for bad in [&[0.0][..], &[], &[0.0, 1.0, 1.0], &[0.0, f64::NAN], &[1.0, 0.0]] {
+        assert!(mesh::graded_block([&good, bad, &good]).is_err(), "{bad:?}");
+    }
+    let line = |fine: [f64; 2], size, growth, coarsest| {
+        mesh::graded_line([0.0, 1.0], fine, size, growth, coarsest)
+    };
+    assert!(line([0.2, 0.4], 0.1, 1.5, 0.2).is_ok());
+    assert!(line([0.2, 1.4], 0.1, 1.5, 0.2).is_err());
+    assert!(line([0.4, 0.2], 0.1, 1.5, 0.2).is_err());
+    assert!(line([0.2, f64::NAN], 0.1, 1.5, 0.2).is_err());
+    assert!(line([0.2, 0.4], -0.1, 1.5, 0.2).is_err());
+    assert!(line([0.2, 0.4], 1e-12, 1.5, 0.2).is_err());
+    assert!(line([0.2, 0.4], 0.1, 1.0, 0.2).is_err());
+    assert!(line([0.2, 0.4], 0.1, 1.5, 0.05).is_err());
+}

@@ -8,7 +8,7 @@ use thiserror::Error;
 const TOLERANCE: f64 = 1e-11;
 
 /// Newton's steps between two stretches of relaxation.
-const NEWTON: usize = 15;
+const NEWTON: usize = 25;
 
 /// Sweeps of block Gauss–Seidel after a stretch of Newton that did not converge.
 const SWEEPS: usize = 40;
@@ -72,14 +72,35 @@ impl Coulomb<'_> {
     /// |p| <= g, p = -g s/|s| where s is not zero.
     ///
     /// The law in one equation is p = P(p - r s) with P the projection on the disk of radius g
-    /// (Alart and Curnier 1991). For given normal forces it is the minimum of a convex function,
-    /// so the solution is unique: semismooth Newton finds it in a few steps; where it wanders,
-    /// sweeps of block Gauss–Seidel, which always descend, bring it back.
+    /// (Alart and Curnier 1991). For given normal forces and a symmetric W it is the minimum of a
+    /// convex function, so the solution is unique: semismooth Newton finds it in a few steps;
+    /// where it wanders, sweeps of block Gauss–Seidel, which always descend, bring it back.
     pub fn solve(
         &self,
         offset: &[f64],
         rigid: [Rigid; 2],
         start: &[f64],
+    ) -> Result<Solution, FrictionError> {
+        self.alternate(offset, rigid, start, ROUNDS)
+    }
+
+    /// The same by Newton's method alone, for a W that is not symmetric: no descent to fall back
+    /// on, so that failure says nothing of whether there is a solution.
+    pub fn solve_directly(
+        &self,
+        offset: &[f64],
+        rigid: [Rigid; 2],
+        start: &[f64],
+    ) -> Result<Solution, FrictionError> {
+        self.alternate(offset, rigid, start, 1)
+    }
+
+    fn alternate(
+        &self,
+        offset: &[f64],
+        rigid: [Rigid; 2],
+        start: &[f64],
+        rounds: usize,
     ) -> Result<Solution, FrictionError> {
         let m = self.bound.len();
         let most: f64 = self.bound.iter().sum();
@@ -94,7 +115,7 @@ impl Coulomb<'_> {
             slip: vec![0.0; 2 * m],
         };
         let mut worst = (f64::INFINITY, 0);
-        for round in 0..ROUNDS {
+        for round in 1..=rounds {
             for _ in 0..NEWTON {
                 self.update_slip(&mut state, offset);
                 worst = self.violation(&state, rigid, most);
@@ -104,8 +125,10 @@ impl Coulomb<'_> {
                 }
                 self.newton(&mut state, rigid);
             }
-            for _ in 0..SWEEPS * (round + 1) {
-                self.sweep(&mut state, offset);
+            if round < rounds {
+                for _ in 0..SWEEPS * round {
+                    self.sweep(&mut state, offset);
+                }
             }
         }
         Err(FrictionError::Stalled { violation: worst.0, point: worst.1 })

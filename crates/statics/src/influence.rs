@@ -203,6 +203,28 @@ impl Influence {
         sprung
     }
 
+    /// The same bodies with other gaps (m), those of the points at x and y: another shape, or the
+    /// same shape elsewhere on the grid.
+    pub fn with_gaps(&self, gap: impl Fn(f64, f64) -> f64) -> Self {
+        let mut other = self.with_springs(None, None);
+        other.points.iter_mut().for_each(|p| p.gap = gap(p.at[0], p.at[1]));
+        other
+    }
+
+    /// The same contact of bodies that yield as a whole besides: every point moves tangentially by
+    /// `compliance` (m/N) times the sum of the tangential forces.
+    pub fn with_bulk(&self, compliance: f64) -> Self {
+        let mut bulk = self.with_springs(None, None);
+        let n = 2 * self.points.len();
+        for k in 0..n * n {
+            let (i, j) = (k / n, k % n);
+            if i % 2 == j % 2 {
+                bulk.shear[(i, j)] += compliance;
+            }
+        }
+        bulk
+    }
+
     /// The points of potential contact.
     pub fn points(&self) -> &[Point] {
         &self.points

@@ -73,20 +73,15 @@ pub fn stick_fraction(influence: &Influence, rolling: &Rolling<'_>) -> f64 {
     stick / all
 }
 
-/// Where stick ends on the line of points nearest to y = 0 (m): half way between its rearmost
-/// sticking point and the slipping one behind it. `None` if all of the line slips or sticks.
+/// Where stick ends on the line of points nearest to y = 0 (m): at its rearmost sticking point.
+/// The slip of a step belongs to the middle of the pitch ahead of its point, so that the border
+/// lies between the middles ahead of the last slipping and of the first sticking point. `None` if
+/// all of the line slips.
 pub fn stick_border(influence: &Influence, rolling: &Rolling<'_>) -> Option<f64> {
     let points = influence.points();
     let nearest = points.iter().fold(f64::INFINITY, |m, p| m.min(p.at[1].abs()));
-    let x = |wanted: Adhesion| {
-        let states = rolling.contact().iter().zip(rolling.adhesion());
-        states
-            .filter(move |(i, s)| {
-                *s == wanted && points[**i].at[1].abs() <= nearest + 0.1 * rolling.pitch()
-            })
-            .map(|(&i, _)| points[i].at[0])
-    };
-    let rear = x(Adhesion::Stick).fold(f64::INFINITY, f64::min);
-    let slip = x(Adhesion::Slip).filter(|s| *s < rear).fold(f64::NEG_INFINITY, f64::max);
-    (rear.is_finite() && slip.is_finite()).then_some(0.5 * (rear + slip))
+    let on_line = |i: usize| points[i].at[1].abs() <= nearest + 0.1 * rolling.pitch();
+    let states = rolling.contact().iter().zip(rolling.adhesion());
+    let sticking = states.filter(|(i, s)| *s == Adhesion::Stick && on_line(**i));
+    sticking.map(|(&i, _)| points[i].at[0]).min_by(f64::total_cmp)
 }

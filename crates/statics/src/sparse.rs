@@ -27,6 +27,10 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// eliminated late, next to the surface: they would join whatever they are eliminated with.
 const MANY_NEIGHBOURS: usize = 200;
 
+/// A pivot below this fraction of its unknown's own stiffness is round-off: the stiffness of a
+/// supported body falls by the number of elements between it and its support, not by this.
+const LOST: f64 = 1e-12;
+
 /// All arithmetic of a factorisation runs on one thread: the same bits on any machine load, and
 /// two bodies are factored side by side instead.
 const SERIAL: Par = Par::Seq;
@@ -197,6 +201,11 @@ impl Unknowns {
         (dof != NONE).then_some(dof as usize)
     }
 
+    fn not_positive(&self, dof: usize) -> SparseError {
+        let (node, axis) = self.owner(dof);
+        SparseError::NotPositive { node, axis }
+    }
+
     /// The node and axis of an unknown.
     fn owner(&self, dof: usize) -> (usize, usize) {
         let find = |(node, of): (usize, &[u32; 3])| {
@@ -338,11 +347,14 @@ impl Symbolic {
             Spec::default(),
         );
         match result {
-            Ok(_) => Ok(Factor { symbolic: &self.symbolic, values }),
-            Err(LltError::NonPositivePivot { index }) => {
-                let (node, axis) = unknowns.owner(index);
-                Err(SparseError::NotPositive { node, axis })
+            Ok(_) => {
+                let factor = Factor { symbolic: &self.symbolic, values };
+                match factor.lost_pivot(matrix) {
+                    None => Ok(factor),
+                    Some(dof) => Err(unknowns.not_positive(dof)),
+                }
             }
+            Err(LltError::NonPositivePivot { index }) => Err(unknowns.not_positive(index)),
         }
     }
 }
@@ -375,6 +387,22 @@ impl Factor<'_> {
             MemStack::new(&mut buffer),
         );
         Ok(())
+    }
+
+    /// An unknown whose pivot is nothing but the round-off of its stiffness: where a body is free
+    /// to move, the sign of the last pivot is chance.
+    fn lost_pivot(&self, matrix: &Stiffness) -> Option<usize> {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return None };
+        let factor = SupernodalLltRef::new(symbolic, &self.values);
+        (0..symbolic.n_supernodes()).find_map(|s| {
+            let node = factor.supernode(s);
+            (0..node.val().ncols()).find_map(|c| {
+                let dof = node.start() + c;
+                // The diagonal ends its column of the upper triangle.
+                let stiffness = matrix.values[matrix.columns[dof + 1] - 1];
+                (node.val()[(c, c)].powi(2) < LOST * stiffness).then_some(dof)
+            })
+        })
     }
 
     /// The inverse of the stiffness condensed to the last `count` unknowns: the block of K^-1

@@ -4,8 +4,8 @@
 use mesh::{Mesh, Padded, graded_block, graded_line};
 use solid::{Element, Level, Material, Solid, Viscosity, element_stiffness};
 use statics::{
-    Axis, Block, Influence, Lateral, Point, Press, SparseError, Stiffness, Supports,
-    SurfaceCompliance, Symbolic, Tied, Unknowns, press,
+    Axis, Block, Influence, InfluenceError, Lateral, Point, Press, SparseError, Stiffness,
+    Supports, SurfaceCompliance, Symbolic, Tied, Unknowns, press,
 };
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
@@ -124,6 +124,21 @@ fn a_body_that_floats_is_named() {
     let loose = Supports { held: Vec::new(), tied: vec![Tied { nodes: top.clone(), axes }] };
     let fault = SurfaceCompliance::new(&mesh, &[STEEL], &element, &loose, &top[..1]).err();
     assert!(matches!(fault, Some(SparseError::NotPositive { .. })), "{fault:?}");
+    // Of two bodies the one that floats is named.
+    let (block, supports) = clamped(5);
+    let mut other = block.clone();
+    other.nodes.iter_mut().for_each(|x| x[0] += 0.1);
+    let both = mesh::join(&[block, other]);
+    for last in [vec![], supports.held.clone(), vec![both.nodes.len() as u32 - 1]] {
+        let unknowns = Unknowns::new(&both, &supports, &last).unwrap();
+        let stiffness = Stiffness::assemble(&both, &[STEEL; 2], &element, &unknowns).unwrap();
+        match Symbolic::new(&stiffness).unwrap().factor(&stiffness, &unknowns).err() {
+            Some(SparseError::NotPositive { node, .. }) => {
+                assert!(both.bodies[1].nodes.contains(&node), "{node}");
+            }
+            fault => panic!("{fault:?}"),
+        }
+    }
     let twice = Supports { held: vec![3, 3], tied: Vec::new() };
     assert!(matches!(
         Unknowns::new(&mesh, &twice, &[]).err(),
@@ -219,4 +234,21 @@ fn contact_conditions_hold_to_round_off_and_load_and_approach_are_inverse() {
     assert!((again.load() / 5e3 - 1.0).abs() < 1e-12);
     assert!(press(&influence, Press::Load(-1.0), None).is_err());
     assert!(press(&influence, Press::Approach(-1e-6), None).is_err());
+}
+
+#[test]
+fn points_without_a_face_before_them_and_foreign_points_are_refused() {
+    let (mesh, supports) = clamped(6);
+    let top = &mesh.bodies[0].surfaces["z+"];
+    let points = Point::on_surface(&mesh, top, |_| true, |_| 0.0);
+    let nodes: Vec<u32> = points.iter().map(|p| p.node).collect();
+    let compliance = SurfaceCompliance::new(&mesh, &[STEEL], &element, &supports, &nodes).unwrap();
+    let between =
+        |points: Vec<Point>| Influence::between(&compliance, points, &compliance, top, &mesh).err();
+    let mut beside = points.clone();
+    beside[0].at[0] -= 1.0;
+    assert!(matches!(between(beside), Some(InfluenceError::NoFace { .. })));
+    let foreign = Point { node: supports.held[0], ..points[0] };
+    assert_eq!(between(vec![foreign]), Some(InfluenceError::Unknown { node: foreign.node }));
+    assert_eq!(between(Vec::new()), Some(InfluenceError::Empty));
 }
