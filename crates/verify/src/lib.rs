@@ -9,7 +9,10 @@ mod convergence;
 mod problem;
 mod row;
 
+mod body;
+mod patch;
 mod slider_tables;
+mod waves;
 
 pub use convergence::{Convergence, Sample};
 pub use problem::{PROBLEMS, Problem, Set, Size, VerifyError, find};

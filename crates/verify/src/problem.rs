@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, slider_tables};
+use crate::{Row, patch, slider_tables, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -47,12 +47,38 @@ pub struct VerifyError {
 pub(crate) type Outcome = Result<Vec<Row>, Box<dyn std::error::Error + Send + Sync>>;
 
 /// All problems, from the element to rolling contact.
-pub const PROBLEMS: &[Problem] = &[Problem {
-    name: "slider-tables",
-    about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
-    set: Set::Default,
-    run: slider_tables::run,
-}];
+pub const PROBLEMS: &[Problem] = &[
+    Problem {
+        name: "patch",
+        about: "A uniform finite strain of seven distorted elements: exact stress, no residual",
+        set: Set::Default,
+        run: patch::patch,
+    },
+    Problem {
+        name: "rotation",
+        about: "A rigid rotation through a full turn: no stress, no force",
+        set: Set::Default,
+        run: patch::rotation,
+    },
+    Problem {
+        name: "bar-wave",
+        about: "A wave in a slender bar: speed sqrt(E/rho) and stress rho c v",
+        set: Set::Default,
+        run: waves::bar,
+    },
+    Problem {
+        name: "column-wave",
+        about: "A wave in a laterally confined column: speed c_p and stress rho c_p v",
+        set: Set::Default,
+        run: waves::column,
+    },
+    Problem {
+        name: "slider-tables",
+        about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
+        set: Set::Default,
+        run: slider_tables::run,
+    },
+];
 
 /// The problem of a name.
 pub fn find(name: &str) -> Option<&'static Problem> {
