@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, patch, slider_tables, waves};
+use crate::{Row, collision, patch, slider_tables, sliding, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -33,6 +33,9 @@ pub struct Problem {
     pub(crate) run: fn(Size) -> Outcome,
 }
 
+/// The error of a solver.
+pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+
 /// Why a problem could not be run to its end.
 #[derive(Debug, Error)]
 #[error("verification problem '{name}': {cause}")]
@@ -40,11 +43,11 @@ pub struct VerifyError {
     /// The problem.
     pub name: &'static str,
     /// What went wrong in it.
-    pub cause: Box<dyn std::error::Error + Send + Sync>,
+    pub cause: Cause,
 }
 
 /// What a problem's own function returns: its rows, or the error of the solver that failed.
-pub(crate) type Outcome = Result<Vec<Row>, Box<dyn std::error::Error + Send + Sync>>;
+pub(crate) type Outcome = Result<Vec<Row>, Cause>;
 
 /// All problems, from the element to rolling contact.
 pub const PROBLEMS: &[Problem] = &[
@@ -71,6 +74,24 @@ pub const PROBLEMS: &[Problem] = &[
         about: "A wave in a laterally confined column: speed c_p and stress rho c_p v",
         set: Set::Default,
         run: waves::column,
+    },
+    Problem {
+        name: "block-slide",
+        about: "A block that slides on a plane, stops at v0^2/(2 mu g) and stays",
+        set: Set::Default,
+        run: sliding::stop,
+    },
+    Problem {
+        name: "incline",
+        about: "A block on an incline: sticks below the angle of friction, slides above",
+        set: Set::Default,
+        run: sliding::incline,
+    },
+    Problem {
+        name: "colliding-bars",
+        about: "Two equal bars colliding: contact time 2L/c, pressure rho c v, energies, momentum",
+        set: Set::Default,
+        run: collision::run,
     },
     Problem {
         name: "slider-tables",
