@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, collision, patch, slider_tables, sliding, waves};
+use crate::{Row, collision, lysmer, patch, slider_tables, sliding, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -92,6 +92,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "Two equal bars colliding: contact time 2L/c, pressure rho c v, energies, momentum",
         set: Set::Default,
         run: collision::run,
+    },
+    Problem {
+        name: "lysmer",
+        about: "A wave that meets a quiet end: what comes back",
+        set: Set::Default,
+        run: lysmer::run,
     },
     Problem {
         name: "slider-tables",

@@ -95,27 +95,40 @@ pub(crate) fn bar_setup(
 }
 
 /// Sets off a Gaussian pulse of displacement from `centre` to +x with the speed `c`: the velocity
-/// -c du/dx half a step before t = 0.
+/// -c du/dx half a step before t = 0. Free sides contract with it by u_y = -`contraction` du/dx
+/// (y - y_0), with Poisson's ratio; held sides do not.
 pub(crate) fn set_off_pulse(
     setup: &mut Setup,
     nodes: &[[f64; 3]],
     c: f64,
     [centre, width]: [f64; 2],
+    contraction: f64,
 ) {
     // strains of 1e-6 and below: finite strain plays no part
     let amplitude = 1e-6 * width;
+    let middle = [1, 2].map(|i: usize| 0.5 * nodes.iter().map(|x| x[i]).fold(0.0, f64::max));
     for (i, x) in nodes.iter().enumerate() {
+        let arms = [x[1] - middle[0], x[2] - middle[1]];
+        let slopes = |s: f64| {
+            let u = amplitude * (-s * s).exp();
+            [u, -2.0 * s / width * u, (4.0 * s * s - 2.0) / (width * width) * u]
+        };
         let s = (x[0] - centre) / width;
-        setup.displacement[i].0[0] = amplitude * (-s * s).exp();
-        let s = s + 0.5 * c * setup.dt / width;
-        setup.velocity[i].0[0] = c / width * 2.0 * s * amplitude * (-s * s).exp();
+        let [u, strain, _] = slopes(s);
+        setup.displacement[i] =
+            Padded::new([u, -contraction * strain * arms[0], -contraction * strain * arms[1]]);
+        // half a step earlier the pulse stood further left; d/dt = -c d/dx
+        let [_, strain, bend] = slopes(s + 0.5 * c * setup.dt / width);
+        let rate = contraction * c * bend;
+        setup.velocity[i] = Padded::new([-c * strain, rate * arms[0], rate * arms[1]]);
     }
 }
 
 fn pulse_speed(n: usize, confined: bool, c: f64) -> Result<f64, SolidError> {
     let mesh = slender(n, LENGTH);
     let mut setup = bar_setup(&mesh, STEEL, confined)?;
-    set_off_pulse(&mut setup, &mesh.nodes, c, [0.2 * LENGTH, 0.04 * LENGTH]);
+    let contraction = if confined { 0.0 } else { STEEL.poisson };
+    set_off_pulse(&mut setup, &mesh.nodes, c, [0.2 * LENGTH, 0.04 * LENGTH], contraction);
     let dt = setup.dt;
     let mut simulation = Simulation::new(setup);
     let stations = [0.4 * LENGTH, 0.7 * LENGTH];
