@@ -4,7 +4,7 @@
 
 use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Stiffness};
 use divan::counter::ItemsCount;
-use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
+use dynamics::{Hub, Load, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
 use mesh::{Bar, Disk, FineZone, Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use std::time::Duration;
@@ -72,6 +72,8 @@ fn rolling(size: f64) -> Simulation {
     let field = RollingField { disk: 0, centre, speed: SPEED, omega, dt };
     let velocity = dynamics::rolling_field(&mesh, &displacement, &field);
     Simulation::new(Setup {
+        fixed: Vec::new(),
+        load: Load::default(),
         solid,
         contact: Some(contact),
         hub: Some(hub),

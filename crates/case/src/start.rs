@@ -146,6 +146,8 @@ pub(crate) fn start(
         hub: Some(hub),
         quiet,
         held: model.clamped.clone(),
+        fixed: Vec::new(),
+        load: dynamics::Load::default(),
         disk: model.mesh.bodies[DISK].nodes.clone(),
         mass: model.mass.clone(),
         displacement,

@@ -20,7 +20,8 @@ pub struct Energies {
     pub friction_dissipated: f64,
     /// Dissipated by bulk viscosity, Kelvin–Voigt, mass damping, contact dampers and quiet ends.
     pub damping_dissipated: f64,
-    /// Work of the hub's drive and load and of the quiet ends' constant reactions.
+    /// Work of the hub's drive and load, of the given forces and of the quiet ends' constant
+    /// reactions.
     pub external_work: f64,
 }
 

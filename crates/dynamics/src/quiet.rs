@@ -1,5 +1,6 @@
 //! Lysmer's quiet boundary at the ends of the bar.
 
+use crate::load::Fixed;
 use mesh::{Mesh, Padded, Surface, quad_corner_areas};
 use solid::Material;
 
@@ -62,6 +63,19 @@ impl QuietEnd {
     pub fn keep_reactions(&mut self, force: &[Padded]) {
         for n in &mut self.nodes {
             n.reaction = force[n.node as usize].xyz().map(|f| -f);
+        }
+    }
+
+    /// Leaves fixed directions to their supports.
+    pub(crate) fn release(&mut self, fixed: &[Fixed]) {
+        for f in fixed {
+            // nodes ascend, as `new` makes them
+            if let Ok(at) = self.nodes.binary_search_by_key(&f.node, |n| n.node) {
+                for i in (0..3).filter(|&i| f.axes[i]) {
+                    self.nodes[at].reaction[i] = 0.0;
+                    self.nodes[at].dashpot[i] = 0.0;
+                }
+            }
         }
     }
 

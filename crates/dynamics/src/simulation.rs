@@ -4,6 +4,7 @@ use crate::dashpots::{Dashpots, RigidMotion};
 use crate::guard::{self, Cause, Diagnosis, Place};
 use crate::hub::{Hub, HubWork};
 use crate::ledger::{Energies, Ledger};
+use crate::load::{Fixed, Load};
 use crate::nodes::{self, NodeSums};
 use crate::quiet::QuietEnd;
 use contact::{ContactSums, Motion, PenaltyContact};
@@ -23,6 +24,11 @@ pub struct Setup {
     pub quiet: QuietEnd,
     /// Nodes that never move.
     pub held: Vec<u32>,
+    /// Nodes that do not move in some directions. With mass-proportional damping such a direction
+    /// must be one in which the body's rigid motion has no part.
+    pub fixed: Vec<Fixed>,
+    /// Given forces; empty for none.
+    pub load: Load,
     /// Nodes of the disk, whose rigid motion is the hub's.
     pub disk: std::ops::Range<usize>,
     /// Lumped masses (kg).
@@ -75,6 +81,8 @@ pub struct Simulation {
     contact: Option<PenaltyContact>,
     hub: Option<Hub>,
     quiet: QuietEnd,
+    fixed: Vec<Fixed>,
+    load: Load,
     disk: std::ops::Range<usize>,
     inverse_mass: Vec<f64>,
     displacement: Vec<Padded>,
@@ -91,18 +99,22 @@ pub struct Simulation {
 
 impl Simulation {
     /// A simulation at t = 0.
-    pub fn new(setup: Setup) -> Self {
+    pub fn new(mut setup: Setup) -> Self {
         let mut inverse_mass: Vec<f64> = setup.mass.iter().map(|m| 1.0 / m).collect();
         let carried = setup.hub.iter().flat_map(|h| &h.nodes);
         setup.held.iter().chain(carried).for_each(|&n| inverse_mass[n as usize] = 0.0);
         let mut velocity = setup.velocity;
         setup.held.iter().for_each(|&n| velocity[n as usize] = Padded::ZERO);
+        Fixed::clear(&setup.fixed, &mut velocity);
+        setup.quiet.release(&setup.fixed);
         let n = inverse_mass.len();
         Self {
             solid: setup.solid,
             contact: setup.contact,
             hub: setup.hub,
             quiet: setup.quiet,
+            fixed: setup.fixed,
+            load: setup.load,
             disk: setup.disk,
             inverse_mass,
             displacement: setup.displacement,
@@ -150,8 +162,11 @@ impl Simulation {
         let contacted = Instant::now();
 
         // boundary forces
+        self.load.apply(time, &mut self.force);
+        Fixed::clear(&self.fixed, &mut self.force);
         let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
         let load = self.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
+        let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
         let bounded = Instant::now();
 
         // velocity v^{n+1/2} and position u^{n+1}, then the hub with its nodes
@@ -179,12 +194,13 @@ impl Simulation {
             }
             _ => HubWork::default(),
         };
+        let given_after = 0.5 * dt * self.load.power(time, &self.velocity);
         let moved = Instant::now();
 
         let viscous = 0.5 * dt * (sums.viscous_power + nodes.dashpot_power);
         self.ledger.friction += contact.friction_work;
         self.ledger.damping += contact.damping_work + viscous + quiet.dissipated_before;
-        self.ledger.external += hub.before + quiet.external_before;
+        self.ledger.external += hub.before + quiet.external_before + given_before;
         let energies = read.then(|| {
             let now = Energies {
                 kinetic: nodes.kinetic + hub.kinetic,
@@ -199,7 +215,7 @@ impl Simulation {
             now
         });
         self.ledger.damping += viscous + quiet.dissipated_after;
-        self.ledger.external += hub.after + quiet.external_after;
+        self.ledger.external += hub.after + quiet.external_after + given_after;
 
         self.timers.internal_force += internal - start;
         self.timers.contact += contacted - internal;

@@ -31,6 +31,8 @@ fn body_of(
         hub: None,
         quiet,
         held,
+        fixed: Vec::new(),
+        load: Load::default(),
         disk: 0..0,
         mass,
         displacement: vec![Padded::ZERO; n],
@@ -202,4 +204,49 @@ fn smoothstep_rises_from_zero_to_one_and_is_a_step_without_a_ramp() {
     assert_eq!(smoothstep(1.0, 2.0), 0.5);
     assert_eq!(smoothstep(3.0, 2.0), 1.0);
     assert_eq!(smoothstep(0.0, 0.0), 1.0);
+}
+
+#[test]
+fn a_weight_on_a_free_body_gives_its_acceleration_and_its_work_is_booked() {
+    let mesh = mesh::block([2, 2, 2], [2e-3, 2e-3, 2e-3]);
+    let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
+    let g = [30.0, -20.0, 10.0];
+    setup.load = Load::weight(&setup.mass, 0..mesh.nodes.len(), g);
+    let mass: f64 = setup.mass.iter().sum();
+    let dt = setup.dt;
+    let mut simulation = Simulation::new(setup);
+    let energies = (0..=100).map(|_| simulation.step(true).energies.unwrap()).last().unwrap();
+    // v^{n+1/2} = n g dt + g dt from rest at -dt/2
+    for v in simulation.velocity() {
+        for i in 0..3 {
+            assert!((v.0[i] / (101.0 * dt * g[i]) - 1.0).abs() < 1e-9);
+        }
+    }
+    // at n = 100: T = 1/2 m g^2 dt^2 n (n + 1)
+    let kinetic = 0.5 * mass * 1400.0 * dt * dt * 100.0 * 101.0;
+    assert!((energies.kinetic / kinetic - 1.0).abs() < 1e-9, "{} {kinetic}", energies.kinetic);
+    assert!((energies.external_work / kinetic - 1.0).abs() < 1e-9);
+    assert!(simulation.ledger().balance_error() < 1e-9);
+}
+
+#[test]
+fn fixed_directions_do_not_move_and_their_supports_do_no_work() {
+    let mesh = mesh::block([4, 2, 2], [4e-3, 2e-3, 2e-3]);
+    let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
+    let sides = &mesh.bodies[0].node_sets["y-"];
+    setup.fixed = sides.iter().map(|&node| Fixed { node, axes: [false, true, false] }).collect();
+    setup.velocity.iter_mut().zip(&mesh.nodes).for_each(|(v, x)| {
+        // strains near 1e-10: the trapezoidal work is exact for a linear force
+        *v = Padded::new([1e-4 * x[0], 3e-6 - 5e-4 * x[2], 2e-4 * x[1]]);
+    });
+    let mut simulation = Simulation::new(setup);
+    for _ in 0..500 {
+        simulation.step(true);
+    }
+    let u = simulation.displacement();
+    assert!(sides.iter().all(|&n| u[n as usize].0[1] == 0.0));
+    assert!(sides.iter().any(|&n| u[n as usize].0[0] != 0.0));
+    assert!(u.iter().any(|u| u.0[1] != 0.0));
+    let error = simulation.ledger().balance_error();
+    assert!(error < 1e-9, "{error:e}");
 }

@@ -22,6 +22,7 @@ pub struct Sample {
 pub struct Convergence {
     samples: Vec<Sample>,
     assumed: f64,
+    observe: bool,
 }
 
 /// Observed orders that are believed: below, refinement hardly helps; above, the difference of
@@ -35,7 +36,14 @@ impl Convergence {
         let mut samples: Vec<_> =
             samples.into_iter().map(|(size, value)| Sample { size, value }).collect();
         samples.sort_by(|a, b| b.size.total_cmp(&a.size));
-        Self { samples, assumed }
+        Self { samples, assumed, observe: true }
+    }
+
+    /// The same for a quantity whose order is known by theory and whose values scatter about it, so
+    /// that an order seen by three meshes would be chance: `order` is used with the factor for an
+    /// order that is not shown.
+    pub fn with_known_order(samples: impl IntoIterator<Item = (f64, f64)>, order: f64) -> Self {
+        Self { observe: false, ..Self::new(samples, order) }
     }
 
     /// The values, coarse to fine.
@@ -53,6 +61,9 @@ impl Convergence {
     /// fall at a believable order.
     pub fn order(&self) -> Option<f64> {
         let [.., c, b, a] = self.samples[..] else { return None };
+        if !self.observe {
+            return None;
+        }
         let ratio = (c.value - b.value) / (b.value - a.value);
         let excess =
             |p: f64| (c.size.powf(p) - b.size.powf(p)) / (b.size.powf(p) - a.size.powf(p)) - ratio;
@@ -116,6 +127,9 @@ mod tests {
         let noise = Convergence::new([(4.0, 1.0), (2.0, 1.1), (1.0, 1.0)], 1.0);
         assert_eq!(noise.order(), None);
         assert!((noise.uncertainty() - 0.3).abs() < 1e-12);
+        let scatter = Convergence::with_known_order([(4.0, 1.7), (2.0, 1.1), (1.0, 1.0)], 1.0);
+        assert_eq!(scatter.order(), None);
+        assert!((scatter.uncertainty() - 0.3).abs() < 1e-12);
         let one = Convergence::new([(1.0, 5.0)], 1.0);
         assert_eq!(one.uncertainty(), f64::INFINITY);
     }

@@ -9,8 +9,14 @@ mod convergence;
 mod problem;
 mod row;
 
+mod body;
+mod collision;
+mod lysmer;
+mod patch;
 mod slider_tables;
+mod sliding;
+mod waves;
 
 pub use convergence::{Convergence, Sample};
-pub use problem::{PROBLEMS, Problem, Set, Size, VerifyError, find};
+pub use problem::{Cause, PROBLEMS, Problem, Set, Size, VerifyError, find};
 pub use row::Row;

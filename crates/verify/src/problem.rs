@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, slider_tables};
+use crate::{Row, collision, lysmer, patch, slider_tables, sliding, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -33,6 +33,9 @@ pub struct Problem {
     pub(crate) run: fn(Size) -> Outcome,
 }
 
+/// The error of a solver.
+pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+
 /// Why a problem could not be run to its end.
 #[derive(Debug, Error)]
 #[error("verification problem '{name}': {cause}")]
@@ -40,19 +43,69 @@ pub struct VerifyError {
     /// The problem.
     pub name: &'static str,
     /// What went wrong in it.
-    pub cause: Box<dyn std::error::Error + Send + Sync>,
+    pub cause: Cause,
 }
 
 /// What a problem's own function returns: its rows, or the error of the solver that failed.
-pub(crate) type Outcome = Result<Vec<Row>, Box<dyn std::error::Error + Send + Sync>>;
+pub(crate) type Outcome = Result<Vec<Row>, Cause>;
 
 /// All problems, from the element to rolling contact.
-pub const PROBLEMS: &[Problem] = &[Problem {
-    name: "slider-tables",
-    about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
-    set: Set::Default,
-    run: slider_tables::run,
-}];
+pub const PROBLEMS: &[Problem] = &[
+    Problem {
+        name: "patch",
+        about: "A uniform finite strain of seven distorted elements: exact stress, no residual",
+        set: Set::Default,
+        run: patch::patch,
+    },
+    Problem {
+        name: "rotation",
+        about: "A rigid rotation through a full turn: no stress, no force",
+        set: Set::Default,
+        run: patch::rotation,
+    },
+    Problem {
+        name: "bar-wave",
+        about: "A wave in a slender bar: speed sqrt(E/rho) and stress rho c v",
+        set: Set::Default,
+        run: waves::bar,
+    },
+    Problem {
+        name: "column-wave",
+        about: "A wave in a laterally confined column: speed c_p and stress rho c_p v",
+        set: Set::Default,
+        run: waves::column,
+    },
+    Problem {
+        name: "block-slide",
+        about: "A block that slides on a plane, stops at v0^2/(2 mu g) and stays",
+        set: Set::Default,
+        run: sliding::stop,
+    },
+    Problem {
+        name: "incline",
+        about: "A block on an incline: sticks below the angle of friction, slides above",
+        set: Set::Default,
+        run: sliding::incline,
+    },
+    Problem {
+        name: "colliding-bars",
+        about: "Two equal bars colliding: contact time 2L/c, pressure rho c v, energies, momentum",
+        set: Set::Default,
+        run: collision::run,
+    },
+    Problem {
+        name: "lysmer",
+        about: "A wave that meets a quiet end: what comes back",
+        set: Set::Default,
+        run: lysmer::run,
+    },
+    Problem {
+        name: "slider-tables",
+        about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
+        set: Set::Default,
+        run: slider_tables::run,
+    },
+];
 
 /// The problem of a name.
 pub fn find(name: &str) -> Option<&'static Problem> {

@@ -1,10 +1,9 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
 use crate::{lumped_mass, mean_gradient};
+use mesh::{HEX_CORNERS as CORNERS, seven_hex_patch};
 
 mod full;
-
-use mesh::{Body, HEX_CORNERS as CORNERS};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 const ELEMENT: Element = Element { hourglass: 0.05 };
@@ -12,40 +11,6 @@ const LEVELS: [Level; 3] = [Level::Portable, Level::Avx2, Level::Avx512];
 
 fn solid(mesh: &Mesh, level: Level) -> Solid {
     Solid::new(mesh, &[STEEL], ELEMENT, Viscosity::default(), level).unwrap()
-}
-
-/// The seven-element patch: a cube with a skewed hexahedron inside (MacNeal and Harder 1985).
-fn seven_hex_patch() -> Mesh {
-    let outer = CORNERS.map(|c| c.map(|v| 0.5 + 0.5 * v));
-    let inner = [
-        [0.249, 0.342, 0.192],
-        [0.826, 0.288, 0.288],
-        [0.850, 0.649, 0.263],
-        [0.273, 0.750, 0.230],
-        [0.320, 0.186, 0.643],
-        [0.677, 0.305, 0.683],
-        [0.788, 0.693, 0.644],
-        [0.165, 0.745, 0.702],
-    ];
-    let faces =
-        [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
-    let mut hexes = vec![[8, 9, 10, 11, 12, 13, 14, 15]];
-    for [a, b, c, d] in faces {
-        // outer face seen from outside, inner face behind it
-        hexes.push([a + 8, b + 8, c + 8, d + 8, a, b, c, d]);
-    }
-    let nodes: Vec<_> = outer.into_iter().chain(inner).collect();
-    Mesh {
-        bodies: vec![Body {
-            name: "patch".into(),
-            nodes: 0..16,
-            hexes: 0..7,
-            node_sets: Default::default(),
-            surfaces: Default::default(),
-        }],
-        nodes,
-        hexes,
-    }
 }
 
 /// A block whose interior and boundary nodes are shaken.

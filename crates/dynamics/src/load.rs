@@ -1,0 +1,62 @@
+//! Given forces and directions in which nodes do not move.
+
+use crate::hub::smoothstep;
+use mesh::Padded;
+
+/// Forces on nodes that keep their direction, rising together by a smoothstep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Nodes and the forces on them after the ramp (N).
+    pub forces: Vec<(u32, [f64; 3])>,
+    /// Duration of the ramp (s); zero for a load that acts at once.
+    pub ramp: f64,
+}
+
+impl Load {
+    /// The weight of nodes of these masses (kg) under a uniform acceleration (m/s^2).
+    pub fn weight(mass: &[f64], nodes: std::ops::Range<usize>, acceleration: [f64; 3]) -> Self {
+        let forces = nodes.map(|n| (n as u32, acceleration.map(|a| mass[n] * a))).collect();
+        Self { forces, ramp: 0.0 }
+    }
+
+    /// Adds the forces at `time` to `force`.
+    pub(crate) fn apply(&self, time: f64, force: &mut [Padded]) {
+        let share = smoothstep(time, self.ramp);
+        for (n, f) in &self.forces {
+            for i in 0..3 {
+                force[*n as usize].0[i] += share * f[i];
+            }
+        }
+    }
+
+    /// Power of the forces at `time` on nodes that move at `velocity` (W).
+    pub(crate) fn power(&self, time: f64, velocity: &[Padded]) -> f64 {
+        let power = |(n, f): &(u32, [f64; 3])| {
+            let v = velocity[*n as usize].0;
+            f[0] * v[0] + f[1] * v[1] + f[2] * v[2]
+        };
+        smoothstep(time, self.ramp) * self.forces.iter().map(power).sum::<f64>()
+    }
+}
+
+/// Directions in which a node does not move; its support does no work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fixed {
+    /// The node.
+    pub node: u32,
+    /// Whether it is fixed in x, y, z.
+    pub axes: [bool; 3],
+}
+
+impl Fixed {
+    /// Sets the fixed components of a nodal field to zero.
+    pub(crate) fn clear(fixed: &[Self], field: &mut [Padded]) {
+        for f in fixed {
+            for i in 0..3 {
+                if f.axes[i] {
+                    field[f.node as usize].0[i] = 0.0;
+                }
+            }
+        }
+    }
+}

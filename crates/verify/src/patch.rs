@@ -1,0 +1,182 @@
+//! The patch test and rigid rotation: what an element must do exactly.
+//!
+//! *Patch.* Nodes of the seven-element cube of MacNeal and Harder (1985) are displaced by
+//! u = H X with finite strains of 10 to 20 %. An element that passes has the same deformation
+//! gradient F = I + H everywhere, hence the Cauchy stress of the St. Venant–Kirchhoff law,
+//! sigma = F (lambda tr(E) I + 2G E) F^T/det F with E = (F^T F - I)/2, no force on the interior
+//! nodes, and on the outer nodes of each face the resultant P N A of the first Piola stress P = F S.
+//!
+//! *Rotation.* Under u = (R - I) X the strain E vanishes, so that stress and force do at any angle.
+//!
+//! Both limits are round-off: a strain of order one is a difference of numbers of order one, exact
+//! to a few eps = 2.2e-16, and a force sums fewer than a thousand products; 1e-12 E leaves a factor
+//! above ten.
+
+use crate::body::STEEL;
+use crate::problem::{Outcome, Size};
+use crate::row::Row;
+use mesh::{Mesh, Padded, seven_hex_patch};
+use solid::{Element, Level, Solid, Viscosity};
+
+type Matrix = [[f64; 3]; 3];
+
+const ROUND_OFF: (f64, &str) = (1e-12, "round-off of fewer than 1000 products of order one");
+
+/// Unsymmetric, so that it turns the element as well.
+const GRADIENT: Matrix = [[0.12, 0.05, -0.08], [-0.03, -0.10, 0.06], [0.07, -0.02, 0.15]];
+
+pub(crate) fn patch(_: Size) -> Outcome {
+    let mesh = seven_hex_patch();
+    let mut solid = steel(&mesh)?;
+    let u = affine(&mesh, GRADIENT);
+    let mut force = vec![Padded::ZERO; mesh.nodes.len()];
+    let sums = solid.subtract_internal_force(&u, &[], &mut force, true);
+    let mut stress = vec![[0.0; 6]; mesh.hexes.len()];
+    solid.cauchy_stress(&u, &mut stress);
+
+    let source = "St. Venant-Kirchhoff law in F = I + H";
+    let (second_piola, energy) = saint_venant_kirchhoff(&GRADIENT);
+    let f = deformation(&GRADIENT);
+    let first_piola = multiply(&f, &second_piola);
+    let exact = cauchy(&f, &first_piola);
+    let mut rows = Vec::new();
+    for (k, name) in ["xx", "yy", "zz", "xy", "yz", "xz"].into_iter().enumerate() {
+        // the element that is furthest off
+        let worst = stress.iter().map(|s| s[k]).fold(exact[k], |worst, s| {
+            if (s - exact[k]).abs() >= (worst - exact[k]).abs() { s } else { worst }
+        });
+        let quantity = format!("sigma_{name} of the worst element (Pa)");
+        rows.push(Row::new(quantity, [exact[k], worst], STEEL.young, ROUND_OFF, source));
+    }
+    rows.push(Row::new(
+        "largest force on an interior node over E A",
+        [0.0, largest(&force[8..]) / STEEL.young],
+        1.0,
+        ROUND_OFF,
+        "equilibrium of a uniform stress",
+    ));
+    // the face x = 1 has unit area and normal; the force on its nodes balances P N A
+    let mut resultant = [0.0; 3];
+    for (x, f) in mesh.nodes.iter().zip(&force).filter(|(x, _)| x[0] == 1.0) {
+        // each corner belongs to three faces: count the share of this one by its own traction
+        let share = corner_share(&first_piola, *x);
+        for i in 0..3 {
+            resultant[i] -= f.0[i] - share[i];
+        }
+    }
+    for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let quantity = format!("force on the face x = 1 along {name} (N)");
+        let values = [first_piola[i][0], resultant[i]];
+        rows.push(Row::new(quantity, values, STEEL.young, ROUND_OFF, source));
+    }
+    let stored = [energy, sums.internal];
+    rows.push(Row::new("strain energy (J)", stored, energy, ROUND_OFF, source));
+    let hourglass = [0.0, sums.hourglass / sums.internal];
+    rows.push(Row::new(
+        "hourglass energy over strain energy",
+        hourglass,
+        1.0,
+        ROUND_OFF,
+        "gamma is orthogonal to every affine field (Flanagan and Belytschko 1981)",
+    ));
+    Ok(rows)
+}
+
+pub(crate) fn rotation(_: Size) -> Outcome {
+    let mesh = seven_hex_patch();
+    let mut solid = steel(&mesh)?;
+    let (mut worst_stress, mut worst_force) = (0.0_f64, 0.0_f64);
+    for step in 1..=24 {
+        let u = affine(&mesh, turn(std::f64::consts::TAU * f64::from(step) / 24.0));
+        let mut force = vec![Padded::ZERO; mesh.nodes.len()];
+        solid.subtract_internal_force(&u, &[], &mut force, false);
+        worst_force = worst_force.max(largest(&force));
+        let mut stress = vec![[0.0; 6]; mesh.hexes.len()];
+        solid.cauchy_stress(&u, &mut stress);
+        worst_stress = stress.iter().flatten().fold(worst_stress, |m, s| m.max(s.abs()));
+    }
+    let source = "objectivity, 24 angles through 2 pi about (1, 2, 2)";
+    let row = |quantity: &str, value: f64| {
+        Row::new(quantity, [0.0, value / STEEL.young], 1.0, ROUND_OFF, source)
+    };
+    Ok(vec![row("largest stress over E", worst_stress), row("largest force over E A", worst_force)])
+}
+
+fn steel(mesh: &Mesh) -> Result<Solid, solid::SolidError> {
+    let element = Element { hourglass: 0.05 };
+    Solid::new(mesh, &[STEEL], element, Viscosity::default(), Level::detect())
+}
+
+fn affine(mesh: &Mesh, h: Matrix) -> Vec<Padded> {
+    let u = |x: &[f64; 3]| [0, 1, 2].map(|i| (0..3).map(|j| h[i][j] * x[j]).sum());
+    mesh.nodes.iter().map(|x| Padded::new(u(x))).collect()
+}
+
+/// R - I for a turn about (1, 2, 2)/3 (Rodrigues).
+fn turn(angle: f64) -> Matrix {
+    let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let (s, c) = angle.sin_cos();
+    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+    let mut h = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            let identity = if i == j { 1.0 } else { 0.0 };
+            h[i][j] = (c - 1.0) * identity + s * cross[i][j] + (1.0 - c) * n[i] * n[j];
+        }
+    }
+    h
+}
+
+fn deformation(h: &Matrix) -> Matrix {
+    let mut f = *h;
+    (0..3).for_each(|i| f[i][i] += 1.0);
+    f
+}
+
+fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
+    let mut c = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            c[i][j] = (0..3).map(|k| a[i][k] * b[k][j]).sum();
+        }
+    }
+    c
+}
+
+fn transposed(a: &Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[j][i]))
+}
+
+/// S = lambda tr(E) I + 2G E with E = (F^T F - I)/2, and the energy 1/2 S:E of unit volume.
+fn saint_venant_kirchhoff(h: &Matrix) -> (Matrix, f64) {
+    let f = deformation(h);
+    let mut e = multiply(&transposed(&f), &f);
+    for i in 0..3 {
+        for j in 0..3 {
+            e[i][j] = 0.5 * (e[i][j] - if i == j { 1.0 } else { 0.0 });
+        }
+    }
+    let trace = e[0][0] + e[1][1] + e[2][2];
+    let mut s = e.map(|row| row.map(|c| 2.0 * STEEL.shear() * c));
+    (0..3).for_each(|i| s[i][i] += STEEL.lame() * trace);
+    let energy = (0..9).map(|k| 0.5 * s[k / 3][k % 3] * e[k / 3][k % 3]).sum();
+    (s, energy)
+}
+
+/// sigma = P F^T/det F, as xx yy zz xy yz xz.
+fn cauchy(f: &Matrix, first_piola: &Matrix) -> [f64; 6] {
+    let minor = |i: usize, j: usize| f[1][i] * f[2][j] - f[1][j] * f[2][i];
+    let det = f[0][0] * minor(1, 2) - f[0][1] * minor(0, 2) + f[0][2] * minor(0, 1);
+    let s = multiply(first_piola, &transposed(f));
+    [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| s[i][j] / det)
+}
+
+/// Internal force on a corner of the cube from the tractions of the two faces other than x = 1,
+/// a quarter of each face's resultant.
+fn corner_share(first_piola: &Matrix, corner: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| (1..3).map(|j| -0.25 * first_piola[i][j] * (2.0 * corner[j] - 1.0)).sum())
+}
+
+fn largest(force: &[Padded]) -> f64 {
+    force.iter().flat_map(|f| f.xyz()).fold(0.0, |m: f64, c| m.max(c.abs()))
+}

@@ -1,0 +1,215 @@
+//! A block sliding on a plane: Coulomb friction of penalty contact against rigid-body mechanics.
+//!
+//! *Stop.* A block under the weight m g slides at v_0: x = v_0 t - mu g t^2/2 until it stops at
+//! v_0^2/(2 mu g), and stays. *Incline.* On a plane at the angle alpha the block sticks for
+//! tan(alpha) < mu and slides with a = g (sin(alpha) - mu cos(alpha)) above (Coulomb 1781).
+//!
+//! The block is elastic, the friction springs of the contact are, and the plane is a held body. With
+//! the weight p = rho g H per area and k_t the areal stiffness of both passes they give by
+//! d = mu p/k_t + mu rho g H^2/(2G), and that is what the limits are made of:
+//! - a block that slides already: 2 d, for loading at once, at the start and again at the stop;
+//! - a block held at the share s = tan(alpha)/mu of its friction, loaded at once: the springs hold
+//!   mu m g from d on, and the work of the load is used up at s x = x - d/2, hence d/(2 (1 - s)) for
+//!   s > 1/2; and 2 d for loading at once where that is more;
+//! - a block that starts to slide: while its springs load it gains at most the speed
+//!   v_1 = sqrt(2 g sin(alpha) d), the load's work over d, and runs ahead by v_1 t.
+//!
+//! The block first settles under its weight, with critically damped contact.
+
+use crate::body::{STEEL, at_rest, contact_material};
+use crate::problem::{Cause, Outcome, Size};
+use crate::row::Row;
+use contact::{Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use dynamics::{Load, Setup, Simulation};
+use mesh::{Mesh, Padded};
+use solid::Material;
+
+const MU: f64 = 0.3;
+/// Acceleration (m/s^2) that lets a millimetre block stop within some thousand steps.
+const GRAVITY: f64 = 2e4;
+/// Edges of the block (m): so flat that friction does not lift its rear, mu H/2 < L/6.
+const BLOCK: [f64; 3] = [8e-3, 4e-3, 2e-3];
+/// No Poisson effect: a column under its weight stays straight.
+const MATERIAL: Material = Material { poisson: 0.0, ..STEEL };
+/// Length of the plane, from one block's length behind the block (m).
+const PLANE: f64 = 40e-3;
+/// Time to settle (s), some ten periods of the block on its springs.
+const SETTLING: f64 = 6e-5;
+/// Areal stiffness of both passes (N/m^3), normal and tangential.
+const SPRING: f64 = 4e13;
+
+/// Share of the give in the limit of a sliding block: doubled, at the start and at the stop.
+const SUDDEN: f64 = 4.0;
+const FROM: &str = "elastic give d of friction springs and block, loaded at once (module text)";
+
+pub(crate) fn stop(size: Size) -> Outcome {
+    let v0 = 1.5;
+    let (time, distance) = (v0 / (MU * GRAVITY), v0 * v0 / (2.0 * MU * GRAVITY));
+    let limit = (SUDDEN * give() / distance, FROM);
+    let mut block = Block::new(size, [0.0, 0.0, -GRAVITY], v0)?;
+    // contact books the step that ended at t = 0 in the first step
+    block.simulation.step(false);
+    let earlier = block.simulation.ledger().friction;
+    let source = "x = v0 t - mu g t^2/2";
+    let mut rows = Vec::new();
+    for share in [0.25, 0.5, 0.75] {
+        let t = share * time;
+        let x = block.slide_until(t);
+        let exact = v0 * t - 0.5 * MU * GRAVITY * t * t;
+        let quantity = format!("x at t = {share} v0/(mu g) (m)");
+        rows.push(Row::new(quantity, [exact, x], distance, limit, source));
+    }
+    let x = block.slide_until(1.2 * time);
+    let stop = [distance, x];
+    rows.push(Row::new("distance to the stop (m)", stop, distance, limit, "v0^2/(2 mu g)"));
+    let later = block.slide_until(1.5 * time);
+    let creep = [0.0, (later - x) / distance];
+    rows.push(Row::new("creep after the stop over the distance", creep, 1.0, limit, "adhesion"));
+    let heat = block.simulation.ledger().friction - earlier;
+    let kinetic = 0.5 * block.mass * v0 * v0;
+    let source = "the kinetic energy m v0^2/2";
+    rows.push(Row::new("heat of friction (J)", [kinetic, heat], kinetic, limit, source));
+    Ok(rows)
+}
+
+pub(crate) fn incline(size: Size) -> Outcome {
+    let time = match size {
+        Size::Quick => 5e-4,
+        Size::Full => 2.5e-3,
+    };
+    let mut rows = Vec::new();
+    for share in [0.5, 0.9] {
+        let angle = (share * MU).atan();
+        let x = Block::new(size, weight(angle), 0.0)?.slide_until(time);
+        // a block without friction sets the scale
+        let free = 0.5 * GRAVITY * angle.sin() * time * time;
+        let held = f64::max(2.0, 0.5 / (1.0 - share)) * give();
+        rows.push(Row::new(
+            format!("tan(angle) = {share} mu: x over that without friction"),
+            [0.0, x / free],
+            1.0,
+            (held / free, FROM),
+            "sticks for tan(angle) < mu",
+        ));
+    }
+    for share in [1.2, 2.0] {
+        let angle = (share * MU).atan();
+        let acceleration = GRAVITY * (angle.sin() - MU * angle.cos());
+        let x = Block::new(size, weight(angle), 0.0)?.slide_until(time);
+        let exact = 0.5 * acceleration * time * time;
+        let ahead = (2.0 * GRAVITY * angle.sin() * give()).sqrt() * time + SUDDEN * give();
+        rows.push(Row::new(
+            format!("tan(angle) = {share} mu: 2 x/t^2 (m/s^2)"),
+            [acceleration, 2.0 * x / (time * time)],
+            acceleration,
+            (ahead / exact, FROM),
+            "g (sin(angle) - mu cos(angle))",
+        ));
+    }
+    Ok(rows)
+}
+
+fn weight(angle: f64) -> [f64; 3] {
+    [GRAVITY * angle.sin(), 0.0, -GRAVITY * angle.cos()]
+}
+
+/// d = mu p/k_t + mu rho g H^2/(2G) (m).
+fn give() -> f64 {
+    let pressure = MATERIAL.density * GRAVITY * BLOCK[2];
+    MU * pressure / SPRING + MU * pressure * BLOCK[2] / (2.0 * MATERIAL.shear())
+}
+
+struct Block {
+    simulation: Simulation,
+    masses: Vec<f64>,
+    mass: f64,
+}
+
+impl Block {
+    /// A block on the plane z = 0 that has settled under its weight, sliding at `speed` along x.
+    fn new(size: Size, acceleration: [f64; 3], speed: f64) -> Result<Self, Cause> {
+        let cells = match size {
+            Size::Quick => [4, 2, 1],
+            Size::Full => [8, 4, 2],
+        };
+        let block = mesh::block(cells, BLOCK);
+        let h = BLOCK[0] / cells[0] as f64;
+        let plane_cells = [(PLANE / h).round() as usize, cells[1], 1];
+        let mut plane = mesh::block(plane_cells, [PLANE, BLOCK[1], h]);
+        plane.nodes.iter_mut().for_each(|x| *x = [x[0] - BLOCK[0], x[1], x[2] - h]);
+        let mesh = mesh::join(&[block, plane]);
+
+        let down = [0.0, 0.0, acceleration[2]];
+        let mut settling = setup(&mesh, down, 1.0)?;
+        let pressure = -down[2] * MATERIAL.density * BLOCK[2];
+        let body = mesh.bodies[0].nodes.clone();
+        settling.displacement[body.clone()].fill(Padded::new([0.0, 0.0, -pressure / SPRING]));
+        let mut settling = Simulation::new(settling);
+        while settling.time() < SETTLING {
+            settling.step(false);
+        }
+
+        let mut setup = setup(&mesh, acceleration, 0.1)?;
+        setup.displacement.copy_from_slice(settling.displacement());
+        let dt = setup.dt;
+        if speed > 0.0 {
+            // it slid before t = 0: contact has seen the step that led here
+            setup.velocity[body.clone()].fill(Padded::new([
+                speed + 0.5 * dt * MU * GRAVITY,
+                0.0,
+                0.0,
+            ]));
+            let mut before = setup.displacement.clone();
+            before[body.clone()].iter_mut().for_each(|u| u.0[0] -= dt * speed);
+            let mut unused = vec![Padded::ZERO; before.len()];
+            if let Some(contact) = &mut setup.contact {
+                contact.apply_frictionless(setup.solid.reference(), &before, &mut unused);
+            }
+        }
+        let masses = setup.mass[body].to_vec();
+        let mass = masses.iter().sum();
+        Ok(Self { simulation: Simulation::new(setup), masses, mass })
+    }
+
+    /// Steps to the time `t` (the centre of mass is interpolated within the last step) and returns
+    /// the displacement of the centre of mass along x (m).
+    fn slide_until(&mut self, t: f64) -> f64 {
+        let mut before = (self.simulation.time(), self.centre());
+        let mut now = before;
+        while now.0 < t {
+            self.simulation.step(false);
+            before = now;
+            now = (self.simulation.time(), self.centre());
+        }
+        let share = if now.0 > before.0 { (t - before.0) / (now.0 - before.0) } else { 1.0 };
+        before.1 + share * (now.1 - before.1)
+    }
+
+    fn centre(&self) -> f64 {
+        let u = self.simulation.displacement();
+        self.masses.iter().zip(u).map(|(m, u)| m * u.0[0]).sum::<f64>() / self.mass
+    }
+}
+
+/// Block and held plane at rest, with normal contact damping as a share of critical.
+fn setup(mesh: &Mesh, acceleration: [f64; 3], damping: f64) -> Result<Setup, Cause> {
+    let settings = PenaltySettings {
+        normal: Stiffness::Areal(SPRING),
+        tangential: Stiffness::Areal(SPRING),
+        damping,
+        curvature: false,
+    };
+    let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
+    let contact = PenaltyContact::new(
+        mesh,
+        surfaces.map(|surface| (surface, contact_material(&MATERIAL))),
+        &settings,
+        None,
+        Box::new(Coulomb { mu: MU }),
+    )?;
+    let mut setup = at_rest(mesh, MATERIAL, 0.7, Some(&contact))?;
+    setup.held = mesh.bodies[1].nodes.clone().map(|n| n as u32).collect();
+    setup.load = Load::weight(&setup.mass, mesh.bodies[0].nodes.clone(), acceleration);
+    setup.contact = Some(contact);
+    Ok(setup)
+}
