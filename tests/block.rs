@@ -1,7 +1,7 @@
 //! A free block in explicit dynamics against five other codes.
 #![allow(clippy::unwrap_used)]
 
-use dynamics::{QuietEnd, Setup, Simulation};
+use dynamics::{Load, QuietEnd, Setup, Simulation};
 use mesh::Padded;
 use solid::{Level, Material, Solid, Viscosity, Volumetric};
 
@@ -28,6 +28,8 @@ fn corner(n: usize) -> f64 {
     let start = |x: &[f64; 3]| Padded::new([0.0, 0.0, -SCALE * x[2] / size]);
     let dt = 1e-7;
     let mut simulation = Simulation::new(Setup {
+        fixed: Vec::new(),
+        load: Load::default(),
         solid,
         contact: None,
         hub: None,
