@@ -7,6 +7,7 @@
 
 mod convergence;
 mod problem;
+mod rolling_dynamic;
 mod row;
 
 mod body;

@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, collision, lysmer, patch, slider_tables, sliding, waves};
+use crate::{Row, collision, lysmer, patch, rolling_dynamic, slider_tables, sliding, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -98,6 +98,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "A wave that meets a quiet end: what comes back",
         set: Set::Default,
         run: lysmer::run,
+    },
+    Problem {
+        name: "rolling-dynamic",
+        about: "Steady rolling by explicit dynamics, penalty bias extrapolated, beside CONTACT",
+        set: Set::Long,
+        run: rolling_dynamic::run,
     },
     Problem {
         name: "slider-tables",
