@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, collision, lysmer, patch, slider_tables, sliding, waves};
+use crate::{Row, collision, lamb, lysmer, patch, slider_tables, sliding, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -98,6 +98,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "A wave that meets a quiet end: what comes back",
         set: Set::Default,
         run: lysmer::run,
+    },
+    Problem {
+        name: "lamb",
+        about: "A load that appears on a half-space: static tail and Rayleigh wave",
+        set: Set::Default,
+        run: lamb::run,
     },
     Problem {
         name: "slider-tables",
