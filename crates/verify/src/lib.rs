@@ -12,6 +12,7 @@ mod row;
 
 mod body;
 mod collision;
+mod lamb;
 mod lysmer;
 mod patch;
 mod slider_tables;

@@ -1,6 +1,6 @@
 //! The list of problems.
 
-use crate::{Row, collision, lysmer, patch, rolling_dynamic, slider_tables, sliding, waves};
+use crate::{Row, collision, lamb, lysmer, patch, rolling_dynamic, slider_tables, sliding, waves};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -104,6 +104,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "Steady rolling by explicit dynamics, penalty bias extrapolated, beside CONTACT",
         set: Set::Long,
         run: rolling_dynamic::run,
+    },
+    Problem {
+        name: "lamb",
+        about: "A load that appears on a half-space: static tail and Rayleigh wave",
+        set: Set::Default,
+        run: lamb::run,
     },
     Problem {
         name: "slider-tables",
