@@ -144,8 +144,11 @@ impl Pass<'_> {
         let followed =
             project(self.master, positions, self.curvature, x, pair.face, pair.xi, pair.eta);
         let Some(foot) = followed.foot else {
+            // A node that slides off the border takes along what its normal spring holds.
+            let lost = pair.stored_normal();
             pair.gap = f64::INFINITY;
             pair.open();
+            pair.damping_work = lost;
             // Walk anew from the middle of the face.
             (pair.xi, pair.eta) = (0.0, 0.0);
             return;

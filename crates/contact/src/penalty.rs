@@ -56,7 +56,8 @@ pub struct ContactSums {
     pub stored_tangential: f64,
     /// Work dissipated by friction in the step that ended at `x^n` (J).
     pub friction_work: f64,
-    /// Work dissipated by the normal dampers in that step (J).
+    /// Work dissipated by the normal dampers in that step, and the energy of the normal springs of
+    /// nodes that slid off the border of the other surface (J).
     pub damping_work: f64,
     /// Pairs in contact.
     pub closed: usize,

@@ -79,6 +79,19 @@ fn scale_gives_bulk_modulus_over_depth_in_each_pass() {
 }
 
 #[test]
+fn a_node_that_slides_off_the_border_books_what_its_spring_held() {
+    let mut rig = Rig::slider(Coulomb { mu: 0.0 }, &SETTINGS);
+    let before = rig.shift([0.0, 0.0, -DEPTH]);
+    // one row of four lower nodes leaves the upper plate, none enters
+    let after = rig.shift([0.5e-3, 0.0, -DEPTH]);
+    assert_eq!(before.closed - after.closed, 4);
+    let cell = 20e-3 / 23.0 * 8e-3 / 9.0;
+    let held = 4.0 * 0.5 * (0.5 * K * cell) * DEPTH * DEPTH;
+    assert!((after.damping_work / held - 1.0).abs() < 1e-9, "{after:?} {held}");
+    assert!(((before.stored_normal - after.stored_normal) / held - 1.0).abs() < 1e-8);
+}
+
+#[test]
 fn frictionless_call_gives_the_same_normal_forces() {
     let (mut rig, sums) = press(Rig::plates(7, 4, Coulomb { mu: 0.0 }));
     let mut other = Rig::plates(7, 4, Coulomb { mu: 0.5 });
