@@ -12,6 +12,7 @@ mod row;
 
 mod body;
 mod collision;
+mod free_block;
 mod lamb;
 mod lysmer;
 mod patch;

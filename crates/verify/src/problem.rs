@@ -1,6 +1,8 @@
 //! The list of problems.
 
-use crate::{Row, collision, lamb, lysmer, patch, rolling_dynamic, slider_tables, sliding, waves};
+use crate::{
+    Row, collision, free_block, lamb, lysmer, patch, rolling_dynamic, slider_tables, sliding, waves,
+};
 use thiserror::Error;
 
 /// When a problem runs.
@@ -62,6 +64,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "A rigid rotation through a full turn: no stress, no force",
         set: Set::Default,
         run: patch::rotation,
+    },
+    Problem {
+        name: "free-block",
+        about: "A free block of fully integrated elements: five other codes to 7 digits",
+        set: Set::Default,
+        run: free_block::run,
     },
     Problem {
         name: "bar-wave",

@@ -59,7 +59,7 @@ const REFERENCES: [Reference; 3] = [
 ];
 
 /// Scale factors of the penalty from which is extrapolated.
-const FACTORS: [f64; 2] = [1.0, 3.0];
+const FACTORS: [f64; 2] = [0.3, 1.0];
 
 /// What a run is judged by.
 #[derive(Clone, Copy)]
