@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::check::CheckArgs;
 use crate::slider::SliderArgs;
 use crate::verify::VerifyArgs;
 use case::Level;
@@ -46,6 +47,13 @@ pub enum Command {
     #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
         cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
     Mesh(MeshArgs),
+    /// Check where and by how much a run violates the contact conditions; exit code 1 beyond a limit
+    #[command(after_help = "Examples:\n  creepage check runs/quick\n  creepage check runs/quick \
+        --window 1.2e-3:1.5e-3 --limit violating_fraction=0.05\n  creepage check runs/b-falling \
+        --map violations.vtkhdf --json > check.json\n  creepage check other-code.vtkhdf --case \
+        case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
+        docs/checks.md.")]
+    Check(CheckArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

@@ -1,6 +1,7 @@
 //! `creepage`: the command line.
 
 mod args;
+mod check;
 mod commands;
 mod progress;
 mod report;
