@@ -14,6 +14,7 @@ use crate::surface::{Surface, body_name};
 use crate::tally::{SideTally, Statistic, Switches, Tally};
 use crate::vector::{Vec3, norm};
 use output::HistoryFile;
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -313,26 +314,25 @@ impl<'a> Checker<'a> {
             let step = frame.time - previous.time;
             self.scales.dt.is_some_and(|dt| (step / dt - 1.0).abs() < 0.01)
         });
-        for channel in &mut self.channels {
+        let (judge, record) = (&self.judge, (&frame, &contact, &pair_slip));
+        // Views and pairings are independent of each other: the same bits on any number of threads.
+        self.channels.par_iter_mut().for_each(|channel| {
+            let (frame, contact, pair_slip) = record;
             // (record of the traction, its contact, record of the slip, its pair's slip)
             let (traction, contact, slip, pair_slip, weight) = if channel.pairing == own {
-                (&frame, &contact, &frame, &pair_slip, weight)
+                (frame, contact, frame, pair_slip, weight)
             } else {
                 let Some(previous) = adjacent else {
-                    continue;
+                    return;
                 };
                 let step = frame.time - previous.time;
                 match own {
-                    Pairing::Before => {
-                        (&previous.frame, &previous.contact, &frame, &pair_slip, step)
-                    }
-                    Pairing::After => {
-                        (&frame, &contact, &previous.frame, &previous.pair_slip, step)
-                    }
+                    Pairing::Before => (&previous.frame, &previous.contact, frame, pair_slip, step),
+                    Pairing::After => (frame, contact, &previous.frame, &previous.pair_slip, step),
                 }
             };
-            take_view(channel, surface, traction, contact, slip, pair_slip, weight, &self.judge);
-        }
+            take_view(channel, surface, traction, contact, slip, pair_slip, weight, judge);
+        });
         self.previous = Some(Previous { time: frame.time, frame, contact, pair_slip });
     }
 
@@ -670,6 +670,7 @@ fn take_view(
     judge: &Judge,
 ) {
     let tally = &mut channel.tally;
+    tally.begin_record(traction.time);
     for row in (0..contact.len()).filter(|&row| surface.body[row] == channel.body) {
         let slip = match channel.view {
             View::Side(_) => Some(slip.slip_velocity[row]),
@@ -684,6 +685,7 @@ fn take_view(
             shear: traction.shear[row],
             slip,
             mu_used: traction.mu.as_ref().map(|mu| mu[row]),
+            state: traction.state.as_ref().map(|state| state[row]),
         };
         tally.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
     }

@@ -21,6 +21,8 @@ pub(crate) struct Node {
     pub slip: Vec3,
     /// The coefficient that the algorithm used.
     pub mu_used: Option<f64>,
+    /// What the algorithm calls it: 0 open, 1 stick, 2 slip.
+    pub state: Option<u8>,
 }
 
 /// What one node does to the conditions.
@@ -32,6 +34,8 @@ pub(crate) struct Judged {
     pub ratio: f64,
     /// |s| above the threshold.
     pub slips: bool,
+    /// Whether the algorithm lets it slip.
+    pub let_slip: bool,
     /// mu(|s|) of the law.
     pub mu_law: Option<f64>,
     /// p_f/(mu(|s|) p_n) - 1 where it slips.
@@ -85,6 +89,7 @@ impl Judge {
             speed,
             ratio,
             slips,
+            let_slip: node.state == Some(2),
             mu_law,
             law_error,
             law_error_own,

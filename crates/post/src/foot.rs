@@ -14,8 +14,8 @@ pub(crate) struct Pair {
     /// The body whose nodes are projected.
     pub slave: u8,
     masters: Vec<u32>,
-    /// Face of each node's last foot.
-    last: Vec<u32>,
+    /// Face of each node's last foot and where it was there.
+    last: Vec<(u32, [f64; 2])>,
     grid: HashMap<[i64; 2], Vec<u32>>,
     cell: f64,
 }
@@ -31,7 +31,13 @@ impl Pair {
             norm(sub(corners[2], corners[0])).max(norm(sub(corners[3], corners[1])))
         };
         let cell = masters.iter().map(edge).fold(f64::MIN_POSITIVE, f64::max);
-        Self { slave, masters, last: vec![NONE; surface.points.len()], grid: HashMap::new(), cell }
+        Self {
+            slave,
+            masters,
+            last: vec![(NONE, [0.0; 2]); surface.points.len()],
+            grid: HashMap::new(),
+            cell,
+        }
     }
 
     /// The slip velocity of each of `nodes` relative to the other surface, in its tangent plane;
@@ -47,13 +53,14 @@ impl Pair {
         let mut found = Vec::with_capacity(nodes.len());
         for &node in nodes {
             let x = at(node);
-            let on = |face: u32| {
+            let on = |face: u32, start: [f64; 2]| {
                 let corners = surface.faces[face as usize];
-                let foot = project(corners.map(|n| at(n as usize)), x)?;
+                let foot = project(corners.map(|n| at(n as usize)), x, start)?;
                 Some((foot, corners))
             };
-            let last = self.last[node];
-            let mut best = if last == NONE { None } else { on(last).map(|found| (last, found)) };
+            let (last, start) = self.last[node];
+            let mut best =
+                if last == NONE { None } else { on(last, start).map(|found| (last, found)) };
             if best.is_none() {
                 if !sorted {
                     self.sort_faces(surface, displacement);
@@ -61,10 +68,11 @@ impl Pair {
                 }
                 let candidates = self.near(x);
                 best = candidates
-                    .filter_map(|face| Some((face, on(face)?)))
+                    .filter_map(|face| Some((face, on(face, [0.0; 2])?)))
                     .min_by(|a, b| a.1.0.gap.abs().total_cmp(&b.1.0.gap.abs()));
             }
-            self.last[node] = best.as_ref().map_or(NONE, |(face, _)| *face);
+            self.last[node] =
+                best.as_ref().map_or((NONE, [0.0; 2]), |(face, (foot, _))| (*face, foot.at));
             found.push(best.map(|(_, (foot, corners))| {
                 let mut relative = velocity[node];
                 for (weight, corner) in foot.weights.into_iter().zip(corners) {
@@ -106,6 +114,7 @@ impl Pair {
 
 /// The foot of a node on a face.
 struct Foot {
+    at: [f64; 2],
     weights: [f64; 4],
     normal: Vec3,
     gap: f64,
@@ -113,8 +122,7 @@ struct Foot {
 
 /// Newton's iteration for the foot of `node` on the bilinear face through `x`; `None` where it
 /// lies off the face.
-fn project(x: [Vec3; 4], node: Vec3) -> Option<Foot> {
-    let (mut xi, mut eta) = (0.0, 0.0);
+fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Option<Foot> {
     for _ in 0..20 {
         let weights = shape(xi, eta);
         let (mut point, mut along, mut across, mut twist) =
@@ -141,14 +149,20 @@ fn project(x: [Vec3; 4], node: Vec3) -> Option<Foot> {
         if !(xi.abs() < 10.0 && eta.abs() < 10.0) {
             return None;
         }
-        if step[0].abs() < 1e-10 && step[1].abs() < 1e-10 {
+        // convergence is quadratic: what is left is far below round-off of the weights
+        if step[0].abs() < 1e-8 && step[1].abs() < 1e-8 {
             if xi.abs() > 1.0 + EDGE || eta.abs() > 1.0 + EDGE {
                 return None;
             }
             let normal = cross(along, across);
             let size = norm(normal);
             let normal = normal.map(|c| c / size);
-            return Some(Foot { weights: shape(xi, eta), normal, gap: dot(normal, away) });
+            return Some(Foot {
+                at: [xi, eta],
+                weights: shape(xi, eta),
+                normal,
+                gap: dot(normal, away),
+            });
         }
     }
     None
@@ -168,7 +182,7 @@ mod tests {
     fn the_foot_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
         let node = [0.3, 0.6, 0.2];
-        let foot = project(x, node).unwrap();
+        let foot = project(x, node, [0.0; 2]).unwrap();
         let mut point = [0.0; 3];
         for (weight, corner) in foot.weights.into_iter().zip(x) {
             point = axpy(point, weight, corner);
@@ -182,9 +196,9 @@ mod tests {
     #[test]
     fn a_node_beside_the_face_has_no_foot() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        assert!(project(x, [1.01, 0.5, 0.0]).is_none());
-        assert!(project(x, [f64::NAN; 3]).is_none());
-        assert!(project([[0.0; 3]; 4], [0.0; 3]).is_none());
+        assert!(project(x, [1.01, 0.5, 0.0], [0.0; 2]).is_none());
+        assert!(project(x, [f64::NAN; 3], [0.0; 2]).is_none());
+        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2]).is_none());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use contact::{Coulomb, Exponential, FrictionLaw};
 
-/// The laws of a case file, with their slope.
+/// The laws of a case file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// One coefficient.
@@ -28,16 +28,6 @@ impl Law {
         }
     }
 
-    /// Its derivative with respect to the slip speed (s/m).
-    fn slope(&self, speed: f64) -> f64 {
-        match self {
-            Law::Coulomb(_) => 0.0,
-            Law::Exponential(law) => {
-                -law.decay * (law.mu_static - law.mu_dynamic) * (-law.decay * speed).exp()
-            }
-        }
-    }
-
     /// Distance of the point (|s|, p_f/p_n) from the graph of the law, the curve
     /// {s = 0, 0 <= p_f/p_n <= mu_S} and {p_f/p_n = mu(|s|)} of the paper's Figure 7.
     ///
@@ -45,29 +35,37 @@ impl Law {
     /// falling branch the foot is found by Gauss-Newton from the point's own speed and from rest;
     /// the point's own speed itself is a candidate, so that a point on the graph is at distance 0.
     pub fn distance(&self, speed: f64, ratio: f64, scale: f64) -> f64 {
-        let at = |foot: f64| ((speed - foot) / scale).hypot(ratio - self.mu(foot));
-        let stick = (speed / scale).hypot((ratio - self.mu_static()).max(0.0));
-        let mut best = stick.min(at(speed));
-        if let (Law::Exponential(_), true) = (self, best > 0.0) {
+        let size = |a: f64, b: f64| (a * a + b * b).sqrt();
+        let at_rest = size(speed / scale, (ratio - self.mu_static()).max(0.0));
+        let (mut best, law) = match self {
+            Law::Coulomb(law) => return at_rest.min((ratio - law.mu).abs()),
+            Law::Exponential(law) => (at_rest.min((ratio - law.mu(speed)).abs()), law),
+        };
+        if best > 0.0 {
+            let per_square = 1.0 / (scale * scale);
             for start in [speed, 0.0] {
                 let mut foot = start;
                 for _ in 0..30 {
-                    let slope = self.slope(foot);
-                    let residual =
-                        (foot - speed) / (scale * scale) + (self.mu(foot) - ratio) * slope;
-                    let step = residual / (1.0 / (scale * scale) + slope * slope);
-                    let next = (foot - step).max(0.0);
-                    let done = (next - foot).abs() <= 1e-9 * scale;
+                    let (mu, slope) = value_and_slope(law, foot);
+                    let residual = (foot - speed) * per_square + (mu - ratio) * slope;
+                    let next = (foot - residual / (per_square + slope * slope)).max(0.0);
+                    let done = (next - foot).abs() <= 1e-7 * scale;
                     foot = next;
                     if done {
                         break;
                     }
                 }
-                best = best.min(at(foot));
+                best = best.min(size((speed - foot) / scale, ratio - law.mu(foot)));
             }
         }
         best
     }
+}
+
+/// mu and its derivative with respect to the slip speed (s/m).
+fn value_and_slope(law: &Exponential, speed: f64) -> (f64, f64) {
+    let above = (law.mu_static - law.mu_dynamic) * (-law.decay * speed).exp();
+    (law.mu_dynamic + above, -law.decay * above)
 }
 
 #[cfg(test)]

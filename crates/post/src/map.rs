@@ -83,8 +83,13 @@ impl MapWriter {
                 continue;
             }
             let mu_used = frame.mu.as_ref().map(|mu| mu[row]);
-            let node =
-                Node { pressure, shear: frame.shear[row], slip: frame.slip_velocity[row], mu_used };
+            let node = Node {
+                pressure,
+                shear: frame.shear[row],
+                slip: frame.slip_velocity[row],
+                mu_used,
+                state: None,
+            };
             let judged = judge.judge(&node);
             let mu_static = judge.law.map(|law| law.mu_static()).or(mu_used);
             let cone = mu_static.map(|mu| (judged.ratio / mu - 1.0).max(0.0));

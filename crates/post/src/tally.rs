@@ -13,6 +13,9 @@ pub(crate) struct Tally {
     record: [f64; 2],
     law_error: Spread,
     law_error_own: Spread,
+    /// The law and the direction at nodes that the algorithm lets slip: a penalty method's own
+    /// elastic slip elsewhere is left out.
+    let_slip: [Spread; 2],
     direction: Spread,
     wrong: f64,
     directed: f64,
@@ -43,6 +46,7 @@ impl Tally {
             record: [0.0; 2],
             law_error: Spread::default(),
             law_error_own: Spread::default(),
+            let_slip: Default::default(),
             direction: Spread::default(),
             wrong: 0.0,
             directed: 0.0,
@@ -53,6 +57,13 @@ impl Tally {
             roughness: span.map(|span| Roughness::new(nodes, span)),
             switches: Switches::new(nodes),
             records: 0,
+        }
+    }
+
+    /// A record begins.
+    pub fn begin_record(&mut self, time: f64) {
+        if let Some(roughness) = &mut self.roughness {
+            roughness.begin(time);
         }
     }
 
@@ -67,12 +78,18 @@ impl Tally {
         }
         if let Some(error) = judged.law_error {
             self.law_error.add(weight, error, row, time);
+            if judged.let_slip {
+                self.let_slip[0].add(weight, error, row, time);
+            }
         }
         if let Some(error) = judged.law_error_own {
             self.law_error_own.add(weight, error, row, time);
         }
         if let Some(angle) = judged.direction {
             self.direction.add(weight, angle, row, time);
+            if judged.let_slip {
+                self.let_slip[1].add(weight, angle, row, time);
+            }
             self.directed += weight;
             self.wrong += if angle > 90.0 { weight } else { 0.0 };
         }
@@ -92,7 +109,7 @@ impl Tally {
         }
         if let Some(roughness) = &mut self.roughness {
             match judged.mu_law {
-                Some(mu) if judged.slips => roughness.add(row, time, [judged.ratio, mu], area),
+                Some(mu) if judged.slips => roughness.add(row, [judged.ratio, mu], area),
                 _ => roughness.interrupt(row),
             }
         }
@@ -131,10 +148,14 @@ impl Tally {
             ],
         };
         let plain = |value, place| Statistic { value, place, more: Vec::new() };
+        let also = |mut statistic: Statistic, let_slip: &Spread| {
+            statistic.more.push(("rms_where_let_slip", let_slip.rms()));
+            statistic
+        };
         match name {
-            "law_error" => spread(&self.law_error, self.law_error.rms()),
+            "law_error" => also(spread(&self.law_error, self.law_error.rms()), &self.let_slip[0]),
             "law_error_own" => spread(&self.law_error_own, self.law_error_own.rms()),
-            "direction" => spread(&self.direction, self.direction.rms()),
+            "direction" => also(spread(&self.direction, self.direction.rms()), &self.let_slip[1]),
             "wrong_direction" => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));
