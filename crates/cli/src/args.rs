@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::check::CheckArgs;
+use crate::plot::PlotArgs;
 use crate::slider::SliderArgs;
 use crate::verify::VerifyArgs;
 use case::Level;
@@ -54,6 +55,12 @@ pub enum Command {
         case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
         docs/checks.md.")]
     Check(CheckArgs),
+    /// Draw the figures of a run: those of the papers, histories, slip over space and time, spectra
+    #[command(
+        after_help = "Examples:\n  creepage plot runs/quick\n  creepage plot runs/b-falling \
+        --out figures --format svg\n\nWhat each figure shows: docs/checks.md."
+    )]
+    Plot(PlotArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

@@ -119,7 +119,7 @@ fn refuse_own_file(map: &Path, paths: &RunPaths) -> Result<(), Failure> {
     Ok(())
 }
 
-fn window(text: &str) -> Result<[f64; 2], String> {
+pub fn window(text: &str) -> Result<[f64; 2], String> {
     let wanted = "two times in seconds with a colon between, such as 1.0e-3:1.5e-3, are needed";
     let (from, to) = text.split_once(':').ok_or(wanted)?;
     let end = |text: &str, open: f64| match text.trim() {
