@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::check::CheckArgs;
 use crate::plot::PlotArgs;
+use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
 use crate::verify::VerifyArgs;
 use case::Level;
@@ -18,7 +19,7 @@ use clap::{ArgAction, Parser, Subcommand};
     after_help = "Exit codes: 0 done; 1 a check failed; 2 bad input; 3 stopped by the run's own \
                   guards; 130 interrupted.\n\nExamples:\n  creepage run cases/quick.toml\n  \
                   creepage mesh cases/quick.toml --out quick.vtu\n  creepage schema > \
-                  case.schema.json"
+                  case.schema.json\n  creepage check runs/quick\n  creepage report runs/quick"
 )]
 pub struct Args {
     /// Print exactly one JSON document on standard output, everything else on standard error
@@ -61,6 +62,10 @@ pub enum Command {
         --out figures --format svg\n\nWhat each figure shows: docs/checks.md."
     )]
     Plot(PlotArgs),
+    /// Write one self-contained HTML page about a run or a sweep: case, numbers, checks, figures
+    #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
+        runs/b-falling --out b-falling.html")]
+    Report(ReportArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

@@ -6,6 +6,7 @@ mod commands;
 mod plot;
 mod progress;
 mod report;
+mod report_page;
 mod slider;
 mod verify;
 

@@ -209,8 +209,9 @@ fn key<DB: DrawingBackend>(
                 area.draw(&Rectangle::new(strip, colour.filled()))?;
             }
             left += steps + px(5.0);
-            let text = format!("{to}   {label}");
-            area.draw(&Text::new(text.as_str(), (left, middle), style))?;
+            area.draw(&Text::new(to.as_str(), (left, middle), style.clone()))?;
+            left += width(&to)? + px(14.0);
+            area.draw(&Text::new(label.as_str(), (left, middle), style))?;
         }
         Key::Classes(classes) => {
             for (label, colour) in classes {
