@@ -2,6 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::check::CheckArgs;
+use crate::plot::PlotArgs;
+use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
 use crate::verify::VerifyArgs;
 use case::Level;
@@ -16,7 +19,7 @@ use clap::{ArgAction, Parser, Subcommand};
     after_help = "Exit codes: 0 done; 1 a check failed; 2 bad input; 3 stopped by the run's own \
                   guards; 130 interrupted.\n\nExamples:\n  creepage run cases/quick.toml\n  \
                   creepage mesh cases/quick.toml --out quick.vtu\n  creepage schema > \
-                  case.schema.json"
+                  case.schema.json\n  creepage check runs/quick\n  creepage report runs/quick"
 )]
 pub struct Args {
     /// Print exactly one JSON document on standard output, everything else on standard error
@@ -46,6 +49,23 @@ pub enum Command {
     #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
         cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
     Mesh(MeshArgs),
+    /// Check where and by how much a run violates the contact conditions; exit code 1 beyond a limit
+    #[command(after_help = "Examples:\n  creepage check runs/quick\n  creepage check runs/quick \
+        --window 1.2e-3:1.5e-3 --limit violating_fraction=0.05\n  creepage check runs/b-falling \
+        --map violations.vtkhdf --json > check.json\n  creepage check other-code.vtkhdf --case \
+        case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
+        docs/checks.md.")]
+    Check(CheckArgs),
+    /// Draw the figures of a run: those of the papers, histories, slip over space and time, spectra
+    #[command(
+        after_help = "Examples:\n  creepage plot runs/quick\n  creepage plot runs/b-falling \
+        --out figures --format svg\n\nWhat each figure shows: docs/checks.md."
+    )]
+    Plot(PlotArgs),
+    /// Write one self-contained HTML page about a run or a sweep: case, numbers, checks, figures
+    #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
+        runs/b-falling --out b-falling.html")]
+    Report(ReportArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

@@ -66,6 +66,9 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
     match &args.command {
         Command::Run(options) => run(args, options),
         Command::Mesh(options) => mesh(args, options),
+        Command::Check(options) => crate::check::command(args, options),
+        Command::Plot(options) => crate::plot::command(args, options),
+        Command::Report(options) => crate::report_page::command(args, options),
         Command::Schema => {
             report::print_json(&case::json_schema());
             Ok(0)

@@ -1,9 +1,12 @@
 //! `creepage`: the command line.
 
 mod args;
+mod check;
 mod commands;
+mod plot;
 mod progress;
 mod report;
+mod report_page;
 mod slider;
 mod verify;
 

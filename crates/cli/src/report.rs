@@ -1,6 +1,7 @@
 //! What a command prints when its work is done.
 
 mod bench;
+mod check;
 mod layout;
 mod mesh;
 mod run;
@@ -25,6 +26,11 @@ pub fn print_run(summary: &Value, folder: &Path) {
 /// Prints what `creepage mesh` found.
 pub fn print_mesh(report: &Value) {
     print(&mesh::text(report));
+}
+
+/// Prints what `creepage check` found.
+pub fn print_check(document: &Value) {
+    print(&check::text(document));
 }
 
 /// Prints what `creepage bench` measured.

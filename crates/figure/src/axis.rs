@@ -76,8 +76,8 @@ pub(crate) struct Ticked {
 
 impl Ticked {
     fn linear(low: f64, high: f64) -> Self {
-        // 1, 2 or 5 times a power of ten, four to eight ticks
-        let rough = (high - low) / 5.0;
+        // 1, 2 or 5 times a power of ten, three to eight ticks
+        let rough = (high - low) / 7.0;
         let power = 10f64.powf(rough.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|s| *s >= rough);
         let step = step.unwrap_or(rough);

@@ -1,7 +1,7 @@
 //! Drawing of panels, on any backend.
 
 use crate::axis::Ticked;
-use crate::{Draw, Figure, Mark, Panel, font};
+use crate::{Draw, Figure, Key, Mark, Panel, font, viridis};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -14,6 +14,9 @@ const TEXT: f64 = 11.0;
 const TITLE: f64 = 12.5;
 const LINE: f64 = 16.0;
 const SAMPLE: f64 = 20.0;
+const MARGIN: f64 = 20.0;
+/// Length of the colours of a map in the legend.
+const COLOURS: f64 = 110.0;
 
 /// How joints of lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,12 +35,46 @@ pub(crate) fn figure<DB: DrawingBackend>(
     joints: Joints,
 ) -> Result<(), Failure<DB>> {
     area.fill(&WHITE)?;
+    let area = caption(figure, area, unit)?;
     let columns = figure.columns.max(1);
     let areas = area.split_evenly((figure.panels.len().div_ceil(columns), columns));
     for (panel, area) in figure.panels.iter().zip(&areas) {
         draw_panel(panel, area, unit, joints)?;
     }
     Ok(())
+}
+
+/// Draws the caption at the foot of `area`; returns what is left above it.
+fn caption<DB: DrawingBackend>(
+    figure: &Figure,
+    area: &Area<DB>,
+    unit: f64,
+) -> Result<Area<DB>, Failure<DB>> {
+    let px = |points: f64| (points * unit).round() as i32;
+    if figure.caption.is_empty() {
+        return Ok(area.clone());
+    }
+    let style = text(TEXT, unit).pos(Pos::new(HPos::Left, VPos::Top));
+    let (width, height) = area.dim_in_pixel();
+    let room = width as i32 - px(2.0 * MARGIN);
+    let mut lines = vec![String::new()];
+    for word in figure.caption.split_whitespace() {
+        let last = lines.len() - 1;
+        let longer = format!("{} {word}", lines[last]);
+        if lines[last].is_empty() {
+            lines[last] = word.into();
+        } else if area.estimate_text_size(&longer, &style)?.0 as i32 <= room {
+            lines[last] = longer;
+        } else {
+            lines.push(word.into());
+        }
+    }
+    let top = height as i32 - px(LINE) * lines.len() as i32 - px(4.0);
+    for (i, line) in lines.iter().enumerate() {
+        let at = (px(MARGIN), top + px(LINE) * i as i32);
+        area.draw(&Text::new(line.as_str(), at, style.clone()))?;
+    }
+    Ok(area.split_vertically(top - px(6.0)).0)
 }
 
 fn rgb([r, g, b]: [u8; 3]) -> RGBColor {
@@ -55,7 +92,7 @@ fn draw_panel<DB: DrawingBackend>(
     joints: Joints,
 ) -> Result<(), Failure<DB>> {
     let px = |points: f64| (points * unit).round() as i32;
-    let area = area.margin(px(4.0), px(4.0), px(4.0), px(20.0));
+    let area = area.margin(px(8.0), px(4.0), px(8.0), px(20.0));
     let mut top = 0;
     let width = area.dim_in_pixel().0 as i32;
     if !panel.title.is_empty() {
@@ -63,13 +100,18 @@ fn draw_panel<DB: DrawingBackend>(
         area.draw(&Text::new(panel.title.as_str(), (width / 2, 0), style))?;
         top += px(LINE + 2.0);
     }
+    if let Some(fill) = &panel.fill {
+        top = key(&fill.key, &area, top, unit)?;
+    }
     top = legend(panel, &area, top, unit)?;
     let (_, plot) = area.split_vertically(top);
 
     let values =
         |axis: usize| panel.series.iter().flat_map(move |s| &s.points).map(move |p| p[axis]);
-    let x = panel.x.ticked(values(0).chain(panel.marks.iter().map(|m| m.x)));
-    let y = panel.y.ticked(values(1));
+    let cells = || panel.fill.iter().flat_map(|fill| &fill.cells);
+    let corners = |axis: usize| cells().flat_map(move |cell| [cell.low[axis], cell.high[axis]]);
+    let x = panel.x.ticked(values(0).chain(panel.marks.iter().map(|m| m.x)).chain(corners(0)));
+    let y = panel.y.ticked(values(1).chain(corners(1)));
     let mut chart = ChartBuilder::on(&plot)
         .margin_top(px(8.0))
         .x_label_area_size(px(38.0))
@@ -86,6 +128,12 @@ fn draw_panel<DB: DrawingBackend>(
         .axis_style(BLACK.stroke_width(px(0.8) as u32))
         .set_all_tick_mark_size(px(4.0))
         .draw()?;
+    for cell in cells() {
+        let place = |[a, b]: [f64; 2]| Some((x.place(a)?, y.place(b)?));
+        if let (Some(low), Some(high)) = (place(cell.low), place(cell.high)) {
+            chart.draw_series([Rectangle::new([low, high], rgb(cell.colour).filled())])?;
+        }
+    }
     for mark in &panel.marks {
         if let Some(at) = x.place(mark.x) {
             let ends = [y.low(), y.high()].map(|end| (at, end));
@@ -135,6 +183,56 @@ fn runs(points: &[[f64; 2]], x: &Ticked, y: &Ticked) -> Vec<Vec<(f64, f64)>> {
     runs
 }
 
+/// Draws what the colours of a map mean from `top` on; returns where that ends.
+fn key<DB: DrawingBackend>(
+    key: &Key,
+    area: &Area<DB>,
+    top: i32,
+    unit: f64,
+) -> Result<i32, Failure<DB>> {
+    let px = |points: f64| (points * unit).round() as i32;
+    let style = text(TEXT, unit).pos(Pos::new(HPos::Left, VPos::Center));
+    let width =
+        |label: &str| Ok::<_, Failure<DB>>(area.estimate_text_size(label, &style)?.0 as i32);
+    let middle = top + px(0.5 * LINE);
+    let (low, high) = (top + px(3.0), top + px(LINE - 3.0));
+    let mut left = px(62.0);
+    match key {
+        Key::Values { label, range, .. } => {
+            let [from, to] = range.map(short);
+            area.draw(&Text::new(from.as_str(), (left, middle), style.clone()))?;
+            left += width(&from)? + px(5.0);
+            let steps = px(COLOURS);
+            for i in 0..steps {
+                let colour = rgb(viridis(f64::from(i) / f64::from(steps - 1)));
+                let strip = [(left + i, low), (left + i + 1, high)];
+                area.draw(&Rectangle::new(strip, colour.filled()))?;
+            }
+            left += steps + px(5.0);
+            area.draw(&Text::new(to.as_str(), (left, middle), style.clone()))?;
+            left += width(&to)? + px(14.0);
+            area.draw(&Text::new(label.as_str(), (left, middle), style))?;
+        }
+        Key::Classes(classes) => {
+            for (label, colour) in classes {
+                let sample = [(left, low), (left + px(SAMPLE), high)];
+                area.draw(&Rectangle::new(sample, rgb(*colour).filled()))?;
+                left += px(SAMPLE + 6.0);
+                area.draw(&Text::new(label.as_str(), (left, middle), style.clone()))?;
+                left += width(label)? + px(14.0);
+            }
+        }
+    }
+    Ok(top + px(LINE))
+}
+
+/// An end of a range, in few characters.
+fn short(value: f64) -> String {
+    let plain = value == 0.0 || (1e-3..1e5).contains(&value.abs());
+    let text = if plain { format!("{value}") } else { format!("{value:e}") };
+    text.replace('-', "\u{2212}")
+}
+
 /// Draws the legend from `top` on, in as many lines as it needs; returns where it ends.
 fn legend<DB: DrawingBackend>(
     panel: &Panel,
@@ -150,6 +248,7 @@ fn legend<DB: DrawingBackend>(
             panel
                 .marks
                 .iter()
+                .filter(|mark| !mark.label.is_empty())
                 .map(|Mark { label, colour, .. }| (label.as_str(), Draw::Dashed(*colour))),
         )
         .collect();

@@ -20,6 +20,15 @@ pub(crate) fn register() -> bool {
 pub(crate) fn style_sheet() -> String {
     let data = base64::engine::general_purpose::STANDARD.encode(BYTES);
     format!(
-        "<style>@font-face{{font-family:\"{NAME}\";src:url(data:font/ttf;base64,{data})}}</style>\n"
+        "<style>@font-face{{font-family:\"{NAME}\";src:url(data:font/ttf;base64,{data})}}\
+         {CRISP}</style>\n"
     )
+}
+
+/// Cells that meet without a seam.
+pub(crate) const CRISP: &str = "rect{shape-rendering:crispEdges}";
+
+/// The font-face rule alone, for a page that holds many figures.
+pub fn font_face() -> String {
+    style_sheet().replacen("<style>", "", 1).replacen("</style>", "", 1)
 }

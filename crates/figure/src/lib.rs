@@ -1,18 +1,22 @@
 //! Figures as plain data, written as SVG and PNG that look the same on every machine: the font
 //! comes with the program.
 //!
-//! A [`Figure`] is a grid of [`Panel`]s; a panel has two axes, series of points, and vertical
-//! marks, all named in a legend above the plot, where it can cover nothing.
+//! A [`Figure`] is a grid of [`Panel`]s with a caption below them; a panel has two axes, coloured
+//! cells (a map), series of points, and vertical marks, all named in a legend above the plot, where
+//! it can cover nothing.
 
 mod axis;
 mod draw;
+mod fill;
 mod font;
 mod thin;
 mod write;
 
 pub use axis::{Axis, Scale};
+pub use fill::{Cell, Fill, Key, viridis};
+pub use font::font_face;
 pub use thin::thin;
-pub use write::FigureError;
+pub use write::{FigureError, Format};
 
 /// Colours that stay apart for the colour-blind and in greyscale (Okabe and Ito 2008).
 pub mod colour {
@@ -41,6 +45,8 @@ pub struct Figure {
     pub columns: usize,
     /// The panels, row by row.
     pub panels: Vec<Panel>,
+    /// Text below the panels, broken into lines as it needs; may be empty.
+    pub caption: String,
 }
 
 /// A plot.
@@ -52,6 +58,8 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
+    /// Coloured cells under the series.
+    pub fill: Option<Fill>,
     /// What is drawn, later ones on top.
     pub series: Vec<Series>,
     /// Vertical lines.
@@ -85,7 +93,7 @@ pub enum Draw {
 pub struct Mark {
     /// Where (data units).
     pub x: f64,
-    /// Name in the legend.
+    /// Name in the legend; none if empty.
     pub label: String,
     /// Colour.
     pub colour: [u8; 3],

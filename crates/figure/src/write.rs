@@ -31,6 +31,25 @@ pub enum FigureError {
 const SVG_UNIT: u32 = 4;
 const PNG_UNIT: u32 = 2;
 
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Lines and text, for print and the web.
+    Svg,
+    /// Pixels, two per point.
+    Png,
+}
+
+impl Format {
+    /// The ending of its files.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+}
+
 impl Figure {
     /// Writes `stem.svg` and `stem.png` into `folder`, which is made if it is missing; returns
     /// their paths.
@@ -38,23 +57,54 @@ impl Figure {
     /// # Errors
     /// A folder or file that cannot be written.
     pub fn write(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], FigureError> {
-        let [svg, png] = ["svg", "png"].map(|kind| folder.join(format!("{stem}.{kind}")));
+        let write = |format| self.write_as(folder, stem, format);
+        Ok([write(Format::Svg)?, write(Format::Png)?])
+    }
+
+    /// Writes one file into `folder`, which is made if it is missing; returns its path.
+    ///
+    /// # Errors
+    /// A folder or file that cannot be written.
+    pub fn write_as(
+        &self,
+        folder: &Path,
+        stem: &str,
+        format: Format,
+    ) -> Result<PathBuf, FigureError> {
+        let path = folder.join(format!("{stem}.{}", format.extension()));
         let failed = |path: &Path, cause| FigureError::Write { path: path.into(), cause };
         std::fs::create_dir_all(folder).map_err(|cause| failed(folder, cause))?;
-        std::fs::write(&svg, self.svg(&svg)?).map_err(|cause| failed(&svg, cause))?;
-        // the encoder names no cause when the file cannot be made
-        std::fs::write(&png, []).map_err(|cause| failed(&png, cause))?;
-        let backend = BitMapBackend::new(&png, self.pixels(PNG_UNIT));
-        draw_on(self, backend, PNG_UNIT, Joints::Open, &png)?;
-        Ok([svg, png])
+        match format {
+            Format::Svg => {
+                std::fs::write(&path, self.svg(&path)?).map_err(|cause| failed(&path, cause))?;
+            }
+            Format::Png => {
+                // the encoder names no cause when the file cannot be made
+                std::fs::write(&path, []).map_err(|cause| failed(&path, cause))?;
+                let backend = BitMapBackend::new(&path, self.pixels(PNG_UNIT));
+                draw_on(self, backend, PNG_UNIT, Joints::Open, &path)?;
+            }
+        }
+        Ok(path)
+    }
+
+    /// The figure as an `<svg>` element of a page that has the font of [`crate::font_face`]; it
+    /// scales with the page.
+    ///
+    /// # Errors
+    /// The drawing library's.
+    pub fn svg_element(&self) -> Result<String, FigureError> {
+        let (text, ..) = self.plain_svg(Path::new("page"))?;
+        let (width, height) = self.pixels(SVG_UNIT);
+        let page = format!("width=\"{width}\" height=\"{height}\"");
+        let text = text.replacen(&page, "role=\"img\"", 1);
+        let start = text.find("<svg").unwrap_or(0);
+        Ok(text[start..].to_owned())
     }
 
     /// The figure as the text of an SVG file that carries its font.
     fn svg(&self, path: &Path) -> Result<String, FigureError> {
-        let mut text = String::new();
-        let (width, height) = self.pixels(SVG_UNIT);
-        let backend = SVGBackend::with_string(&mut text, (width, height));
-        draw_on(self, backend, SVG_UNIT, Joints::Viewer, path)?;
+        let (text, width, height) = self.plain_svg(path)?;
         // the size of the page in points, and the font
         let page = format!("width=\"{width}\" height=\"{height}\"");
         let points = format!("width=\"{}\" height=\"{}\"", self.size[0], self.size[1]);
@@ -62,6 +112,15 @@ impl Figure {
         let head = text.find("<svg").and_then(|at| Some(at + text[at..].find('>')? + 1));
         let (head, rest) = text.split_at(head.unwrap_or(0));
         Ok(format!("{head}\n{}{rest}", font::style_sheet()))
+    }
+
+    /// As the backend writes it, with its size in pixels.
+    fn plain_svg(&self, path: &Path) -> Result<(String, u32, u32), FigureError> {
+        let mut text = String::new();
+        let (width, height) = self.pixels(SVG_UNIT);
+        let backend = SVGBackend::with_string(&mut text, (width, height));
+        draw_on(self, backend, SVG_UNIT, Joints::Viewer, path)?;
+        Ok((text, width, height))
     }
 
     fn pixels(&self, unit: u32) -> (u32, u32) {
@@ -88,7 +147,7 @@ fn draw_on<DB: DrawingBackend>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Draw, Mark, Panel, Series, colour};
+    use crate::{Axis, Cell, Draw, Fill, Key, Mark, Panel, Scale, Series, colour};
 
     fn figure() -> Figure {
         let points = (0..100).map(|i| [f64::from(i), f64::from(i).sin()]).collect();
@@ -98,8 +157,9 @@ mod tests {
             y: Axis::linear("x (m)"),
             series: vec![Series { label: "sine".into(), points, draw: Draw::Line(colour::BLUE) }],
             marks: vec![Mark { x: 50.0, label: "half".into(), colour: colour::RED }],
+            fill: None,
         };
-        Figure { size: [400, 300], columns: 1, panels: vec![panel] }
+        Figure { size: [400, 300], columns: 1, panels: vec![panel], caption: String::new() }
     }
 
     #[test]
@@ -113,6 +173,27 @@ mod tests {
         let png = std::fs::read(png).unwrap();
         assert_eq!(&png[1..4], b"PNG");
         assert_eq!(png[16..24], [0, 0, 3, 32, 0, 0, 2, 88]); // 800 x 600
+    }
+
+    #[test]
+    fn a_map_shows_its_cells_its_colours_and_its_caption_in_lines() {
+        let mut figure = figure();
+        let key = Key::Values { label: "|s| (m/s)".into(), range: [0.01, 10.0], scale: Scale::Log };
+        let cells = (0..10).map(|i| Cell {
+            low: [f64::from(i), -1.0],
+            high: [f64::from(i + 1), 1.0],
+            colour: key.colour(f64::from(i)),
+        });
+        figure.panels[0].fill = Some(Fill { cells: cells.collect(), key: key.clone() });
+        figure.caption = "words that fill more than a line ".repeat(5);
+        let svg = figure.svg_element().unwrap();
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+        assert!(svg.contains("|s| (m/s)"));
+        assert!(svg.matches("words that fill").count() >= 3, "the caption is not broken");
+        for class in [Key::Classes(vec![("stick".into(), colour::BLUE)]), key] {
+            figure.panels[0].fill = Some(Fill { cells: vec![], key: class });
+            figure.svg_element().unwrap();
+        }
     }
 
     #[test]

@@ -54,7 +54,7 @@ fn line(label: &str, samples: &[Sample], colour: [u8; 3], value: impl Fn(&State)
 
 fn panel(title: &str, y: Axis, series: Vec<Series>, [from, to]: [f64; 2]) -> Panel {
     let x = Axis::linear("t (s)").over(from, to);
-    Panel { title: title.into(), x, y, series, marks: Vec::new() }
+    Panel { title: title.into(), x, y, fill: None, series, marks: Vec::new() }
 }
 
 /// The panels of x and v, of s, and of the forces against time.
@@ -90,7 +90,7 @@ pub fn figure_6(p: &Parameters, methods: [Method; 2]) -> Result<Figure, BlowUp> 
         columns.push(panels(p, &title(method, p), &samples, [0.0, p.end]));
     }
     let rows = (0..4).flat_map(|row| columns.iter().map(move |column| column[row].clone()));
-    Ok(Figure { size: [960, 960], columns: 2, panels: rows.collect() })
+    Ok(Figure { size: [960, 960], columns: 2, panels: rows.collect(), caption: String::new() })
 }
 
 /// Figure 7: the coefficient of friction that each method used against the slip speed at the same
@@ -119,9 +119,10 @@ pub fn figure_7(p: &Parameters, methods: [Method; 2]) -> Result<Figure, BlowUp> 
             y: Axis::linear("coefficient of friction \u{3bc} (-)"),
             series: vec![Series { label, points, draw: Draw::Dots(dots, 1.2) }, law.clone()],
             marks: Vec::new(),
+            fill: None,
         });
     }
-    Ok(Figure { size: [960, 400], columns: 2, panels })
+    Ok(Figure { size: [960, 400], columns: 2, panels, caption: String::new() })
 }
 
 /// One point of each cell of a grid: dots that would cover each other are drawn once.
@@ -143,7 +144,7 @@ pub fn figure_8(p: &Parameters, method: Method, span: [f64; 2]) -> Result<Figure
     let mu = panel("", Axis::linear("\u{3bc} (-)"), mu, span);
     let mut panels = vec![x, v, s, mu, forces];
     panels[0].title = title(method, p);
-    Ok(Figure { size: [640, 1000], columns: 1, panels })
+    Ok(Figure { size: [640, 1000], columns: 1, panels, caption: String::new() })
 }
 
 /// The map of the time step: x_min and the slip in adhesion against dt from 1e-7 to 1e-3 s, with
@@ -190,6 +191,7 @@ pub fn time_step_map(p: &Parameters) -> Figure {
             y: Axis::linear("x_min (m)"),
             series: series(|m, _| m.x_min),
             marks: marks.clone(),
+            fill: None,
         },
         Panel {
             title: "Slip in adhesion (exact: zero)".into(),
@@ -197,7 +199,8 @@ pub fn time_step_map(p: &Parameters) -> Figure {
             y: Axis::log("rms s / s_adhes (-)"),
             series: slip,
             marks,
+            fill: None,
         },
     ];
-    Figure { size: [760, 760], columns: 1, panels }
+    Figure { size: [760, 760], columns: 1, panels, caption: String::new() }
 }

@@ -1,0 +1,161 @@
+//! `creepage check`.
+
+use std::path::{Path, PathBuf};
+
+use miette::miette;
+use post::{Basis, CheckOptions, Limits, Pairing, PostError, Report, RunPaths};
+
+use crate::args::Args;
+use crate::commands::{BAD_INPUT, Failure};
+use crate::report;
+
+/// Exit code: a measure beyond its limit.
+const BEYOND: u8 = 1;
+
+/// Options of `check`.
+#[derive(Debug, clap::Args)]
+pub struct CheckArgs {
+    /// Folder of a run, or a file of the layout of contact.vtkhdf
+    #[arg(value_name = "RUN")]
+    pub run: PathBuf,
+    /// Judge the records from T0 to T1 seconds; either may be left out [default: the run's
+    /// evaluation window]
+    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
+    window: Option<[f64; 2]>,
+    /// Set the limit of a measure, for example law_error=0.02; may be repeated
+    #[arg(long = "limit", value_name = "NAME=VALUE", value_parser = named)]
+    limits: Vec<(String, f64)>,
+    /// Write the violations of every node over time here, for ParaView
+    #[arg(long, value_name = "FILE.vtkhdf", value_parser = map_file)]
+    map: Option<PathBuf>,
+    /// Pairing in time of traction and slip to report: with the slip of the step `before` or
+    /// `after` it, or the `stricter` of both [default: what the file states, else stricter]
+    #[arg(long, value_name = "stricter|before|after", value_parser = pairing)]
+    pairing: Option<Report>,
+    #[command(flatten)]
+    pub basis: BasisArgs,
+}
+
+/// What a run is measured against, where its own files do not say.
+#[derive(Debug, clap::Args)]
+pub struct BasisArgs {
+    /// Take friction law and scales from this case file [default: case.toml beside the contact
+    /// history]
+    #[arg(long, value_name = "CASE.toml")]
+    case: Option<PathBuf>,
+    /// Set a scale, for example peak_pressure=1.2e9; may be repeated
+    #[arg(long = "scale", value_name = "NAME=VALUE", value_parser = named)]
+    scales: Vec<(String, f64)>,
+}
+
+/// Runs the command.
+pub fn command(args: &Args, options: &CheckArgs) -> Result<u8, Failure> {
+    let (paths, mut basis) = basis(&options.run, &options.basis)?;
+    let mut limits = Limits::for_enforcement(basis.enforcement.as_deref());
+    for (name, value) in &options.limits {
+        limits.set(name, *value)?;
+    }
+    if let Some(map) = &options.map {
+        refuse_own_file(map, &paths)?;
+    }
+    let wanted = CheckOptions {
+        window: options.window,
+        limits,
+        report: options.pairing.unwrap_or_default(),
+        map: options.map.as_deref(),
+    };
+    let found = post::check(&paths, &mut basis, &wanted)?;
+    if args.json {
+        report::print_json(&found.document);
+    } else if !args.quiet {
+        report::print_check(&found.document);
+    }
+    Ok(if found.pass { 0 } else { BEYOND })
+}
+
+/// The files of a run and what it is measured against.
+pub fn basis(run: &Path, options: &BasisArgs) -> Result<(RunPaths, Basis), Failure> {
+    let mut paths = RunPaths::of(run)?;
+    if let Some(case) = &options.case {
+        if !case.is_file() {
+            let problem = format!("--case {}: there is no such file", case.display());
+            return Err(PostError::Asked(problem).into());
+        }
+        paths.case = case.clone();
+    }
+    let mut basis = Basis::read(&paths)?;
+    for (name, value) in &options.scales {
+        basis.set(name, *value)?;
+    }
+    // A run in progress has no summary yet; Hertz's contact follows from its case. Other codes'
+    // cases need not be cases of this program.
+    if basis.scale("approach").is_none()
+        && let Ok(case) = case::Case::load(&paths.case, &[])
+    {
+        let hertz = case::hertz::hertz(&case);
+        for (name, value) in [
+            ("peak_pressure", hertz.p0),
+            ("approach", hertz.approach),
+            ("half_length", hertz.a),
+            ("half_width", hertz.b),
+        ] {
+            basis.offer(name, value, "Hertz's contact of the case");
+        }
+    }
+    Ok((paths, basis))
+}
+
+/// The map must not replace what it is made from.
+fn refuse_own_file(map: &Path, paths: &RunPaths) -> Result<(), Failure> {
+    let same = |other: &Path| match (map.canonicalize(), other.canonicalize()) {
+        (Ok(map), Ok(other)) => map == other,
+        _ => false,
+    };
+    let own = case::folder::RUN_FILES.map(|file| paths.folder.join(file));
+    if same(&paths.contact) || own.iter().any(|file| same(file)) {
+        let problem = format!("--map {}: this is a file of the run itself", map.display());
+        return Err(PostError::Asked(problem).into());
+    }
+    Ok(())
+}
+
+pub fn window(text: &str) -> Result<[f64; 2], String> {
+    let wanted = "two times in seconds with a colon between, such as 1.0e-3:1.5e-3, are needed";
+    let (from, to) = text.split_once(':').ok_or(wanted)?;
+    let end = |text: &str, open: f64| match text.trim() {
+        "" => Ok(open),
+        text => text.parse::<f64>().ok().filter(|t| t.is_finite()).ok_or(wanted),
+    };
+    let window = [end(from, f64::NEG_INFINITY)?, end(to, f64::INFINITY)?];
+    if window[0] <= window[1] { Ok(window) } else { Err("the window ends before it begins".into()) }
+}
+
+fn named(text: &str) -> Result<(String, f64), String> {
+    let wanted = "a name and a number, such as law_error=0.02, are needed";
+    let (name, value) = text.split_once('=').ok_or(wanted)?;
+    let value = value.trim().parse().map_err(|_| wanted)?;
+    Ok((name.trim().to_owned(), value))
+}
+
+fn pairing(text: &str) -> Result<Report, String> {
+    match text {
+        "stricter" => Ok(Report::Stricter),
+        "before" => Ok(Report::Only(Pairing::Before)),
+        "after" => Ok(Report::Only(Pairing::After)),
+        _ => Err("one of stricter, before, after is needed".into()),
+    }
+}
+
+fn map_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("vtkhdf") => Ok(path),
+        _ => Err("the file's name must end in .vtkhdf".into()),
+    }
+}
+
+impl From<PostError> for Failure {
+    fn from(error: PostError) -> Self {
+        Self { report: miette!("{error}"), code: BAD_INPUT }
+    }
+}

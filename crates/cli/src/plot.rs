@@ -1,0 +1,62 @@
+//! `creepage plot`.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use figure::Format;
+use post::PostError;
+use serde_json::json;
+
+use crate::args::Args;
+use crate::check::{BasisArgs, basis, window};
+use crate::commands::Failure;
+use crate::report;
+
+/// Options of `plot`.
+#[derive(Debug, clap::Args)]
+pub struct PlotArgs {
+    /// Folder of a run, or a file of the layout of contact.vtkhdf
+    #[arg(value_name = "RUN")]
+    run: PathBuf,
+    /// Folder of the figures [default: RUN/figures]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Kinds of files, with a comma between
+    #[arg(long, value_name = "svg,png", value_delimiter = ',', default_values = ["svg", "png"],
+          value_parser = format)]
+    format: Vec<Format>,
+    /// Draw what lies from T0 to T1 seconds, lines and maps at its end [default: the run's
+    /// evaluation window]
+    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
+    window: Option<[f64; 2]>,
+    #[command(flatten)]
+    basis: BasisArgs,
+}
+
+/// Runs the command.
+pub fn command(args: &Args, options: &PlotArgs) -> Result<u8, Failure> {
+    let (paths, mut against) = basis(&options.run, &options.basis)?;
+    let folder = options.out.clone().unwrap_or_else(|| paths.folder.join("figures"));
+    let figures = post::figures(&paths, &mut against, options.window)?;
+    let mut written = Vec::new();
+    for named in &figures {
+        let mut files = Vec::new();
+        for format in &options.format {
+            let path = named.figure.write_as(&folder, named.stem, *format);
+            files.push(path.map_err(PostError::from)?.display().to_string());
+        }
+        if !args.json && !args.quiet {
+            let _ = writeln!(std::io::stdout(), "{}  {}", files.join(", "), named.about);
+        }
+        written.push(json!({ "name": named.stem, "about": named.about, "files": files }));
+    }
+    if args.json {
+        report::print_json(&json!({ "name": against.name, "figures": written }));
+    }
+    Ok(0)
+}
+
+fn format(text: &str) -> Result<Format, String> {
+    let known = [Format::Svg, Format::Png].into_iter().find(|f| f.extension() == text);
+    known.ok_or_else(|| "svg, png, or both with a comma between are needed".into())
+}

@@ -1,0 +1,150 @@
+//! What a check found, as a table to read.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use super::layout::{count, digits, heading, number, text as word};
+
+/// The whole page.
+pub fn text(document: &Value) -> String {
+    let mut out = String::new();
+    let at = |pointer: &str| number(document, pointer);
+    let ms = |pointer: &str| digits(at(pointer).map(|t| 1e3 * t), 5);
+    let _ = writeln!(
+        out,
+        "{}: contact conditions from {} to {} ms, {} records, {} nodes in contact and time",
+        word(document, "/name"),
+        ms("/window/0"),
+        ms("/window/1"),
+        count(at("/steps")),
+        count(at("/node_times")),
+    );
+    let scale = |name: &str, factor: f64| {
+        digits(at(&format!("/scales/{name}/value")).map(|value| factor * value), 4)
+    };
+    let _ = writeln!(
+        out,
+        "  scales: p0 {} MPa, approach {} um, s_c {} m/s, slip above {} mm/s; limits for {} methods",
+        scale("peak_pressure", 1e-6),
+        scale("approach", 1e6),
+        scale("slip_speed", 1.0),
+        scale("slip_threshold", 1e3),
+        word(document, "/limits_for"),
+    );
+    let _ = writeln!(
+        out,
+        "  slip paired with traction: {}\n",
+        match word(document, "/pairing/reported") {
+            "stricter" => "that of the step before or after, whichever is stricter",
+            "before" => "that of the step before",
+            _ => "that of the step after",
+        }
+    );
+    let _ = writeln!(
+        out,
+        "  {:<20}{:>11} {:<4}{:>14}  {:<6}where",
+        "measure", "value", "", "limit", ""
+    );
+    for post::Measure { name, .. } in post::MEASURES {
+        let metric = &document["metrics"][name];
+        let line = format!(
+            "  {name:<20}{:>11} {:<4}{:>14}  {:<6}{}",
+            digits(metric["value"].as_f64(), 3),
+            unit(metric["units"].as_str()),
+            limit(&metric["limit"]),
+            verdict(metric),
+            place(metric),
+        );
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    patch(&mut out, document);
+    let notes = document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    for note in notes {
+        let _ = writeln!(out, "note: {note}");
+    }
+    let pass = document["pass"] == Value::Bool(true);
+    let word = if pass { "every limit holds" } else { "NOT every limit holds" };
+    let _ = writeln!(out, "\n{word}");
+    out
+}
+
+fn unit(units: Option<&str>) -> &str {
+    match units {
+        Some("1") | None => "",
+        Some(units) => units,
+    }
+}
+
+fn limit(limit: &Value) -> String {
+    match (limit.as_f64(), limit[0].as_f64(), limit[1].as_f64()) {
+        (Some(most), ..) => digits(Some(most), 2),
+        (None, Some(low), Some(high)) => {
+            format!("{}..{}", digits(Some(low), 3), digits(Some(high), 3))
+        }
+        _ => "-".into(),
+    }
+}
+
+fn verdict(metric: &Value) -> &'static str {
+    match (&metric["limit"], metric["pass"].as_bool()) {
+        (Value::Null, _) => "",
+        (_, Some(true)) => "pass",
+        _ => "FAIL",
+    }
+}
+
+/// The worst node and time, or why there is no value.
+fn place(metric: &Value) -> String {
+    if let Some(note) = metric["note"].as_str() {
+        return note.into();
+    }
+    let place = &metric["where"];
+    let side = place["side"].as_str().or(metric["side"].as_str()).unwrap_or_default();
+    let mut text = side.to_owned();
+    if let Some(node) = place["node"].as_u64() {
+        let _ = write!(text, " node {node}");
+    }
+    if let [Some(x), Some(y)] = [0, 1].map(|i| place["position"][i].as_f64()) {
+        let _ = write!(text, " at ({:.2}, {:.2}) mm", 1e3 * x, 1e3 * y);
+    }
+    if let Some(time) = place["time"].as_f64() {
+        let _ = write!(text, ", {:.5} ms", 1e3 * time);
+    }
+    let value = metric["value"].as_f64();
+    if let Some(worst) = place["value"].as_f64().filter(|worst| Some(worst.abs()) != value) {
+        let _ = write!(text, ": {}", digits(Some(worst), 3));
+    }
+    text
+}
+
+const PATCH: [(&str, &str, f64, &str); 13] = [
+    ("half length", "half_length", 1e3, "mm"),
+    ("half width", "half_width", 1e3, "mm"),
+    ("area", "area", 1e6, "mm2"),
+    ("peak pressure, fit", "peak_pressure", 1e-6, "MPa"),
+    ("peak pressure, raw", "peak_pressure_raw", 1e-6, "MPa"),
+    ("peak shear", "peak_shear", 1e-6, "MPa"),
+    ("normal force", "normal_force", 1e-3, "kN"),
+    ("tangential force", "tangential_force", 1e-3, "kN"),
+    ("traction coefficient", "traction_coefficient", 1.0, ""),
+    ("creepage", "creepage", 1e3, "1e-3"),
+    ("stick fraction", "stick_fraction", 1.0, ""),
+    ("slip fraction", "slip_fraction", 1.0, ""),
+    ("power of friction", "power", 1e-3, "kW"),
+];
+
+fn patch(out: &mut String, document: &Value) {
+    heading(out, "Patch, mean and standard deviation");
+    for (label, key, factor, unit) in PATCH {
+        let at = |part: &str| number(document, &format!("/patch/{key}/{part}"));
+        if let Some(mean) = at("mean") {
+            let line = format!(
+                "  {label:<20}{:>11} {unit:<5}+- {}",
+                digits(Some(mean * factor), 4),
+                digits(at("deviation").map(|d| d * factor), 2)
+            );
+            let _ = writeln!(out, "{}", line.trim_end());
+        }
+    }
+}

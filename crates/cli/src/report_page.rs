@@ -1,0 +1,65 @@
+//! `creepage report`.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use post::{CheckOptions, Limits, PostError, Report};
+use serde_json::{Value, json};
+
+use crate::args::Args;
+use crate::check::{BasisArgs, basis};
+use crate::commands::Failure;
+use crate::report;
+
+/// Options of `report`.
+#[derive(Debug, clap::Args)]
+pub struct ReportArgs {
+    /// Folder of a run or of a sweep
+    #[arg(value_name = "RUN_OR_SWEEP")]
+    run: PathBuf,
+    /// The page [default: report.html in that folder]
+    #[arg(long, value_name = "FILE.html")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    basis: BasisArgs,
+}
+
+/// Runs the command.
+pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
+    let sweep = options.run.join("sweep.json");
+    let (page, folder, pass) = if sweep.is_file() {
+        (sweep_page(&sweep)?, options.run.clone(), None)
+    } else {
+        let (paths, mut against) = basis(&options.run, &options.basis)?;
+        let wanted = CheckOptions {
+            window: None,
+            limits: Limits::for_enforcement(against.enforcement.as_deref()),
+            report: Report::default(),
+            map: None,
+        };
+        let checked = post::check(&paths, &mut against, &wanted)?;
+        let figures = post::figures(&paths, &mut against, None)?;
+        let page = post::run_page(&against, &paths.folder, &checked.document, &figures)?;
+        (page, paths.folder, Some(checked.pass))
+    };
+    let out = options.out.clone().unwrap_or_else(|| folder.join("report.html"));
+    fs::write(&out, page).map_err(|error| {
+        PostError::Asked(format!("--out {}: cannot write the page: {error}", out.display()))
+    })?;
+    if args.json {
+        report::print_json(&json!({ "page": out.display().to_string(), "pass": pass }));
+    } else if !args.quiet {
+        let _ = writeln!(std::io::stdout(), "{}", out.display());
+    }
+    Ok(0)
+}
+
+fn sweep_page(path: &Path) -> Result<String, Failure> {
+    let failed = |reason: String| Failure::from(PostError::Text { path: path.to_owned(), reason });
+    let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+    let sweep: Value =
+        serde_json::from_str(&text).map_err(|error| failed(format!("is no JSON: {error}")))?;
+    let folder = path.parent().and_then(Path::file_name).unwrap_or_default();
+    Ok(post::sweep_page(&folder.to_string_lossy(), path, &sweep)?)
+}

@@ -1,0 +1,75 @@
+//! `creepage plot`: every figure is written, with its labels and the case's numbers.
+#![allow(clippy::unwrap_used)]
+
+#[allow(dead_code)]
+#[path = "../../post/tests/planted/mod.rs"]
+mod planted;
+
+use planted::{COULOMB, FALLING, Leave, perfect, write_with};
+use serde_json::Value;
+use std::fs;
+use std::process::Command;
+
+#[test]
+fn every_figure_carries_labels_units_and_the_numbers_of_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    write_with(&run, FALLING, "penalty", 30, 1e-6, Leave::default(), |x, step| {
+        perfect(FALLING, x, step)
+    });
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["plot", run.to_str().unwrap(), "--json"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let names: Vec<&str> = document["figures"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|f| f["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "figure-1-velocities",
+            "figure-2-stick-slip",
+            "figure-3-tractions",
+            "figure-4-bound",
+            "figure-7-law",
+            "space-time"
+        ]
+    );
+    for name in names {
+        let svg = fs::read_to_string(run.join(format!("figures/{name}.svg"))).unwrap();
+        for part in ["planted:", "V = 40.00 m/s", "@font-face", "creepage 2.500"] {
+            assert!(svg.contains(part), "{name}: {part}");
+        }
+        assert!(svg.contains("(mm)") || svg.contains("(m/s)"), "{name} has no unit");
+        assert!(!svg.contains("NaN"), "{name}");
+        let png = fs::read(run.join(format!("figures/{name}.png"))).unwrap();
+        assert_eq!(&png[1..4], b"PNG");
+    }
+}
+
+#[test]
+fn one_format_can_be_chosen_and_bare_data_have_the_figures_that_they_allow() {
+    let folder = tempfile::tempdir().unwrap();
+    let bare = Leave { gap: true, motion: true };
+    write_with(folder.path(), COULOMB, "other", 1, 1e-6, bare, |x, _| perfect(COULOMB, x, 0));
+    let out = folder.path().join("pictures");
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["plot", folder.path().to_str().unwrap(), "--format", "svg", "--out"])
+        .arg(&out)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let files: Vec<_> = fs::read_dir(&out).unwrap().map(|f| f.unwrap().path()).collect();
+    assert_eq!(files.len(), 6);
+    assert!(files.iter().all(|file| file.extension().unwrap() == "svg"));
+    let refused = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["plot", folder.path().to_str().unwrap(), "--format", "pdf"])
+        .output()
+        .unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+}

@@ -1,0 +1,305 @@
+//! What a run is measured against: its friction law and the scales of its measures.
+
+use crate::PostError;
+use crate::law::Law;
+use contact::{Coulomb, Exponential};
+use output::HistoryFile;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A scale with where it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    /// Its value (SI).
+    pub value: f64,
+    /// Where it was found.
+    pub from: String,
+}
+
+/// Names of the scales, with their unit and meaning; `[scales]` of a case file and
+/// `creepage check --scale NAME=VALUE` set them.
+pub const SCALES: [(&str, &str, &str); 11] = [
+    ("peak_pressure", "Pa", "p0, Hertz's peak pressure"),
+    ("approach", "m", "delta, Hertz's approach"),
+    ("half_length", "m", "a, half axis of the patch along x"),
+    ("half_width", "m", "b, half axis of the patch along y"),
+    ("speed", "m/s", "V, rolling speed"),
+    ("creepage", "1", "longitudinal creepage"),
+    ("slip_speed", "m/s", "s_c = |creepage| V, at least 1e-5 V"),
+    ("slip_threshold", "m/s", "eps_s = 1e-3 s_c, above which a node slips"),
+    ("dt", "s", "time step"),
+    ("size", "m", "h, edge of a surface element"),
+    ("shear_wave", "m/s", "c_s, speed of shear waves"),
+];
+
+/// The bound of friction that a node must respect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// mu(|s|) of the law at the same instant: Eq. (8).
+    Law,
+    /// The coefficient that the algorithm used (field `mu`): laws with memory, and laws that are
+    /// not known here.
+    Used,
+}
+
+/// The friction law and the scales of a run.
+#[derive(Clone, Debug)]
+pub struct Basis {
+    /// Name of the case.
+    pub name: String,
+    /// The law, where it is one of those known here.
+    pub law: Option<Law>,
+    /// Which coefficient bounds the shear.
+    pub bound: Bound,
+    /// How contact is enforced, as the case says.
+    pub enforcement: Option<String>,
+    /// The evaluation window (s), where the run has one.
+    pub window: Option<[f64; 2]>,
+    /// Scales by their names in [`SCALES`].
+    pub scales: BTreeMap<&'static str, Scale>,
+    /// `summary.json`, where there is one.
+    pub summary: Option<Value>,
+    /// `case.toml`, where there is one.
+    pub case: Option<toml::Table>,
+}
+
+/// Where a run's files are.
+#[derive(Clone, Debug)]
+pub struct RunPaths {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Its contact history.
+    pub contact: PathBuf,
+    /// Its case.
+    pub case: PathBuf,
+}
+
+impl RunPaths {
+    /// The files of a run given by its folder or by its contact history.
+    ///
+    /// # Errors
+    /// A path that is neither.
+    pub fn of(run: &Path) -> Result<Self, PostError> {
+        let none = || PostError::NoContactFile { path: run.into() };
+        let folder = if run.is_dir() { run } else { run.parent().ok_or_else(none)? };
+        let contact = if run.is_dir() { run.join("contact.vtkhdf") } else { run.into() };
+        if !contact.is_file() {
+            return Err(none());
+        }
+        Ok(Self { folder: folder.into(), contact, case: folder.join("case.toml") })
+    }
+}
+
+impl Basis {
+    /// Reads `case.toml`, `summary.json` and `history.h5` of a run, each where it exists; a run in
+    /// progress has no summary yet, data of other codes have neither.
+    ///
+    /// Unknown keys of the case are passed over: other codes and other versions write other ones.
+    ///
+    /// # Errors
+    /// A case or summary that is not TOML or JSON.
+    pub fn read(paths: &RunPaths) -> Result<Self, PostError> {
+        let case = read_toml(&paths.case)?;
+        let summary = read_json(&paths.folder.join("summary.json"))?;
+        let mut basis = Self {
+            name: paths
+                .folder
+                .file_name()
+                .map_or_else(|| "run".to_owned(), |name| name.to_string_lossy().into_owned()),
+            law: None,
+            bound: Bound::Used,
+            enforcement: None,
+            window: None,
+            scales: BTreeMap::new(),
+            summary,
+            case,
+        };
+        basis.read_case();
+        basis.read_summary();
+        basis.read_history(&paths.folder.join("history.h5"));
+        Ok(basis)
+    }
+
+    /// The value of a scale.
+    pub fn scale(&self, name: &str) -> Option<f64> {
+        self.scales.get(name).map(|scale| scale.value)
+    }
+
+    /// Sets a scale that is not known yet.
+    pub fn offer(&mut self, name: &str, value: f64, from: &str) {
+        let known = SCALES.iter().find(|(known, ..)| *known == name);
+        if let (Some((name, ..)), true) = (known, value.is_finite() && value != 0.0) {
+            self.scales.entry(name).or_insert_with(|| Scale { value, from: from.into() });
+        }
+    }
+
+    /// Sets a scale whatever was known.
+    ///
+    /// # Errors
+    /// A name that is none, or a value that is not a positive number.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), PostError> {
+        let Some((known, ..)) = SCALES.iter().find(|(known, ..)| *known == name) else {
+            let names: Vec<_> = SCALES.iter().map(|(name, ..)| *name).collect();
+            return Err(PostError::Asked(format!(
+                "there is no scale '{name}'; the scales are {}",
+                names.join(", ")
+            )));
+        };
+        if !(value.is_finite() && (value > 0.0 || name == "creepage")) {
+            return Err(PostError::Asked(format!(
+                "the scale {name} = {value} must be a number greater than 0"
+            )));
+        }
+        self.scales.insert(known, Scale { value, from: "asked for".into() });
+        Ok(())
+    }
+
+    /// Derives what follows from other scales: s_c, its threshold, c_s.
+    pub fn complete(&mut self) {
+        if let (Some(speed), Some(creepage)) = (self.scale("speed"), self.scale("creepage")) {
+            let slip = creepage.abs().max(1e-5) * speed.abs();
+            self.offer("slip_speed", slip, "|creepage| V, at least 1e-5 V");
+        }
+        if let Some(slip) = self.scale("slip_speed") {
+            self.offer("slip_threshold", 1e-3 * slip, "1e-3 s_c");
+        }
+    }
+
+    fn number(&self, path: &str) -> Option<f64> {
+        number_at(self.case.as_ref()?, path)
+    }
+
+    fn word(&self, path: &str) -> Option<String> {
+        Some(value_at(self.case.as_ref()?, path)?.as_str()?.to_owned())
+    }
+
+    fn read_case(&mut self) {
+        if let Some(name) = self.word("name") {
+            self.name = name;
+        }
+        self.enforcement = self.word("contact.enforcement");
+        let law = self.word("friction.law").unwrap_or_else(|| "coulomb".into());
+        self.law = match (law.as_str(), self.number("friction.static")) {
+            ("coulomb", Some(mu)) => Some(Law::Coulomb(Coulomb { mu })),
+            ("exponential", Some(mu_static)) => Some(Law::Exponential(Exponential {
+                mu_static,
+                mu_dynamic: self.number("friction.dynamic").unwrap_or(0.32),
+                decay: self.number("friction.decay").unwrap_or(6.0),
+            })),
+            _ => None,
+        };
+        let remembers = self.case.as_ref().and_then(|case| value_at(case, "friction.memory"));
+        if self.law.is_some() && remembers.is_none() {
+            self.bound = Bound::Law;
+        }
+        let given: Vec<_> = SCALES
+            .iter()
+            .filter_map(|(name, ..)| Some((*name, self.number(&format!("scales.{name}"))?)))
+            .collect();
+        for (name, value) in given {
+            self.offer(name, value, "case, [scales]");
+        }
+        for (name, key) in [("speed", "drive.speed"), ("size", "mesh.zone.size")] {
+            if let Some(value) = self.number(key) {
+                self.offer(name, value, &format!("case, {key}"));
+            }
+        }
+        if let (Some(speed), Some(last), Some(roll)) =
+            (self.scale("speed"), self.number("evaluate.last"), self.number("time.roll"))
+        {
+            self.window = Some([(roll - last).max(0.0) / speed, roll / speed]);
+        }
+        let steel = |key, default| match self.number(&format!("material.{key}")) {
+            // the defaults of a case file, for cases as their authors write them
+            None => self.case.as_ref().filter(|case| case.contains_key("load")).map(|_| default),
+            known => known,
+        };
+        if let (Some(young), Some(poisson), Some(density)) =
+            (steel("young", 210e9), steel("poisson", 0.3), steel("density", 7800.0))
+        {
+            let shear = young / (2.0 * (1.0 + poisson));
+            self.offer("shear_wave", (shear / density).sqrt(), "case, sqrt(G/rho)");
+        }
+    }
+
+    fn read_summary(&mut self) {
+        let Some(summary) = self.summary.clone() else {
+            // a run in progress: what it is driven with
+            return self.offer_driven_creepage();
+        };
+        let at = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64);
+        for name in ["peak_pressure", "approach", "half_length", "half_width"] {
+            if let Some(value) = at(&format!("/half_space/{name}")) {
+                self.offer(name, value, "summary, half_space");
+            }
+        }
+        if let Some(dt) = at("/dt") {
+            self.offer("dt", dt, "summary");
+        }
+        if let Some(creepage) = at("/contact/creepage") {
+            self.offer("creepage", creepage, "summary, mean of the window");
+        }
+        self.offer_driven_creepage();
+        if let (Some(from), Some(to)) = (at("/window/from"), at("/window/to")) {
+            self.window = Some([from, to]);
+        }
+    }
+
+    fn offer_driven_creepage(&mut self) {
+        if let Some(creepage) = self.number("drive.creepage") {
+            self.offer("creepage", creepage, "case, drive.creepage");
+        }
+    }
+
+    /// The time step and the creepage of a run in progress. A history that cannot be read is no
+    /// reason to refuse the contact history.
+    fn read_history(&mut self, path: &Path) {
+        let Ok(history) = HistoryFile::open(path) else {
+            return;
+        };
+        if let (Ok(time), Ok(step)) = (history.read("time"), history.read("step"))
+            && let ([t0, .., t1], [n0, .., n1]) = (&time[..], &step[..])
+        {
+            self.offer("dt", (t1 - t0) / (n1 - n0), "history");
+        }
+        if let Some(last) = history.read("creepage").ok().and_then(|c| c.last().copied()) {
+            self.offer("creepage", last, "history, last row");
+        }
+    }
+}
+
+pub(crate) fn value_at<'a>(table: &'a toml::Table, path: &str) -> Option<&'a toml::Value> {
+    let (head, rest) = path.split_once('.').unwrap_or((path, ""));
+    let value = table.get(head)?;
+    if rest.is_empty() { Some(value) } else { value_at(value.as_table()?, rest) }
+}
+
+pub(crate) fn number_at(table: &toml::Table, path: &str) -> Option<f64> {
+    let value = value_at(table, path)?;
+    value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
+}
+
+fn read_text(path: &Path) -> Result<Option<String>, PostError> {
+    match std::fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(PostError::Text { path: path.into(), reason: error.to_string() }),
+    }
+}
+
+fn read_toml(path: &Path) -> Result<Option<toml::Table>, PostError> {
+    let failed = |error: toml::de::Error| PostError::Text {
+        path: path.into(),
+        reason: format!("is no TOML: {}", error.message()),
+    };
+    read_text(path)?.map(|text| text.parse().map_err(failed)).transpose()
+}
+
+fn read_json(path: &Path) -> Result<Option<Value>, PostError> {
+    let failed = |error: serde_json::Error| PostError::Text {
+        path: path.into(),
+        reason: format!("is no JSON: {error}"),
+    };
+    read_text(path)?.map(|text| serde_json::from_str(&text).map_err(failed)).transpose()
+}

@@ -1,0 +1,103 @@
+//! The contact conditions (6) to (8) at one node at one instant.
+
+use crate::basis::{Basis, Bound};
+use crate::law::Law;
+use crate::vector::{Vec3, angle, dot, norm};
+
+/// A node is in contact where its pressure exceeds this share of p0.
+pub const IN_CONTACT: f64 = 0.02;
+/// A node is in adhesion where its shear is below this share of the bound.
+pub const IN_ADHESION: f64 = 0.98;
+/// Departures from the law beyond this violate it.
+pub const LAW_TOLERANCE: f64 = 0.02;
+/// Angles between shear and -s beyond this (degrees) violate the direction.
+pub const DIRECTION_TOLERANCE: f64 = 5.0;
+
+/// A node in contact: its traction and the slip velocity that it is paired with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub pressure: f64,
+    pub shear: Vec3,
+    pub slip: Vec3,
+    /// The coefficient that the algorithm used.
+    pub mu_used: Option<f64>,
+    /// What the algorithm calls it: 0 open, 1 stick, 2 slip.
+    pub state: Option<u8>,
+}
+
+/// What one node does to the conditions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judged {
+    /// |s| (m/s).
+    pub speed: f64,
+    /// p_f/p_n.
+    pub ratio: f64,
+    /// |s| above the threshold.
+    pub slips: bool,
+    /// Whether the algorithm lets it slip.
+    pub let_slip: bool,
+    /// mu(|s|) of the law.
+    pub mu_law: Option<f64>,
+    /// p_f/(mu(|s|) p_n) - 1 where it slips.
+    pub law_error: Option<f64>,
+    /// p_f/(mu p_n) - 1 with the coefficient that the algorithm used, where it slips.
+    pub law_error_own: Option<f64>,
+    /// Angle of the shear from -s (degrees) where it slips and carries shear.
+    pub direction: Option<f64>,
+    /// |s|/s_c where the shear is below 0.98 of the bound.
+    pub adhesion_slip: Option<f64>,
+    /// Distance from the law's graph.
+    pub law_scatter: Option<f64>,
+    /// -p_tau . s (W/m2): heat, negative where friction would give energy.
+    pub power: f64,
+    /// Whether it violates the conditions.
+    pub violates: bool,
+}
+
+/// The scales that the conditions are judged with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judge {
+    pub law: Option<Law>,
+    pub bound: Bound,
+    pub slip_speed: f64,
+    pub threshold: f64,
+}
+
+impl Judge {
+    pub fn new(basis: &Basis, slip_speed: f64) -> Self {
+        let threshold = basis.scale("slip_threshold").unwrap_or(1e-3 * slip_speed);
+        Self { law: basis.law, bound: basis.bound, slip_speed, threshold }
+    }
+
+    pub fn judge(&self, node: &Node) -> Judged {
+        let (speed, shear) = (norm(node.slip), norm(node.shear));
+        let ratio = shear / node.pressure;
+        let slips = speed > self.threshold;
+        let mu_law = self.law.map(|law| law.mu(speed));
+        let bound = match self.bound {
+            Bound::Law => mu_law,
+            Bound::Used => node.mu_used,
+        };
+        let error = |mu: f64| ratio / mu - 1.0;
+        let law_error = mu_law.filter(|_| slips).map(error);
+        let law_error_own = node.mu_used.filter(|_| slips).map(error);
+        let direction = (slips && shear > 0.0).then(|| angle(node.shear, node.slip.map(|c| -c)));
+        let adheres = bound.is_some_and(|mu| ratio < IN_ADHESION * mu);
+        let off_bound = bound.is_some_and(|mu| slips && error(mu).abs() > LAW_TOLERANCE);
+        let off_direction = direction.is_some_and(|angle| angle > DIRECTION_TOLERANCE);
+        Judged {
+            speed,
+            ratio,
+            slips,
+            let_slip: node.state == Some(2),
+            mu_law,
+            law_error,
+            law_error_own,
+            direction,
+            adhesion_slip: adheres.then_some(speed / self.slip_speed),
+            law_scatter: self.law.map(|law| law.distance(speed, ratio, self.slip_speed)),
+            power: -dot(node.shear, node.slip),
+            violates: off_bound || off_direction || (adheres && slips),
+        }
+    }
+}

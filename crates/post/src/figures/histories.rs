@@ -1,0 +1,82 @@
+//! Time histories of the whole run.
+
+use super::Scene;
+use super::caption::caption;
+use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
+use output::HistoryFile;
+use std::path::Path;
+
+/// A line: column, label, factor to the axis's unit, colour.
+type Line = (&'static str, &'static str, f64, [u8; 3]);
+
+/// Axis label and lines of each panel.
+const PANELS: [(&str, &[Line]); 6] = [
+    (
+        "force (kN)",
+        &[
+            ("normal_force", "normal", 1e-3, colour::BLACK),
+            ("tangential_force", "tangential", 1e-3, colour::BLUE),
+            ("lateral_force", "lateral", 1e-3, colour::GREY),
+        ],
+    ),
+    ("traction coefficient (-)", &[("traction_coefficient", "T/N", 1.0, colour::BLUE)]),
+    ("creepage (10\u{207b}\u{b3})", &[("creepage", "creepage", 1e3, colour::RED)]),
+    (
+        "patch (mm)",
+        &[
+            ("patch_half_length", "half length", 1e3, colour::BLUE),
+            ("patch_half_width", "half width", 1e3, colour::GREEN),
+        ],
+    ),
+    (
+        "share of the patch (-)",
+        &[
+            ("stick_fraction", "sticks", 1.0, colour::BLUE),
+            ("slip_fraction", "slips", 1.0, colour::ORANGE),
+        ],
+    ),
+    (
+        "energy (J)",
+        &[
+            ("internal", "internal", 1.0, colour::BLACK),
+            ("hourglass", "hourglass", 1.0, colour::GREY),
+            ("contact_stored", "contact springs", 1.0, colour::BLUE),
+            ("friction_dissipated", "heat of friction", 1.0, colour::RED),
+            ("damping_dissipated", "damping", 1.0, colour::GREEN),
+            ("imbalance", "imbalance", 1.0, colour::PURPLE),
+        ],
+    ),
+];
+
+/// Pixel columns for which lines are thinned.
+const COLUMNS: usize = 1200;
+
+/// The histories; `None` where there is no history.
+pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
+    let history = HistoryFile::open(path).ok()?;
+    let time = history.read("time").ok().filter(|time| time.len() > 1)?;
+    let window = [scene.records.start, scene.records.end - 1].map(|i| scene.history.times[i]);
+    let mut panels = Vec::new();
+    for (label, lines) in PANELS {
+        let series = lines.iter().filter_map(|(column, label, factor, colour)| {
+            let values = history.read(column).ok()?;
+            let points: Vec<_> =
+                time.iter().zip(values).map(|(t, value)| [1e3 * t, factor * value]).collect();
+            let draw = Draw::Line(*colour);
+            Some(Series { label: (*label).into(), points: thin(&points, COLUMNS), draw })
+        });
+        let marks = window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
+        panels.push(Panel {
+            title: String::new(),
+            x: Axis::linear("t (ms)"),
+            y: Axis::linear(label),
+            fill: None,
+            series: series.collect(),
+            marks: marks.into(),
+        });
+    }
+    panels.retain(|panel| !panel.series.is_empty());
+    let text = "Histories of the run; dashed lines: the window of the other figures.";
+    let size = [1000, 260 * panels.len().div_ceil(2) as u32 + 50];
+    Some(Figure { size, columns: 2, panels, caption: caption(scene, text) })
+}

@@ -1,0 +1,241 @@
+//! The foot of a node on the other surface and the motion there: the kinematics of the pair,
+//! from positions and velocities alone, apart from what any solver said.
+
+use crate::surface::Surface;
+use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
+use std::collections::HashMap;
+
+/// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
+const EDGE: f64 = 1e-6;
+const NONE: u32 = u32::MAX;
+
+/// Relative motion of the nodes of one body (the slaves) over the faces of the other.
+pub(crate) struct Pair {
+    /// The body whose nodes are projected.
+    pub slave: u8,
+    masters: Vec<u32>,
+    /// Face of each node's last foot and where it was there.
+    last: Vec<(u32, [f64; 2])>,
+    grid: HashMap<[i64; 2], Vec<u32>>,
+    cell: f64,
+}
+
+impl Pair {
+    /// The pair with the nodes of `slave` as slaves.
+    pub fn new(surface: &Surface, slave: u8) -> Self {
+        let masters: Vec<u32> = (0..surface.faces.len() as u32)
+            .filter(|&face| surface.face_body[face as usize] != slave)
+            .collect();
+        let edge = |&face: &u32| {
+            let corners = surface.faces[face as usize].map(|n| surface.points[n as usize]);
+            norm(sub(corners[2], corners[0])).max(norm(sub(corners[3], corners[1])))
+        };
+        let cell = masters.iter().map(edge).fold(f64::MIN_POSITIVE, f64::max);
+        Self {
+            slave,
+            masters,
+            last: vec![(NONE, [0.0; 2]); surface.points.len()],
+            grid: HashMap::new(),
+            cell,
+        }
+    }
+
+    /// The slip velocity of each of `nodes` relative to the other surface, in its tangent plane;
+    /// `None` where the node has no foot.
+    pub fn slip(
+        &mut self,
+        surface: &Surface,
+        [displacement, velocity]: &[Vec<Vec3>; 2],
+        nodes: &[usize],
+    ) -> Vec<Option<Vec3>> {
+        let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
+        let mut sorted = false;
+        let mut found = Vec::with_capacity(nodes.len());
+        for &node in nodes {
+            let x = at(node);
+            let on = |face: u32, start: [f64; 2]| {
+                let corners = surface.faces[face as usize];
+                let foot = project(corners.map(|n| at(n as usize)), x, start)?;
+                Some((foot, corners))
+            };
+            let (last, start) = self.last[node];
+            let mut best =
+                if last == NONE { None } else { on(last, start).map(|found| (last, found)) };
+            if best.is_none() {
+                if !sorted {
+                    self.sort_faces(surface, displacement);
+                    sorted = true;
+                }
+                let candidates = self.near(x);
+                best = candidates
+                    .filter_map(|face| Some((face, on(face, [0.0; 2])?)))
+                    .min_by(|a, b| a.1.0.gap.abs().total_cmp(&b.1.0.gap.abs()));
+            }
+            self.last[node] =
+                best.as_ref().map_or((NONE, [0.0; 2]), |(face, (foot, _))| (*face, foot.at));
+            found.push(best.map(|(_, (foot, corners))| {
+                let mut relative = velocity[node];
+                for (weight, corner) in foot.weights.into_iter().zip(corners) {
+                    relative = axpy(relative, -weight, velocity[corner as usize]);
+                }
+                axpy(relative, -dot(relative, foot.normal), foot.normal)
+            }));
+        }
+        found
+    }
+
+    /// Sorts the faces where they are now into columns over the plane of rolling.
+    fn sort_faces(&mut self, surface: &Surface, displacement: &[Vec3]) {
+        self.grid.clear();
+        for &face in &self.masters {
+            let mut centre = [0.0; 3];
+            for node in surface.faces[face as usize] {
+                let node = node as usize;
+                let x = axpy(surface.points[node], 1.0, displacement[node]);
+                centre = axpy(centre, 0.25, x);
+            }
+            self.grid.entry(self.column(centre)).or_default().push(face);
+        }
+    }
+
+    fn column(&self, x: Vec3) -> [i64; 2] {
+        [(x[0] / self.cell).floor() as i64, (x[1] / self.cell).floor() as i64]
+    }
+
+    fn near(&self, x: Vec3) -> impl Iterator<Item = u32> {
+        let [i, j] = self.column(x);
+        (-1..=1)
+            .flat_map(move |di| (-1..=1).map(move |dj| [i + di, j + dj]))
+            .filter_map(|column| self.grid.get(&column))
+            .flatten()
+            .copied()
+    }
+}
+
+/// The foot of a node on a face.
+struct Foot {
+    at: [f64; 2],
+    weights: [f64; 4],
+    normal: Vec3,
+    gap: f64,
+}
+
+/// Newton's iteration for the foot of `node` on the bilinear face through `x`; `None` where it
+/// lies off the face.
+fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Option<Foot> {
+    for _ in 0..20 {
+        let weights = shape(xi, eta);
+        let (mut point, mut along, mut across, mut twist) =
+            ([0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]);
+        let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        for ((corner, weight), [sx, se]) in x.iter().zip(weights).zip(signs) {
+            point = axpy(point, weight, *corner);
+            along = axpy(along, 0.25 * sx * (1.0 + se * eta), *corner);
+            across = axpy(across, 0.25 * se * (1.0 + sx * xi), *corner);
+            twist = axpy(twist, 0.25 * sx * se, *corner);
+        }
+        let away = sub(node, point);
+        let residual = [dot(along, away), dot(across, away)];
+        let matrix =
+            [dot(along, along), dot(along, across) - dot(away, twist), dot(across, across)];
+        let determinant = matrix[0] * matrix[2] - matrix[1] * matrix[1];
+        let step = [
+            (matrix[2] * residual[0] - matrix[1] * residual[1]) / determinant,
+            (matrix[0] * residual[1] - matrix[1] * residual[0]) / determinant,
+        ];
+        xi += step[0];
+        eta += step[1];
+        // NaN fails this test too
+        if !(xi.abs() < 10.0 && eta.abs() < 10.0) {
+            return None;
+        }
+        // convergence is quadratic: what is left is far below round-off of the weights
+        if step[0].abs() < 1e-8 && step[1].abs() < 1e-8 {
+            if xi.abs() > 1.0 + EDGE || eta.abs() > 1.0 + EDGE {
+                return None;
+            }
+            let normal = cross(along, across);
+            let size = norm(normal);
+            let normal = normal.map(|c| c / size);
+            return Some(Foot {
+                at: [xi, eta],
+                weights: shape(xi, eta),
+                normal,
+                gap: dot(normal, away),
+            });
+        }
+    }
+    None
+}
+
+fn shape(xi: f64, eta: f64) -> [f64; 4] {
+    let part = |a: f64, b: f64| 0.25 * (1.0 + a * xi) * (1.0 + b * eta);
+    [part(-1.0, -1.0), part(1.0, -1.0), part(1.0, 1.0), part(-1.0, 1.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn the_foot_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
+        let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
+        let node = [0.3, 0.6, 0.2];
+        let foot = project(x, node, [0.0; 2]).unwrap();
+        let mut point = [0.0; 3];
+        for (weight, corner) in foot.weights.into_iter().zip(x) {
+            point = axpy(point, weight, corner);
+        }
+        let away = sub(node, point);
+        assert!(norm(cross(away, foot.normal)) < 1e-9 * norm(away));
+        assert!((foot.gap - norm(away)).abs() < 1e-12);
+        assert!((foot.weights.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_node_beside_the_face_has_no_foot() {
+        let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        assert!(project(x, [1.01, 0.5, 0.0], [0.0; 2]).is_none());
+        assert!(project(x, [f64::NAN; 3], [0.0; 2]).is_none());
+        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2]).is_none());
+    }
+
+    #[test]
+    fn slip_over_a_moving_master_that_deforms_is_taken_at_the_foot() {
+        // two faces in a row under one node of another body
+        let points = vec![
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [2.0, 1.0, 0.0],
+            [0.25, 0.5, 0.0],
+        ];
+        let surface = Surface {
+            faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
+            face_body: vec![1, 1],
+            body: vec![1, 1, 1, 1, 1, 1, 0],
+            area: vec![1.0; 7],
+            points,
+        };
+        // v_x of the master grows with x; the node rolls from the first face to the second
+        let velocity = |x: f64| [2.0 * x, 1.0, 5.0];
+        let mut velocities: Vec<Vec3> =
+            surface.points[..6].iter().map(|x| velocity(x[0])).collect();
+        velocities.push([7.0, 0.0, 0.0]);
+        let mut pair = Pair::new(&surface, 0);
+        for moved in [0.0, 1.3, 0.2] {
+            let mut displacement = vec![[0.0; 3]; 7];
+            displacement[6] = [moved, 0.0, 0.0];
+            let motion = [displacement, velocities.clone()];
+            let slip = pair.slip(&surface, &motion, &[6])[0].unwrap();
+            let expected = [7.0 - 2.0 * (0.25 + moved), -1.0, 0.0];
+            assert!(norm(sub(slip, expected)) < 1e-12, "{slip:?}");
+        }
+        let mut displacement = vec![[0.0; 3]; 7];
+        displacement[6] = [9.0, 0.0, 0.0];
+        assert_eq!(pair.slip(&surface, &[displacement, velocities], &[6]), [None]);
+    }
+}

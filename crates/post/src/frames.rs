@@ -1,0 +1,338 @@
+//! The contact history, one record after the other: read by threads of their own a few records
+//! ahead, never held whole.
+
+use crate::PostError;
+use crate::surface::Surface;
+use crate::vector::Vec3;
+use output::GridFile;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::thread::JoinHandle;
+
+/// Whether the slip velocity beside the traction of t^n is that of the step that led there or of
+/// the step that leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Pairing {
+    /// p(t^n) with s(t^{n-1/2}).
+    Before,
+    /// p(t^n) with s(t^{n+1/2}).
+    After,
+}
+
+impl Pairing {
+    /// Its name in options, documents and the file's attribute.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Before => "before",
+            Self::After => "after",
+        }
+    }
+}
+
+/// Root attribute of a contact history that says how slip is paired with traction in a record:
+/// `before` (as without it) or `after`.
+pub const PAIRING_ATTRIBUTE: &str = "slip_pairing";
+
+/// One record.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// Its index in the file.
+    pub index: usize,
+    /// Time (s).
+    pub time: f64,
+    /// Contact pressure (Pa).
+    pub pressure: Vec<f64>,
+    /// Shear traction on the node's own surface (Pa).
+    pub shear: Vec<Vec3>,
+    /// Velocity relative to the other surface (m/s).
+    pub slip_velocity: Vec<Vec3>,
+    /// Gap (m), negative when penetrating.
+    pub gap: Option<Vec<f64>>,
+    /// Coefficient of friction that the algorithm used.
+    pub mu: Option<Vec<f64>>,
+    /// 0 open, 1 stick, 2 slip.
+    pub state: Option<Vec<u8>>,
+    /// Displacement and velocity (m, m/s).
+    pub motion: Option<[Vec<Vec3>; 2]>,
+}
+
+/// A contact history that can be judged.
+#[derive(Clone, Debug)]
+pub struct ContactHistory {
+    path: PathBuf,
+    /// Its mesh.
+    pub surface: Surface,
+    /// Time of each record (s).
+    pub times: Vec<f64>,
+    /// How a record pairs slip with traction, and whether the file says so itself.
+    pub pairing: (Pairing, bool),
+    has: Optional,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Optional {
+    gap: bool,
+    mu: bool,
+    state: bool,
+    motion: bool,
+}
+
+impl ContactHistory {
+    /// Opens a file of the layout of `contact.vtkhdf`.
+    ///
+    /// Needed are `pressure` (Pa), `shear` (Pa, 3) and `slip_velocity` (m/s, 3) at the points.
+    /// `gap`, `mu`, `state`, and together `displacement` and `velocity`, serve where they exist;
+    /// so do `area` (else from the mesh) and the cell data `body` (else one body).
+    ///
+    /// # Errors
+    /// A file that cannot be read, is of another layout, or holds no record.
+    pub fn open(path: &Path) -> Result<Self, PostError> {
+        let file = open(path)?;
+        let lacks = |what: String| PostError::Lacks { path: path.into(), what };
+        let mut found = Vec::new();
+        for (name, units, components) in [
+            ("pressure", "Pa", 1),
+            ("shear", "Pa", 3),
+            ("slip_velocity", "m/s", 3),
+            ("gap", "m", 1),
+            ("mu", "1", 1),
+            ("state", "1", 1),
+            ("displacement", "m", 3),
+            ("velocity", "m/s", 3),
+        ] {
+            let field = file.fields().iter().find(|f| f.name == name && !f.on_cells);
+            if let Some(field) = field {
+                if field.units != units {
+                    return Err(lacks(format!(
+                        "{name} is in {:?}, but {units} is needed: convert it",
+                        field.units
+                    )));
+                }
+                if field.components != components {
+                    return Err(lacks(format!(
+                        "{name} has {} components, but {components} are needed",
+                        field.components
+                    )));
+                }
+            }
+            found.push(field.is_some());
+        }
+        if let Some(at) = found[..3].iter().position(|found| !found) {
+            let name = ["pressure", "shear", "slip_velocity"][at];
+            return Err(lacks(format!(
+                "it has no point data {name:?}: this is no contact history (docs/files.md)"
+            )));
+        }
+        let times = file.times()?;
+        if times.is_empty() {
+            return Err(lacks("it holds no record yet".into()));
+        }
+        if !times.windows(2).all(|pair| pair[0] < pair[1]) || !times.iter().all(|t| t.is_finite()) {
+            return Err(lacks("its times do not rise".into()));
+        }
+        let pairing = match file.provenance(PAIRING_ATTRIBUTE).as_deref() {
+            Ok("after") => (Pairing::After, true),
+            Ok("before") => (Pairing::Before, true),
+            _ => (Pairing::Before, false),
+        };
+        let has =
+            Optional { gap: found[3], mu: found[4], state: found[5], motion: found[6] && found[7] };
+        let surface = Surface::read(&file, path)?;
+        Ok(Self { path: path.into(), surface, times, pairing, has })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether records hold a gap, a coefficient of friction, a state, a motion.
+    pub fn has(&self, field: &str) -> bool {
+        match field {
+            "gap" => self.has.gap,
+            "mu" => self.has.mu,
+            "state" => self.has.state,
+            "motion" => self.has.motion,
+            _ => false,
+        }
+    }
+
+    /// Indices of the records from `from` to `to` (s), both included to round-off.
+    ///
+    /// # Errors
+    /// A window without a record.
+    pub fn window(&self, [from, to]: [f64; 2]) -> Result<std::ops::Range<usize>, PostError> {
+        let slack = 1e-9 * self.times.last().copied().unwrap_or(0.0).abs();
+        let start = self.times.partition_point(|t| *t < from - slack);
+        let end = self.times.partition_point(|t| *t <= to + slack);
+        if start < end {
+            return Ok(start..end);
+        }
+        Err(PostError::Lacks {
+            path: self.path.clone(),
+            what: format!(
+                "there is no record from {from:e} to {to:e} s; the file has {} from {:e} to {:e} s",
+                self.times.len(),
+                self.times[0],
+                self.times[self.times.len() - 1]
+            ),
+        })
+    }
+
+    /// One record.
+    ///
+    /// # Errors
+    /// A record that cannot be read or holds values that are not numbers.
+    pub fn record(&self, index: usize) -> Result<Frame, PostError> {
+        let file = open(&self.path)?;
+        let mut frame = Reading { file: &file, history: self }.tractions(index)?;
+        frame.motion = Reading { file: &file, history: self }.motion(index)?;
+        Ok(frame)
+    }
+
+    /// Hands every record of `records` to `take`, in order.
+    ///
+    /// # Errors
+    /// A record that cannot be read or holds values that are not numbers; an error of `take`.
+    pub fn stream(
+        &self,
+        records: std::ops::Range<usize>,
+        mut take: impl FnMut(Frame) -> Result<(), PostError>,
+    ) -> Result<(), PostError> {
+        let tractions = Ahead::start(self, records.clone(), |reading, k| reading.tractions(k));
+        let motions = Ahead::start(self, records.clone(), |reading, k| reading.motion(k));
+        for _ in records {
+            let mut frame = tractions.next(&self.path)?;
+            frame.motion = motions.next(&self.path)?;
+            take(frame)?;
+        }
+        tractions.finish();
+        motions.finish();
+        Ok(())
+    }
+}
+
+/// Records read ahead.
+const AHEAD: usize = 4;
+
+struct Ahead<T> {
+    inbox: Receiver<Result<T, PostError>>,
+    thread: JoinHandle<()>,
+}
+
+impl<T: Send + 'static> Ahead<T> {
+    fn start(
+        history: &ContactHistory,
+        records: std::ops::Range<usize>,
+        read: fn(&Reading<'_>, usize) -> Result<T, PostError>,
+    ) -> Self {
+        let (sender, inbox) = sync_channel(AHEAD);
+        let history = history.clone();
+        let thread = std::thread::spawn(move || {
+            let file = match open(&history.path) {
+                Ok(file) => file,
+                Err(error) => {
+                    let _ = sender.send(Err(error));
+                    return;
+                }
+            };
+            let reading = Reading { file: &file, history: &history };
+            for index in records {
+                let read = read(&reading, index);
+                let stop = read.is_err();
+                // a receiver that is gone wants no more
+                if sender.send(read).is_err() || stop {
+                    return;
+                }
+            }
+        });
+        Self { inbox, thread }
+    }
+
+    fn next(&self, path: &Path) -> Result<T, PostError> {
+        self.inbox.recv().map_err(|_| PostError::Damaged { path: path.into() })?
+    }
+
+    fn finish(self) {
+        drop(self.inbox);
+        let _ = self.thread.join();
+    }
+}
+
+/// Openings of a file that is being extended; one in a thousand meets a header while it is
+/// rewritten.
+const ATTEMPTS: usize = 5;
+
+/// Opens a grid, again where the opening met the closing of a snapshot.
+pub(crate) fn open(path: &Path) -> Result<GridFile, PostError> {
+    let mut failed = None;
+    for _ in 0..ATTEMPTS {
+        match GridFile::open(path) {
+            Ok(file) => return Ok(file),
+            Err(error) => failed = Some(error),
+        }
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    Err(failed.map_or_else(|| PostError::Damaged { path: path.into() }, PostError::from))
+}
+
+struct Reading<'a> {
+    file: &'a GridFile,
+    history: &'a ContactHistory,
+}
+
+impl Reading<'_> {
+    fn tractions(&self, index: usize) -> Result<Frame, PostError> {
+        let has = self.history.has;
+        Ok(Frame {
+            index,
+            time: self.history.times[index],
+            pressure: self.numbers("pressure", index, 1)?,
+            shear: vectors(self.numbers("shear", index, 3)?),
+            slip_velocity: vectors(self.numbers("slip_velocity", index, 3)?),
+            gap: has.gap.then(|| self.numbers("gap", index, 1)).transpose()?,
+            mu: has.mu.then(|| self.numbers("mu", index, 1)).transpose()?,
+            state: has
+                .state
+                .then(|| self.numbers("state", index, 1))
+                .transpose()?
+                .map(|states| states.into_iter().map(|state| state as u8).collect()),
+            motion: None,
+        })
+    }
+
+    fn motion(&self, index: usize) -> Result<Option<[Vec<Vec3>; 2]>, PostError> {
+        if !self.history.has.motion {
+            return Ok(None);
+        }
+        let displacement = vectors(self.numbers("displacement", index, 3)?);
+        let velocity = vectors(self.numbers("velocity", index, 3)?);
+        Ok(Some([displacement, velocity]))
+    }
+
+    fn numbers(
+        &self,
+        field: &'static str,
+        index: usize,
+        components: usize,
+    ) -> Result<Vec<f64>, PostError> {
+        let values = self.file.read(field, false, index)?;
+        let path = || self.history.path.clone();
+        if values.len() != components * self.history.surface.points.len() {
+            return Err(PostError::Damaged { path: path() });
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(values),
+            Some(at) => Err(PostError::NotANumber {
+                path: path(),
+                field,
+                node: at / components,
+                time: self.history.times[index],
+            }),
+        }
+    }
+}
+
+fn vectors(flat: Vec<f64>) -> Vec<Vec3> {
+    flat.as_chunks::<3>().0.to_vec()
+}

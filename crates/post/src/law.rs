@@ -1,0 +1,107 @@
+//! The friction law that a run is measured against.
+
+use contact::{Coulomb, Exponential, FrictionLaw};
+
+/// The laws of a case file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// One coefficient.
+    Coulomb(Coulomb),
+    /// Eq. (8).
+    Exponential(Exponential),
+}
+
+impl Law {
+    /// Coefficient at a slip speed (m/s).
+    pub fn mu(&self, speed: f64) -> f64 {
+        match self {
+            Law::Coulomb(law) => law.mu(speed),
+            Law::Exponential(law) => law.mu(speed),
+        }
+    }
+
+    /// Coefficient at rest.
+    pub fn mu_static(&self) -> f64 {
+        match self {
+            Law::Coulomb(law) => law.mu_static(),
+            Law::Exponential(law) => law.mu_static(),
+        }
+    }
+
+    /// Distance of the point (|s|, p_f/p_n) from the graph of the law, the curve
+    /// {s = 0, 0 <= p_f/p_n <= mu_S} and {p_f/p_n = mu(|s|)} of the paper's Figure 7.
+    ///
+    /// Speeds are counted in units of `scale` (m/s), coefficients of friction as they are. On the
+    /// falling branch the foot is found by Gauss-Newton from the point's own speed and from rest;
+    /// the point's own speed itself is a candidate, so that a point on the graph is at distance 0.
+    pub fn distance(&self, speed: f64, ratio: f64, scale: f64) -> f64 {
+        let size = |a: f64, b: f64| (a * a + b * b).sqrt();
+        let at_rest = size(speed / scale, (ratio - self.mu_static()).max(0.0));
+        let (mut best, law) = match self {
+            Law::Coulomb(law) => return at_rest.min((ratio - law.mu).abs()),
+            Law::Exponential(law) => (at_rest.min((ratio - law.mu(speed)).abs()), law),
+        };
+        if best > 0.0 {
+            let per_square = 1.0 / (scale * scale);
+            for start in [speed, 0.0] {
+                let mut foot = start;
+                for _ in 0..30 {
+                    let (mu, slope) = value_and_slope(law, foot);
+                    let residual = (foot - speed) * per_square + (mu - ratio) * slope;
+                    let next = (foot - residual / (per_square + slope * slope)).max(0.0);
+                    let done = (next - foot).abs() <= 1e-7 * scale;
+                    foot = next;
+                    if done {
+                        break;
+                    }
+                }
+                best = best.min(size((speed - foot) / scale, ratio - law.mu(foot)));
+            }
+        }
+        best
+    }
+}
+
+/// mu and its derivative with respect to the slip speed (s/m).
+fn value_and_slope(law: &Exponential, speed: f64) -> (f64, f64) {
+    let above = (law.mu_static - law.mu_dynamic) * (-law.decay * speed).exp();
+    (law.mu_dynamic + above, -law.decay * above)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_distance_from_the_graph_is_that_of_a_search_over_all_of_it() {
+        let law = Law::Exponential(Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 });
+        let scale = 0.0933;
+        for (speed, ratio) in [
+            (0.0, 0.2),
+            (0.3, 0.1),
+            (0.02, 0.48),
+            (1.0, 0.33),
+            (0.05, 0.7),
+            (0.2, 0.32),
+            (3.0, 0.5),
+        ] {
+            let branch = (0..=4_000_000).map(|i| f64::from(i) * 1e-6);
+            let sliding = branch
+                .map(|s| ((speed - s) / scale).hypot(ratio - law.mu(s)))
+                .fold(f64::INFINITY, f64::min);
+            let sticking = (speed / scale).hypot((ratio - 0.5f64).max(0.0));
+            let expected = sliding.min(sticking);
+            let found = law.distance(speed, ratio, scale);
+            assert!((found - expected).abs() < 1e-9, "{speed} {ratio}: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_point_on_the_graph_is_at_no_distance() {
+        let law = Law::Exponential(Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 });
+        assert_eq!(law.distance(0.7, law.mu(0.7), 0.1), 0.0);
+        assert_eq!(law.distance(0.0, 0.3, 0.1), 0.0);
+        let law = Law::Coulomb(Coulomb { mu: 0.5 });
+        assert_eq!(law.distance(0.7, 0.45, 0.1), 0.5 - 0.45);
+    }
+}

@@ -1,0 +1,40 @@
+//! What a run means: where and by how much the contact conditions, Eqs. (6) to (8) of Vollebregt
+//! (2017), are violated, what the patch is like, and the figures and the page that show it.
+//!
+//! Runs are read through `output` alone, so that results of other codes can be judged once they
+//! have the layout of `contact.vtkhdf`. Of `contact` only definitions are used, the friction laws
+//! and the fit of the patch; the kinematics of the pair is written anew here (module `foot`), so
+//! that a check does not repeat an error of the solver.
+//!
+//! [`check`](check()) goes through a contact history record by record and gives the document of
+//! `creepage check`; memory does not grow with the number of records beyond a few numbers each.
+
+mod basis;
+mod check;
+mod conditions;
+mod error;
+mod figures;
+mod foot;
+mod frames;
+mod law;
+mod limits;
+mod map;
+mod page;
+mod patch_series;
+mod roughness;
+mod statistics;
+mod surface;
+mod tally;
+mod vector;
+
+pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
+pub use check::{CheckOptions, Checked, Report, check};
+pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
+pub use error::PostError;
+pub use figures::{Named, figures};
+pub use frames::{ContactHistory, Frame, PAIRING_ATTRIBUTE, Pairing};
+pub use law::Law;
+pub use limits::{Limit, Limits, MEASURES, Measure};
+pub use page::{run_page, sweep_page};
+pub use patch_series::{PATCH_MEASURES, PatchRow};
+pub use surface::{NO_BODY, Surface, body_name};

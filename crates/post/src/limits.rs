@@ -1,0 +1,141 @@
+//! The measures by name and what they may amount to.
+
+use crate::PostError;
+use std::collections::BTreeMap;
+
+/// A measure of section 8 of the project's physics notes.
+#[derive(Clone, Copy, Debug)]
+pub struct Measure {
+    /// Its name: a contract.
+    pub name: &'static str,
+    /// Unit of its value.
+    pub units: &'static str,
+    /// Which statistic over nodes and times its value is.
+    pub statistic: &'static str,
+    /// What it is, in a phrase.
+    pub about: &'static str,
+    /// Limit for methods that enforce the conditions exactly.
+    exact: Option<Limit>,
+    /// Limit for a penalty method that can be used.
+    penalty: Option<Limit>,
+}
+
+/// What a measure may amount to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// At most.
+    Most(f64),
+    /// A ratio from 1/x to x, or of two numbers.
+    Between(f64, f64),
+}
+
+impl Limit {
+    /// Whether a value is within it.
+    pub fn holds(self, value: f64) -> bool {
+        match self {
+            Self::Most(most) => value <= most,
+            Self::Between(low, high) => (low..=high).contains(&value),
+        }
+    }
+}
+
+/// All measures, in the order of tables.
+pub const MEASURES: [Measure; 14] = [
+    measure("penetration", "1", "max", "penetration over Hertz's approach", most(1e-3), None),
+    measure("tension", "1", "max", "tension over p0", most(0.0), most(0.0)),
+    measure("complementarity", "1", "max", "|gap| p_n/(delta p0)", most(1e-3), None),
+    measure("cone", "1", "max", "p_f/(mu_S p_n) - 1 above the cone", most(1e-10), most(1e-10)),
+    measure("adhesion_slip", "1", "max", "|s|/s_c below 0.98 of the bound", most(1e-3), None),
+    measure("law_error", "1", "rms", "p_f/(mu(|s|) p_n) - 1 in slip", None, most(0.02)),
+    measure("law_error_own", "1", "rms", "the same with the mu used", most(1e-8), None),
+    measure("direction", "deg", "rms", "angle of the shear from -s in slip", most(0.1), most(5.0)),
+    measure("wrong_direction", "1", "share", "slip with that angle above 90 deg", None, None),
+    measure("dissipation", "1", "share", "contact power of the wrong sign", most(0.0), None),
+    measure("violating_fraction", "1", "share", "of the contact area", most(0.0), most(0.05)),
+    measure(
+        "roughness_ratio",
+        "1",
+        "ratio",
+        "sd_t(p_f/p_n) over sd_t(mu(|s|)) in slip",
+        Some(Limit::Between(0.999, 1.001)),
+        Some(Limit::Between(0.8, 1.25)),
+    ),
+    measure("law_scatter", "1", "rms", "distance from the law's graph", most(1e-8), None),
+    measure("switching_rate", "1", "rate", "stick-slip switches per h/c_s", None, None),
+];
+
+const fn most(value: f64) -> Option<Limit> {
+    Some(Limit::Most(value))
+}
+
+const fn measure(
+    name: &'static str,
+    units: &'static str,
+    statistic: &'static str,
+    about: &'static str,
+    exact: Option<Limit>,
+    penalty: Option<Limit>,
+) -> Measure {
+    Measure { name, units, statistic, about, exact, penalty }
+}
+
+/// The limits of a check.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// For which kind of method they are.
+    pub set: &'static str,
+    of: BTreeMap<&'static str, Limit>,
+    asked: Vec<&'static str>,
+}
+
+impl Limits {
+    /// Those for a kind of enforcement: `penalty`, or any other for methods that claim to enforce
+    /// the conditions exactly. Where nothing is known, those of a usable penalty method.
+    pub fn for_enforcement(enforcement: Option<&str>) -> Self {
+        let exact = enforcement.is_some_and(|name| name != "penalty");
+        let limit = |m: &Measure| Some((m.name, if exact { m.exact } else { m.penalty }?));
+        Self {
+            set: if exact { "exact" } else { "penalty" },
+            of: MEASURES.iter().filter_map(limit).collect(),
+            asked: Vec::new(),
+        }
+    }
+
+    /// Sets a limit. That of `roughness_ratio` is the larger end of a range around 1.
+    ///
+    /// # Errors
+    /// A name that is no measure, or a value that is no number of at least 0.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), PostError> {
+        let Some(measure) = MEASURES.iter().find(|m| m.name == name) else {
+            let names: Vec<_> = MEASURES.iter().map(|m| m.name).collect();
+            return Err(PostError::Asked(format!(
+                "there is no measure '{name}'; the measures are {}",
+                names.join(", ")
+            )));
+        };
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(PostError::Asked(format!(
+                "the limit {name}={value} must be a number of at least 0"
+            )));
+        }
+        let limit = if measure.name == "roughness_ratio" {
+            let end = value.max(1.0 / value);
+            Limit::Between(1.0 / end, end)
+        } else {
+            Limit::Most(value)
+        };
+        self.of.insert(measure.name, limit);
+        self.asked.push(measure.name);
+        Ok(())
+    }
+
+    /// The limit of a measure.
+    pub fn of(&self, name: &str) -> Option<Limit> {
+        self.of.get(name).copied()
+    }
+
+    /// Whether a user asked for it: then a value that cannot be had is a failure.
+    pub fn was_asked(&self, name: &str) -> bool {
+        self.asked.contains(&name)
+    }
+}

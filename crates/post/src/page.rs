@@ -1,0 +1,327 @@
+//! One self-contained HTML page that says what a run means: no network, figures inline.
+
+mod numbers;
+mod sweep;
+mod verdict;
+
+use crate::PostError;
+use crate::basis::Basis;
+use crate::figures::Named;
+use crate::limits::MEASURES;
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+pub use sweep::sweep_page;
+
+const STYLE: &str = "
+body{font-family:\"DejaVu Sans\",sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;
+color:#111;line-height:1.45}
+h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #bbb}
+table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
+td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
+td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
+.note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
+pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
+@media print{body{max-width:none}figure{break-inside:avoid}}";
+
+/// The page of a run, from the document of its check and its figures.
+///
+/// # Errors
+/// A figure that cannot be drawn.
+pub fn run_page(
+    basis: &Basis,
+    folder: &Path,
+    checked: &Value,
+    figures: &[Named],
+) -> Result<String, PostError> {
+    let mut out = head(&basis.name);
+    let _ = write!(out, "<h1>{}</h1>\n<p>{}</p>\n", escape(&basis.name), title(basis, checked));
+    verdicts(&mut out, checked);
+    case(&mut out, basis, checked);
+    numbers::section(&mut out, basis);
+    patch(&mut out, basis, checked);
+    energy(&mut out, basis);
+    out.push_str("<h2>Figures</h2>\n");
+    for named in figures {
+        let svg = named.figure.svg_element()?;
+        let _ = writeln!(
+            out,
+            "<figure id=\"{}\" aria-label=\"{}\">{svg}</figure>",
+            named.stem,
+            escape(named.about)
+        );
+    }
+    reproduce(&mut out, basis, folder);
+    out.push_str("</body>\n</html>\n");
+    Ok(out)
+}
+
+fn head(name: &str) -> String {
+    // an empty icon keeps browsers from asking a server for one
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n\
+         <link rel=\"icon\" href=\"data:,\">\n<style>{}{STYLE}</style>\n</head>\n<body>\n",
+        escape(name),
+        figure::font_face()
+    )
+}
+
+/// Text as HTML.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A number in few digits.
+pub(crate) fn digits(value: f64, significant: i32) -> String {
+    let size = value.abs();
+    let text = if size == 0.0 {
+        "0".into()
+    } else if (1e-3..1e6).contains(&size) {
+        let decimals = (significant - 1 - size.log10().floor() as i32).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", (significant - 1).max(0) as usize)
+    };
+    text.replace('-', "\u{2212}")
+}
+
+fn number(document: &Value, pointer: &str) -> Option<f64> {
+    document.pointer(pointer).and_then(Value::as_f64)
+}
+
+fn title(basis: &Basis, checked: &Value) -> String {
+    let text = basis.case.as_ref().and_then(|case| case.get("title")).and_then(|t| t.as_str());
+    let status = basis.summary.as_ref().and_then(|s| s["status"].as_str());
+    let state = match status {
+        Some("completed") => "The run reached its end.",
+        Some("interrupted") => "The run was interrupted; this page shows what it reached.",
+        Some(_) => "The run was stopped by its own guards; this page shows what it reached.",
+        None => "The run has no summary: it is in progress, or its data come from elsewhere.",
+    };
+    let ms = |pointer| number(checked, pointer).map_or("?".into(), |t| digits(1e3 * t, 5));
+    format!(
+        "{} {state} Judged from {} to {} ms in {} records.",
+        text.map(|text| format!("{}.", escape(text.trim_end_matches('.')))).unwrap_or_default(),
+        ms("/window/0"),
+        ms("/window/1"),
+        checked["steps"]
+    )
+}
+
+fn verdicts(out: &mut String, checked: &Value) {
+    let (word, class) = if checked["pass"] == Value::Bool(true) {
+        ("Every limit on the contact conditions holds.", "pass")
+    } else {
+        ("The run violates the contact conditions beyond their limits.", "fail")
+    };
+    let _ = write!(
+        out,
+        "<h2>Contact conditions</h2>\n<p class=\"{class}\">{word}</p>\n\
+         <p>Limits are those of {} methods; slip and traction are paired in time as: {}. \
+         Definitions and scales: docs/checks.md of Creepage.</p>\n\
+         <table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
+         <th></th><th>what it says</th></tr>\n",
+        checked["limits_for"].as_str().unwrap_or_default(),
+        checked.pointer("/pairing/reported").and_then(Value::as_str).unwrap_or_default()
+    );
+    for measure in MEASURES {
+        let metric = &checked["metrics"][measure.name];
+        let value = metric["value"].as_f64();
+        let limit = match (&metric["limit"], metric["limit"].as_f64()) {
+            (_, Some(most)) => digits(most, 2),
+            (Value::Array(ends), _) => ends
+                .iter()
+                .filter_map(Value::as_f64)
+                .map(|end| digits(end, 3))
+                .collect::<Vec<_>>()
+                .join(" to "),
+            _ => String::new(),
+        };
+        let (word, class) = match (&metric["limit"], metric["pass"].as_bool()) {
+            (Value::Null, _) => ("", ""),
+            (_, Some(true)) => ("pass", "pass"),
+            _ => ("fail", "fail"),
+        };
+        let units = if measure.units == "1" { "" } else { measure.units };
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td class=\"n\">{} {units}</td><td class=\"n\">{limit}</td>\
+             <td class=\"{class}\">{word}</td><td>{}</td></tr>",
+            measure.name,
+            value.map_or("\u{2013}".into(), |value| digits(value, 3)),
+            escape(&verdict::verdict(measure.name, metric))
+        );
+    }
+    out.push_str("</table>\n");
+    for note in checked["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        let _ = writeln!(out, "<p class=\"note\">Note: {}.</p>", escape(note));
+    }
+}
+
+fn case(out: &mut String, basis: &Basis, checked: &Value) {
+    out.push_str("<h2>The case</h2>\n<table>\n");
+    let mut row = |label: &str, text: String| {
+        let _ = writeln!(out, "<tr><td>{label}</td><td>{}</td></tr>", escape(&text));
+    };
+    let law = &checked["law"];
+    let at = |key: &str| law[key].as_f64().map_or("?".into(), |value| digits(value, 3));
+    match law["law"].as_str() {
+        Some("coulomb") => row("friction", format!("Coulomb, \u{3bc} = {}", at("static"))),
+        Some(_) => row(
+            "friction",
+            format!(
+                "falls with slip velocity, Eq. (8): \u{3bc}_S = {}, \u{3bc}_D = {}, k = {} s/m",
+                at("static"),
+                at("dynamic"),
+                at("decay")
+            ),
+        ),
+        None => row("friction", "the coefficient that the data give".into()),
+    }
+    if let Some(enforcement) = &basis.enforcement {
+        row("contact", enforcement.clone());
+    }
+    for (name, entry) in checked["scales"].as_object().into_iter().flatten() {
+        let value = entry["value"].as_f64().map_or("?".into(), |value| digits(value, 5));
+        let units = entry["units"].as_str().filter(|u| *u != "1").unwrap_or_default();
+        let about = entry["about"].as_str().unwrap_or_default();
+        let from = entry["from"].as_str().unwrap_or_default();
+        row(&name.replace('_', " "), format!("{value} {units}: {about} (from: {from})"));
+    }
+    if let Some(summary) = &basis.summary {
+        let count = |key: &str| summary[key].as_u64().map_or("?".into(), |n| n.to_string());
+        row(
+            "model",
+            format!(
+                "{} elements, {} nodes, {} steps",
+                count("elements"),
+                count("nodes"),
+                count("steps")
+            ),
+        );
+    }
+    out.push_str("</table>\n");
+}
+
+/// Label, key, factor to the unit, unit.
+const PATCH: [(&str, &str, f64, &str); 13] = [
+    ("half length (fit)", "half_length", 1e3, "mm"),
+    ("half width (fit)", "half_width", 1e3, "mm"),
+    ("area", "area", 1e6, "mm\u{b2}"),
+    ("peak pressure (fit)", "peak_pressure", 1e-6, "MPa"),
+    ("peak pressure (nodes)", "peak_pressure_raw", 1e-6, "MPa"),
+    ("peak shear", "peak_shear", 1e-6, "MPa"),
+    ("normal force", "normal_force", 1e-3, "kN"),
+    ("tangential force", "tangential_force", 1e-3, "kN"),
+    ("traction coefficient", "traction_coefficient", 1.0, ""),
+    ("creepage", "creepage", 1e3, "10\u{207b}\u{b3}"),
+    ("stick fraction", "stick_fraction", 1.0, ""),
+    ("slip fraction", "slip_fraction", 1.0, ""),
+    ("power of friction", "power", 1e-3, "kW"),
+];
+
+fn patch(out: &mut String, basis: &Basis, checked: &Value) {
+    out.push_str(
+        "<h2>The patch</h2>\n<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
+         <th></th><th class=\"n\">deviation</th><th class=\"n\">half-space</th></tr>\n",
+    );
+    for (label, key, factor, unit) in PATCH {
+        let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));
+        let Some(mean) = at("mean") else {
+            continue;
+        };
+        let reference = match key {
+            "half_length" | "half_width" | "peak_pressure" => basis
+                .scales
+                .get(key)
+                .filter(|scale| !scale.from.contains("last record"))
+                .map(|scale| digits(factor * scale.value, 4)),
+            _ => None,
+        };
+        let _ = writeln!(
+            out,
+            "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td>\
+             <td class=\"n\">{}</td></tr>",
+            digits(factor * mean, 4),
+            at("deviation").map(|d| digits(factor * d, 2)).unwrap_or_default(),
+            reference.unwrap_or_default()
+        );
+    }
+    out.push_str("</table>\n");
+}
+
+fn energy(out: &mut String, basis: &Basis) {
+    let Some(energy) = basis.summary.as_ref().and_then(|s| s["energy"].as_object()) else {
+        return;
+    };
+    out.push_str("<h2>Energy at the end</h2>\n<table>\n");
+    for (label, key) in [
+        ("kinetic", "kinetic"),
+        ("strain", "internal"),
+        ("hourglass stiffness", "hourglass"),
+        ("contact springs", "contact_stored"),
+        ("heat of friction", "friction_dissipated"),
+        ("heat of damping", "damping_dissipated"),
+        ("work of drive and load", "external_work"),
+    ] {
+        if let Some(value) = energy.get(key).and_then(Value::as_f64) {
+            let _ = writeln!(
+                out,
+                "<tr><td>{label}</td><td class=\"n\">{} J</td></tr>",
+                digits(value, 4)
+            );
+        }
+    }
+    out.push_str("</table>\n");
+    if let Some(error) = energy.get("balance_error").and_then(Value::as_f64) {
+        let _ = writeln!(
+            out,
+            "<p>The ledger closes to {} of the largest energy exchanged.</p>",
+            digits(error, 2)
+        );
+    }
+    let share = |key: &str| energy.get(key).and_then(Value::as_f64);
+    if let (Some(hourglass), Some(internal)) = (share("hourglass"), share("internal"))
+        && internal > 0.0
+    {
+        let _ = writeln!(
+            out,
+            "<p>Hourglass energy is {} % of the strain energy (commonly kept below 1 %).</p>",
+            digits(100.0 * hourglass / internal, 2)
+        );
+    }
+}
+
+fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
+    let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy();
+    let run = format!("runs/{}", escape(&name));
+    let _ = write!(
+        out,
+        "<h2>How to reproduce</h2>\n<pre>creepage run case.toml --out {run}\ncreepage check {run}\n\
+         creepage plot {run}\ncreepage report {run}</pre>\n<p>Made by Creepage {}. Running the \
+         resolved case again gives the same bits on the same kind of processor.</p>\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    if let Some(text) = basis.case.as_ref().and_then(|case| toml::to_string_pretty(case).ok()) {
+        let _ = writeln!(
+            out,
+            "<details><summary>case.toml, as resolved</summary><pre>{}</pre></details>",
+            escape(&text)
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_become_markup_and_numbers_stay_short() {
+        assert_eq!(escape("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+        assert_eq!(digits(-0.012_345, 3), "\u{2212}0.0123");
+        assert_eq!(digits(1.5e-9, 2), "1.5e\u{2212}9");
+        assert_eq!(digits(0.0, 3), "0");
+    }
+}

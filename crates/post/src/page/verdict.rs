@@ -1,0 +1,101 @@
+//! What a measure's value means, in a sentence.
+
+use super::digits;
+use serde_json::Value;
+
+/// The verdict on a measure from its entry in the document of a check.
+pub(super) fn verdict(name: &str, metric: &Value) -> String {
+    let Some(value) = metric["value"].as_f64() else {
+        return format!("Not measured: {}.", metric["note"].as_str().unwrap_or("no data"));
+    };
+    let percent = |value: f64| format!("{} %", digits(100.0 * value, 3));
+    let place = place(&metric["where"]);
+    match name {
+        "penetration" => format!(
+            "The surfaces lie in each other by up to {} of the approach of the bodies{place}; a \
+             method without springs has none.",
+            percent(value)
+        ),
+        "tension" if value == 0.0 => "No node is pulled.".into(),
+        "tension" => format!("Nodes are pulled by up to {} of p0{place}.", percent(value)),
+        "complementarity" => format!(
+            "Gap times pressure reaches {} of approach times p0{place}; one of them should be zero \
+             everywhere.",
+            percent(value)
+        ),
+        "cone" if value <= 1e-10 => "No shear exceeds the static bound.".into(),
+        "cone" => format!("Shear exceeds the static bound by up to {}{place}.", percent(value)),
+        "adhesion_slip" => format!(
+            "Nodes whose shear is below the bound, and which should stick, slip at up to {} times \
+             the mean slip speed |creepage| V{place}.",
+            digits(value, 3)
+        ),
+        "law_error" => format!(
+            "Where nodes slip, shear is off the bound \u{3bc}(|s|) p by {} (root mean square){}.",
+            percent(value),
+            let_slip(metric)
+        ),
+        "law_error_own" => format!(
+            "With the coefficient that the algorithm used it is off by {}: what remains is the \
+             method's own error, not the lag of its coefficient.",
+            percent(value)
+        ),
+        "direction" => format!(
+            "Shear is off the direction against the slip by {} degrees (root mean square).",
+            digits(value, 3)
+        ),
+        "wrong_direction" => {
+            format!("On {} of the slipping area and time shear drives the slip.", percent(value))
+        }
+        "dissipation" => format!(
+            "{} of the power exchanged in slip has the wrong sign: friction gives energy instead of \
+             taking it.",
+            percent(value)
+        ),
+        "violating_fraction" => {
+            format!("{} of the contact area and time violates the conditions.", percent(value))
+        }
+        "roughness_ratio" => {
+            let meaning = match value {
+                v if v < 0.8 => "the traction is too smooth for the slip that it belongs to",
+                v if v > 1.25 => "the traction is rougher than its law",
+                _ => "traction and slip fluctuate as the law says",
+            };
+            format!("p_f/p fluctuates {} times as much as \u{3bc}(|s|): {meaning}.", digits(value, 3))
+        }
+        "law_scatter" => {
+            "Root mean square distance of (|s|, p_f/p) from the law's graph, speeds in units of \
+             |creepage| V."
+                .into()
+        }
+        "switching_rate" => {
+            "Changes between stick and slip per node in the time a shear wave needs for an element; \
+             values near 1 would be a chatter at the scale of the mesh."
+                .into()
+        }
+        _ => String::new(),
+    }
+}
+
+/// What is left of an error where the algorithm itself lets nodes slip.
+fn let_slip(metric: &Value) -> String {
+    let (side, pairing) = (metric["side"].as_str(), metric["pairing"].as_str());
+    let found = side
+        .zip(pairing)
+        .and_then(|(side, pairing)| metric["sides"][side][pairing]["rms_where_let_slip"].as_f64());
+    found
+        .map(|rms| {
+            format!("; by {} % where the algorithm itself lets them slip", digits(100.0 * rms, 2))
+        })
+        .unwrap_or_default()
+}
+
+fn place(place: &Value) -> String {
+    let at = |i: usize| place["position"][i].as_f64().map(|x| digits(1e3 * x, 3));
+    match (at(0), at(1), place["time"].as_f64()) {
+        (Some(x), Some(y), Some(time)) => {
+            format!(" (worst at x = {x} mm, y = {y} mm, t = {} ms)", digits(1e3 * time, 5))
+        }
+        _ => String::new(),
+    }
+}

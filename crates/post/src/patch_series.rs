@@ -1,0 +1,118 @@
+//! The patch over time: half axes, areas, forces, power.
+
+use crate::conditions::IN_CONTACT;
+use crate::frames::Frame;
+use crate::statistics::mean_and_deviation;
+use crate::surface::Surface;
+use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
+use contact::patch;
+use serde_json::{Value, json};
+
+/// Measures of the patch, in the order of a row: name, unit, meaning.
+pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
+    ("half_length", "m", "half axis along x of the ellipse fitted to the pressure"),
+    ("half_width", "m", "half axis along y of that fit"),
+    ("centre", "m", "x of its centre"),
+    ("peak_pressure", "Pa", "peak pressure of that fit"),
+    ("peak_pressure_raw", "Pa", "largest nodal pressure"),
+    ("peak_shear", "Pa", "largest nodal shear traction"),
+    ("area", "m2", "area in contact"),
+    ("normal_force", "N", "z component of the force on the disk"),
+    ("tangential_force", "N", "x component of the force on the disk"),
+    ("lateral_force", "N", "y component of the force on the disk"),
+    ("traction_coefficient", "1", "tangential over normal force"),
+    ("stick_fraction", "1", "share of the area that the algorithm lets stick"),
+    ("slip_fraction", "1", "share of the area that the algorithm lets slip"),
+    ("power", "W", "work of friction per time"),
+];
+
+/// The patch at one time: values in the order of [`PATCH_MEASURES`].
+#[derive(Clone, Copy, Debug)]
+pub struct PatchRow {
+    /// Time (s).
+    pub time: f64,
+    /// The values; NaN where there is none.
+    pub values: [f64; PATCH_MEASURES.len()],
+}
+
+/// Measures the patch of a record on `body`.
+///
+/// The half axes come from a least-squares fit of Hertz's distribution to the pressure, which
+/// resolves fractions of an element; positions are those of the moment. Forces are sums of
+/// pressure along the normals of the deformed surface and of shear, over all nodes under pressure;
+/// they are those on the disk, turned around where `body` is the bar.
+pub(crate) fn measure(surface: &Surface, frame: &Frame, body: u8, p0: f64) -> PatchRow {
+    let of_body = |&row: &usize| surface.body[row] == body;
+    let rows: Vec<usize> = (0..surface.points.len()).filter(of_body).collect();
+    let position = |row: usize| match &frame.motion {
+        Some([displacement, _]) => axpy(surface.points[row], 1.0, displacement[row]),
+        None => surface.points[row],
+    };
+    let points: Vec<Vec3> = rows.iter().map(|&row| position(row)).collect();
+    let pressure: Vec<f64> = rows.iter().map(|&row| frame.pressure[row]).collect();
+    let fit = patch::fit(&points, &pressure);
+    let normals = normals(surface, frame, body, position);
+    let mut force = [0.0; 3];
+    let (mut area, mut stick, mut slip, mut power) = (0.0, 0.0, 0.0, 0.0);
+    let (mut peak, mut peak_shear) = (0.0f64, 0.0f64);
+    for &row in &rows {
+        let (p, a, shear) = (frame.pressure[row], surface.area[row], frame.shear[row]);
+        let n = normals[row];
+        let size = norm(n);
+        if size > 0.0 {
+            force = axpy(force, -p * a / size, n);
+        }
+        force = axpy(force, a, shear);
+        power -= a * dot(shear, frame.slip_velocity[row]);
+        peak = peak.max(p);
+        peak_shear = peak_shear.max(norm(shear));
+        if p > IN_CONTACT * p0 {
+            area += a;
+            match frame.state.as_ref().map(|state| state[row]) {
+                Some(1) => stick += a,
+                Some(2) => slip += a,
+                _ => {}
+            }
+        }
+    }
+    let towards_disk = if body == 0 { 1.0 } else { -1.0 };
+    let [fx, fy, fz] = force.map(|f| f * towards_disk);
+    let share = |part: f64| if frame.state.is_some() { part / area } else { f64::NAN };
+    let [a, b, xc, top] = fit.map_or([f64::NAN; 4], |f| [f.a, f.b, f.xc, f.p0]);
+    let (stick, slip) = (share(stick), share(slip));
+    PatchRow {
+        time: frame.time,
+        values: [a, b, xc, top, peak, peak_shear, area, fz, fx, fy, fx / fz, stick, slip, power],
+    }
+}
+
+/// Sums of the area vectors of the faces around each node under pressure.
+fn normals(
+    surface: &Surface,
+    frame: &Frame,
+    body: u8,
+    position: impl Fn(usize) -> Vec3,
+) -> Vec<Vec3> {
+    let mut normals = vec![[0.0; 3]; surface.points.len()];
+    for (face, &label) in surface.faces.iter().zip(&surface.face_body) {
+        let corners = face.map(|node| node as usize);
+        if label != body || corners.iter().all(|&node| frame.pressure[node] == 0.0) {
+            continue;
+        }
+        let [a, b, c, d] = corners.map(&position);
+        let area = cross(sub(c, a), sub(d, b));
+        corners.iter().for_each(|&node| normals[node] = axpy(normals[node], 0.5, area));
+    }
+    normals
+}
+
+/// Means and standard deviations over the records.
+pub(crate) fn means(rows: &[PatchRow]) -> Value {
+    let of = |i: usize| mean_and_deviation(rows.iter().map(move |row| row.values[i]));
+    let entry = |(i, &(name, units, about)): (usize, &(&str, &str, &str))| {
+        let [mean, deviation] = of(i)?;
+        let value = json!({ "mean": mean, "deviation": deviation, "units": units, "about": about });
+        Some((name.to_owned(), value))
+    };
+    PATCH_MEASURES.iter().enumerate().filter_map(entry).collect::<serde_json::Map<_, _>>().into()
+}

@@ -1,0 +1,158 @@
+//! The argument of the paper's Figure 4 as a number: where slip velocity fluctuates, the law wants
+//! the shear to fluctuate with it.
+
+/// Standard deviations in time of p_f/p_n and of mu(|s|) at slipping nodes, both high-passed.
+///
+/// The high pass subtracts the mean over a tenth of a contact transit, 2a/(10 V), centred on the
+/// sample: the trend that every node goes through along the patch drops out, the fluctuation
+/// stays. A sample counts where the whole span lies in one uninterrupted spell of slip with
+/// records at equal intervals.
+pub(crate) struct Roughness {
+    span: f64,
+    last: Option<f64>,
+    /// Interval of the records, known from the second one on.
+    interval: Option<f64>,
+    /// Records since the interval holds, from 0.
+    record: usize,
+    /// Records on each side of the middle of the span; zero where they lie too far apart.
+    half: usize,
+    /// The values of the last `2 half + 1` records, each for all nodes: so they are met in order.
+    ring: Vec<Vec<[f64; 2]>>,
+    /// Record with which the spell of each node began.
+    since: Vec<usize>,
+    sums: Vec<[f64; 2]>,
+    weight: f64,
+    squares: [f64; 2],
+}
+
+const NONE: usize = usize::MAX;
+
+/// Most records in a span; beyond it they lie so close that every second one would do.
+const MOST: usize = 4001;
+
+impl Roughness {
+    /// For `nodes` nodes, with means over `span` (s).
+    pub fn new(nodes: usize, span: f64) -> Self {
+        Self {
+            span,
+            last: None,
+            interval: None,
+            record: 0,
+            half: 0,
+            ring: vec![vec![[0.0; 2]; nodes]],
+            since: vec![NONE; nodes],
+            sums: vec![[0.0; 2]; nodes],
+            weight: 0.0,
+            squares: [0.0; 2],
+        }
+    }
+
+    /// A new record begins. Where the interval changes, spells begin anew with the record before.
+    pub fn begin(&mut self, time: f64) {
+        let Some(last) = self.last.replace(time) else {
+            return;
+        };
+        let step = time - last;
+        self.record += 1;
+        if self.interval.is_some_and(|interval| (step - interval).abs() <= 0.01 * interval) {
+            return;
+        }
+        let before = (self.record - 1) % self.ring.len();
+        self.ring.swap(0, before);
+        let nodes = self.since.len();
+        let half = (0.5 * self.span / step + 1e-6).floor() as usize;
+        self.half = if 2 * half < MOST { half } else { 0 };
+        self.ring.resize(2 * self.half + 1, vec![[0.0; 2]; nodes]);
+        for node in 0..nodes {
+            if self.since[node] != NONE {
+                self.since[node] = 0;
+                self.sums[node] = self.ring[0][node];
+            }
+        }
+        self.interval = Some(step);
+        self.record = 1;
+    }
+
+    /// A node slips in this record, with p_f/p_n and mu(|s|).
+    pub fn add(&mut self, node: usize, values: [f64; 2], area: f64) {
+        let whole = self.ring.len();
+        let slot = self.record % whole;
+        if self.since[node] == NONE {
+            self.since[node] = self.record;
+            self.sums[node] = [0.0; 2];
+        }
+        let gone = std::mem::replace(&mut self.ring[slot][node], values);
+        let count = self.record - self.since[node] + 1;
+        let sums = &mut self.sums[node];
+        for i in 0..2 {
+            sums[i] += if count > whole { values[i] - gone[i] } else { values[i] };
+        }
+        if let (true, Some(interval)) = (self.half > 0 && count >= whole, self.interval) {
+            let middle = self.ring[(self.record - self.half) % whole][node];
+            let weight = area * interval;
+            self.weight += weight;
+            for i in 0..2 {
+                let away = middle[i] - sums[i] / whole as f64;
+                self.squares[i] += weight * away * away;
+            }
+        }
+    }
+
+    /// A node does not slip.
+    pub fn interrupt(&mut self, node: usize) {
+        self.since[node] = NONE;
+    }
+
+    /// The standard deviations of p_f/p_n and of mu(|s|); `None` where no spell is long enough.
+    pub fn deviations(&self) -> Option<[f64; 2]> {
+        (self.weight > 0.0).then(|| self.squares.map(|squares| (squares / self.weight).sqrt()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn trends_drop_out_and_fluctuations_stay() {
+        let mut roughness = Roughness::new(1, 1.0);
+        for i in 0..1000 {
+            let t = 0.01 * f64::from(i);
+            let chatter = if i % 2 == 0 { 1.0 } else { -1.0 };
+            roughness.begin(t);
+            roughness.add(0, [3.0 * t + 0.2 * chatter, 7.0 - t + 0.1 * chatter], 1.0);
+        }
+        let [shear, law] = roughness.deviations().unwrap();
+        // 0.2 (1 - 1/101): the mean over an odd number of samples keeps one
+        assert!((shear - 0.2 * (1.0 - 1.0 / 101.0)).abs() < 1e-6, "{shear}");
+        assert!((shear / law - 2.0).abs() < 1e-10);
+    }
+
+    #[test]
+    fn spells_shorter_than_the_span_do_not_count() {
+        let mut roughness = Roughness::new(1, 1.0);
+        for i in 0..300 {
+            if i % 50 == 0 {
+                roughness.interrupt(0);
+            }
+            roughness.begin(0.01 * f64::from(i));
+            roughness.add(0, [1.0, 1.0], 1.0);
+        }
+        assert_eq!(roughness.deviations(), None);
+    }
+
+    #[test]
+    fn a_change_of_the_interval_starts_a_new_spell() {
+        let mut roughness = Roughness::new(1, 1.0);
+        let mut record = |time: f64| {
+            roughness.begin(time);
+            roughness.add(0, [1.0, 1.0], 1.0);
+        };
+        (0..60).for_each(|i| record(0.01 * f64::from(i)));
+        (0..60).for_each(|i| record(1.0 + 0.02 * f64::from(i)));
+        assert_eq!(roughness.deviations(), Some([0.0; 2]));
+        let before = roughness.weight;
+        assert!((before / 0.02 - 10.0).abs() < 1e-9, "{before}");
+    }
+}

@@ -1,0 +1,138 @@
+//! Weighted moments, extremes and quantiles in one pass.
+
+/// Where a value was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Row of the node in the file.
+    pub node: usize,
+    /// Time (s).
+    pub time: f64,
+    /// The value there.
+    pub value: f64,
+}
+
+/// Weighted mean, mean square, largest absolute value with its place, and quantiles.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Spread {
+    weight: f64,
+    sum: f64,
+    squares: f64,
+    pub worst: Option<Place>,
+    bins: Vec<Bin>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Bin {
+    weight: f64,
+    low: f64,
+    high: f64,
+}
+
+/// Bins of |x| by its exponent and the first bits of its fraction: a quantile is known to 1.6 %.
+const FRACTION_BITS: u32 = 6;
+/// Smallest and largest exponent with bins of their own; beyond them all share one.
+const EXPONENTS: std::ops::Range<u64> = 1023 - 60..1023 + 24;
+const BINS: usize = ((EXPONENTS.end - EXPONENTS.start) << FRACTION_BITS) as usize + 2;
+
+fn bin_of(size: f64) -> usize {
+    let at = size.to_bits() >> (52 - FRACTION_BITS);
+    let first = EXPONENTS.start << FRACTION_BITS;
+    ((at + 1).saturating_sub(first) as usize).min(BINS - 1)
+}
+
+impl Spread {
+    /// Takes in a value of a node at a time.
+    pub fn add(&mut self, weight: f64, value: f64, node: usize, time: f64) {
+        self.weight += weight;
+        self.sum += weight * value;
+        self.squares += weight * value * value;
+        let size = value.abs();
+        if self.worst.is_none_or(|worst| size > worst.value.abs()) {
+            self.worst = Some(Place { node, time, value });
+        }
+        if self.bins.is_empty() {
+            let none = Bin { weight: 0.0, low: f64::INFINITY, high: 0.0 };
+            self.bins = vec![none; BINS];
+        }
+        let bin = &mut self.bins[bin_of(size)];
+        bin.weight += weight;
+        bin.low = bin.low.min(size);
+        bin.high = bin.high.max(size);
+    }
+
+    pub fn mean(&self) -> Option<f64> {
+        (self.weight > 0.0).then(|| self.sum / self.weight)
+    }
+
+    pub fn rms(&self) -> Option<f64> {
+        (self.weight > 0.0).then(|| (self.squares / self.weight).sqrt())
+    }
+
+    /// The size of the worst value.
+    pub fn largest(&self) -> Option<f64> {
+        self.worst.map(|worst| worst.value.abs())
+    }
+
+    /// The value of |x| that the share `share` of the weight does not exceed, to 1.6 % (exact
+    /// where all values are one).
+    pub fn quantile(&self, share: f64) -> Option<f64> {
+        let mut below = 0.0;
+        for bin in self.bins.iter().filter(|bin| bin.weight > 0.0) {
+            let wanted = share * self.weight - below;
+            if wanted <= bin.weight {
+                let part = (wanted / bin.weight).clamp(0.0, 1.0);
+                return Some(bin.low + part * (bin.high - bin.low));
+            }
+            below += bin.weight;
+        }
+        self.largest()
+    }
+}
+
+/// Mean and standard deviation of a series of numbers; those that are not finite are left out.
+pub(crate) fn mean_and_deviation(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    for value in values.filter(|value| value.is_finite()) {
+        count += 1.0;
+        let away = value - mean;
+        mean += away / count;
+        squares += away * (value - mean);
+    }
+    (count > 0.0).then(|| [mean, (squares / count).sqrt()])
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_the_sorted_values_to_two_percent() {
+        let mut spread = Spread::default();
+        for i in 1..=1000 {
+            spread.add(1.0, f64::from(i) * if i % 2 == 0 { 1e-3 } else { -1e-3 }, i as usize, 0.0);
+        }
+        assert!((spread.quantile(0.95).unwrap() / 0.95 - 1.0).abs() < 0.016);
+        assert_eq!(spread.largest(), Some(1.0));
+        assert_eq!(spread.worst.unwrap().node, 1000);
+    }
+
+    #[test]
+    fn equal_values_have_exact_statistics() {
+        let mut spread = Spread::default();
+        (0..7).for_each(|i| spread.add(0.3, 0.1, i, 0.0));
+        for found in [spread.mean(), spread.rms(), spread.quantile(0.95), spread.largest()] {
+            assert!((found.unwrap() - 0.1).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn zeros_and_huge_values_have_a_place() {
+        let mut spread = Spread::default();
+        spread.add(1.0, 0.0, 0, 0.0);
+        spread.add(1.0, 1e300, 1, 0.0);
+        assert_eq!(spread.quantile(0.4), Some(0.0));
+        assert_eq!(spread.quantile(1.0), Some(1e300));
+        assert_eq!(Spread::default().quantile(0.5), None);
+    }
+}

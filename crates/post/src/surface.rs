@@ -1,0 +1,92 @@
+//! The mesh of a contact history and which body each node belongs to.
+
+use crate::PostError;
+use crate::vector::Vec3;
+use output::GridFile;
+use std::path::Path;
+
+/// The surfaces of both bodies.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Reference coordinates (m).
+    pub points: Vec<Vec3>,
+    /// Faces, counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 4]>,
+    /// Body of each face: 0 disk, 1 bar; 0 where the file has one body only.
+    pub face_body: Vec<u8>,
+    /// Body of each node; `NO_BODY` for nodes without a face.
+    pub body: Vec<u8>,
+    /// Tributary area of each node (m2).
+    pub area: Vec<f64>,
+}
+
+/// A node that no face uses.
+pub const NO_BODY: u8 = u8::MAX;
+
+/// The name of a body.
+pub fn body_name(body: u8) -> &'static str {
+    match body {
+        0 => "disk",
+        1 => "bar",
+        _ => "other",
+    }
+}
+
+impl Surface {
+    pub(crate) fn read(file: &GridFile, path: &Path) -> Result<Self, PostError> {
+        let lacks = |what: &str| PostError::Lacks { path: path.into(), what: what.into() };
+        let points = file.points()?;
+        let connectivity = file.connectivity()?;
+        if connectivity.len() != 4 * file.cells() {
+            return Err(lacks("its cells are not quads; a contact history has four-node faces"));
+        }
+        let faces = connectivity.as_chunks::<4>().0.to_vec();
+        if connectivity.iter().any(|&node| node as usize >= points.len()) {
+            return Err(lacks("a face names a node that the file does not hold"));
+        }
+        if points.as_flattened().iter().any(|x| !x.is_finite()) {
+            return Err(lacks("a node has coordinates that are not numbers"));
+        }
+        let has = |name: &str, on_cells| {
+            file.fields().iter().any(|f| f.name == name && f.on_cells == on_cells)
+        };
+        let face_body: Vec<u8> = if has("body", true) {
+            file.read("body", true, 0)?.into_iter().map(|b| b as u8).collect()
+        } else {
+            vec![0; faces.len()]
+        };
+        let mut body = vec![NO_BODY; points.len()];
+        for (face, &label) in faces.iter().zip(&face_body) {
+            face.iter().for_each(|&node| body[node as usize] = label);
+        }
+        let area = if has("area", false) {
+            file.read("area", false, 0)?
+        } else {
+            tributary_areas(&points, &faces)
+        };
+        if area.iter().any(|a| !a.is_finite() || *a < 0.0) {
+            return Err(lacks("the field area holds values that are no areas"));
+        }
+        Ok(Self { points, faces, face_body, body, area })
+    }
+
+    /// Labels of the bodies, sorted.
+    pub fn bodies(&self) -> Vec<u8> {
+        let mut labels: Vec<u8> = self.face_body.clone();
+        labels.sort_unstable();
+        labels.dedup();
+        labels
+    }
+}
+
+/// A quarter of every face for each of its nodes.
+fn tributary_areas(points: &[Vec3], faces: &[[u32; 4]]) -> Vec<f64> {
+    use crate::vector::{cross, norm, sub};
+    let mut area = vec![0.0; points.len()];
+    for face in faces {
+        let [a, b, c, d] = face.map(|node| points[node as usize]);
+        let part = 0.125 * norm(cross(sub(c, a), sub(d, b)));
+        face.iter().for_each(|&node| area[node as usize] += part);
+    }
+    area
+}

@@ -1,0 +1,273 @@
+//! Sums over nodes and times of what single nodes do to the conditions.
+
+use crate::conditions::Judged;
+use crate::roughness::Roughness;
+use crate::statistics::{Place, Spread};
+
+/// The tangential conditions on one view of the interface in one pairing.
+pub(crate) struct Tally {
+    contact: f64,
+    violating: f64,
+    /// Time and share of the record with the largest share in violation.
+    worst_record: Option<(f64, f64)>,
+    record: [f64; 2],
+    law_error: Spread,
+    law_error_own: Spread,
+    /// The law and the direction at nodes that the algorithm lets slip: a penalty method's own
+    /// elastic slip elsewhere is left out.
+    let_slip: [Spread; 2],
+    direction: Spread,
+    wrong: f64,
+    directed: f64,
+    adhesion_slip: Spread,
+    law_scatter: Spread,
+    /// Power of the wrong sign and of both signs (J).
+    power: [f64; 2],
+    worst_power: Option<Place>,
+    roughness: Option<Roughness>,
+    switches: Switches,
+    pub records: usize,
+}
+
+/// A statistic of a tally: its value, where it is worst, and what else is known of it.
+pub(crate) struct Statistic {
+    pub value: Option<f64>,
+    pub place: Option<(Option<usize>, f64, f64)>,
+    pub more: Vec<(&'static str, Option<f64>)>,
+}
+
+impl Tally {
+    /// For `nodes` nodes, with roughness over `span` (s) where it is known.
+    pub fn new(nodes: usize, span: Option<f64>) -> Self {
+        Self {
+            contact: 0.0,
+            violating: 0.0,
+            worst_record: None,
+            record: [0.0; 2],
+            law_error: Spread::default(),
+            law_error_own: Spread::default(),
+            let_slip: Default::default(),
+            direction: Spread::default(),
+            wrong: 0.0,
+            directed: 0.0,
+            adhesion_slip: Spread::default(),
+            law_scatter: Spread::default(),
+            power: [0.0; 2],
+            worst_power: None,
+            roughness: span.map(|span| Roughness::new(nodes, span)),
+            switches: Switches::new(nodes),
+            records: 0,
+        }
+    }
+
+    /// A record begins.
+    pub fn begin_record(&mut self, time: f64) {
+        if let Some(roughness) = &mut self.roughness {
+            roughness.begin(time);
+        }
+    }
+
+    /// A node in contact, with its area times its share of time.
+    pub fn add(&mut self, row: usize, time: f64, area: f64, span: f64, judged: &Judged) {
+        let weight = area * span;
+        self.contact += weight;
+        self.record[1] += area;
+        if judged.violates {
+            self.violating += weight;
+            self.record[0] += area;
+        }
+        if let Some(error) = judged.law_error {
+            self.law_error.add(weight, error, row, time);
+            if judged.let_slip {
+                self.let_slip[0].add(weight, error, row, time);
+            }
+        }
+        if let Some(error) = judged.law_error_own {
+            self.law_error_own.add(weight, error, row, time);
+        }
+        if let Some(angle) = judged.direction {
+            self.direction.add(weight, angle, row, time);
+            if judged.let_slip {
+                self.let_slip[1].add(weight, angle, row, time);
+            }
+            self.directed += weight;
+            self.wrong += if angle > 90.0 { weight } else { 0.0 };
+        }
+        if let Some(slip) = judged.adhesion_slip {
+            self.adhesion_slip.add(weight, slip, row, time);
+        }
+        if let Some(distance) = judged.law_scatter {
+            self.law_scatter.add(weight, distance, row, time);
+        }
+        // slip below the threshold is round-off or regularisation and has no direction
+        if judged.slips {
+            self.power[0] += weight * (-judged.power).max(0.0);
+            self.power[1] += weight * judged.power.abs();
+            if judged.power < self.worst_power.map_or(0.0, |worst| worst.value) {
+                self.worst_power = Some(Place { node: row, time, value: judged.power });
+            }
+        }
+        if let Some(roughness) = &mut self.roughness {
+            match judged.mu_law {
+                Some(mu) if judged.slips => roughness.add(row, [judged.ratio, mu], area),
+                _ => roughness.interrupt(row),
+            }
+        }
+        self.switches.add(row, time, judged.slips);
+    }
+
+    /// A node that is not in contact.
+    pub fn open(&mut self, row: usize) {
+        if let Some(roughness) = &mut self.roughness {
+            roughness.interrupt(row);
+        }
+        self.switches.open(row);
+    }
+
+    /// All nodes of a record are in.
+    pub fn end_record(&mut self, time: f64) {
+        self.records += 1;
+        let [violating, contact] = std::mem::take(&mut self.record);
+        let share = violating / contact;
+        if contact > 0.0 && self.worst_record.is_none_or(|(_, worst)| share > worst) {
+            self.worst_record = Some((time, share));
+        }
+    }
+
+    /// The statistic that a measure of the tangential conditions is.
+    pub fn statistic(&self, name: &str) -> Statistic {
+        let share = |part: f64, whole: f64| (whole > 0.0).then(|| part / whole);
+        let spread = |spread: &Spread, value: Option<f64>| Statistic {
+            value,
+            place: spread.worst.map(|w| (Some(w.node), w.time, w.value)),
+            more: vec![
+                ("mean", spread.mean()),
+                ("rms", spread.rms()),
+                ("p95", spread.quantile(0.95)),
+                ("max", spread.largest()),
+            ],
+        };
+        let plain = |value, place| Statistic { value, place, more: Vec::new() };
+        let also = |mut statistic: Statistic, let_slip: &Spread| {
+            statistic.more.push(("rms_where_let_slip", let_slip.rms()));
+            statistic
+        };
+        match name {
+            "law_error" => also(spread(&self.law_error, self.law_error.rms()), &self.let_slip[0]),
+            "law_error_own" => spread(&self.law_error_own, self.law_error_own.rms()),
+            "direction" => also(spread(&self.direction, self.direction.rms()), &self.let_slip[1]),
+            "wrong_direction" => {
+                let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
+                let place = worst.map(|w| (Some(w.node), w.time, w.value));
+                plain(share(self.wrong, self.directed), place)
+            }
+            "adhesion_slip" => spread(&self.adhesion_slip, self.adhesion_slip.largest()),
+            "law_scatter" => spread(&self.law_scatter, self.law_scatter.rms()),
+            "dissipation" => {
+                let place = self.worst_power.map(|w| (Some(w.node), w.time, w.value));
+                let more = vec![("energy", Some(self.power[1] - 2.0 * self.power[0]))];
+                Statistic { more, ..plain(share(self.power[0], self.power[1]), place) }
+            }
+            "violating_fraction" => {
+                let place = self.worst_record.filter(|(_, share)| *share > 0.0);
+                let place = place.map(|(time, share)| (None, time, share));
+                plain(share(self.violating, self.contact), place)
+            }
+            "roughness_ratio" => {
+                let deviations = self.roughness.as_ref().and_then(Roughness::deviations);
+                let ratio =
+                    deviations.filter(|[_, law]| *law > 1e-9).map(|[shear, law]| shear / law);
+                let more = vec![
+                    ("deviation_traction", deviations.map(|d| d[0])),
+                    ("deviation_law", deviations.map(|d| d[1])),
+                ];
+                Statistic { more, ..plain(ratio, None) }
+            }
+            "switching_rate" => plain(self.switches.rate(), None),
+            _ => plain(None, None),
+        }
+    }
+}
+
+/// Stick-slip switches of nodes between records.
+pub(crate) struct Switches {
+    last: Vec<Option<(f64, bool)>>,
+    switches: f64,
+    node_time: f64,
+}
+
+impl Switches {
+    pub fn new(nodes: usize) -> Self {
+        Self { last: vec![None; nodes], switches: 0.0, node_time: 0.0 }
+    }
+
+    pub fn add(&mut self, row: usize, time: f64, slips: bool) {
+        if let Some((before, slipped)) = self.last[row].replace((time, slips)) {
+            self.node_time += time - before;
+            self.switches += if slips == slipped { 0.0 } else { 1.0 };
+        }
+    }
+
+    pub fn open(&mut self, row: usize) {
+        self.last[row] = None;
+    }
+
+    /// Switches per node and second.
+    pub fn rate(&self) -> Option<f64> {
+        (self.node_time > 0.0).then(|| self.switches / self.node_time)
+    }
+}
+
+/// The normal conditions, the cone, and what the algorithm calls stick and slip, on one side.
+pub(crate) struct SideTally {
+    penetration: Spread,
+    tension: Spread,
+    complementarity: Spread,
+    cone: Spread,
+    pub states: Switches,
+}
+
+impl SideTally {
+    pub fn new(nodes: usize) -> Self {
+        Self {
+            penetration: Spread::default(),
+            tension: Spread::default(),
+            complementarity: Spread::default(),
+            cone: Spread::default(),
+            states: Switches::new(nodes),
+        }
+    }
+
+    /// Pressure of any node, in contact or not.
+    pub fn add_pressure(&mut self, row: usize, time: f64, weight: f64, tension: f64) {
+        self.tension.add(weight, tension, row, time);
+    }
+
+    /// Gap and pressure of any node, over their scales.
+    pub fn add_gap(&mut self, row: usize, time: f64, weight: f64, gap: f64, pressure: f64) {
+        self.penetration.add(weight, (-gap).max(0.0), row, time);
+        self.complementarity.add(weight, gap.abs() * pressure, row, time);
+    }
+
+    /// The cone at a node in contact.
+    pub fn add_cone(&mut self, row: usize, time: f64, weight: f64, excess: f64) {
+        self.cone.add(weight, excess.max(0.0), row, time);
+    }
+
+    /// The statistic that a measure of one side is.
+    pub fn statistic(&self, name: &str) -> Option<Statistic> {
+        let spread = match name {
+            "penetration" => &self.penetration,
+            "tension" => &self.tension,
+            "complementarity" => &self.complementarity,
+            "cone" => &self.cone,
+            _ => return None,
+        };
+        let worst = spread.worst.filter(|worst| worst.value != 0.0);
+        Some(Statistic {
+            value: spread.largest(),
+            place: worst.map(|w| (Some(w.node), w.time, w.value)),
+            more: vec![("mean", spread.mean()), ("p95", spread.quantile(0.95))],
+        })
+    }
+}

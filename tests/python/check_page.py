@@ -1,0 +1,54 @@
+"""Renders a page of `creepage report` in a headless Chromium and looks at it.
+
+    python tests/python/check_page.py PAGE.html [PICTURE.png]
+
+Fails where the browser's console says anything, where the page asks for an address, or where a
+figure has no size. Needs the program `chromium` (Debian: apt-get install chromium).
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PROBE = """<script>window.addEventListener('load', () => {
+  const sizes = [...document.querySelectorAll('svg')].map(s => s.getBoundingClientRect());
+  const empty = sizes.filter(r => r.width < 100 || r.height < 100).length;
+  const wide = document.documentElement.scrollWidth > window.innerWidth + 1;
+  document.title = `figures ${sizes.length} empty ${empty} wide ${wide} ` +
+    `resources ${performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length}`;
+});</script></body>"""
+
+
+def chromium(*arguments):
+    names = ("chromium", "chromium-browser", "google-chrome")
+    program = next(filter(None, map(shutil.which, names)), None)
+    if program is None:
+        sys.exit("chromium is missing: apt-get install chromium")
+    command = [program, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
+    return subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=120)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    page = pathlib.Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory() as folder:
+        # beside the page itself only a probe that reports what was laid out
+        probed = pathlib.Path(folder) / "probed.html"
+        probed.write_text(page.read_text().replace("</body>", PROBE))
+        found = chromium("--enable-logging=stderr", "--window-size=1250,2000", "--dump-dom", probed.as_uri())
+    console = [line for line in found.stderr.splitlines() if ":CONSOLE" in line]
+    title = re.search(r"<title>(figures [^<]*)</title>", found.stdout)
+    report = title.group(1) if title else "the page was not rendered"
+    print(report)
+    if console or not title or not re.search(r"empty 0 wide false resources 0$", report):
+        sys.exit("\n".join([f"{page} is not as it should be", *console]))
+    if len(sys.argv) > 2:
+        chromium("--window-size=1250,7000", f"--screenshot={pathlib.Path(sys.argv[2]).resolve()}", page.as_uri())
+
+
+if __name__ == "__main__":
+    main()
