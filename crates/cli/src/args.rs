@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::check::CheckArgs;
+use crate::import_contact::ImportArgs;
 use crate::plot::PlotArgs;
 use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
@@ -66,6 +67,13 @@ pub enum Command {
     #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
         runs/b-falling --out b-falling.html")]
     Report(ReportArgs),
+    /// Bring a contact history of another code, as CSV, into the layout that the checks read
+    #[command(
+        after_help = "Example:\n  creepage import-contact --nodes nodes.csv --faces faces.csv \
+        --values values.csv --out contact.vtkhdf\n  creepage check contact.vtkhdf --case case.toml\n\n\
+        The columns, with a small example: docs/checks.md."
+    )]
+    ImportContact(ImportArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

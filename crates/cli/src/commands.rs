@@ -69,6 +69,7 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         Command::Check(options) => crate::check::command(args, options),
         Command::Plot(options) => crate::plot::command(args, options),
         Command::Report(options) => crate::report_page::command(args, options),
+        Command::ImportContact(options) => crate::import_contact::command(args, options),
         Command::Schema => {
             report::print_json(&case::json_schema());
             Ok(0)

@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod commands;
+mod import_contact;
 mod plot;
 mod progress;
 mod report;
