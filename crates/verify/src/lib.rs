@@ -10,11 +10,18 @@ mod problem;
 mod row;
 
 mod body;
+mod carter;
+mod cattaneo;
 mod collision;
+mod finite_body;
+mod half_space;
+mod hertz;
+mod kalker;
 mod lysmer;
 mod patch;
 mod slider_tables;
 mod sliding;
+mod steady_rolling;
 mod waves;
 
 pub use convergence::{Convergence, Sample};
