@@ -16,13 +16,23 @@ pub struct Sample {
 /// The uncertainty is the grid convergence index of Roache (1994), "Perspective: a method for
 /// uniform reporting of grid refinement studies", J. Fluids Eng. 116: a safety factor times the
 /// error that Richardson's extrapolation estimates on the finest mesh,
-/// `F |f_2 - f_1|/(r^p - 1)`, with F = 1.25 where three meshes show the order p and F = 3 where it
-/// is assumed.
+/// `F |f_2 - f_1|/(r^p - 1)`, with F = 1.25 where three meshes show the order p or the theory of
+/// the method gives it, and F = 3 where it is assumed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convergence {
     samples: Vec<Sample>,
-    assumed: f64,
-    observe: bool,
+    order: Order,
+}
+
+/// Where the order of convergence comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Order {
+    /// From the meshes; this one where they show none.
+    Observed(f64),
+    /// From theory, for values too scattered to show it.
+    Scattered(f64),
+    /// From theory.
+    Theory(f64),
 }
 
 /// Observed orders that are believed: below, refinement hardly helps; above, the difference of
@@ -36,14 +46,22 @@ impl Convergence {
         let mut samples: Vec<_> =
             samples.into_iter().map(|(size, value)| Sample { size, value }).collect();
         samples.sort_by(|a, b| b.size.total_cmp(&a.size));
-        Self { samples, assumed, observe: true }
+        Self { samples, order: Order::Observed(assumed) }
     }
 
     /// The same for a quantity whose order is known by theory and whose values scatter about it, so
     /// that an order seen by three meshes would be chance: `order` is used with the factor for an
     /// order that is not shown.
     pub fn with_known_order(samples: impl IntoIterator<Item = (f64, f64)>, order: f64) -> Self {
-        Self { observe: false, ..Self::new(samples, order) }
+        Self { order: Order::Scattered(order), ..Self::new(samples, order) }
+    }
+
+    /// The same for a quantity whose order the theory of the method gives. It is used to
+    /// extrapolate whatever the meshes show; where the last three oscillate about their trend, half
+    /// their range is the least uncertainty (Stern, Wilson, Coleman and Paterson 2001, J. Fluids
+    /// Eng. 123: 793–802).
+    pub fn by_theory(samples: impl IntoIterator<Item = (f64, f64)>, order: f64) -> Self {
+        Self { order: Order::Theory(order), ..Self::new(samples, order) }
     }
 
     /// The values, coarse to fine.
@@ -61,7 +79,7 @@ impl Convergence {
     /// fall at a believable order.
     pub fn order(&self) -> Option<f64> {
         let [.., c, b, a] = self.samples[..] else { return None };
-        if !self.observe {
+        if matches!(self.order, Order::Scattered(_)) {
             return None;
         }
         let ratio = (c.value - b.value) / (b.value - a.value);
@@ -79,33 +97,59 @@ impl Convergence {
         Some(0.5 * (low + high))
     }
 
-    /// Uncertainty of the finest value, in its unit; infinite for one mesh.
-    pub fn uncertainty(&self) -> f64 {
-        let [.., b, a] = self.samples[..] else { return f64::INFINITY };
-        let (order, factor) = self.order().map_or((self.assumed, 3.0), |p| (p, 1.25));
-        let estimate = (b.value - a.value).abs() / ((b.size / a.size).powf(order) - 1.0);
-        factor * estimate
+    /// The order that the error is estimated with, and the safety factor.
+    fn used(&self) -> (f64, f64) {
+        match self.order {
+            Order::Observed(assumed) => self.order().map_or((assumed, 3.0), |p| (p, 1.25)),
+            Order::Scattered(p) => (p, 3.0),
+            Order::Theory(p) => (p, 1.25),
+        }
     }
 
-    /// The value extrapolated to a mesh size of zero with the observed, else the assumed order.
-    pub fn extrapolated(&self) -> f64 {
+    /// Half the range of the three finest values, if they oscillate; zero otherwise.
+    fn oscillation(&self) -> f64 {
+        let [.., c, b, a] = self.samples[..] else { return 0.0 };
+        let [c, b, a] = [c, b, a].map(|s| s.value);
+        let turns = (c - b) * (b - a) < 0.0;
+        if turns { 0.5 * (a.max(b).max(c) - a.min(b).min(c)) } else { 0.0 }
+    }
+
+    /// Richardson's estimate of what the finest value still lacks.
+    fn lacking(&self) -> f64 {
         let [.., b, a] = self.samples[..] else { return f64::NAN };
-        let order = self.order().unwrap_or(self.assumed);
-        a.value + (a.value - b.value) / ((b.size / a.size).powf(order) - 1.0)
+        (a.value - b.value) / ((b.size / a.size).powf(self.used().0) - 1.0)
+    }
+
+    /// Uncertainty of the finest value, in its unit; infinite for one mesh.
+    pub fn uncertainty(&self) -> f64 {
+        if self.samples.len() < 2 {
+            return f64::INFINITY;
+        }
+        let index = self.used().1 * self.lacking().abs();
+        match self.order {
+            Order::Theory(_) => index.max(self.oscillation()),
+            _ => index,
+        }
+    }
+
+    /// The value extrapolated to a mesh size of zero with the order given by theory, else the
+    /// observed, else the assumed one.
+    pub fn extrapolated(&self) -> f64 {
+        self.finest() + self.lacking()
     }
 
     /// How the uncertainty came about, in words.
     pub fn explain(&self) -> String {
-        match self.order() {
-            Some(p) => {
-                format!("mesh convergence (GCI, {} meshes, order {p:.2})", self.samples.len())
+        let seen = match (self.order, self.order()) {
+            (Order::Theory(p), Some(seen)) => format!("order {p} by theory, {seen:.2} observed"),
+            (Order::Theory(p), None) if self.oscillation() > 0.0 => {
+                format!("order {p} by theory, the last three oscillate")
             }
-            None => format!(
-                "mesh convergence (GCI, {} meshes, order {} assumed)",
-                self.samples.len(),
-                self.assumed
-            ),
-        }
+            (Order::Theory(p), None) => format!("order {p} by theory"),
+            (_, Some(p)) => format!("order {p:.2}"),
+            (_, None) => format!("order {} assumed", self.used().0),
+        };
+        format!("mesh convergence (GCI, {} meshes, {seen})", self.samples.len())
     }
 }
 
@@ -130,6 +174,9 @@ mod tests {
         let scatter = Convergence::with_known_order([(4.0, 1.7), (2.0, 1.1), (1.0, 1.0)], 1.0);
         assert_eq!(scatter.order(), None);
         assert!((scatter.uncertainty() - 0.3).abs() < 1e-12);
+        let theory = Convergence::by_theory([(4.0, 1.0), (2.0, 1.1), (1.0, 1.08)], 1.0);
+        assert!((theory.extrapolated() - 1.06).abs() < 1e-12);
+        assert!((theory.uncertainty() - 0.05).abs() < 1e-12, "half the range");
         let one = Convergence::new([(1.0, 5.0)], 1.0);
         assert_eq!(one.uncertainty(), f64::INFINITY);
     }

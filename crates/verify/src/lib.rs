@@ -11,13 +11,20 @@ mod rolling_dynamic;
 mod row;
 
 mod body;
+mod carter;
+mod cattaneo;
 mod collision;
+mod finite_body;
 mod free_block;
+mod half_space;
+mod hertz;
+mod kalker;
 mod lamb;
 mod lysmer;
 mod patch;
 mod slider_tables;
 mod sliding;
+mod steady_rolling;
 mod waves;
 
 pub use convergence::{Convergence, Sample};

@@ -1,7 +1,8 @@
 //! The list of problems.
 
 use crate::{
-    Row, collision, free_block, lamb, lysmer, patch, rolling_dynamic, slider_tables, sliding, waves,
+    Row, carter, cattaneo, collision, finite_body, free_block, hertz, kalker, lamb, lysmer, patch,
+    rolling_dynamic, slider_tables, sliding, steady_rolling, waves,
 };
 use thiserror::Error;
 
@@ -108,16 +109,76 @@ pub const PROBLEMS: &[Problem] = &[
         run: lysmer::run,
     },
     Problem {
-        name: "rolling-dynamic",
-        about: "Steady rolling by explicit dynamics, penalty bias extrapolated, beside CONTACT",
-        set: Set::Long,
-        run: rolling_dynamic::run,
-    },
-    Problem {
         name: "lamb",
         about: "A load that appears on a half-space: static tail and Rayleigh wave",
         set: Set::Default,
         run: lamb::run,
+    },
+    Problem {
+        name: "hertz-sphere",
+        about: "A sphere on a flat: the patch of Hertz",
+        set: Set::Default,
+        run: hertz::sphere,
+    },
+    Problem {
+        name: "hertz-wheel",
+        about: "The reference wheel on its crown: the patch of Hertz, and the bias of penalty springs",
+        set: Set::Default,
+        run: hertz::wheel,
+    },
+    Problem {
+        name: "hertz-line",
+        about: "A cylinder on a flat: the patch of Hertz",
+        set: Set::Default,
+        run: hertz::line,
+    },
+    Problem {
+        name: "cattaneo",
+        about: "A sphere pressed and shifted: zone of stick and shift of Cattaneo and Mindlin",
+        set: Set::Default,
+        run: cattaneo::run,
+    },
+    Problem {
+        name: "carter",
+        about: "A rolling cylinder: creepage and zone of stick of Carter",
+        set: Set::Default,
+        run: carter::run,
+    },
+    Problem {
+        name: "kalker",
+        about: "Rolling of a circular contact: Kalker's coefficients C11 and C22",
+        set: Set::Default,
+        run: kalker::circle,
+    },
+    Problem {
+        name: "kalker-ellipse",
+        about: "Rolling of the reference ellipse: Kalker's coefficients C11 and C22",
+        set: Set::Default,
+        run: kalker::ellipse,
+    },
+    Problem {
+        name: "steady-rolling",
+        about: "The reference wheel rolling steadily: creepage, stick, shear and profiles of CONTACT",
+        set: Set::Default,
+        run: steady_rolling::steady,
+    },
+    Problem {
+        name: "creep-force",
+        about: "The reference wheel: eight points of the creep-force curve of CONTACT",
+        set: Set::Default,
+        run: steady_rolling::creep_force,
+    },
+    Problem {
+        name: "finite-body",
+        about: "The disk on the bar as meshed beside half-spaces; the approach of finite blocks",
+        set: Set::Default,
+        run: finite_body::run,
+    },
+    Problem {
+        name: "rolling-dynamic",
+        about: "Steady rolling by explicit dynamics, penalty bias extrapolated, beside CONTACT",
+        set: Set::Long,
+        run: rolling_dynamic::run,
     },
     Problem {
         name: "slider-tables",

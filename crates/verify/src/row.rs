@@ -65,17 +65,46 @@ impl Row {
         quantity: impl Into<String>,
         reference: f64,
         convergence: &Convergence,
+        model: (f64, &str),
+        source: &str,
+    ) -> Self {
+        let computed = convergence.finest();
+        Self::with_meshes(quantity.into(), [reference, computed], convergence, model, source)
+    }
+
+    /// A quantity extrapolated to a mesh size of zero; the limit is that of [`Row::converged`].
+    pub fn extrapolated(
+        quantity: &str,
+        reference: f64,
+        convergence: &Convergence,
+        model: (f64, &str),
+        source: &str,
+    ) -> Self {
+        let quantity = format!("{quantity}, extrapolated to h = 0");
+        let computed = convergence.extrapolated();
+        Self::with_meshes(quantity, [reference, computed], convergence, model, source)
+    }
+
+    fn with_meshes(
+        quantity: String,
+        values: [f64; 2],
+        convergence: &Convergence,
         (model, model_from): (f64, &str),
         source: &str,
     ) -> Self {
+        let reference = values[0];
         let uncertainty = convergence.uncertainty() / reference.abs();
         let mut from = convergence.explain();
         if model > 0.0 {
             from += &format!("; and {:.2} % for {model_from}", 100.0 * model);
         }
-        let values = [reference, convergence.finest()];
         let limit = (uncertainty + model, from.as_str());
         let row = Self::new(quantity, values, reference, limit, source);
         Self { meshes: convergence.samples().to_vec(), order: convergence.order(), ..row }
+    }
+
+    /// A quantity with the largest error that the specification of this program asks for.
+    pub fn asked(quantity: impl Into<String>, values: [f64; 2], limit: f64, source: &str) -> Self {
+        Self::new(quantity, values, values[0], (limit, "asked of this problem"), source)
     }
 }

@@ -1,0 +1,96 @@
+//! Kalker's coefficients: the slope of the creep–force curve without creepage.
+//!
+//! F_x = G c^2 C11 xi_x, F_y = G c^2 C22 xi_y with c^2 = a b (Kalker 1990). The slope falls linearly
+//! with the creepage: twice the slope at a small creepage less that at twice as much is that at none.
+//! A displacement common to all points cancels in the slip of steady rolling, and with it the
+//! compliance of the bodies at large: what the finite block leaves is of order (a/L)^3.
+
+use crate::body::STEEL;
+use crate::convergence::Convergence;
+use crate::half_space::{
+    HalfSpaces, Hertz, SPHERE, STEPS, WHEEL, WHEEL_EXTENT, column, on_meshes, sizes,
+};
+use crate::problem::{Cause, Outcome, Size};
+use crate::row::Row;
+use solid::Material;
+use statics::{Block, Influence, Lateral, Rigid, Rolling};
+
+const MU: f64 = 0.3;
+const SMALL: f64 = 1e-4;
+const SOURCE: &str = "CONTACT (Vollebregt), extrapolated to h = 0";
+
+/// A coarse far mesh: what it changes is common to all points, and cancels.
+const GROWTH: f64 = 1.6;
+
+pub(crate) fn circle(size: Size) -> Outcome {
+    const EXTENT: f64 = 0.015;
+    const SIZES: [f64; 4] = [1.8663e-3 / 5.0, 1.8663e-3 / 7.0, 1.8663e-3 / 9.8, 1.8663e-3 / 13.72];
+    let mut rows = Vec::new();
+    for (poisson, references) in [(0.25, [4.1125, 3.6676]), (0.3, [4.2941, 3.7281])] {
+        // the same E* makes the same patch
+        let one = |nu: f64| 1.0 - nu * nu;
+        let young = STEEL.young * one(poisson) / one(STEEL.poisson);
+        let material = Material { poisson, young, ..STEEL };
+        let found = coefficients(&SPHERE, sizes(size, &SIZES), EXTENT, material)?;
+        rows.extend(compared(&format!("nu {poisson}"), &found, references, SPHERE.body(EXTENT)));
+    }
+    Ok(rows)
+}
+
+pub(crate) fn ellipse(size: Size) -> Outcome {
+    const SIZES: [f64; 4] = [1.4e-3, 1e-3, 0.714e-3, 0.51e-3];
+    let found = coefficients(&WHEEL, sizes(size, &SIZES), WHEEL_EXTENT, STEEL)?;
+    Ok(compared("a/b 1.33, nu 0.3", &found, [4.6200, 4.1722], WHEEL.body(WHEEL_EXTENT)))
+}
+
+fn compared(
+    what: &str,
+    found: &[(f64, [f64; 2])],
+    references: [f64; 2],
+    body: (f64, &str),
+) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (axis, reference) in references.into_iter().enumerate() {
+        let study = Convergence::by_theory(column(found, axis), 1.0);
+        let quantity = format!("C{0}{0}, {what}", axis + 1);
+        let row = Row::extrapolated(&quantity, reference, &study, body, SOURCE);
+        let values = [reference, row.computed];
+        rows.push(row);
+        let quantity = format!("{quantity}, extrapolated");
+        rows.push(Row::asked(quantity, values, 0.05, SOURCE));
+    }
+    rows
+}
+
+/// C11 and C22 by mesh size.
+fn coefficients(
+    hertz: &Hertz,
+    meshes: &[f64],
+    extent: f64,
+    material: Material,
+) -> Result<Vec<(f64, [f64; 2])>, Cause> {
+    on_meshes(meshes, |h| {
+        let fine = hertz.block(h, extent, Lateral::Full);
+        let [a, b] = hertz.half_axes;
+        let block =
+            Block { reach: [1.15 * a, 1.15 * b], depth: 0.7 * b, growth: GROWTH, material, ..fine };
+        let blocks = HalfSpaces::new(hertz, block)?;
+        let scale = material.shear() * a * b;
+        blocks.over_a_pitch(|influence, _| {
+            Ok([slope(&blocks, influence, 0)? / scale, slope(&blocks, influence, 1)? / scale])
+        })
+    })
+}
+
+/// Force over creepage along an axis, without creepage (N).
+fn slope(blocks: &HalfSpaces<'_>, influence: &Influence, axis: usize) -> Result<f64, Cause> {
+    let pressed = blocks.press(influence)?;
+    let secant = |creepage: f64| -> Result<f64, Cause> {
+        let mut rolling = Rolling::new(influence, &pressed, MU)?;
+        let mut rigid = [Rigid::Moved(0.0); 2];
+        rigid[axis] = Rigid::Moved(creepage * rolling.pitch());
+        rolling.steady(rigid, STEPS)?;
+        Ok(rolling.total()[axis] / creepage)
+    };
+    Ok(2.0 * secant(SMALL)? - secant(2.0 * SMALL)?)
+}
