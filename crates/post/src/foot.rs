@@ -14,6 +14,8 @@ pub(crate) struct Pair {
     /// The body whose nodes are projected.
     pub slave: u8,
     masters: Vec<u32>,
+    /// Masters around each node.
+    around: Vec<Vec<u32>>,
     /// Face of each node's last foot and where it was there.
     last: Vec<(u32, [f64; 2])>,
     grid: HashMap<[i64; 2], Vec<u32>>,
@@ -31,9 +33,14 @@ impl Pair {
             norm(sub(corners[2], corners[0])).max(norm(sub(corners[3], corners[1])))
         };
         let cell = masters.iter().map(edge).fold(f64::MIN_POSITIVE, f64::max);
+        let mut around = vec![Vec::new(); surface.points.len()];
+        for &face in &masters {
+            surface.faces[face as usize].iter().for_each(|&n| around[n as usize].push(face));
+        }
         Self {
             slave,
             masters,
+            around,
             last: vec![(NONE, [0.0; 2]); surface.points.len()],
             grid: HashMap::new(),
             cell,
@@ -61,6 +68,13 @@ impl Pair {
             let (last, start) = self.last[node];
             let mut best =
                 if last == NONE { None } else { on(last, start).map(|found| (last, found)) };
+            if best.is_none() && last != NONE {
+                let corners = surface.faces[last as usize];
+                let beside = corners.iter().flat_map(|&n| &self.around[n as usize]);
+                best = beside
+                    .filter_map(|&face| Some((face, on(face, [0.0; 2])?)))
+                    .min_by(|a, b| a.1.0.gap.abs().total_cmp(&b.1.0.gap.abs()));
+            }
             if best.is_none() {
                 if !sorted {
                     self.sort_faces(surface, displacement);

@@ -43,7 +43,9 @@ impl Law {
         };
         if best > 0.0 {
             let per_square = 1.0 / (scale * scale);
-            for start in [speed, 0.0] {
+            // Below the falling branch, which is convex, there is one foot; above it there may be two.
+            let starts = if ratio < law.mu(speed) { &[speed][..] } else { &[speed, 0.0] };
+            for &start in starts {
                 let mut foot = start;
                 for _ in 0..30 {
                     let (mu, slope) = value_and_slope(law, foot);
