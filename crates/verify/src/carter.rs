@@ -64,10 +64,12 @@ fn rolled(slice: &HalfSpaces<'_>, share: f64) -> Result<[f64; 3], Cause> {
         .over_a_pitch(|influence, _| Ok([slice.roll(influence, MU, |_| force)?.creepage()[0]]))?;
     let rolling = slice.roll(&slice.influence, MU, |_| force)?;
     let border = stick_border(&slice.influence, &rolling).ok_or("nothing sticks")?;
+    // a point within an element of the end of the patch carries next to nothing, in either state
+    let inside = LINE.half_axes[0] - 0.999 * slice.size;
     let states = rolling.contact().iter().zip(rolling.adhesion());
     let astray = states.filter(|(i, state)| {
-        let ahead = slice.influence.points()[**i].at[0] > border - 0.5 * slice.size;
-        (*state == Adhesion::Stick) != ahead
+        let x = slice.influence.points()[**i].at[0];
+        x.abs() < inside && (*state == Adhesion::Stick) != (x > border - 0.5 * slice.size)
     });
     Ok([creepage, border, astray.count() as f64])
 }

@@ -11,7 +11,7 @@ use crate::half_space::{
 };
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use statics::{Lateral, Rigid, Rolling, stick_fraction};
+use statics::{Influence, Lateral, Rigid, Rolling, stick_fraction};
 use std::f64::consts::PI;
 
 const MU: f64 = 0.3;
@@ -54,11 +54,17 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Radius of the circle with the area that sticks (m) and shift (m) at each share of the sliding
-/// force.
+/// Radius of the circle with the area that sticks, with the apex on a node (m), and shift (m), over a
+/// pitch, at each share of the sliding force.
 fn shifted(h: f64, extent: f64) -> Result<[[f64; 2]; 3], Cause> {
     let blocks = HalfSpaces::new(&SPHERE, SPHERE.block(h, extent, Lateral::Symmetric))?;
-    let influence = &blocks.influence;
+    let radii = contacts(&blocks, &blocks.influence)?.map(|[radius, _]| radius);
+    let shifts = blocks
+        .over_a_pitch(|influence, _| Ok(contacts(&blocks, influence)?.map(|[_, shift]| shift)))?;
+    Ok(std::array::from_fn(|k| [radii[k], shifts[k]]))
+}
+
+fn contacts(blocks: &HalfSpaces<'_>, influence: &Influence) -> Result<[[f64; 2]; 3], Cause> {
     let pressed = blocks.press(influence)?;
     let mut found = [[0.0; 2]; 3];
     for ([share, ..], found) in TABLE.into_iter().zip(&mut found) {
