@@ -2,6 +2,7 @@
 
 mod args;
 mod commands;
+mod convergence_plot;
 mod progress;
 mod report;
 mod slider;
