@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod commands;
+mod convergence_plot;
 mod import_contact;
 mod plot;
 mod progress;

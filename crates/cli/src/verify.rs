@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use miette::miette;
@@ -10,7 +11,7 @@ use verify::{PROBLEMS, Problem, Row, Set, Size, VerifyError};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure, STOPPED_BY_GUARD};
-use crate::report;
+use crate::{convergence_plot, report};
 
 /// Exit code: a row beyond its limit.
 const FAILED: u8 = 1;
@@ -22,7 +23,7 @@ pub struct VerifyArgs {
     #[arg(value_name = "NAME")]
     names: Vec<String>,
     /// Name all problems and run none
-    #[arg(long, conflicts_with_all = ["names", "quick", "long"])]
+    #[arg(long, conflicts_with_all = ["names", "quick", "long", "plot"])]
     list: bool,
     /// Coarse meshes, for continuous integration
     #[arg(long)]
@@ -30,6 +31,9 @@ pub struct VerifyArgs {
     /// The long problems as well
     #[arg(long, conflicts_with = "names")]
     long: bool,
+    /// Draw error over mesh size as convergence.svg and convergence.png in this folder
+    #[arg(long, value_name = "FOLDER")]
+    plot: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -52,6 +56,13 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
             let _ = write!(std::io::stdout(), "{}", page(problem, &found, seconds));
         }
         rows.extend(found);
+    }
+    if let (Some(folder), Some(figure)) = (&options.plot, convergence_plot::figure(&rows)) {
+        let failed = |error| Failure {
+            report: miette!(help = "give a folder that you may write to", "--plot: {error}"),
+            code: BAD_INPUT,
+        };
+        figure.write(folder, "convergence").map_err(failed)?;
     }
     let pass = rows.iter().all(|row| row.pass);
     if args.json {
@@ -122,7 +133,7 @@ fn page(problem: &Problem, rows: &[Row], seconds: f64) -> String {
             let _ = writeln!(
                 page,
                 "  {:<width$}  {:>12} {:>12}",
-                format!("    h = {:e} m", sample.size),
+                format!("    h = {:.4} mm", 1e3 * sample.size),
                 "",
                 number(sample.value)
             );
