@@ -24,6 +24,7 @@ pub fn figure(rows: &[Row]) -> Option<Figure> {
     for row in rows.iter().filter(|row| row.meshes.len() > 2) {
         if panels.last().is_none_or(|panel| panel.title != row.name) {
             panels.push(Panel {
+                fill: None,
                 title: row.name.into(),
                 x: Axis::log("h (mm)"),
                 y: Axis::log("error"),
@@ -45,7 +46,7 @@ pub fn figure(rows: &[Row]) -> Option<Figure> {
     let columns = 2;
     let lines = panels.len().div_ceil(columns) as u32;
     let size = [PANEL[0] * columns as u32, PANEL[1] * lines];
-    (!panels.is_empty()).then_some(Figure { size, columns, panels })
+    (!panels.is_empty()).then_some(Figure { size, columns, panels, caption: String::new() })
 }
 
 /// Adds the line of first order through the largest error on the coarsest mesh.
