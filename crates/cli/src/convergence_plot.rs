@@ -15,6 +15,9 @@ const COLOURS: [[u8; 3]; 7] = [
     colour::GREY,
 ];
 
+/// Series of a panel; more would leave the legend no room for the plot.
+const MOST_SERIES: usize = 8;
+
 /// Errors of the rows with three meshes or more, problem by problem; `None` where there are none.
 ///
 /// The error is relative to the reference, and absolute where the reference is zero. A dashed line
@@ -22,7 +25,8 @@ const COLOURS: [[u8; 3]; 7] = [
 pub fn figure(rows: &[Row]) -> Option<Figure> {
     let mut panels: Vec<Panel> = Vec::new();
     for row in rows.iter().filter(|row| row.meshes.len() > 2) {
-        if panels.last().is_none_or(|panel| panel.title != row.name) {
+        let full = |panel: &Panel| panel.title != row.name || panel.series.len() >= MOST_SERIES;
+        if panels.last().is_none_or(full) {
             panels.push(Panel {
                 fill: None,
                 title: row.name.into(),
