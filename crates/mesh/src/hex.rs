@@ -6,7 +6,7 @@ pub const HEX_FACES: [[usize; 4]; 6] =
     [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 /// Ends of the twelve edges.
-pub(crate) const EDGES: [[usize; 2]; 12] = [
+pub const HEX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [1, 2],
     [2, 3],

@@ -26,7 +26,7 @@ pub use disk::{Disk, disk};
 pub use error::{MAX_ELEMENTS, MeshError};
 pub use grading::graded_line;
 pub use grid::{block, graded_block};
-pub use hex::{HEX_CORNERS, HEX_FACES, hex_volume, quad_corner_areas};
+pub use hex::{HEX_CORNERS, HEX_EDGES, HEX_FACES, hex_volume, quad_corner_areas};
 pub use join::join;
 pub use layers::layers_below;
 pub use padded::Padded;

@@ -15,7 +15,7 @@ const ON_FACE: f64 = 1e-3;
 pub(crate) fn duplicates(mesh: &Mesh, body: &Body) -> Option<(usize, usize)> {
     let mut shortest = f64::INFINITY;
     for hex in &mesh.hexes[body.hexes.clone()] {
-        for [a, b] in crate::hex::EDGES {
+        for [a, b] in crate::hex::HEX_EDGES {
             let edge = sub(mesh.nodes[hex[b] as usize], mesh.nodes[hex[a] as usize]);
             shortest = shortest.min(norm(edge));
         }

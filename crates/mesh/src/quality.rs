@@ -1,7 +1,7 @@
 //! Shape of the elements.
 
 use crate::Mesh;
-use crate::hex::{EDGES, area, cross, dot, hex_volume, norm, sub};
+use crate::hex::{HEX_EDGES, area, cross, dot, hex_volume, norm, sub};
 use crate::{HEX_FACES, hex};
 
 /// Measures of the element shapes of a mesh.
@@ -55,7 +55,7 @@ pub fn quality(mesh: &Mesh) -> Quality {
             q.worst_element = element;
         }
         let (mut shortest, mut longest) = (f64::INFINITY, 0f64);
-        for [a, b] in EDGES {
+        for [a, b] in HEX_EDGES {
             let edge = norm(sub(p[b], p[a]));
             shortest = shortest.min(edge);
             longest = longest.max(edge);

@@ -8,7 +8,7 @@
 use crate::link::Link;
 use crate::skyline::Skyline;
 use crate::space::{CHUNK, Group};
-use mesh::{Mesh, Padded};
+use mesh::{HEX_EDGES, Mesh, Padded};
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -292,23 +292,9 @@ impl Coarse {
 
 /// Ends of the element edges at each node.
 fn edges(mesh: &Mesh) -> Vec<Vec<u32>> {
-    const EDGES: [[usize; 2]; 12] = [
-        [0, 1],
-        [1, 2],
-        [2, 3],
-        [3, 0],
-        [4, 5],
-        [5, 6],
-        [6, 7],
-        [7, 4],
-        [0, 4],
-        [1, 5],
-        [2, 6],
-        [3, 7],
-    ];
     let mut ends = vec![Vec::new(); mesh.nodes.len()];
     for hex in &mesh.hexes {
-        for [a, b] in EDGES {
+        for [a, b] in HEX_EDGES {
             ends[hex[a] as usize].push(hex[b]);
             ends[hex[b] as usize].push(hex[a]);
         }
