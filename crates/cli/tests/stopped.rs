@@ -109,6 +109,35 @@ fn an_unstable_run_ends_with_code_3_the_cause_the_remedy_and_readable_results() 
 }
 
 #[test]
+fn a_preload_without_equilibrium_ends_with_code_3_the_worst_node_and_the_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let run = start(&out, &["--set", "preload.max_iterations=2", "--json"]);
+    let output = run.wait_with_output().unwrap();
+    let message = said(&output);
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    for words in
+        ["2 Newton iterations", "node", "body 'disk'", "mm", "raise preload.max_iterations"]
+    {
+        assert!(message.contains(words), "{words:?} is not in:\n{message}");
+    }
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(printed["status"], "failed");
+    assert_eq!(printed["steps"], 0);
+    assert_eq!(summary(&out)["diagnosis"], printed["diagnosis"]);
+}
+
+#[test]
+fn an_absurd_load_is_refused_with_code_2_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let output = start(&out, &["--set", "load.normal=5e6"]).wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("the patch's width"), "{}", said(&output));
+    assert!(!out.exists());
+}
+
+#[test]
 fn ctrl_c_while_rolling_ends_with_code_130_and_readable_results() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");

@@ -54,7 +54,8 @@ pub enum StaticsError {
     /// The tangent has no stiffness in some direction.
     #[error(
         "the bodies move without resistance, most of all node {node} of body '{body}' at \
-         {position:?} m: a support is missing, or the load is absurd"
+         {}: a support is missing, or the load is absurd",
+        millimetres(position)
     )]
     Flat {
         /// The node that moves most.
@@ -66,8 +67,9 @@ pub enum StaticsError {
     },
     /// An element turned inside out.
     #[error(
-        "element {element} of body '{body}' at {centre:?} m is turned inside out (det F = \
-         {jacobian:.3}) under the load: the load is absurd, or the contact starts too deep"
+        "element {element} of body '{body}' at {} is turned inside out (det F = {jacobian:.3}) \
+         under the load: the load is absurd, or the contact starts too deep",
+        millimetres(centre)
     )]
     Inverted {
         /// Index in the mesh.
@@ -94,7 +96,7 @@ pub enum StaticsError {
     #[error(
         "no equilibrium in {} Newton iterations: residual {:.1e} of the load (tolerance \
          {tolerance:.1e}), {} contact pairs; the residual is largest at node {node} of body \
-         '{body}', {position:?} m", at.iteration, at.residual, at.closed
+         '{body}' at {}", at.iteration, at.residual, at.closed, millimetres(position)
     )]
     Slow {
         /// State when it gave up.
@@ -120,4 +122,10 @@ pub enum StaticsError {
     /// The observer asked to stop.
     #[error("interrupted while seeking the equilibrium")]
     Interrupted,
+}
+
+/// A position (m) as people read it.
+fn millimetres(position: &[f64; 3]) -> String {
+    let [x, y, z] = position.map(|c| c * 1e3);
+    format!("({x:.3}, {y:.3}, {z:.3}) mm")
 }
