@@ -20,6 +20,7 @@ mod means;
 mod memory;
 pub mod mesh_report;
 mod model;
+mod numbers;
 pub mod preload;
 mod probes;
 pub mod progress;

@@ -22,6 +22,16 @@ impl Log {
 
     pub(crate) fn say(&mut self, line: &str) -> Result<(), RunError> {
         tracing::info!("{line}");
+        self.write(line)
+    }
+
+    /// What the user should know whether or not more is to be said.
+    pub(crate) fn warn(&mut self, line: &str) -> Result<(), RunError> {
+        tracing::warn!("{line}");
+        self.write(&format!("warning: {line}"))
+    }
+
+    fn write(&mut self, line: &str) -> Result<(), RunError> {
         writeln!(self.file, "{line}")
             .map_err(|cause| RunError::Text { path: self.path.clone(), cause })
     }

@@ -156,7 +156,7 @@ fn material(m: crate::schema::Material) -> Material {
     Material { young: m.young, poisson: m.poisson, density: m.density }
 }
 
-fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {
+pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {
     match s {
         crate::schema::Stiffness::Factor(v) => contact::Stiffness::Scale(v),
         crate::schema::Stiffness::Areal(v) => contact::Stiffness::Areal(v),

@@ -99,6 +99,12 @@ fn run_in_pool(
         stability.omega_elastic,
         simulation.solid().level().name()
     ))?;
+    if let Some(line) = facts.numbers.line() {
+        log.say(&line)?;
+    }
+    if let Some(line) = facts.numbers.expectation() {
+        log.warn(&line)?;
+    }
     let hertz = hertz(case);
     let basis = Basis {
         folder: &options.out,

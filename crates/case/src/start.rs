@@ -1,6 +1,7 @@
 //! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
 
 use crate::model::{BAR, DISK, Model};
+use crate::numbers::{Numbers, numbers};
 use crate::preload::{self, preload};
 use crate::progress::Progress;
 use crate::run_error::RunError;
@@ -43,13 +44,15 @@ pub(crate) struct RollingRadius {
 }
 
 /// What is known once the start is made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Facts {
     pub(crate) stability: Stability,
     pub(crate) radius: RollingRadius,
     pub(crate) preload: Option<preload::Report>,
     /// Wall time of the preload (s).
     pub(crate) preload_wall: f64,
+    /// Dimensionless numbers of contact and friction.
+    pub(crate) numbers: Numbers,
     /// Time steps to take.
     pub(crate) steps: u64,
 }
@@ -157,7 +160,8 @@ pub(crate) fn start(
         mass_damping: case.damping.mass,
     });
     let radius = RollingRadius { nominal, effective };
-    let facts = Facts { stability, radius, preload, preload_wall, steps: steps as u64 };
+    let numbers = numbers(case, model, dt);
+    let facts = Facts { stability, radius, preload, preload_wall, numbers, steps: steps as u64 };
     Ok(Start { simulation, facts })
 }
 

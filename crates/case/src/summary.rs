@@ -93,6 +93,7 @@ pub(crate) fn summary(
         ("checks", checks),
         ("time_loop_bytes_per_element", json!(simulation.bytes() as f64 / elements)),
         ("preload", json!(preload)),
+        ("numbers", facts.numbers.json()),
     ];
     summary.extra = sections.map(|(k, v)| (k.to_owned(), v)).into();
     if let Some(d) = &ending.diagnosis {

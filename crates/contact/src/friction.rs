@@ -2,11 +2,13 @@
 
 mod expression;
 mod memory;
+mod numbers;
 mod steady;
 mod table;
 
 pub use expression::{Expression, ExpressionError};
 pub use memory::Memory;
+pub use numbers::{Falling, Interface, falling, nucleation_length, spring_number};
 pub use steady::{SteadyLaw, Strengthens};
 pub use table::{Table, TableError};
 

@@ -24,8 +24,8 @@ mod vector;
 
 pub use error::ContactError;
 pub use friction::{
-    Coulomb, Exponential, Expression, ExpressionError, FrictionLaw, Memory, SteadyLaw, Strengthens,
-    Table, TableError,
+    Coulomb, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Interface, Memory,
+    SteadyLaw, Strengthens, Table, TableError, falling, nucleation_length, spring_number,
 };
 pub use gap::Gap;
 pub use nodal::NodalContact;

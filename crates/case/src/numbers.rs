@@ -1,0 +1,137 @@
+//! The dimensionless numbers of a case, before it rolls: what to expect of its friction law.
+
+use crate::hertz::hertz;
+use crate::model::{BAR, DISK, Model};
+use crate::schema::{Case, DriveMode, FrictionLaw};
+use contact::{Exponential, Falling, Interface, Stiffness};
+use serde_json::json;
+use solid::Material;
+
+/// The numbers at Hertz's peak pressure.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Numbers {
+    at: Interface,
+    /// `N_1 = dt^2 k_t/m*` (dimensionless) of the friction springs.
+    n1: f64,
+    /// The numbers of falling friction; `None` for a law that does not fall.
+    falling: Option<Falling>,
+    /// Length of the zone of slip (m) by Carter's theory; twice the half length of the patch where all slips.
+    slip_length: f64,
+}
+
+/// The numbers of a case with the time step `dt` (s).
+pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
+    let [disk, bar] = [&model.materials[DISK], &model.materials[BAR]];
+    let depth = case.mesh.zone.size;
+    let impedance = |m: &Material| m.density * m.c_s();
+    // the compliance (1 - nu)/G of mode II, both bodies
+    let compliance = |m: &Material| (1.0 - m.poisson) / m.shear();
+    let surface = |m: &Material| 0.5 * m.density * depth;
+    let in_series = |a: f64, b: f64| a * b / (a + b);
+    let patch = hertz(case);
+    let at = Interface {
+        pressure: patch.p0,
+        impedance: in_series(impedance(disk), impedance(bar)),
+        modulus: 2.0 / (compliance(disk) + compliance(bar)),
+        surface_mass: in_series(surface(disk), surface(bar)),
+        dt,
+    };
+    Numbers {
+        n1: contact::spring_number(tangential(case, model, depth), &at),
+        falling: law(case).and_then(|law| contact::falling(&law, &at)),
+        slip_length: 2.0 * patch.a * slipping(case, patch.a),
+        at,
+    }
+}
+
+fn law(case: &Case) -> Option<Exponential> {
+    let friction = &case.friction;
+    (friction.law == FrictionLaw::Exponential).then(|| Exponential {
+        mu_static: friction.static_,
+        mu_dynamic: friction.dynamic.unwrap_or(friction.static_),
+        decay: friction.decay.unwrap_or(0.0),
+    })
+}
+
+/// Areal stiffness of the friction springs of both passes (N/m^3) between cubes of the size `depth`.
+fn tangential(case: &Case, model: &Model, depth: f64) -> f64 {
+    match crate::model::stiffness(case.contact.penalty.tangential) {
+        Stiffness::Scale(factor) => {
+            [DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum()
+        }
+        Stiffness::Areal(both) => both,
+        // of 4 m*/dt^2 less what the bodies need, which is left out here
+        Stiffness::StabilityFraction(_) => f64::NAN,
+    }
+}
+
+/// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
+/// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
+fn slipping(case: &Case, half_length: f64) -> f64 {
+    let mu = case.friction.static_;
+    let share = match case.drive.mode {
+        DriveMode::Creepage => {
+            case.drive.creepage.unwrap_or(0.0).abs() * case.disk.radius / (mu * half_length)
+        }
+        DriveMode::Torque => {
+            let force = case.drive.torque.unwrap_or(0.0).abs() / case.disk.radius;
+            1.0 - (1.0 - force / (mu * case.load.normal)).max(0.0).sqrt()
+        }
+    };
+    share.min(1.0)
+}
+
+impl Numbers {
+    /// The line of the log; `None` for a law that does not fall.
+    pub(crate) fn line(&self) -> Option<String> {
+        let f = self.falling?;
+        let mut line = format!(
+            "falling friction at {:.0} MPa: R {}, N1 {}, N2 {}",
+            self.at.pressure * 1e-6,
+            three(f.r),
+            three(self.n1),
+            three(f.n2)
+        );
+        if let (Some(least), Some(s_m), Some(jump)) = (f.f_min, f.s_m, f.s_jump) {
+            line += &format!(", f_min/p {least:.4}, s_m {s_m:.3} m/s, jump to {jump:.2} m/s");
+        }
+        Some(line)
+    }
+
+    /// One sentence on what to expect of the run, where there is reason to warn.
+    pub(crate) fn expectation(&self) -> Option<String> {
+        let f = self.falling?;
+        (f.r > 1.0).then(|| {
+            format!(
+                "R = {} is above 1 and friction has no memory: Eq. (8) has no solution that meshes \
+                 converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in its place",
+                three(f.r),
+                f.s_jump.unwrap_or(0.0)
+            )
+        })
+    }
+
+    /// The section of the summary. Lengths in m, speeds in m/s, pressure in Pa.
+    pub(crate) fn json(&self) -> serde_json::Value {
+        let n1 = Some(self.n1).filter(|n| n.is_finite());
+        let f = self.falling;
+        json!({
+            "pressure": self.at.pressure,
+            "impedance": self.at.impedance,
+            "r": f.map(|f| f.r),
+            "n1": n1,
+            "n2": f.map(|f| f.n2),
+            "f_min": f.and_then(|f| f.f_min),
+            "s_m": f.and_then(|f| f.s_m),
+            "s_jump": f.and_then(|f| f.s_jump),
+            "slip_length": self.slip_length,
+            "expect": self.expectation(),
+        })
+    }
+}
+
+/// Three digits, as people read them.
+fn three(x: f64) -> String {
+    let after = (2.0 - x.abs().log10().floor()).clamp(0.0, 9.0);
+    format!("{x:.0$}", after as usize)
+}
