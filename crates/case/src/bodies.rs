@@ -140,13 +140,18 @@ pub struct Meshing {
     pub growth: f64,
     /// Largest element size (m). Default 0.05.
     pub coarsest: f64,
+    /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
+    /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
+    /// width, which only scales the forces; one near that of the coarsest elements keeps these well
+    /// shaped. Default false.
+    pub plane_strain: bool,
     /// The fine zone.
     pub zone: Zone,
 }
 
 impl Default for Meshing {
     fn default() -> Self {
-        Self { growth: 1.35, coarsest: 0.05, zone: Zone::default() }
+        Self { growth: 1.35, coarsest: 0.05, plane_strain: false, zone: Zone::default() }
     }
 }
 

@@ -17,6 +17,13 @@ pub struct Hertz {
     pub approach: f64,
 }
 
+impl Hertz {
+    /// Area of the patch (m^2): an ellipse's, or a line contact's rectangle.
+    pub fn area(&self) -> f64 {
+        if self.approach > 0.0 { PI * self.a * self.b } else { 4.0 * self.a * self.b }
+    }
+}
+
 /// Hertz's contact of a case's disk on its bar under `load.normal`.
 pub fn hertz(case: &Case) -> Hertz {
     let compliance = |m: crate::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;

@@ -169,6 +169,7 @@ pub const KEYS: &[Key] = &[
         "give the ratio of neighbouring element sizes: 1.35 grades gently",
     ),
     key("mesh.coarsest", LENGTH, "m", METRES),
+    key("mesh.plane_strain", Flag, "", "give true or false, without quotes"),
     key(
         "mesh.zone.size",
         Number(over(0.0, 0.1)),

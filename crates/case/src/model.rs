@@ -42,10 +42,13 @@ pub(crate) struct Model {
 impl Model {
     /// Builds the meshes of a case.
     pub(crate) fn build(case: &Case) -> Result<Self, RunError> {
+        // a slice is made one cube wide and stretched to its width
+        let size = case.mesh.zone.size;
+        let slice = |width: f64| if case.mesh.plane_strain { size } else { width };
         let zone = FineZone {
-            size: case.mesh.zone.size,
+            size,
             length: case.mesh.zone.length,
-            width: case.mesh.zone.width,
+            width: slice(case.mesh.zone.width),
             depth: case.mesh.zone.depth,
             start: case.mesh.zone.start,
             growth: case.mesh.growth,
@@ -54,17 +57,21 @@ impl Model {
         let disk = mesh::Disk {
             radius: case.disk.radius,
             hub_radius: case.disk.hub_radius,
-            width: case.disk.width,
+            width: slice(case.disk.width),
             crown: case.disk.crown_radius.radius(),
         };
         let bar = mesh::Bar {
             length: case.bar.length,
-            width: case.bar.width,
+            width: slice(case.bar.width),
             height: case.bar.height,
             crown: case.bar.crown_radius.radius(),
             start: case.bar.start,
         };
-        let mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+        let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+        if case.mesh.plane_strain {
+            let stretch = case.mesh.zone.width / size;
+            mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
+        }
         let materials = [material(case.disk_material()), material(case.bar_material())];
         let mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
         let surface = |body: usize, name: &str| {

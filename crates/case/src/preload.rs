@@ -171,6 +171,7 @@ pub(crate) fn preload(
             let problem = Problem {
                 mesh: &model.mesh,
                 supports: &supports,
+                plane_strain: case.mesh.plane_strain,
                 spin: Some(Spin {
                     centre: hub.centre,
                     omega: spin(case),
@@ -182,7 +183,7 @@ pub(crate) fn preload(
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
             };
-            let start = lowered(hertz(case).approach);
+            let start = lowered(start_depth(case));
             let mut products = 0;
             let mut said = Ok(());
             let found = statics::solve(solid, Some(contact), &problem, &start, |now| {
@@ -217,7 +218,7 @@ pub(crate) fn preload(
                     &model.materials,
                     model.elements(),
                 ),
-                start: -hertz(case).approach,
+                start: -start_depth(case),
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
             };
@@ -235,6 +236,13 @@ pub(crate) fn preload(
             Ok((u, None))
         }
     }
+}
+
+/// How deep the undeformed disk is lowered into the bar before Newton's iterations (m): Hertz's approach; in line
+/// contact, where there is none, what the half length of the patch needs.
+fn start_depth(case: &Case) -> f64 {
+    let patch = hertz(case);
+    if patch.approach > 0.0 { patch.approach } else { patch.a * patch.a / (2.0 * case.disk.radius) }
 }
 
 /// Angular velocity whose centrifugal force acts during the preload (rad/s).

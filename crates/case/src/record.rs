@@ -144,8 +144,11 @@ impl Recorder {
         };
         let count = tables[DISK].nodes.len() + tables[BAR].nodes.len();
         let size = case.mesh.zone.size;
+        // a slice has no nodes on y = 0; both of its sides are alike
+        let slice = case.mesh.plane_strain;
+        let middle = |y: f64| if slice { y > 0.0 } else { y.abs() < 0.5 * size };
         let mut centreline: Vec<usize> =
-            (0..points[BAR].len()).filter(|&i| points[BAR][i][1].abs() < 0.5 * size).collect();
+            (0..points[BAR].len()).filter(|&i| middle(points[BAR][i][1])).collect();
         centreline.sort_by(|&i, &j| points[BAR][i][0].total_cmp(&points[BAR][j][0]));
         let steps_in = |interval: f64| (interval / simulation.dt()).round().max(1.0) as u64;
         let window = |w: &Window| {

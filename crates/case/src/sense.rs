@@ -270,6 +270,26 @@ fn check_geometry(case: &Case, found: &mut Findings) {
             );
         }
     }
+    let flat = disk.crown_radius == Crown::Flat && bar.crown_radius == Crown::Flat;
+    let alike = |width: f64| (width - zone.width).abs() <= 1e-9 * zone.width;
+    require(
+        !case.mesh.plane_strain || flat,
+        &["mesh.plane_strain", "disk.crown_radius", "bar.crown_radius"],
+        "mesh.plane_strain = true must go with crown_radius = \"flat\" of disk and bar".into(),
+        "plane strain is the contact of two cylinders: set bar.crown_radius = \"flat\"",
+    );
+    require(
+        !case.mesh.plane_strain || (alike(disk.width) && alike(bar.width)),
+        &["mesh.plane_strain", "mesh.zone.width", "disk.width", "bar.width"],
+        format!(
+            "mesh.plane_strain = true must go with one width of all, but mesh.zone.width = {} m, disk.width = {} \
+             m, bar.width = {} m",
+            number(zone.width),
+            number(disk.width),
+            number(bar.width)
+        ),
+        "make a slice: give all three the same width",
+    );
     let (bar_end, zone_end) = (bar.start + bar.length, zone.start + zone.length);
     let rounding = 1e-12;
     require(
@@ -483,8 +503,10 @@ pub fn warnings(case: &Case) -> Vec<String> {
     );
     let patch = hertz(case);
     let size = case.mesh.zone.size;
+    // a slice is not resolved across
+    let least = if case.mesh.plane_strain { patch.a } else { patch.a.min(patch.b) };
     warn(
-        size > 0.5 * patch.a.min(patch.b),
+        size > 0.5 * least,
         format!(
             "mesh.zone.size = {} mm is coarse for a patch of half axes {:.2} and {:.2} mm",
             1e3 * size,

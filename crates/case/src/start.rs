@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::run_error::RunError;
 use crate::schema::{Case, DriveMode, LoadMode};
 use contact::{PenaltyContact, StabilityScale};
-use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
+use dynamics::{Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
 use mesh::Padded;
 use serde::Serialize;
 use solid::Solid;
@@ -149,7 +149,7 @@ pub(crate) fn start(
         hub: Some(hub),
         quiet,
         held: model.clamped.clone(),
-        fixed: Vec::new(),
+        fixed: if case.mesh.plane_strain { plane_strain(model) } else { Vec::new() },
         load: dynamics::Load::default(),
         disk: model.mesh.bodies[DISK].nodes.clone(),
         mass: model.mass.clone(),
@@ -163,6 +163,12 @@ pub(crate) fn start(
     let numbers = numbers(case, model, dt);
     let facts = Facts { stability, radius, preload, preload_wall, numbers, steps: steps as u64 };
     Ok(Start { simulation, facts })
+}
+
+/// No node moves in y.
+fn plane_strain(model: &Model) -> Vec<Fixed> {
+    let nodes = 0..model.mass.len() as u32;
+    nodes.map(|node| Fixed { node, axes: [false, true, false] }).collect()
 }
 
 /// Inverse masses with held and carried nodes at zero.

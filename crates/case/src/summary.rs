@@ -80,6 +80,7 @@ pub(crate) fn summary(
         extra: Default::default(),
     };
     let half_space = json!({ "half_length": hertz.a, "half_width": hertz.b,
+        "area": hertz.area(),
         "peak_pressure": hertz.p0, "approach": hertz.approach });
     let checks =
         json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch });

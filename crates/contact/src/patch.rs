@@ -3,7 +3,8 @@
 /// Nodes with less than this part of the largest pressure do not take part in the fit: where the
 /// patch ends, nodal pressures are smeared over the mesh.
 const FITTED: f64 = 0.2;
-const UNKNOWNS: usize = 5;
+/// Fewer nodes than this determine nothing.
+const LEAST: usize = 5;
 
 /// Hertz's distribution fitted to nodal pressures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,31 +37,37 @@ pub struct PatchAreas {
 /// Fits `p^2 = p0^2 (1 - (x-xc)^2/a^2 - (y-yc)^2/b^2)` to the nodes with `p > 0.2 p_max` at
 /// `points` (m) by linear least squares in `p^2`.
 ///
-/// `None` where the nodes do not determine an ellipse: fewer than five, all in a row, or a
-/// distribution that does not fall off on all sides.
+/// Nodes in one or two rows along x belong to a slice of a line contact: they get
+/// `p^2 = p0^2 (1 - (x-xc)^2/a^2)`, and `b` is half the distance of the rows.
+///
+/// `None` where the nodes do not determine that: fewer than five, or a distribution that does not fall
+/// off on all sides.
 pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
     let peak = pressure.iter().copied().fold(0.0, f64::max);
     let used = || points.iter().zip(pressure).filter(move |&(_, &p)| p > FITTED * peak);
-    let count = used().count() as f64;
-    if peak <= 0.0 || !peak.is_finite() || count < UNKNOWNS as f64 {
+    let count = used().count();
+    if peak <= 0.0 || !peak.is_finite() || count < LEAST {
         return None;
     }
     // Coordinates about the mean in units of the extent keep the normal equations well scaled.
-    let mean = [0, 1].map(|i: usize| used().map(|(x, _)| x[i]).sum::<f64>() / count);
+    let mean = [0, 1].map(|i: usize| used().map(|(x, _)| x[i]).sum::<f64>() / count as f64);
     let extent = [0, 1].map(|i: usize| {
         used().map(|(x, _)| (x[i] - mean[i]).abs()).fold(f64::MIN_POSITIVE, f64::max)
     });
-    let mut matrix = [[0.0; UNKNOWNS + 1]; UNKNOWNS];
-    for (x, p) in used() {
-        let [s, t] = [0, 1].map(|i: usize| (x[i] - mean[i]) / extent[i]);
-        let row = [1.0, s, t, s * s, t * t, (p / peak) * (p / peak)];
-        for i in 0..UNKNOWNS {
-            for j in 0..=UNKNOWNS {
-                matrix[i][j] += row[i] * row[j];
-            }
-        }
-    }
-    let [c, cx, cy, cxx, cyy] = solve(matrix)?;
+    let samples = || {
+        used().map(|(x, p)| {
+            let [s, t] = [0, 1].map(|i: usize| (x[i] - mean[i]) / extent[i]);
+            (s, t, (p / peak) * (p / peak))
+        })
+    };
+    let in_rows = samples().all(|(_, t, _)| t.abs() > 1.0 - 1e-6) || extent[1] < 1e-9 * extent[0];
+    let ([c, cx, cxx], [cy, cyy]) = if in_rows {
+        (least_squares(samples().map(|(s, _, q)| ([1.0, s, s * s], q)))?, [0.0, -1.0])
+    } else {
+        let [c, cx, cy, cxx, cyy] =
+            least_squares(samples().map(|(s, t, q)| ([1.0, s, t, s * s, t * t], q)))?;
+        ([c, cx, cxx], [cy, cyy])
+    };
     if cxx >= 0.0 || cyy >= 0.0 {
         return None;
     }
@@ -68,11 +75,26 @@ pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
     // NaN fails the test too.
     (top > 0.0).then(|| PatchFit {
         a: (-top / cxx).sqrt() * extent[0],
-        b: (-top / cyy).sqrt() * extent[1],
+        b: if in_rows { extent[1] } else { (-top / cyy).sqrt() * extent[1] },
         p0: top.sqrt() * peak,
         xc: mean[0] - cx / (2.0 * cxx) * extent[0],
         yc: mean[1] - cy / (2.0 * cyy) * extent[1],
     })
+}
+
+/// Coefficients of the rows' columns that fit the right sides best; `None` where they are not
+/// determined.
+fn least_squares<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
+    let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
+    for (row, q) in rows {
+        for i in 0..N {
+            for j in 0..N {
+                matrix[i][j] += row[i] * row[j];
+            }
+            right[i] += row[i] * q;
+        }
+    }
+    solve(matrix, right)
 }
 
 /// A node counts as in contact above this share of the largest pressure: nodes around the patch
@@ -100,24 +122,26 @@ pub fn areas(pressure: &[f64], area: &[f64], state: &[u8]) -> PatchAreas {
 }
 
 /// Gaussian elimination with row pivoting; `None` for a singular matrix.
-fn solve(mut m: [[f64; UNKNOWNS + 1]; UNKNOWNS]) -> Option<[f64; UNKNOWNS]> {
-    for k in 0..UNKNOWNS {
-        let pivot = (k..UNKNOWNS).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()))?;
+fn solve<const N: usize>(mut m: [[f64; N]; N], mut right: [f64; N]) -> Option<[f64; N]> {
+    for k in 0..N {
+        let pivot = (k..N).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()))?;
         m.swap(k, pivot);
+        right.swap(k, pivot);
         if m[k][k].abs() < 1e-10 * m[0][0].abs() {
             return None;
         }
-        for i in k + 1..UNKNOWNS {
+        for i in k + 1..N {
             let factor = m[i][k] / m[k][k];
-            for j in k..=UNKNOWNS {
+            for j in k..N {
                 m[i][j] -= factor * m[k][j];
             }
+            right[i] -= factor * right[k];
         }
     }
-    let mut x = [0.0; UNKNOWNS];
-    for k in (0..UNKNOWNS).rev() {
-        let known: f64 = (k + 1..UNKNOWNS).map(|j| m[k][j] * x[j]).sum();
-        x[k] = (m[k][UNKNOWNS] - known) / m[k][k];
+    let mut x = [0.0; N];
+    for k in (0..N).rev() {
+        let known: f64 = (k + 1..N).map(|j| m[k][j] * x[j]).sum();
+        x[k] = (right[k] - known) / m[k][k];
     }
     Some(x)
 }
@@ -151,6 +175,25 @@ mod tests {
         assert!((found.p0 / 1.2376e9 - 1.0).abs() < 1e-11);
         assert!((found.xc - 1.3e-3).abs() < 1e-13);
         assert!((found.yc + 0.4e-3).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_slice_of_a_line_contact_gets_half_length_and_peak_of_hertz_exactly() {
+        let (a, p0, xc) = (7.125e-3, 0.8936e9, 0.3e-3);
+        let mut points = Vec::new();
+        let mut pressure = Vec::new();
+        for i in -10..=10 {
+            for y in [-0.25e-3, 0.25e-3] {
+                let x = f64::from(i) * 1e-3;
+                points.push([x, y, 0.0]);
+                pressure.push(p0 * (1.0 - ((x - xc) / a).powi(2)).max(0.0).sqrt());
+            }
+        }
+        let found = fit(&points, &pressure).unwrap();
+        assert!((found.a / a - 1.0).abs() < 1e-11, "{found:?}");
+        assert!((found.p0 / p0 - 1.0).abs() < 1e-11);
+        assert!((found.xc - xc).abs() < 1e-13);
+        assert!((found.b - 0.25e-3).abs() < 1e-16 && found.yc.abs() < 1e-16, "{found:?}");
     }
 
     #[test]

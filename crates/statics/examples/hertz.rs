@@ -69,6 +69,7 @@ fn main() {
         let problem = Problem {
             mesh: &mesh,
             supports: &supports,
+            plane_strain: false,
             spin: None,
             enforcement,
             tolerance: 1e-9,

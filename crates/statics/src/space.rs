@@ -29,6 +29,8 @@ pub(crate) struct Space {
     pub(crate) groups: Vec<Group>,
     /// Slaves that follow their feet along the normal.
     pub(crate) links: Vec<Link>,
+    /// Whether no node moves along y.
+    plane: bool,
     coarse: Coarse,
     reference: Vec<Padded>,
     /// Partial sums, one per chunk.
@@ -63,6 +65,7 @@ impl Space {
         mesh: &Mesh,
         reference: &[Padded],
         supports: &Supports,
+        plane: bool,
         blocks: &[[[f64; 3]; 3]],
         mut product: impl FnMut(&[Padded], &mut [Padded]),
     ) -> Self {
@@ -88,6 +91,7 @@ impl Space {
         let is_free = |node: usize| diagonal[node][0] > 0.0;
         let coarse = Coarse::new(mesh, reference, is_free, &groups, product);
         Self {
+            plane,
             coarse,
             reference: reference.to_vec(),
             inverse,
@@ -134,8 +138,16 @@ impl Space {
         self.links = links;
     }
 
+    /// Leaves out what acts or moves along a direction in which nothing moves.
+    pub(crate) fn flatten(&self, of: &mut [Padded]) {
+        if self.plane {
+            of.iter_mut().for_each(|x| x[1] = 0.0);
+        }
+    }
+
     /// `T^T r`: a linked slave hands its normal force on to its foot.
     pub(crate) fn reduce(&self, r: &mut [Padded]) {
+        self.flatten(r);
         for link in &self.links {
             let f = link.slave_normal(r);
             link.push(-f, r);
@@ -177,6 +189,8 @@ impl Space {
             rz += pull * value;
         }
         self.follow(z);
+        // `r` has no part there: `r . z` stays.
+        self.flatten(z);
         rz
     }
 

@@ -63,7 +63,14 @@ impl<'a> System<'a> {
         let blocks = solid.stiffness_diagonal();
         let reference = solid.reference().to_vec();
         let product = |x: &[Padded], y: &mut [Padded]| solid.add_stiffness_product(x, y);
-        let space = Space::new(problem.mesh, &reference, problem.supports, &blocks, product);
+        let space = Space::new(
+            problem.mesh,
+            &reference,
+            problem.supports,
+            problem.plane_strain,
+            &blocks,
+            product,
+        );
         let n = blocks.len();
         let mut spun = vec![false; n];
         if let Some(spin) = &problem.spin {
@@ -104,6 +111,7 @@ impl<'a> System<'a> {
                 tied.nodes.iter().for_each(|&n| u[n as usize][axis] = value);
             }
         }
+        self.space.flatten(&mut u);
         match u.iter().flat_map(|u| u.xyz()).find(|c| !c.is_finite()) {
             Some(value) => Err(StaticsError::NotANumber { value }),
             None => Ok(u),
@@ -133,6 +141,7 @@ impl<'a> System<'a> {
             force[group.nodes[0] as usize][group.axis] += group.load;
         }
         let sums = self.solid.subtract_elastic_force(u, force, energy);
+        self.space.flatten(force);
         sums.internal + sums.hourglass
     }
 

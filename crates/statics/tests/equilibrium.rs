@@ -97,6 +97,7 @@ impl Rig {
         let problem = Problem {
             mesh: &self.mesh,
             supports,
+            plane_strain: false,
             spin: None,
             enforcement,
             tolerance: 1e-10,
@@ -130,6 +131,7 @@ fn solve_alone(
     let problem = Problem {
         mesh,
         supports,
+        plane_strain: false,
         spin: None,
         enforcement: Enforcement::Penalty,
         tolerance: 1e-12,
@@ -364,6 +366,7 @@ fn too_few_iterations_say_where_the_residual_is_largest() {
     let problem = Problem {
         mesh: &mesh,
         supports: &supports,
+        plane_strain: false,
         spin: None,
         enforcement: Enforcement::Penalty,
         tolerance: 1e-12,

@@ -1,6 +1,5 @@
 //! The summary of a run as a page to read.
 
-use std::f64::consts::PI;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -125,7 +124,7 @@ fn half_space(summary: &Value, key: &str) -> Option<f64> {
     let value = match key {
         "patch_half_length" => at("half_length"),
         "patch_half_width" => at("half_width"),
-        "patch_area" => Some(PI * at("half_length")? * at("half_width")?),
+        "patch_area" => at("area"),
         "peak_pressure" => at("peak_pressure"),
         other => at(other),
     };
