@@ -36,5 +36,5 @@ pub use frames::{ContactHistory, Frame, PAIRING_ATTRIBUTE, Pairing};
 pub use law::Law;
 pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use page::{run_page, sweep_page};
-pub use patch_series::{PATCH_MEASURES, PatchRow};
+pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};

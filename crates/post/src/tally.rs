@@ -13,8 +13,8 @@ pub(crate) struct Tally {
     record: [f64; 2],
     law_error: Spread,
     law_error_own: Spread,
-    /// The law and the direction at nodes that the algorithm lets slip: a penalty method's own
-    /// elastic slip elsewhere is left out.
+    /// The law and the direction at nodes that the algorithm lets slip: what it does wrong itself.
+    /// The give of a penalty method's springs at nodes that it holds is left out.
     let_slip: [Spread; 2],
     direction: Spread,
     wrong: f64,
@@ -156,6 +156,8 @@ impl Tally {
             "law_error" => also(spread(&self.law_error, self.law_error.rms()), &self.let_slip[0]),
             "law_error_own" => spread(&self.law_error_own, self.law_error_own.rms()),
             "direction" => also(spread(&self.direction, self.direction.rms()), &self.let_slip[1]),
+            "law_error_let_slip" => spread(&self.let_slip[0], self.let_slip[0].rms()),
+            "direction_let_slip" => spread(&self.let_slip[1], self.let_slip[1].rms()),
             "wrong_direction" => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));
