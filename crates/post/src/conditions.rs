@@ -30,6 +30,8 @@ pub(crate) struct Node {
 pub(crate) struct Judged {
     /// |s| (m/s).
     pub speed: f64,
+    /// |s|/s_c.
+    pub relative_speed: f64,
     /// p_f/p_n.
     pub ratio: f64,
     /// |s| above the threshold.
@@ -87,6 +89,7 @@ impl Judge {
         let off_direction = direction.is_some_and(|angle| angle > DIRECTION_TOLERANCE);
         Judged {
             speed,
+            relative_speed: speed / self.slip_speed,
             ratio,
             slips,
             let_slip: node.state == Some(2),

@@ -11,7 +11,8 @@ pub struct Place {
     pub value: f64,
 }
 
-/// Weighted mean, mean square, largest absolute value with its place, and quantiles.
+/// Weighted mean, mean square, largest absolute value with its place, and quantiles; of the root
+/// mean squares and of the largest values of single records, the deviation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     weight: f64,
@@ -19,6 +20,37 @@ pub(crate) struct Spread {
     squares: f64,
     pub worst: Option<Place>,
     bins: Vec<Bin>,
+    record: OfRecord,
+    rms_of_records: Moments,
+    largest_of_records: Moments,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct OfRecord {
+    weight: f64,
+    squares: f64,
+    largest: f64,
+}
+
+/// Weighted mean and deviation of a number that every record has (West 1979).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Moments {
+    weight: f64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Moments {
+    pub fn add(&mut self, weight: f64, value: f64) {
+        self.weight += weight;
+        let away = value - self.mean;
+        self.mean += away * weight / self.weight;
+        self.squares += weight * away * (value - self.mean);
+    }
+
+    pub fn deviation(&self) -> Option<f64> {
+        (self.weight > 0.0).then(|| (self.squares / self.weight).max(0.0).sqrt())
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +79,9 @@ impl Spread {
         self.sum += weight * value;
         self.squares += weight * value * value;
         let size = value.abs();
+        self.record.weight += weight;
+        self.record.squares += weight * value * value;
+        self.record.largest = self.record.largest.max(size);
         if self.worst.is_none_or(|worst| size > worst.value.abs()) {
             self.worst = Some(Place { node, time, value });
         }
@@ -58,6 +93,25 @@ impl Spread {
         bin.weight += weight;
         bin.low = bin.low.min(size);
         bin.high = bin.high.max(size);
+    }
+
+    /// All values of a record that stands for `span` (s) are in.
+    pub fn end_record(&mut self, span: f64) {
+        let record = std::mem::take(&mut self.record);
+        if record.weight > 0.0 {
+            self.rms_of_records.add(span, (record.squares / record.weight).sqrt());
+            self.largest_of_records.add(span, record.largest);
+        }
+    }
+
+    /// How the root mean square of single records varies over the records.
+    pub fn deviation_of_rms(&self) -> Option<f64> {
+        self.rms_of_records.deviation()
+    }
+
+    /// How the largest value of single records varies over the records.
+    pub fn deviation_of_largest(&self) -> Option<f64> {
+        self.largest_of_records.deviation()
     }
 
     pub fn mean(&self) -> Option<f64> {
@@ -124,6 +178,19 @@ mod tests {
         for found in [spread.mean(), spread.rms(), spread.quantile(0.95), spread.largest()] {
             assert!((found.unwrap() - 0.1).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn the_deviation_over_records_is_that_of_their_own_statistics() {
+        let mut spread = Spread::default();
+        // records (1, 1), (3, 3) and none, each for the same time
+        for (time, value) in [(0.0, 1.0), (1.0, 3.0)] {
+            (0..2).for_each(|node| spread.add(0.7, value, node, time));
+            spread.end_record(0.5);
+        }
+        spread.end_record(0.5);
+        assert!((spread.deviation_of_rms().unwrap() - 1.0).abs() < 1e-15);
+        assert!((spread.deviation_of_largest().unwrap() - 1.0).abs() < 1e-15);
     }
 
     #[test]

@@ -164,6 +164,7 @@ impl Pass<'_> {
             entry["where"] = self.place(view, *pairing, found);
             entry["side"] = json!(view);
             entry["pairing"] = json!(pairing.map(Pairing::name));
+            entry["deviation"] = json!(found.deviation);
         } else {
             entry["note"] = json!(self.why_none(measure.name, basis));
         }

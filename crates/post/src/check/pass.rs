@@ -215,7 +215,7 @@ impl Channel {
             };
             tally.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
         }
-        tally.end_record(traction.time);
+        tally.end_record(traction.time, weight);
     }
 }
 
@@ -294,4 +294,5 @@ fn take_side(
             _ => side.states.open(row),
         }
     }
+    side.end_record(*weight);
 }
