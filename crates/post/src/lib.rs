@@ -24,6 +24,7 @@ mod patch_series;
 mod roughness;
 mod statistics;
 mod surface;
+mod sweep;
 mod tally;
 mod vector;
 
@@ -38,3 +39,4 @@ pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use page::{run_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};
+pub use sweep::{Sample, SweepVerdict, Trend, sweep_figures, sweep_verdicts, trend};

@@ -120,7 +120,9 @@ impl Tally {
         }
         if let Some(roughness) = &mut self.roughness {
             match judged.mu_law {
-                Some(mu) if judged.slips => roughness.add(row, [judged.ratio, mu, judged.relative_speed], area),
+                Some(mu) if judged.slips => {
+                    roughness.add(row, [judged.ratio, mu, judged.relative_speed], area)
+                }
                 _ => roughness.interrupt(row),
             }
         }
@@ -186,8 +188,7 @@ impl Tally {
             ],
         };
         let spread = |of: &Spread| by(of, of.rms(), of.deviation_of_rms());
-        let plain =
-            |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
+        let plain = |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
         let also = |mut statistic: Statistic, let_slip: &Spread| {
             statistic.more.push(("rms_where_let_slip", let_slip.rms()));
             statistic
@@ -305,12 +306,9 @@ impl SideTally {
 
     /// All nodes of a record that stands for `span` (s) are in.
     pub fn end_record(&mut self, span: f64) {
-        for spread in [
-            &mut self.penetration,
-            &mut self.tension,
-            &mut self.complementarity,
-            &mut self.cone,
-        ] {
+        for spread in
+            [&mut self.penetration, &mut self.tension, &mut self.complementarity, &mut self.cone]
+        {
             spread.end_record(span);
         }
     }
