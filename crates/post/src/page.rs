@@ -22,6 +22,7 @@ h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px soli
 table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
 td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.wide{overflow-x:auto}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}

@@ -87,7 +87,7 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
 
 /// All runs, those that failed with their reason.
 fn table(out: &mut String, sweep: &Sweep<'_>) {
-    out.push_str("<h2>Runs</h2>\n<table>\n<tr>");
+    out.push_str("<h2>Runs</h2>\n<div class=\"wide\"><table>\n<tr>");
     for axis in &sweep.axes {
         let _ = write!(out, "<th class=\"n\">{}</th>", escape(axis));
     }
@@ -121,5 +121,5 @@ fn table(out: &mut String, sweep: &Sweep<'_>) {
         };
         let _ = writeln!(out, "<td class=\"{class}\">{word}</td></tr>");
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
 }
