@@ -1,6 +1,7 @@
 //! The figures of a run: the papers' ones and those that show what the papers argue about.
 
 mod caption;
+mod half_space;
 mod histories;
 mod lines;
 mod maps;
