@@ -55,8 +55,8 @@ impl Law {
                     // where the distance is not convex, Gauss's part of its curvature is
                     let curvature = if newton > 0.5 * gauss { newton } else { gauss };
                     let next = (foot - residual / curvature).max(0.0);
-                    // convergence is quadratic, and so is the distance about its foot
-                    let done = (next - foot).abs() <= 1e-5 * scale;
+                    // what is left is of second order, and the distance about its foot again
+                    let done = (next - foot).abs() <= 1e-3 * scale;
                     (foot, mu) = (next, law.mu(next));
                     if done {
                         break;

@@ -19,7 +19,10 @@ pub(crate) struct Spread {
     sum: f64,
     squares: f64,
     pub worst: Option<Place>,
-    bins: Vec<Bin>,
+    /// Weight of the values in each bin.
+    bins: Vec<f64>,
+    /// The smallest size; the largest is that of the worst value.
+    smallest: f64,
     record: OfRecord,
     rms_of_records: Moments,
     largest_of_records: Moments,
@@ -53,13 +56,6 @@ impl Moments {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Bin {
-    weight: f64,
-    low: f64,
-    high: f64,
-}
-
 /// Bins of |x| by its exponent and the first bits of its fraction: a quantile is known to 1.6 %.
 const FRACTION_BITS: u32 = 6;
 /// Smallest and largest exponent with bins of their own; beyond them all share one.
@@ -70,6 +66,17 @@ fn bin_of(size: f64) -> usize {
     let at = size.to_bits() >> (52 - FRACTION_BITS);
     let first = EXPONENTS.start << FRACTION_BITS;
     ((at + 1).saturating_sub(first) as usize).min(BINS - 1)
+}
+
+/// Smallest and largest value of a bin.
+fn ends(bin: usize) -> [f64; 2] {
+    let first = EXPONENTS.start << FRACTION_BITS;
+    let end = |bin: usize| match bin {
+        0 => 0.0,
+        BINS.. => f64::INFINITY,
+        bin => f64::from_bits((first + bin as u64 - 1) << (52 - FRACTION_BITS)),
+    };
+    [end(bin), end(bin + 1)]
 }
 
 impl Spread {
@@ -86,13 +93,11 @@ impl Spread {
             self.worst = Some(Place { node, time, value });
         }
         if self.bins.is_empty() {
-            let none = Bin { weight: 0.0, low: f64::INFINITY, high: 0.0 };
-            self.bins = vec![none; BINS];
+            self.bins = vec![0.0; BINS];
+            self.smallest = size;
         }
-        let bin = &mut self.bins[bin_of(size)];
-        bin.weight += weight;
-        bin.low = bin.low.min(size);
-        bin.high = bin.high.max(size);
+        self.smallest = self.smallest.min(size);
+        self.bins[bin_of(size)] += weight;
     }
 
     /// All values of a record that stands for `span` (s) are in.
@@ -131,13 +136,15 @@ impl Spread {
     /// where all values are one).
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let mut below = 0.0;
-        for bin in self.bins.iter().filter(|bin| bin.weight > 0.0) {
+        let largest = self.largest()?;
+        for (bin, &weight) in self.bins.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
             let wanted = share * self.weight - below;
-            if wanted <= bin.weight {
-                let part = (wanted / bin.weight).clamp(0.0, 1.0);
-                return Some(bin.low + part * (bin.high - bin.low));
+            if wanted <= weight {
+                let part = (wanted / weight).clamp(0.0, 1.0);
+                let [low, high] = ends(bin).map(|end| end.clamp(self.smallest, largest));
+                return Some(low + part * (high - low));
             }
-            below += bin.weight;
+            below += weight;
         }
         self.largest()
     }

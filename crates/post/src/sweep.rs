@@ -140,11 +140,19 @@ impl<'a> Run<'a> {
 /// A parameter's value as text.
 pub(crate) fn shown(value: &Value) -> String {
     match value {
-        Value::Number(n) => n.as_f64().map_or(String::new(), |x| crate::page::digits(x, 4)),
+        Value::Number(n) => n.as_f64().map_or(String::new(), short),
         Value::String(text) => text.clone(),
         Value::Null => "\u{2013}".into(),
         other => other.to_string(),
     }
+}
+
+/// A number to four digits, without zeros behind.
+fn short(x: f64) -> String {
+    let x = format!("{x:.3e}").parse().unwrap_or(x);
+    let plain = x == 0.0 || (1e-3..1e6).contains(&f64::abs(x));
+    let text = if plain { format!("{x}") } else { format!("{x:e}") };
+    text.replace('-', "\u{2212}")
 }
 
 /// Whether values span more than a decade, so that a logarithmic axis shows them.
@@ -153,4 +161,17 @@ pub(crate) fn spans_decades(values: impl Iterator<Item = f64>) -> bool {
         .filter(|value| value.is_finite())
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
     ends[0] > 0.0 && ends[1] > 10.0 * ends[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn values_of_an_axis_are_short() {
+        for (x, text) in [(0.01, "0.01"), (10.0, "10"), (0.0, "0"), (0.123_456, "0.1235")] {
+            assert_eq!(short(x), text);
+        }
+        assert_eq!(short(-5e-9), "\u{2212}5e\u{2212}9");
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
-use super::{Group, MEASURES, Point, Sweep, SweepMeasure, shown, spans_decades};
+use super::{Group, MEASURES, Point, Sweep, shown, spans_decades};
 use crate::PostError;
 use figure::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour, viridis};
 use serde_json::Value;
@@ -86,7 +86,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
         }
         let log = spans_decades(points().map(|(_, point)| point.value));
         let heading = measure.heading();
-        let y = if log { Axis::log(&heading) } else { Axis::linear(&heading) };
+        let y = if log { Axis::log(&heading) } else { wide_enough(&heading, points()) };
         let first = panels.is_empty();
         let mut series = Vec::new();
         for (k, (group, points)) in lines.iter().enumerate() {
@@ -125,6 +125,18 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     );
     let size = [1080, 270 * panels.len().div_ceil(3) as u32 + 50];
     Some(Figure { size, columns: 3, panels, caption })
+}
+
+/// A linear axis that does not blow up changes of less than a few percent.
+fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>) -> Axis {
+    let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
+        let deviation = point.deviation.unwrap_or(0.0);
+        [low.min(point.value - deviation), high.max(point.value + deviation)]
+    });
+    let middle = 0.5 * (ends[0] + ends[1]);
+    let half = (0.52 * (ends[1] - ends[0])).max(0.03 * middle.abs());
+    let axis = Axis::linear(heading);
+    if half > 0.0 { axis.over(middle - half, middle + half) } else { axis }
 }
 
 /// The deviation of a point as a line with a gap behind it.
@@ -189,17 +201,15 @@ fn profiles(
     Some(Figure { size: [1080, 400], columns: 3, panels: panels.into(), caption })
 }
 
-/// Measures that a map over two axes shows.
-fn mapped(measure: &SweepMeasure) -> bool {
-    measure.in_table
-}
+/// What changes by less than this share is named below the maps instead of drawn.
+const SHOWN: f64 = 0.01;
 
 /// Each measure over two axes in colour.
 fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
     let values = axes.map(|axis| sweep.values(axis));
     let edges = [0, 1].map(|i| edges(&values[i]));
-    let mut panels = Vec::new();
-    for measure in MEASURES.iter().filter(|measure| mapped(measure)) {
+    let (mut panels, mut constant) = (Vec::new(), Vec::new());
+    for measure in MEASURES.iter().filter(|measure| measure.in_table) {
         let found: Vec<([usize; 2], f64)> = sweep
             .completed()
             .filter_map(|run| {
@@ -213,7 +223,11 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
         let least = found.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
         let most = found.iter().map(|f| f.1).fold(f64::NEG_INFINITY, f64::max);
         // axes that go together fill a diagonal, which is no map
-        if found.len() <= values[0].len().max(values[1].len()) || least >= most {
+        if found.len() <= values[0].len().max(values[1].len()) {
+            continue;
+        }
+        if most - least <= SHOWN * most.abs().max(least.abs()) {
+            constant.push(measure.name);
             continue;
         }
         let log = spans_decades(found.iter().map(|f| f.1));
@@ -240,8 +254,15 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
     if panels.is_empty() {
         return None;
     }
-    let caption =
-        format!("Measures over {} and {}; blank: runs that did not complete.", axes[0], axes[1]);
+    let constant = if constant.is_empty() {
+        String::new()
+    } else {
+        format!(" Not drawn, since they change by less than 1 %: {}.", constant.join(", "))
+    };
+    let caption = format!(
+        "Measures over {} and {}; blank: no run completed there.{constant}",
+        axes[0], axes[1]
+    );
     let size = [1080, 290 * panels.len().div_ceil(3) as u32 + 50];
     Some(Figure { size, columns: 3, panels, caption })
 }

@@ -94,7 +94,7 @@ pub(crate) const MEASURES: [SweepMeasure; 20] = [
     ),
     measure("power of friction", "kW", 1e-3, false, &[patch!("power")]),
     measure(
-        "slip roughness sd_t(|s|)/s_c",
+        "slip_roughness",
         "",
         1.0,
         true,

@@ -74,6 +74,9 @@ pub const SETTLES: f64 = 0.25;
 /// Exponents up to here mean none: each decade adds at least 79 % of what the one before did.
 pub const GOES_ON: f64 = 0.1;
 
+/// Largest exponent of the fit.
+const STEEPEST: f64 = 6.0;
+
 /// The trend of a measure along an axis, refined towards zero or upwards.
 ///
 /// 1. Fewer than three points say nothing about a limit.
@@ -156,23 +159,28 @@ impl Trend {
     /// In a sentence, for `points` points of a measure in `unit`.
     pub fn sentence(&self, points: usize, unit: &str) -> String {
         let with = |value: f64| format!("{} {unit}", digits(value, 4)).trim_end().to_owned();
+        let power = |q: f64| {
+            // the end of the net: a step, and then nothing more
+            if q < STEEPEST {
+                format!("what is left falls with the power {}", digits(q, 2))
+            } else {
+                "after the first step nothing is left".into()
+            }
+        };
         let bare =
             if points == 3 { " (three points determine the fit: nothing checks it)" } else { "" };
         match self {
             Self::Flat { mean, range } => {
                 format!("Stays at {} within {} over the whole axis.", with(*mean), with(*range))
             }
-            Self::Reached { limit, exponent } => format!(
-                "Settles at {} and is there; what is left falls with the power {}{bare}.",
-                with(*limit),
-                digits(*exponent, 2)
-            ),
+            Self::Reached { limit, exponent } => {
+                format!("Settles at {} and is there; {}{bare}.", with(*limit), power(*exponent))
+            }
             Self::Approaches { limit, exponent, left } => format!(
-                "Heads for {}; the last point is {} % away, and what is left falls with the \
-                 power {}{bare}.",
+                "Heads for {}; the last point is {} % away, and {}{bare}.",
                 with(*limit),
                 digits(100.0 * left, 2),
-                digits(*exponent, 2)
+                power(*exponent)
             ),
             Self::Vanishes { exponent } => format!(
                 "Falls to zero with the power {} over the last points{bare}.",
@@ -198,11 +206,11 @@ struct Fit {
 }
 
 impl Fit {
-    /// The best q of a fine net from -3 to 6; limit and c follow linearly from each.
+    /// The best q of a fine net from -3 to [`STEEPEST`]; limit and c follow linearly from each.
     fn to(points: &[Sample]) -> Self {
         let mut best = Self { limit: f64::NAN, exponent: 0.0, residual: f64::INFINITY };
         let first = points[0].x;
-        for i in -300..=600 {
+        for i in -300..=(100.0 * STEEPEST) as i32 {
             let q = 0.01 * f64::from(i);
             // (r^-q - 1)/q is regular at q = 0, where it is -ln r
             let shape = |p: &Sample| {
