@@ -21,7 +21,7 @@ pub fn validate() -> ExitCode {
     // Asked at run time: clones that share a target folder share this program as well.
     let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
     let root = Path::new(&home).parent().unwrap_or(Path::new("."));
-    let steps: [(&str, Step); 7] = [
+    let steps: [(&str, Step); 8] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -29,6 +29,7 @@ pub fn validate() -> ExitCode {
         ("tests", tests),
         ("schema", schema),
         ("smoke run", smoke_run),
+        ("report page", report_page),
     ];
     let mut report = Vec::new();
     for (name, step) in steps {
@@ -122,6 +123,22 @@ fn smoke_run(root: &Path) -> Outcome {
         return Outcome::Failed;
     }
     check_with_python(root, "check_run.py", &[folder])
+}
+
+/// Has a browser render the report of the smoke run. Machines without one skip this: that pages are
+/// well-formed and ask for no address is tested everywhere.
+fn report_page(root: &Path) -> Outcome {
+    let browsers = ["chromium", "chromium-browser", "google-chrome"];
+    let runs = |name: &&str| Command::new(name).arg("--version").output().is_ok();
+    if !browsers.iter().any(|name| runs(&name)) {
+        eprintln!("warning: there is no Chromium; tests/python/check_page.py was skipped");
+        return Outcome::Skipped;
+    }
+    let folder = target(root).join("smoke").display().to_string();
+    if cargo(root, &["run", "--release", "--", "report", &folder], &[]) == Outcome::Failed {
+        return Outcome::Failed;
+    }
+    check_with_python(root, "check_page.py", &[target(root).join("smoke/report.html")])
 }
 
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous

@@ -57,7 +57,8 @@ pub enum Command {
         case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
         docs/checks.md.")]
     Check(CheckArgs),
-    /// Draw the figures of a run: those of the papers, histories, slip over space and time, spectra
+    /// Draw the figures of a run (those of the papers, histories, slip over space and time, spectra)
+    /// or of a sweep (measures over its axes, profiles, maps)
     #[command(
         after_help = "Examples:\n  creepage plot runs/quick\n  creepage plot runs/b-falling \
         --out figures --format svg\n\nWhat each figure shows: docs/checks.md."

@@ -10,15 +10,15 @@ use serde_json::json;
 use crate::args::Args;
 use crate::check::{BasisArgs, basis, window};
 use crate::commands::Failure;
-use crate::report;
+use crate::{report, sweep_folder as sweep};
 
 /// Options of `plot`.
 #[derive(Debug, clap::Args)]
 pub struct PlotArgs {
-    /// Folder of a run, or a file of the layout of contact.vtkhdf
-    #[arg(value_name = "RUN")]
+    /// Folder of a run or of a sweep, or a file of the layout of contact.vtkhdf
+    #[arg(value_name = "RUN_OR_SWEEP")]
     run: PathBuf,
-    /// Folder of the figures [default: RUN/figures]
+    /// Folder of the figures [default: figures in that folder]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Kinds of files, with a comma between
@@ -35,23 +35,33 @@ pub struct PlotArgs {
 
 /// Runs the command.
 pub fn command(args: &Args, options: &PlotArgs) -> Result<u8, Failure> {
-    let (paths, mut against) = basis(&options.run, &options.basis)?;
-    let folder = options.out.clone().unwrap_or_else(|| paths.folder.join("figures"));
-    let figures = post::figures(&paths, &mut against, options.window)?;
+    let (name, folder, figures) = if let Some(sweep) = sweep::read(&options.run)? {
+        let figures = post::sweep_figures(&options.run, &sweep)?;
+        let figures = figures.into_iter().map(|(stem, figure)| (stem, String::new(), figure));
+        (sweep::name(&options.run), options.run.clone(), figures.collect::<Vec<_>>())
+    } else {
+        let (paths, mut against) = basis(&options.run, &options.basis)?;
+        let figures = post::figures(&paths, &mut against, options.window)?;
+        let figures =
+            figures.into_iter().map(|n| (n.stem.to_owned(), n.about.to_owned(), n.figure));
+        (against.name, paths.folder, figures.collect())
+    };
+    let folder = options.out.clone().unwrap_or_else(|| folder.join("figures"));
     let mut written = Vec::new();
-    for named in &figures {
+    for (stem, about, figure) in &figures {
         let mut files = Vec::new();
         for format in &options.format {
-            let path = named.figure.write_as(&folder, named.stem, *format);
+            let path = figure.write_as(&folder, stem, *format);
             files.push(path.map_err(PostError::from)?.display().to_string());
         }
         if !args.json && !args.quiet {
-            let _ = writeln!(std::io::stdout(), "{}  {}", files.join(", "), named.about);
+            let line = format!("{}  {about}", files.join(", "));
+            let _ = writeln!(std::io::stdout(), "{}", line.trim_end());
         }
-        written.push(json!({ "name": named.stem, "about": named.about, "files": files }));
+        written.push(json!({ "name": stem, "about": about, "files": files }));
     }
     if args.json {
-        report::print_json(&json!({ "name": against.name, "figures": written }));
+        report::print_json(&json!({ "name": name, "figures": written }));
     }
     Ok(0)
 }

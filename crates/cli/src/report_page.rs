@@ -2,15 +2,15 @@
 
 use std::fs;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use post::{CheckOptions, Limits, PostError, Report};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::args::Args;
 use crate::check::{BasisArgs, basis};
 use crate::commands::Failure;
-use crate::report;
+use crate::{report, sweep_folder as sweep};
 
 /// Options of `report`.
 #[derive(Debug, clap::Args)]
@@ -27,9 +27,10 @@ pub struct ReportArgs {
 
 /// Runs the command.
 pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
-    let sweep = options.run.join("sweep.json");
-    let (page, folder, pass) = if sweep.is_file() {
-        (sweep_page(&sweep)?, options.run.clone(), None)
+    let (page, folder, pass) = if let Some(found) = sweep::read(&options.run)? {
+        let path = options.run.join("sweep.json");
+        let page = post::sweep_page(&sweep::name(&options.run), &path, &found)?;
+        (page, options.run.clone(), None)
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis)?;
         let wanted = CheckOptions {
@@ -53,13 +54,4 @@ pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
         let _ = writeln!(std::io::stdout(), "{}", out.display());
     }
     Ok(0)
-}
-
-fn sweep_page(path: &Path) -> Result<String, Failure> {
-    let failed = |reason: String| Failure::from(PostError::Text { path: path.to_owned(), reason });
-    let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
-    let sweep: Value =
-        serde_json::from_str(&text).map_err(|error| failed(format!("is no JSON: {error}")))?;
-    let folder = path.parent().and_then(Path::file_name).unwrap_or_default();
-    Ok(post::sweep_page(&folder.to_string_lossy(), path, &sweep)?)
 }

@@ -275,12 +275,20 @@ impl Source {
                 *first = start;
                 *length = count;
             }
-            if matches!(dataset.datatype()?, DatatypeMessage::FixedPoint { .. }) {
-                // Indices and labels: far below 2^53, where f64 is exact.
-                let integers = dataset.read_numeric_slice_as::<i64>(&starts, &counts)?;
-                return Ok(integers.into_iter().map(|value| value as f64).collect());
+            match (dataset.datatype()?, dataset.element_size()) {
+                // Straight into the vector, and by the bytes of a label: histories are mostly these.
+                (DatatypeMessage::FloatingPoint { .. }, 8) => dataset.read_slice(&starts, &counts),
+                (DatatypeMessage::FixedPoint { signed: false, .. }, 1) => {
+                    let labels: Vec<u8> = dataset.read_slice(&starts, &counts)?;
+                    Ok(labels.into_iter().map(f64::from).collect())
+                }
+                (DatatypeMessage::FixedPoint { .. }, _) => {
+                    // Indices: far below 2^53, where f64 is exact.
+                    let integers = dataset.read_numeric_slice_as::<i64>(&starts, &counts)?;
+                    Ok(integers.into_iter().map(|value| value as f64).collect())
+                }
+                _ => dataset.read_numeric_slice_as::<f64>(&starts, &counts),
             }
-            dataset.read_numeric_slice_as::<f64>(&starts, &counts)
         };
         self.check(read())
     }

@@ -8,6 +8,7 @@
 use crate::OutputError;
 use crate::grid::data_path;
 use crate::hdf5::{Source, read_error};
+use std::ops::Range;
 use std::path::Path;
 
 /// A dataset as a reader finds it.
@@ -98,17 +99,31 @@ impl GridFile {
 
     /// Values of a field at one step, point after point (or cell after cell), components together.
     pub fn read(&self, name: &str, on_cells: bool, step: usize) -> Result<Vec<f64>, OutputError> {
+        self.read_steps(name, on_cells, step..step + 1)
+    }
+
+    /// As [`Self::read`] for several steps in one go, one step after the other: much faster than
+    /// each by itself, since every access searches the index of the file's chunks. A field that is
+    /// stored once for all steps is returned once.
+    pub fn read_steps(
+        &self,
+        name: &str,
+        on_cells: bool,
+        steps: Range<usize>,
+    ) -> Result<Vec<f64>, OutputError> {
         let Some(field) = self.fields.iter().find(|f| f.name == name && f.on_cells == on_cells)
         else {
             let names: Vec<_> = self.fields.iter().map(|f| f.name.as_str()).collect();
             return Err(self.error(format!("no field `{name}`; it has {}", names.join(", "))));
         };
-        if step >= self.steps && !field.constant {
-            return Err(self.error(format!("no step {step}; it has {} steps", self.steps)));
+        if steps.end > self.steps && !field.constant {
+            let last = steps.end.saturating_sub(1);
+            return Err(self.error(format!("no step {last}; it has {} steps", self.steps)));
         }
         let count = self.count(on_cells);
-        let start = if field.constant { 0 } else { step * count };
-        self.source.rows(&data_path(name, on_cells), start, count)
+        let (start, rows) =
+            if field.constant { (0, count) } else { (steps.start * count, steps.len() * count) };
+        self.source.rows(&data_path(name, on_cells), start, rows)
     }
 
     fn error(&self, reason: String) -> OutputError {

@@ -2,7 +2,7 @@
 
 use crate::basis::{Basis, Bound};
 use crate::law::Law;
-use crate::vector::{Vec3, angle, dot, norm};
+use crate::vector::{Vec3, angle, dot, negative, norm};
 
 /// A node is in contact where its pressure exceeds this share of p0.
 pub const IN_CONTACT: f64 = 0.02;
@@ -30,6 +30,8 @@ pub(crate) struct Node {
 pub(crate) struct Judged {
     /// |s| (m/s).
     pub speed: f64,
+    /// |s|/s_c.
+    pub relative_speed: f64,
     /// p_f/p_n.
     pub ratio: f64,
     /// |s| above the threshold.
@@ -81,12 +83,13 @@ impl Judge {
         let error = |mu: f64| ratio / mu - 1.0;
         let law_error = mu_law.filter(|_| slips).map(error);
         let law_error_own = node.mu_used.filter(|_| slips).map(error);
-        let direction = (slips && shear > 0.0).then(|| angle(node.shear, node.slip.map(|c| -c)));
+        let direction = (slips && shear > 0.0).then(|| angle(node.shear, negative(node.slip)));
         let adheres = bound.is_some_and(|mu| ratio < IN_ADHESION * mu);
         let off_bound = bound.is_some_and(|mu| slips && error(mu).abs() > LAW_TOLERANCE);
         let off_direction = direction.is_some_and(|angle| angle > DIRECTION_TOLERANCE);
         Judged {
             speed,
+            relative_speed: speed / self.slip_speed,
             ratio,
             slips,
             let_slip: node.state == Some(2),
@@ -95,7 +98,10 @@ impl Judge {
             law_error_own,
             direction,
             adhesion_slip: adheres.then_some(speed / self.slip_speed),
-            law_scatter: self.law.map(|law| law.distance(speed, ratio, self.slip_speed)),
+            law_scatter: self
+                .law
+                .zip(mu_law)
+                .map(|(law, mu)| law.distance(speed, mu, ratio, self.slip_speed)),
             power: -dot(node.shear, node.slip),
             violates: off_bound || off_direction || (adheres && slips),
         }

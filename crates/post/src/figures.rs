@@ -1,6 +1,7 @@
 //! The figures of a run: the papers' ones and those that show what the papers argue about.
 
 mod caption;
+mod half_space;
 mod histories;
 mod lines;
 mod maps;
@@ -34,21 +35,21 @@ pub struct Named {
 }
 
 /// A record that is drawn, with where its patch is.
-struct Instant {
+pub(crate) struct Instant {
     frame: Frame,
     /// x of the patch's centre (m).
     centre: f64,
 }
 
 /// What every figure is drawn from.
-struct Scene<'a> {
-    history: &'a ContactHistory,
-    basis: &'a Basis,
-    scales: Scales,
+pub(crate) struct Scene<'a> {
+    pub history: &'a ContactHistory,
+    pub basis: &'a Basis,
+    pub scales: Scales,
     /// The body whose nodes are drawn: the bar where there are two.
-    body: u8,
-    records: Range<usize>,
-    instants: Vec<Instant>,
+    pub body: u8,
+    pub records: Range<usize>,
+    pub instants: Vec<Instant>,
 }
 
 /// Draws all figures of a run for which it has the data: those of lines and maps at the last
@@ -136,13 +137,13 @@ impl Scene<'_> {
         chosen
     }
 
-    fn centre(&self, frame: &Frame) -> f64 {
+    pub fn centre(&self, frame: &Frame) -> f64 {
         let p0 = self.scales.peak_pressure;
         let row = patch_series::measure(&self.history.surface, frame, self.body, p0);
         if row.values[2].is_finite() { row.values[2] } else { 0.0 }
     }
 
-    fn position(&self, frame: &Frame, row: usize) -> Vec3 {
+    pub fn position(&self, frame: &Frame, row: usize) -> Vec3 {
         let point = self.history.surface.points[row];
         match &frame.motion {
             Some([displacement, _]) => axpy(point, 1.0, displacement[row]),
@@ -151,7 +152,7 @@ impl Scene<'_> {
     }
 
     /// Rows of a body's nodes nearest y = 0, by their reference x.
-    fn centreline(&self, body: u8) -> Vec<usize> {
+    pub fn centreline(&self, body: u8) -> Vec<usize> {
         let surface = &self.history.surface;
         let of_body = |&row: &usize| surface.body[row] == body;
         let off = |row: usize| surface.points[row][1].abs();
@@ -168,11 +169,11 @@ impl Scene<'_> {
     }
 
     /// Half of what is drawn along x (m).
-    fn reach(&self) -> f64 {
+    pub fn reach(&self) -> f64 {
         1.35 * self.basis.scale("half_length").unwrap_or(10.0 * self.scales.size)
     }
 
-    fn in_contact(&self, frame: &Frame, row: usize) -> bool {
+    pub fn in_contact(&self, frame: &Frame, row: usize) -> bool {
         frame.pressure[row] > crate::conditions::IN_CONTACT * self.scales.peak_pressure
     }
 

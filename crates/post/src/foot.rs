@@ -2,7 +2,7 @@
 //! from positions and velocities alone, apart from what any solver said.
 
 use crate::surface::Surface;
-use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
+use crate::vector::{Vec3, axpy, cross, dot, negative, norm, sub};
 use std::collections::HashMap;
 
 /// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
@@ -56,39 +56,54 @@ impl Pair {
         nodes: &[usize],
     ) -> Vec<Option<Vec3>> {
         let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
+        let on = |face: u32, x: Vec3, start: [f64; 2]| {
+            project(surface.faces[face as usize].map(|n| at(n as usize)), x, start)
+        };
+        let nearest = |faces: &mut dyn Iterator<Item = u32>, x: Vec3| {
+            faces
+                .filter_map(|face| Some((face, on(face, x, [0.0; 2]).on_face()?)))
+                .min_by(|a, b| a.1.gap.abs().total_cmp(&b.1.gap.abs()))
+        };
         let mut sorted = false;
         let mut found = Vec::with_capacity(nodes.len());
         for &node in nodes {
             let x = at(node);
-            let on = |face: u32, start: [f64; 2]| {
-                let corners = surface.faces[face as usize];
-                let foot = project(corners.map(|n| at(n as usize)), x, start)?;
-                Some((foot, corners))
-            };
+            let mut best = None;
             let (last, start) = self.last[node];
-            let mut best =
-                if last == NONE { None } else { on(last, start).map(|found| (last, found)) };
-            if best.is_none() && last != NONE {
+            if last != NONE {
                 let corners = surface.faces[last as usize];
-                let beside = corners.iter().flat_map(|&n| &self.around[n as usize]);
-                best = beside
-                    .filter_map(|&face| Some((face, on(face, [0.0; 2])?)))
-                    .min_by(|a, b| a.1.0.gap.abs().total_cmp(&b.1.0.gap.abs()));
+                match on(last, x, start) {
+                    Projected::On(foot) => best = Some((last, foot)),
+                    // nodes that meet nodes step over corners all the time
+                    Projected::Beside([xi, eta]) => {
+                        let corner = match (xi > 0.0, eta > 0.0) {
+                            (false, false) => corners[0],
+                            (true, false) => corners[1],
+                            (true, true) => corners[2],
+                            (false, true) => corners[3],
+                        };
+                        let around = self.around[corner as usize].iter().copied();
+                        best = nearest(&mut around.filter(|face| *face != last), x);
+                    }
+                    Projected::Nowhere => {}
+                }
+                if best.is_none() {
+                    let beside = corners.iter().flat_map(|&n| &self.around[n as usize]);
+                    best = nearest(&mut beside.copied(), x);
+                }
             }
             if best.is_none() {
                 if !sorted {
                     self.sort_faces(surface, displacement);
                     sorted = true;
                 }
-                let candidates = self.near(x);
-                best = candidates
-                    .filter_map(|face| Some((face, on(face, [0.0; 2])?)))
-                    .min_by(|a, b| a.1.0.gap.abs().total_cmp(&b.1.0.gap.abs()));
+                best = nearest(&mut self.near(x), x);
             }
             self.last[node] =
-                best.as_ref().map_or((NONE, [0.0; 2]), |(face, (foot, _))| (*face, foot.at));
-            found.push(best.map(|(_, (foot, corners))| {
+                best.as_ref().map_or((NONE, [0.0; 2]), |(face, foot)| (*face, foot.at));
+            found.push(best.map(|(face, foot)| {
                 let mut relative = velocity[node];
+                let corners = surface.faces[face as usize];
                 for (weight, corner) in foot.weights.into_iter().zip(corners) {
                     relative = axpy(relative, -weight, velocity[corner as usize]);
                 }
@@ -134,44 +149,60 @@ struct Foot {
     gap: f64,
 }
 
-/// Newton's iteration for the foot of `node` on the bilinear face through `x`; `None` where it
-/// lies off the face.
-fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Option<Foot> {
-    for _ in 0..20 {
-        let weights = shape(xi, eta);
-        let (mut point, mut along, mut across, mut twist) =
-            ([0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]);
-        let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        for ((corner, weight), [sx, se]) in x.iter().zip(weights).zip(signs) {
-            point = axpy(point, weight, *corner);
-            along = axpy(along, 0.25 * sx * (1.0 + se * eta), *corner);
-            across = axpy(across, 0.25 * se * (1.0 + sx * xi), *corner);
-            twist = axpy(twist, 0.25 * sx * se, *corner);
+/// Where the foot of a node on the surface that continues a face lies.
+enum Projected {
+    On(Foot),
+    /// Beyond an edge, at these coordinates of the face.
+    Beside([f64; 2]),
+    /// So far away that there is no foot.
+    Nowhere,
+}
+
+impl Projected {
+    fn on_face(self) -> Option<Foot> {
+        match self {
+            Self::On(foot) => Some(foot),
+            _ => None,
         }
-        let away = sub(node, point);
+    }
+}
+
+/// Newton's iteration for the foot of `node` on the bilinear face through `x`.
+fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Projected {
+    // The face as centre + xi a + eta b + xi eta twist, measured from the node.
+    let mixed = |[p, q, r, s]: [f64; 4]| {
+        let component = |i: usize| 0.25 * (p * x[0][i] + q * x[1][i] + r * x[2][i] + s * x[3][i]);
+        [component(0), component(1), component(2)]
+    };
+    let centre = sub(mixed([1.0, 1.0, 1.0, 1.0]), node);
+    let (a, b) = (mixed([-1.0, 1.0, 1.0, -1.0]), mixed([-1.0, -1.0, 1.0, 1.0]));
+    let twist = mixed([1.0, -1.0, 1.0, -1.0]);
+    for _ in 0..20 {
+        let (along, across) = (axpy(a, eta, twist), axpy(b, xi, twist));
+        // from the point on the face to the node
+        let away = negative(axpy(axpy(centre, xi, along), eta, b));
         let residual = [dot(along, away), dot(across, away)];
         let matrix =
             [dot(along, along), dot(along, across) - dot(away, twist), dot(across, across)];
-        let determinant = matrix[0] * matrix[2] - matrix[1] * matrix[1];
+        let inverse = 1.0 / (matrix[0] * matrix[2] - matrix[1] * matrix[1]);
         let step = [
-            (matrix[2] * residual[0] - matrix[1] * residual[1]) / determinant,
-            (matrix[0] * residual[1] - matrix[1] * residual[0]) / determinant,
+            inverse * (matrix[2] * residual[0] - matrix[1] * residual[1]),
+            inverse * (matrix[0] * residual[1] - matrix[1] * residual[0]),
         ];
         xi += step[0];
         eta += step[1];
         // NaN fails this test too
         if !(xi.abs() < 10.0 && eta.abs() < 10.0) {
-            return None;
+            return Projected::Nowhere;
         }
         // convergence is quadratic: what is left is far below round-off of the weights
         if step[0].abs() < 1e-8 && step[1].abs() < 1e-8 {
             if xi.abs() > 1.0 + EDGE || eta.abs() > 1.0 + EDGE {
-                return None;
+                return Projected::Beside([xi, eta]);
             }
             let normal = cross(along, across);
-            let size = norm(normal);
-            let normal = normal.map(|c| c / size);
-            return Some(Foot {
+            let normal = axpy([0.0; 3], 1.0 / norm(normal), normal);
+            return Projected::On(Foot {
                 at: [xi, eta],
                 weights: shape(xi, eta),
                 normal,
@@ -179,7 +210,7 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Option<Foot
             });
         }
     }
-    None
+    Projected::Nowhere
 }
 
 fn shape(xi: f64, eta: f64) -> [f64; 4] {
@@ -196,7 +227,7 @@ mod tests {
     fn the_foot_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
         let node = [0.3, 0.6, 0.2];
-        let foot = project(x, node, [0.0; 2]).unwrap();
+        let foot = project(x, node, [0.0; 2]).on_face().unwrap();
         let mut point = [0.0; 3];
         for (weight, corner) in foot.weights.into_iter().zip(x) {
             point = axpy(point, weight, corner);
@@ -210,9 +241,10 @@ mod tests {
     #[test]
     fn a_node_beside_the_face_has_no_foot() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        assert!(project(x, [1.01, 0.5, 0.0], [0.0; 2]).is_none());
-        assert!(project(x, [f64::NAN; 3], [0.0; 2]).is_none());
-        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2]).is_none());
+        let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2]);
+        assert!(matches!(beside, Projected::Beside([xi, eta]) if xi > 1.0 && eta.abs() < 1e-12));
+        assert!(project(x, [f64::NAN; 3], [0.0; 2]).on_face().is_none());
+        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2]).on_face().is_none());
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! The contact history, one record after the other: read by threads of their own a few records
-//! ahead, never held whole.
+//! at a time and ahead, never held whole.
 
 use crate::PostError;
 use crate::surface::Surface;
 use crate::vector::Vec3;
 use output::GridFile;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
@@ -161,7 +162,7 @@ impl ContactHistory {
     ///
     /// # Errors
     /// A window without a record.
-    pub fn window(&self, [from, to]: [f64; 2]) -> Result<std::ops::Range<usize>, PostError> {
+    pub fn window(&self, [from, to]: [f64; 2]) -> Result<Range<usize>, PostError> {
         let slack = 1e-9 * self.times.last().copied().unwrap_or(0.0).abs();
         let start = self.times.partition_point(|t| *t < from - slack);
         let end = self.times.partition_point(|t| *t <= to + slack);
@@ -185,9 +186,13 @@ impl ContactHistory {
     /// A record that cannot be read or holds values that are not numbers.
     pub fn record(&self, index: usize) -> Result<Frame, PostError> {
         let file = open(&self.path)?;
-        let mut frame = Reading { file: &file, history: self }.tractions(index)?;
-        frame.motion = Reading { file: &file, history: self }.motion(index)?;
-        Ok(frame)
+        let reading = Reading { file: &file, history: self };
+        let tractions = reading.tractions(index..index + 1)?;
+        let motions = reading.motions(index..index + 1)?;
+        let frame = tractions.into_iter().zip(motions).next();
+        frame
+            .map(|(frame, motion)| Frame { motion, ..frame })
+            .ok_or_else(|| PostError::Damaged { path: self.path.clone() })
     }
 
     /// Hands every record of `records` to `take`, in order.
@@ -196,15 +201,34 @@ impl ContactHistory {
     /// A record that cannot be read or holds values that are not numbers; an error of `take`.
     pub fn stream(
         &self,
-        records: std::ops::Range<usize>,
+        records: Range<usize>,
         mut take: impl FnMut(Frame) -> Result<(), PostError>,
     ) -> Result<(), PostError> {
-        let tractions = Ahead::start(self, records.clone(), |reading, k| reading.tractions(k));
-        let motions = Ahead::start(self, records.clone(), |reading, k| reading.motion(k));
-        for _ in records {
-            let mut frame = tractions.next(&self.path)?;
-            frame.motion = motions.next(&self.path)?;
-            take(frame)?;
+        self.stream_batches(records, |batch| batch.into_iter().try_for_each(&mut take))
+    }
+
+    /// As [`Self::stream`], a few records at a time: as many as fit into [`BATCH_BYTES`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn stream_batches(
+        &self,
+        records: Range<usize>,
+        mut take: impl FnMut(Vec<Frame>) -> Result<(), PostError>,
+    ) -> Result<(), PostError> {
+        let record = NUMBERS_PER_NODE * size_of::<f64>() * self.surface.points.len();
+        let size = (BATCH_BYTES / record.max(1)).clamp(1, MOST_IN_BATCH);
+        let batches: Vec<Range<usize>> = records
+            .clone()
+            .step_by(size)
+            .map(|start| start..(start + size).min(records.end))
+            .collect();
+        let tractions = Ahead::start(self, batches.clone(), |reading, k| reading.tractions(k));
+        let motions = Ahead::start(self, batches.clone(), |reading, k| reading.motions(k));
+        for _ in batches {
+            let frames = tractions.next(&self.path)?.into_iter();
+            let motions = motions.next(&self.path)?;
+            take(frames.zip(motions).map(|(frame, motion)| Frame { motion, ..frame }).collect())?;
         }
         tractions.finish();
         motions.finish();
@@ -212,19 +236,25 @@ impl ContactHistory {
     }
 }
 
-/// Records read ahead.
-const AHEAD: usize = 4;
+/// Numbers that a node has in a record.
+const NUMBERS_PER_NODE: usize = 16;
+/// What a batch of records may take: a few of them lie in memory at a time.
+const BATCH_BYTES: usize = 4 << 20;
+/// Most records in a batch; more gain nothing.
+const MOST_IN_BATCH: usize = 16;
+/// Batches read ahead.
+const AHEAD: usize = 2;
 
 struct Ahead<T> {
-    inbox: Receiver<Result<T, PostError>>,
+    inbox: Receiver<Result<Vec<T>, PostError>>,
     thread: JoinHandle<()>,
 }
 
 impl<T: Send + 'static> Ahead<T> {
     fn start(
         history: &ContactHistory,
-        records: std::ops::Range<usize>,
-        read: fn(&Reading<'_>, usize) -> Result<T, PostError>,
+        batches: Vec<Range<usize>>,
+        read: fn(&Reading<'_>, Range<usize>) -> Result<Vec<T>, PostError>,
     ) -> Self {
         let (sender, inbox) = sync_channel(AHEAD);
         let history = history.clone();
@@ -237,8 +267,8 @@ impl<T: Send + 'static> Ahead<T> {
                 }
             };
             let reading = Reading { file: &file, history: &history };
-            for index in records {
-                let read = read(&reading, index);
+            for batch in batches {
+                let read = read(&reading, batch);
                 let stop = read.is_err();
                 // a receiver that is gone wants no more
                 if sender.send(read).is_err() || stop {
@@ -249,7 +279,7 @@ impl<T: Send + 'static> Ahead<T> {
         Self { inbox, thread }
     }
 
-    fn next(&self, path: &Path) -> Result<T, PostError> {
+    fn next(&self, path: &Path) -> Result<Vec<T>, PostError> {
         self.inbox.recv().map_err(|_| PostError::Damaged { path: path.into() })?
     }
 
@@ -281,58 +311,80 @@ struct Reading<'a> {
     history: &'a ContactHistory,
 }
 
+/// Displacement and velocity of the nodes, where the file has them.
+type Motion = Option<[Vec<Vec3>; 2]>;
+
 impl Reading<'_> {
-    fn tractions(&self, index: usize) -> Result<Frame, PostError> {
+    /// Records without their motion.
+    fn tractions(&self, records: Range<usize>) -> Result<Vec<Frame>, PostError> {
         let has = self.history.has;
-        Ok(Frame {
+        let all = |name, components| self.numbers(name, records.clone(), components);
+        let some = |there: bool, name| there.then(|| all(name, 1)).transpose();
+        let (pressure, shear) = (all("pressure", 1)?, all("shear", 3)?);
+        let slip_velocity = all("slip_velocity", 3)?;
+        let gap = some(has.gap, "gap")?;
+        let mu = some(has.mu, "mu")?;
+        let state = some(has.state, "state")?;
+        let label = |states: &[f64]| states.iter().map(|state| *state as u8).collect();
+        let frame = |(k, index): (usize, usize)| Frame {
             index,
             time: self.history.times[index],
-            pressure: self.numbers("pressure", index, 1)?,
-            shear: vectors(self.numbers("shear", index, 3)?),
-            slip_velocity: vectors(self.numbers("slip_velocity", index, 3)?),
-            gap: has.gap.then(|| self.numbers("gap", index, 1)).transpose()?,
-            mu: has.mu.then(|| self.numbers("mu", index, 1)).transpose()?,
-            state: has
-                .state
-                .then(|| self.numbers("state", index, 1))
-                .transpose()?
-                .map(|states| states.into_iter().map(|state| state as u8).collect()),
+            pressure: self.nodes(&pressure, k, 1).to_vec(),
+            shear: self.vectors(&shear, k),
+            slip_velocity: self.vectors(&slip_velocity, k),
+            gap: gap.as_ref().map(|gap| self.nodes(gap, k, 1).to_vec()),
+            mu: mu.as_ref().map(|mu| self.nodes(mu, k, 1).to_vec()),
+            state: state.as_ref().map(|state| label(self.nodes(state, k, 1))),
             motion: None,
-        })
+        };
+        Ok(records.clone().enumerate().map(frame).collect())
     }
 
-    fn motion(&self, index: usize) -> Result<Option<[Vec<Vec3>; 2]>, PostError> {
+    fn motions(&self, records: Range<usize>) -> Result<Vec<Motion>, PostError> {
         if !self.history.has.motion {
-            return Ok(None);
+            return Ok(vec![None; records.len()]);
         }
-        let displacement = vectors(self.numbers("displacement", index, 3)?);
-        let velocity = vectors(self.numbers("velocity", index, 3)?);
-        Ok(Some([displacement, velocity]))
+        let displacement = self.numbers("displacement", records.clone(), 3)?;
+        let velocity = self.numbers("velocity", records.clone(), 3)?;
+        let of = |k| Some([self.vectors(&displacement, k), self.vectors(&velocity, k)]);
+        Ok((0..records.len()).map(of).collect())
     }
 
+    /// What a field holds for record `k` of those read.
+    fn nodes<'a>(&self, values: &'a [f64], k: usize, components: usize) -> &'a [f64] {
+        let count = components * self.history.surface.points.len();
+        &values[k * count..(k + 1) * count]
+    }
+
+    fn vectors(&self, values: &[f64], k: usize) -> Vec<Vec3> {
+        self.nodes(values, k, 3).as_chunks::<3>().0.to_vec()
+    }
+
+    /// A field at all of `records`, the nodes of one after those of the other.
     fn numbers(
         &self,
         field: &'static str,
-        index: usize,
+        records: Range<usize>,
         components: usize,
     ) -> Result<Vec<f64>, PostError> {
-        let values = self.file.read(field, false, index)?;
+        let values = self.file.read_steps(field, false, records.clone())?;
         let path = || self.history.path.clone();
-        if values.len() != components * self.history.surface.points.len() {
+        let per_record = components * self.history.surface.points.len();
+        if values.len() != per_record * records.len() {
             return Err(PostError::Damaged { path: path() });
+        }
+        // without an early end the loop over all values takes a fraction of the time
+        if values.iter().fold(true, |all, value| all & value.is_finite()) {
+            return Ok(values);
         }
         match values.iter().position(|value| !value.is_finite()) {
             None => Ok(values),
             Some(at) => Err(PostError::NotANumber {
                 path: path(),
                 field,
-                node: at / components,
-                time: self.history.times[index],
+                node: at % per_record / components,
+                time: self.history.times[records.start + at / per_record],
             }),
         }
     }
-}
-
-fn vectors(flat: Vec<f64>) -> Vec<Vec3> {
-    flat.as_chunks::<3>().0.to_vec()
 }

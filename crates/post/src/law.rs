@@ -31,43 +31,47 @@ impl Law {
     /// Distance of the point (|s|, p_f/p_n) from the graph of the law, the curve
     /// {s = 0, 0 <= p_f/p_n <= mu_S} and {p_f/p_n = mu(|s|)} of the paper's Figure 7.
     ///
-    /// Speeds are counted in units of `scale` (m/s), coefficients of friction as they are. On the
-    /// falling branch the foot is found by Gauss-Newton from the point's own speed and from rest;
-    /// the point's own speed itself is a candidate, so that a point on the graph is at distance 0.
-    pub fn distance(&self, speed: f64, ratio: f64, scale: f64) -> f64 {
+    /// Speeds are counted in units of `scale` (m/s), coefficients of friction as they are; `mu` is
+    /// the law's coefficient at `speed`. On the falling branch the foot is found by Newton's
+    /// iteration from the point's own speed and from rest; the point's own speed itself is a
+    /// candidate, so that a point on the graph is at distance 0.
+    pub fn distance(&self, speed: f64, mu: f64, ratio: f64, scale: f64) -> f64 {
         let size = |a: f64, b: f64| (a * a + b * b).sqrt();
         let at_rest = size(speed / scale, (ratio - self.mu_static()).max(0.0));
-        let (mut best, law) = match self {
-            Law::Coulomb(law) => return at_rest.min((ratio - law.mu).abs()),
-            Law::Exponential(law) => (at_rest.min((ratio - law.mu(speed)).abs()), law),
+        let mut best = at_rest.min((ratio - mu).abs());
+        let Law::Exponential(law) = self else {
+            return best;
         };
         if best > 0.0 {
             let per_square = 1.0 / (scale * scale);
-            // Below the falling branch, which is convex, there is one foot; above it there may be two.
-            let starts = if ratio < law.mu(speed) { &[speed][..] } else { &[speed, 0.0] };
-            for &start in starts {
-                let mut foot = start;
+            let mut descend = |start: f64, from: f64| {
+                let (mut foot, mut mu) = (start, from);
                 for _ in 0..30 {
-                    let (mu, slope) = value_and_slope(law, foot);
+                    // mu' = -k (mu - mu_D), mu'' = k^2 (mu - mu_D)
+                    let slope = -law.decay * (mu - law.mu_dynamic);
                     let residual = (foot - speed) * per_square + (mu - ratio) * slope;
-                    let next = (foot - residual / (per_square + slope * slope)).max(0.0);
-                    let done = (next - foot).abs() <= 1e-7 * scale;
-                    foot = next;
+                    let gauss = per_square + slope * slope;
+                    let newton = gauss - (mu - ratio) * law.decay * slope;
+                    // where the distance is not convex, Gauss's part of its curvature is
+                    let curvature = if newton > 0.5 * gauss { newton } else { gauss };
+                    let next = (foot - residual / curvature).max(0.0);
+                    // what is left is of second order, and the distance about its foot again
+                    let done = (next - foot).abs() <= 1e-3 * scale;
+                    (foot, mu) = (next, law.mu(next));
                     if done {
                         break;
                     }
                 }
-                best = best.min(size((speed - foot) / scale, ratio - law.mu(foot)));
+                best = best.min(size((speed - foot) / scale, ratio - mu));
+            };
+            descend(speed, mu);
+            // Below the falling branch, which is convex, there is one foot; above it there may be two.
+            if ratio >= mu {
+                descend(0.0, law.mu_static);
             }
         }
         best
     }
-}
-
-/// mu and its derivative with respect to the slip speed (s/m).
-fn value_and_slope(law: &Exponential, speed: f64) -> (f64, f64) {
-    let above = (law.mu_static - law.mu_dynamic) * (-law.decay * speed).exp();
-    (law.mu_dynamic + above, -law.decay * above)
 }
 
 #[cfg(test)]
@@ -93,7 +97,7 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             let sticking = (speed / scale).hypot((ratio - 0.5f64).max(0.0));
             let expected = sliding.min(sticking);
-            let found = law.distance(speed, ratio, scale);
+            let found = law.distance(speed, law.mu(speed), ratio, scale);
             assert!((found - expected).abs() < 1e-9, "{speed} {ratio}: {found} {expected}");
         }
     }
@@ -101,9 +105,9 @@ mod tests {
     #[test]
     fn a_point_on_the_graph_is_at_no_distance() {
         let law = Law::Exponential(Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 });
-        assert_eq!(law.distance(0.7, law.mu(0.7), 0.1), 0.0);
-        assert_eq!(law.distance(0.0, 0.3, 0.1), 0.0);
+        assert_eq!(law.distance(0.7, law.mu(0.7), law.mu(0.7), 0.1), 0.0);
+        assert_eq!(law.distance(0.0, 0.5, 0.3, 0.1), 0.0);
         let law = Law::Coulomb(Coulomb { mu: 0.5 });
-        assert_eq!(law.distance(0.7, 0.45, 0.1), 0.5 - 0.45);
+        assert_eq!(law.distance(0.7, 0.5, 0.45, 0.1), 0.5 - 0.45);
     }
 }

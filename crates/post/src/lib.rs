@@ -24,6 +24,7 @@ mod patch_series;
 mod roughness;
 mod statistics;
 mod surface;
+mod sweep;
 mod tally;
 mod vector;
 
@@ -36,5 +37,6 @@ pub use frames::{ContactHistory, Frame, PAIRING_ATTRIBUTE, Pairing};
 pub use law::Law;
 pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use page::{run_page, sweep_page};
-pub use patch_series::{PATCH_MEASURES, PatchRow};
+pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};
+pub use sweep::{Sample, SweepVerdict, Trend, sweep_figures, sweep_verdicts, trend};

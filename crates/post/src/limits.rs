@@ -40,7 +40,7 @@ impl Limit {
 }
 
 /// All measures, in the order of tables.
-pub const MEASURES: [Measure; 14] = [
+pub const MEASURES: [Measure; 16] = [
     measure("penetration", "1", "max", "penetration over Hertz's approach", most(1e-3), None),
     measure("tension", "1", "max", "tension over p0", most(0.0), most(0.0)),
     measure("complementarity", "1", "max", "|gap| p_n/(delta p0)", most(1e-3), None),
@@ -48,7 +48,23 @@ pub const MEASURES: [Measure; 14] = [
     measure("adhesion_slip", "1", "max", "|s|/s_c below 0.98 of the bound", most(1e-3), None),
     measure("law_error", "1", "rms", "p_f/(mu(|s|) p_n) - 1 in slip", None, most(0.02)),
     measure("law_error_own", "1", "rms", "the same with the mu used", most(1e-8), None),
+    measure(
+        "law_error_let_slip",
+        "1",
+        "rms",
+        "law_error where the algorithm lets slip",
+        None,
+        most(0.02),
+    ),
     measure("direction", "deg", "rms", "angle of the shear from -s in slip", most(0.1), most(5.0)),
+    measure(
+        "direction_let_slip",
+        "deg",
+        "rms",
+        "direction where the algorithm lets slip",
+        None,
+        most(5.0),
+    ),
     measure("wrong_direction", "1", "share", "slip with that angle above 90 deg", None, None),
     measure("dissipation", "1", "share", "contact power of the wrong sign", most(0.0), None),
     measure("violating_fraction", "1", "share", "of the contact area", most(0.0), most(0.05)),

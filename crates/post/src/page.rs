@@ -8,6 +8,7 @@ use crate::PostError;
 use crate::basis::Basis;
 use crate::figures::Named;
 use crate::limits::MEASURES;
+use crate::patch_series::{PATCH_TABLE, PatchLine};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -21,6 +22,7 @@ h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px soli
 table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
 td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.wide{overflow-x:auto}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
@@ -205,29 +207,12 @@ fn case(out: &mut String, basis: &Basis, checked: &Value) {
     out.push_str("</table>\n");
 }
 
-/// Label, key, factor to the unit, unit.
-const PATCH: [(&str, &str, f64, &str); 13] = [
-    ("half length (fit)", "half_length", 1e3, "mm"),
-    ("half width (fit)", "half_width", 1e3, "mm"),
-    ("area", "area", 1e6, "mm\u{b2}"),
-    ("peak pressure (fit)", "peak_pressure", 1e-6, "MPa"),
-    ("peak pressure (nodes)", "peak_pressure_raw", 1e-6, "MPa"),
-    ("peak shear", "peak_shear", 1e-6, "MPa"),
-    ("normal force", "normal_force", 1e-3, "kN"),
-    ("tangential force", "tangential_force", 1e-3, "kN"),
-    ("traction coefficient", "traction_coefficient", 1.0, ""),
-    ("creepage", "creepage", 1e3, "10\u{207b}\u{b3}"),
-    ("stick fraction", "stick_fraction", 1.0, ""),
-    ("slip fraction", "slip_fraction", 1.0, ""),
-    ("power of friction", "power", 1e-3, "kW"),
-];
-
 fn patch(out: &mut String, basis: &Basis, checked: &Value) {
     out.push_str(
         "<h2>The patch</h2>\n<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
          <th></th><th class=\"n\">deviation</th><th class=\"n\">half-space</th></tr>\n",
     );
-    for (label, key, factor, unit) in PATCH {
+    for PatchLine { label, key, factor, unit } in PATCH_TABLE {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));
         let Some(mean) = at("mean") else {
             continue;

@@ -26,6 +26,45 @@ pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
     ("power", "W", "work of friction per time"),
 ];
 
+/// A line of a table of the patch.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchLine {
+    /// What it is called there.
+    pub label: &'static str,
+    /// Its key in `patch` of a check's document: a name of [`PATCH_MEASURES`], or `creepage`.
+    pub key: &'static str,
+    /// Factor from its SI unit to `unit`.
+    pub factor: f64,
+    /// The unit shown; empty for pure numbers.
+    pub unit: &'static str,
+}
+
+const fn line(
+    label: &'static str,
+    key: &'static str,
+    factor: f64,
+    unit: &'static str,
+) -> PatchLine {
+    PatchLine { label, key, factor, unit }
+}
+
+/// The lines of a table of the patch, on a page or in a terminal.
+pub const PATCH_TABLE: [PatchLine; 13] = [
+    line("half length (fit)", "half_length", 1e3, "mm"),
+    line("half width (fit)", "half_width", 1e3, "mm"),
+    line("area", "area", 1e6, "mm\u{b2}"),
+    line("peak pressure (fit)", "peak_pressure", 1e-6, "MPa"),
+    line("peak pressure (nodes)", "peak_pressure_raw", 1e-6, "MPa"),
+    line("peak shear", "peak_shear", 1e-6, "MPa"),
+    line("normal force", "normal_force", 1e-3, "kN"),
+    line("tangential force", "tangential_force", 1e-3, "kN"),
+    line("traction coefficient", "traction_coefficient", 1.0, ""),
+    line("creepage", "creepage", 1e3, "10\u{207b}\u{b3}"),
+    line("stick fraction", "stick_fraction", 1.0, ""),
+    line("slip fraction", "slip_fraction", 1.0, ""),
+    line("power of friction", "power", 1e-3, "kW"),
+];
+
 /// The patch at one time: values in the order of [`PATCH_MEASURES`].
 #[derive(Clone, Copy, Debug)]
 pub struct PatchRow {

@@ -1,7 +1,7 @@
 //! The argument of the paper's Figure 4 as a number: where slip velocity fluctuates, the law wants
 //! the shear to fluctuate with it.
 
-/// Standard deviations in time of p_f/p_n and of mu(|s|) at slipping nodes, both high-passed.
+/// Standard deviations in time of p_f/p_n, of mu(|s|) and of |s|/s_c at slipping nodes, high-passed.
 ///
 /// The high pass subtracts the mean over a tenth of a contact transit, 2a/(10 V), centred on the
 /// sample: the trend that every node goes through along the patch drops out, the fluctuation
@@ -17,12 +17,12 @@ pub(crate) struct Roughness {
     /// Records on each side of the middle of the span; zero where they lie too far apart.
     half: usize,
     /// The values of the last `2 half + 1` records, each for all nodes: so they are met in order.
-    ring: Vec<Vec<[f64; 2]>>,
+    ring: Vec<Vec<[f64; 3]>>,
     /// Record with which the spell of each node began.
     since: Vec<usize>,
-    sums: Vec<[f64; 2]>,
+    sums: Vec<[f64; 3]>,
     weight: f64,
-    squares: [f64; 2],
+    squares: [f64; 3],
 }
 
 const NONE: usize = usize::MAX;
@@ -39,11 +39,11 @@ impl Roughness {
             interval: None,
             record: 0,
             half: 0,
-            ring: vec![vec![[0.0; 2]; nodes]],
+            ring: vec![vec![[0.0; 3]; nodes]],
             since: vec![NONE; nodes],
-            sums: vec![[0.0; 2]; nodes],
+            sums: vec![[0.0; 3]; nodes],
             weight: 0.0,
-            squares: [0.0; 2],
+            squares: [0.0; 3],
         }
     }
 
@@ -62,7 +62,7 @@ impl Roughness {
         let nodes = self.since.len();
         let half = (0.5 * self.span / step + 1e-6).floor() as usize;
         self.half = if 2 * half < MOST { half } else { 0 };
-        self.ring.resize(2 * self.half + 1, vec![[0.0; 2]; nodes]);
+        self.ring.resize(2 * self.half + 1, vec![[0.0; 3]; nodes]);
         for node in 0..nodes {
             if self.since[node] != NONE {
                 self.since[node] = 0;
@@ -73,25 +73,25 @@ impl Roughness {
         self.record = 1;
     }
 
-    /// A node slips in this record, with p_f/p_n and mu(|s|).
-    pub fn add(&mut self, node: usize, values: [f64; 2], area: f64) {
+    /// A node slips in this record, with p_f/p_n, mu(|s|) and |s|/s_c.
+    pub fn add(&mut self, node: usize, values: [f64; 3], area: f64) {
         let whole = self.ring.len();
         let slot = self.record % whole;
         if self.since[node] == NONE {
             self.since[node] = self.record;
-            self.sums[node] = [0.0; 2];
+            self.sums[node] = [0.0; 3];
         }
         let gone = std::mem::replace(&mut self.ring[slot][node], values);
         let count = self.record - self.since[node] + 1;
         let sums = &mut self.sums[node];
-        for i in 0..2 {
+        for i in 0..3 {
             sums[i] += if count > whole { values[i] - gone[i] } else { values[i] };
         }
         if let (true, Some(interval)) = (self.half > 0 && count >= whole, self.interval) {
             let middle = self.ring[(self.record - self.half) % whole][node];
             let weight = area * interval;
             self.weight += weight;
-            for i in 0..2 {
+            for i in 0..3 {
                 let away = middle[i] - sums[i] / whole as f64;
                 self.squares[i] += weight * away * away;
             }
@@ -103,8 +103,8 @@ impl Roughness {
         self.since[node] = NONE;
     }
 
-    /// The standard deviations of p_f/p_n and of mu(|s|); `None` where no spell is long enough.
-    pub fn deviations(&self) -> Option<[f64; 2]> {
+    /// The standard deviations of p_f/p_n, of mu(|s|) and of |s|/s_c; `None` where no spell is long enough.
+    pub fn deviations(&self) -> Option<[f64; 3]> {
         (self.weight > 0.0).then(|| self.squares.map(|squares| (squares / self.weight).sqrt()))
     }
 }
@@ -121,12 +121,13 @@ mod tests {
             let t = 0.01 * f64::from(i);
             let chatter = if i % 2 == 0 { 1.0 } else { -1.0 };
             roughness.begin(t);
-            roughness.add(0, [3.0 * t + 0.2 * chatter, 7.0 - t + 0.1 * chatter], 1.0);
+            roughness.add(0, [3.0 * t + 0.2 * chatter, 7.0 - t + 0.1 * chatter, chatter], 1.0);
         }
-        let [shear, law] = roughness.deviations().unwrap();
+        let [shear, law, slip] = roughness.deviations().unwrap();
         // 0.2 (1 - 1/101): the mean over an odd number of samples keeps one
         assert!((shear - 0.2 * (1.0 - 1.0 / 101.0)).abs() < 1e-6, "{shear}");
         assert!((shear / law - 2.0).abs() < 1e-10);
+        assert!((slip / law - 10.0).abs() < 1e-9);
     }
 
     #[test]
@@ -137,7 +138,7 @@ mod tests {
                 roughness.interrupt(0);
             }
             roughness.begin(0.01 * f64::from(i));
-            roughness.add(0, [1.0, 1.0], 1.0);
+            roughness.add(0, [1.0; 3], 1.0);
         }
         assert_eq!(roughness.deviations(), None);
     }
@@ -147,11 +148,11 @@ mod tests {
         let mut roughness = Roughness::new(1, 1.0);
         let mut record = |time: f64| {
             roughness.begin(time);
-            roughness.add(0, [1.0, 1.0], 1.0);
+            roughness.add(0, [1.0; 3], 1.0);
         };
         (0..60).for_each(|i| record(0.01 * f64::from(i)));
         (0..60).for_each(|i| record(1.0 + 0.02 * f64::from(i)));
-        assert_eq!(roughness.deviations(), Some([0.0; 2]));
+        assert_eq!(roughness.deviations(), Some([0.0; 3]));
         let before = roughness.weight;
         assert!((before / 0.02 - 10.0).abs() < 1e-9, "{before}");
     }

@@ -11,21 +11,49 @@ pub struct Place {
     pub value: f64,
 }
 
-/// Weighted mean, mean square, largest absolute value with its place, and quantiles.
+/// Weighted mean, mean square, largest absolute value with its place, and quantiles; of the root
+/// mean squares and of the largest values of single records, the deviation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     weight: f64,
     sum: f64,
     squares: f64,
     pub worst: Option<Place>,
-    bins: Vec<Bin>,
+    /// Weight of the values in each bin.
+    bins: Vec<f64>,
+    /// The smallest size; the largest is that of the worst value.
+    smallest: f64,
+    record: OfRecord,
+    rms_of_records: Moments,
+    largest_of_records: Moments,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Bin {
+#[derive(Clone, Copy, Debug, Default)]
+struct OfRecord {
     weight: f64,
-    low: f64,
-    high: f64,
+    squares: f64,
+    largest: f64,
+}
+
+/// Weighted mean and deviation of a number that every record has (West 1979).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Moments {
+    weight: f64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Moments {
+    pub fn add(&mut self, weight: f64, value: f64) {
+        self.weight += weight;
+        let away = value - self.mean;
+        self.mean += away * weight / self.weight;
+        self.squares += weight * away * (value - self.mean);
+    }
+
+    pub fn deviation(&self) -> Option<f64> {
+        (self.weight > 0.0).then(|| (self.squares / self.weight).max(0.0).sqrt())
+    }
 }
 
 /// Bins of |x| by its exponent and the first bits of its fraction: a quantile is known to 1.6 %.
@@ -40,6 +68,17 @@ fn bin_of(size: f64) -> usize {
     ((at + 1).saturating_sub(first) as usize).min(BINS - 1)
 }
 
+/// Smallest and largest value of a bin.
+fn ends(bin: usize) -> [f64; 2] {
+    let first = EXPONENTS.start << FRACTION_BITS;
+    let end = |bin: usize| match bin {
+        0 => 0.0,
+        BINS.. => f64::INFINITY,
+        bin => f64::from_bits((first + bin as u64 - 1) << (52 - FRACTION_BITS)),
+    };
+    [end(bin), end(bin + 1)]
+}
+
 impl Spread {
     /// Takes in a value of a node at a time.
     pub fn add(&mut self, weight: f64, value: f64, node: usize, time: f64) {
@@ -47,17 +86,37 @@ impl Spread {
         self.sum += weight * value;
         self.squares += weight * value * value;
         let size = value.abs();
+        self.record.weight += weight;
+        self.record.squares += weight * value * value;
+        self.record.largest = self.record.largest.max(size);
         if self.worst.is_none_or(|worst| size > worst.value.abs()) {
             self.worst = Some(Place { node, time, value });
         }
         if self.bins.is_empty() {
-            let none = Bin { weight: 0.0, low: f64::INFINITY, high: 0.0 };
-            self.bins = vec![none; BINS];
+            self.bins = vec![0.0; BINS];
+            self.smallest = size;
         }
-        let bin = &mut self.bins[bin_of(size)];
-        bin.weight += weight;
-        bin.low = bin.low.min(size);
-        bin.high = bin.high.max(size);
+        self.smallest = self.smallest.min(size);
+        self.bins[bin_of(size)] += weight;
+    }
+
+    /// All values of a record that stands for `span` (s) are in.
+    pub fn end_record(&mut self, span: f64) {
+        let record = std::mem::take(&mut self.record);
+        if record.weight > 0.0 {
+            self.rms_of_records.add(span, (record.squares / record.weight).sqrt());
+            self.largest_of_records.add(span, record.largest);
+        }
+    }
+
+    /// How the root mean square of single records varies over the records.
+    pub fn deviation_of_rms(&self) -> Option<f64> {
+        self.rms_of_records.deviation()
+    }
+
+    /// How the largest value of single records varies over the records.
+    pub fn deviation_of_largest(&self) -> Option<f64> {
+        self.largest_of_records.deviation()
     }
 
     pub fn mean(&self) -> Option<f64> {
@@ -77,13 +136,15 @@ impl Spread {
     /// where all values are one).
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let mut below = 0.0;
-        for bin in self.bins.iter().filter(|bin| bin.weight > 0.0) {
+        let largest = self.largest()?;
+        for (bin, &weight) in self.bins.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
             let wanted = share * self.weight - below;
-            if wanted <= bin.weight {
-                let part = (wanted / bin.weight).clamp(0.0, 1.0);
-                return Some(bin.low + part * (bin.high - bin.low));
+            if wanted <= weight {
+                let part = (wanted / weight).clamp(0.0, 1.0);
+                let [low, high] = ends(bin).map(|end| end.clamp(self.smallest, largest));
+                return Some(low + part * (high - low));
             }
-            below += bin.weight;
+            below += weight;
         }
         self.largest()
     }
@@ -124,6 +185,19 @@ mod tests {
         for found in [spread.mean(), spread.rms(), spread.quantile(0.95), spread.largest()] {
             assert!((found.unwrap() - 0.1).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn the_deviation_over_records_is_that_of_their_own_statistics() {
+        let mut spread = Spread::default();
+        // records (1, 1), (3, 3) and none, each for the same time
+        for (time, value) in [(0.0, 1.0), (1.0, 3.0)] {
+            (0..2).for_each(|node| spread.add(0.7, value, node, time));
+            spread.end_record(0.5);
+        }
+        spread.end_record(0.5);
+        assert!((spread.deviation_of_rms().unwrap() - 1.0).abs() < 1e-15);
+        assert!((spread.deviation_of_largest().unwrap() - 1.0).abs() < 1e-15);
     }
 
     #[test]

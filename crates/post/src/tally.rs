@@ -2,7 +2,7 @@
 
 use crate::conditions::Judged;
 use crate::roughness::Roughness;
-use crate::statistics::{Place, Spread};
+use crate::statistics::{Moments, Place, Spread};
 
 /// The tangential conditions on one view of the interface in one pairing.
 pub(crate) struct Tally {
@@ -11,14 +11,19 @@ pub(crate) struct Tally {
     /// Time and share of the record with the largest share in violation.
     worst_record: Option<(f64, f64)>,
     record: [f64; 2],
+    violating_of_records: Moments,
+    wrong_record: [f64; 2],
+    wrong_of_records: Moments,
+    power_record: [f64; 2],
+    power_of_records: Moments,
     law_error: Spread,
     law_error_own: Spread,
-    /// The law and the direction at nodes that the algorithm lets slip: a penalty method's own
-    /// elastic slip elsewhere is left out.
+    /// The law and the direction at nodes that the algorithm lets slip: what it does wrong itself.
+    /// The give of a penalty method's springs at nodes that it holds is left out.
     let_slip: [Spread; 2],
     direction: Spread,
-    wrong: f64,
-    directed: f64,
+    /// Weight of slip with shear along it and of all slip.
+    wrong: [f64; 2],
     adhesion_slip: Spread,
     law_scatter: Spread,
     /// Power of the wrong sign and of both signs (J).
@@ -32,6 +37,8 @@ pub(crate) struct Tally {
 /// A statistic of a tally: its value, where it is worst, and what else is known of it.
 pub(crate) struct Statistic {
     pub value: Option<f64>,
+    /// How the same statistic of single records varies over the records.
+    pub deviation: Option<f64>,
     pub place: Option<(Option<usize>, f64, f64)>,
     pub more: Vec<(&'static str, Option<f64>)>,
 }
@@ -44,12 +51,16 @@ impl Tally {
             violating: 0.0,
             worst_record: None,
             record: [0.0; 2],
+            violating_of_records: Moments::default(),
+            wrong_record: [0.0; 2],
+            wrong_of_records: Moments::default(),
+            power_record: [0.0; 2],
+            power_of_records: Moments::default(),
             law_error: Spread::default(),
             law_error_own: Spread::default(),
             let_slip: Default::default(),
             direction: Spread::default(),
-            wrong: 0.0,
-            directed: 0.0,
+            wrong: [0.0; 2],
             adhesion_slip: Spread::default(),
             law_scatter: Spread::default(),
             power: [0.0; 2],
@@ -90,8 +101,8 @@ impl Tally {
             if judged.let_slip {
                 self.let_slip[1].add(weight, angle, row, time);
             }
-            self.directed += weight;
-            self.wrong += if angle > 90.0 { weight } else { 0.0 };
+            self.wrong_record[0] += if angle > 90.0 { weight } else { 0.0 };
+            self.wrong_record[1] += weight;
         }
         if let Some(slip) = judged.adhesion_slip {
             self.adhesion_slip.add(weight, slip, row, time);
@@ -101,15 +112,17 @@ impl Tally {
         }
         // slip below the threshold is round-off or regularisation and has no direction
         if judged.slips {
-            self.power[0] += weight * (-judged.power).max(0.0);
-            self.power[1] += weight * judged.power.abs();
+            self.power_record[0] += weight * (-judged.power).max(0.0);
+            self.power_record[1] += weight * judged.power.abs();
             if judged.power < self.worst_power.map_or(0.0, |worst| worst.value) {
                 self.worst_power = Some(Place { node: row, time, value: judged.power });
             }
         }
         if let Some(roughness) = &mut self.roughness {
             match judged.mu_law {
-                Some(mu) if judged.slips => roughness.add(row, [judged.ratio, mu], area),
+                Some(mu) if judged.slips => {
+                    roughness.add(row, [judged.ratio, mu, judged.relative_speed], area)
+                }
                 _ => roughness.interrupt(row),
             }
         }
@@ -124,21 +137,48 @@ impl Tally {
         self.switches.open(row);
     }
 
-    /// All nodes of a record are in.
-    pub fn end_record(&mut self, time: f64) {
+    /// All nodes of a record that stands for `span` (s) are in.
+    pub fn end_record(&mut self, time: f64, span: f64) {
         self.records += 1;
         let [violating, contact] = std::mem::take(&mut self.record);
         let share = violating / contact;
-        if contact > 0.0 && self.worst_record.is_none_or(|(_, worst)| share > worst) {
-            self.worst_record = Some((time, share));
+        if contact > 0.0 {
+            self.violating_of_records.add(span, share);
+            if self.worst_record.is_none_or(|(_, worst)| share > worst) {
+                self.worst_record = Some((time, share));
+            }
+        }
+        for (record, all, shares) in [
+            (&mut self.wrong_record, &mut self.wrong, &mut self.wrong_of_records),
+            (&mut self.power_record, &mut self.power, &mut self.power_of_records),
+        ] {
+            let [part, whole] = std::mem::take(record);
+            all[0] += part;
+            all[1] += whole;
+            if whole > 0.0 {
+                shares.add(span, part / whole);
+            }
+        }
+        let [law, direction] = &mut self.let_slip;
+        for spread in [
+            &mut self.law_error,
+            &mut self.law_error_own,
+            law,
+            &mut self.direction,
+            direction,
+            &mut self.adhesion_slip,
+            &mut self.law_scatter,
+        ] {
+            spread.end_record(span);
         }
     }
 
     /// The statistic that a measure of the tangential conditions is.
     pub fn statistic(&self, name: &str) -> Statistic {
-        let share = |part: f64, whole: f64| (whole > 0.0).then(|| part / whole);
-        let spread = |spread: &Spread, value: Option<f64>| Statistic {
+        let share = |[part, whole]: [f64; 2]| (whole > 0.0).then(|| part / whole);
+        let by = |spread: &Spread, value: Option<f64>, deviation: Option<f64>| Statistic {
             value,
+            deviation,
             place: spread.worst.map(|w| (Some(w.node), w.time, w.value)),
             more: vec![
                 ("mean", spread.mean()),
@@ -147,39 +187,49 @@ impl Tally {
                 ("max", spread.largest()),
             ],
         };
-        let plain = |value, place| Statistic { value, place, more: Vec::new() };
+        let spread = |of: &Spread| by(of, of.rms(), of.deviation_of_rms());
+        let plain = |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
         let also = |mut statistic: Statistic, let_slip: &Spread| {
             statistic.more.push(("rms_where_let_slip", let_slip.rms()));
             statistic
         };
         match name {
-            "law_error" => also(spread(&self.law_error, self.law_error.rms()), &self.let_slip[0]),
-            "law_error_own" => spread(&self.law_error_own, self.law_error_own.rms()),
-            "direction" => also(spread(&self.direction, self.direction.rms()), &self.let_slip[1]),
+            "law_error" => also(spread(&self.law_error), &self.let_slip[0]),
+            "law_error_own" => spread(&self.law_error_own),
+            "direction" => also(spread(&self.direction), &self.let_slip[1]),
+            "law_error_let_slip" => spread(&self.let_slip[0]),
+            "direction_let_slip" => spread(&self.let_slip[1]),
             "wrong_direction" => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));
-                plain(share(self.wrong, self.directed), place)
+                let deviation = self.wrong_of_records.deviation();
+                Statistic { deviation, ..plain(share(self.wrong), place) }
             }
-            "adhesion_slip" => spread(&self.adhesion_slip, self.adhesion_slip.largest()),
-            "law_scatter" => spread(&self.law_scatter, self.law_scatter.rms()),
+            "adhesion_slip" => {
+                let slip = &self.adhesion_slip;
+                by(slip, slip.largest(), slip.deviation_of_largest())
+            }
+            "law_scatter" => spread(&self.law_scatter),
             "dissipation" => {
                 let place = self.worst_power.map(|w| (Some(w.node), w.time, w.value));
                 let more = vec![("energy", Some(self.power[1] - 2.0 * self.power[0]))];
-                Statistic { more, ..plain(share(self.power[0], self.power[1]), place) }
+                let deviation = self.power_of_records.deviation();
+                Statistic { deviation, more, ..plain(share(self.power), place) }
             }
             "violating_fraction" => {
                 let place = self.worst_record.filter(|(_, share)| *share > 0.0);
                 let place = place.map(|(time, share)| (None, time, share));
-                plain(share(self.violating, self.contact), place)
+                let deviation = self.violating_of_records.deviation();
+                Statistic { deviation, ..plain(share([self.violating, self.contact]), place) }
             }
             "roughness_ratio" => {
                 let deviations = self.roughness.as_ref().and_then(Roughness::deviations);
                 let ratio =
-                    deviations.filter(|[_, law]| *law > 1e-9).map(|[shear, law]| shear / law);
+                    deviations.filter(|[_, law, _]| *law > 1e-9).map(|[shear, law, _]| shear / law);
                 let more = vec![
                     ("deviation_traction", deviations.map(|d| d[0])),
                     ("deviation_law", deviations.map(|d| d[1])),
+                    ("deviation_slip", deviations.map(|d| d[2])),
                 ];
                 Statistic { more, ..plain(ratio, None) }
             }
@@ -254,6 +304,15 @@ impl SideTally {
         self.cone.add(weight, excess.max(0.0), row, time);
     }
 
+    /// All nodes of a record that stands for `span` (s) are in.
+    pub fn end_record(&mut self, span: f64) {
+        for spread in
+            [&mut self.penetration, &mut self.tension, &mut self.complementarity, &mut self.cone]
+        {
+            spread.end_record(span);
+        }
+    }
+
     /// The statistic that a measure of one side is.
     pub fn statistic(&self, name: &str) -> Option<Statistic> {
         let spread = match name {
@@ -266,6 +325,7 @@ impl SideTally {
         let worst = spread.worst.filter(|worst| worst.value != 0.0);
         Some(Statistic {
             value: spread.largest(),
+            deviation: spread.deviation_of_largest(),
             place: worst.map(|w| (Some(w.node), w.time, w.value)),
             more: vec![("mean", spread.mean()), ("p95", spread.quantile(0.95))],
         })

@@ -11,6 +11,10 @@ pub(crate) fn axpy(a: Vec3, s: f64, b: Vec3) -> Vec3 {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
+pub(crate) fn negative(a: Vec3) -> Vec3 {
+    [-a[0], -a[1], -a[2]]
+}
+
 pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -118,29 +118,13 @@ fn place(metric: &Value) -> String {
     text
 }
 
-const PATCH: [(&str, &str, f64, &str); 13] = [
-    ("half length", "half_length", 1e3, "mm"),
-    ("half width", "half_width", 1e3, "mm"),
-    ("area", "area", 1e6, "mm2"),
-    ("peak pressure, fit", "peak_pressure", 1e-6, "MPa"),
-    ("peak pressure, raw", "peak_pressure_raw", 1e-6, "MPa"),
-    ("peak shear", "peak_shear", 1e-6, "MPa"),
-    ("normal force", "normal_force", 1e-3, "kN"),
-    ("tangential force", "tangential_force", 1e-3, "kN"),
-    ("traction coefficient", "traction_coefficient", 1.0, ""),
-    ("creepage", "creepage", 1e3, "1e-3"),
-    ("stick fraction", "stick_fraction", 1.0, ""),
-    ("slip fraction", "slip_fraction", 1.0, ""),
-    ("power of friction", "power", 1e-3, "kW"),
-];
-
 fn patch(out: &mut String, document: &Value) {
     heading(out, "Patch, mean and standard deviation");
-    for (label, key, factor, unit) in PATCH {
+    for post::PatchLine { label, key, factor, unit } in post::PATCH_TABLE {
         let at = |part: &str| number(document, &format!("/patch/{key}/{part}"));
         if let Some(mean) = at("mean") {
             let line = format!(
-                "  {label:<20}{:>11} {unit:<5}+- {}",
+                "  {label:<22}{:>11} {unit:<5}+- {}",
                 digits(Some(mean * factor), 4),
                 digits(at("deviation").map(|d| d * factor), 2)
             );

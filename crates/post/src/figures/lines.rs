@@ -1,6 +1,7 @@
 //! Lines along y = 0 at three instants.
 
 use super::caption::caption;
+use super::half_space;
 use super::{INSTANTS, Instant, Scene, time_label};
 use crate::vector::norm;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
@@ -106,6 +107,15 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
             draw: Draw::Line(colour::ORANGE),
         });
     }
+    let reference = half_space::shear(scene);
+    let has_reference = reference.is_some();
+    if let Some(reference) = reference {
+        series.push(Series {
+            label: reference.label,
+            points: reference.points.into_iter().map(|[x, p]| [1e3 * x, 1e-6 * p]).collect(),
+            draw: Draw::Dashed(colour::ORANGE),
+        });
+    }
     for (instant, colour) in scene.instants.iter().zip(INSTANTS) {
         series.push(Series {
             label: format!("p_f, {}", time_label(instant)),
@@ -115,8 +125,15 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
     }
     let y = Axis::linear("traction (MPa)");
     let panels = vec![panel("", x_axis(scene), y, series)];
-    let text = "Pressure and shear along y = 0 at three instants (the papers' Figure 3).";
-    Figure { size: [760, 500], columns: 1, panels, caption: caption(scene, text) }
+    let mut text =
+        "Pressure and shear along y = 0 at three instants (the papers' Figure 3).".to_owned();
+    if has_reference {
+        text.push_str(
+            " Orange: half-spaces, pressure by Hertz, shear of steady rolling by CONTACT at the \
+             nearest T/N computed.",
+        );
+    }
+    Figure { size: [760, 500], columns: 1, panels, caption: caption(scene, &text) }
 }
 
 /// Figure 4: the bound mu(|s|) p over the shear, and p_f/p with the bound.

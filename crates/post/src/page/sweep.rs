@@ -1,78 +1,35 @@
-//! The page of a sweep: its table and how results follow the parameters.
+//! The page of a sweep: its table, what its trends say, and its figures.
 
 use super::{digits, escape, head};
 use crate::PostError;
-use figure::{Axis, Draw, Figure, Panel, Series, colour};
+use crate::sweep::{MEASURES, Sweep, SweepVerdict, shown, sweep_figures, sweep_verdicts};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
 
-/// What the table shows of each run: heading, pointer into the run's entry, factor.
-const COLUMNS: [(&str, &str, f64); 8] = [
-    ("T/N", "/summary/contact/traction_coefficient", 1.0),
-    ("creepage (10\u{207b}\u{b3})", "/summary/contact/creepage", 1e3),
-    ("half length (mm)", "/summary/contact/patch_half_length", 1e3),
-    ("peak pressure (MPa)", "/summary/contact/peak_pressure", 1e-6),
-    ("stick fraction", "/summary/contact/stick_fraction", 1.0),
-    ("violating fraction", "/check/metrics/violating_fraction/value", 1.0),
-    ("wrong direction", "/check/metrics/wrong_direction/value", 1.0),
-    ("roughness ratio", "/check/metrics/roughness_ratio/value", 1.0),
-];
-
-/// The page of a sweep from its `sweep.json`.
+/// The page of a sweep: `path` is its `sweep.json`, `sweep` what that holds.
 ///
 /// # Errors
 /// A document that is no sweep; a figure that cannot be drawn.
 pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, PostError> {
-    let broken = |reason: &str| PostError::Text { path: path.into(), reason: reason.into() };
-    let parameters = sweep["parameters"].as_array();
-    let parameters: Vec<&str> = parameters
-        .ok_or_else(|| broken("is no sweep: it has no parameters"))?
-        .iter()
-        .filter_map(Value::as_str)
-        .collect();
-    let runs = sweep["runs"].as_array().ok_or_else(|| broken("is no sweep: it has no runs"))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let known = Sweep::of(folder, sweep)?;
+    let verdicts = sweep_verdicts(folder, sweep)?;
     let mut out = head(name);
-    let _ = write!(
+    let completed = known.completed().count();
+    let _ = writeln!(
         out,
-        "<h1>{}</h1>\n<p>{} runs over {}.</p>\n<h2>Runs</h2>\n<table>\n<tr>",
+        "<h1>{}</h1>\n<p>{} runs over {}; {completed} completed.</p>",
         escape(name),
-        runs.len(),
-        escape(&parameters.join(", "))
+        known.runs.len(),
+        escape(&known.axes.join(", "))
     );
-    for parameter in &parameters {
-        let _ = write!(out, "<th class=\"n\">{}</th>", escape(parameter));
-    }
-    out.push_str("<th>status</th>");
-    for (heading, ..) in COLUMNS {
-        let _ = write!(out, "<th class=\"n\">{heading}</th>");
-    }
-    out.push_str("<th>checks</th></tr>\n");
-    for run in runs {
-        out.push_str("<tr>");
-        for parameter in &parameters {
-            let _ = write!(out, "<td class=\"n\">{}</td>", shown(&run["parameters"][*parameter]));
-        }
-        let status = run["status"].as_str().unwrap_or("unknown");
-        let _ = write!(out, "<td>{}</td>", escape(status));
-        for (_, pointer, factor) in COLUMNS {
-            let value = run.pointer(pointer).and_then(Value::as_f64);
-            let text = value.map_or("\u{2013}".into(), |value| digits(factor * value, 4));
-            let _ = write!(out, "<td class=\"n\">{text}</td>");
-        }
-        let (word, class) = match run.pointer("/check/pass").and_then(Value::as_bool) {
-            Some(true) => ("pass", "pass"),
-            Some(false) => ("fail", "fail"),
-            None => ("", ""),
-        };
-        let _ = writeln!(out, "<td class=\"{class}\">{word}</td></tr>");
-    }
-    out.push_str("</table>\n");
-    for parameter in &parameters {
-        if let Some(figure) = figure(parameter, runs) {
-            let svg = figure.svg_element()?;
-            let _ = writeln!(out, "<figure>{svg}</figure>");
-        }
+    trends(&mut out, &verdicts);
+    table(&mut out, &known);
+    out.push_str("<h2>Figures</h2>\n");
+    for (stem, figure) in sweep_figures(folder, sweep)? {
+        let svg = figure.svg_element()?;
+        let _ = writeln!(out, "<figure id=\"{stem}\">{svg}</figure>");
     }
     let _ = writeln!(
         out,
@@ -83,53 +40,86 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
     Ok(out)
 }
 
-fn shown(value: &Value) -> String {
-    match value {
-        Value::Number(n) => n.as_f64().map_or(String::new(), |x| digits(x, 4)),
-        Value::String(text) => escape(text),
-        Value::Null => "\u{2013}".into(),
-        other => escape(&other.to_string()),
+/// What the trends say, for each axis and each value of the others.
+fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
+    out.push_str("<h2>What reaches a plateau, and what does not</h2>\n");
+    if verdicts.is_empty() {
+        out.push_str(
+            "<p>No axis of numbers has two runs that completed: nothing can be said.</p>\n",
+        );
+        return;
     }
+    out.push_str(
+        "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to each measure; what the words mean: \
+         docs/checks.md of Creepage, Verdicts on a sweep.</p>\n",
+    );
+    let mut section = None;
+    for verdict in verdicts {
+        let here = (&verdict.axis, &verdict.others);
+        if section != Some(here) {
+            if section.is_some() {
+                out.push_str("</table>\n");
+            }
+            section = Some(here);
+            let others = if verdict.others.is_empty() {
+                String::new()
+            } else {
+                format!(", {}", escape(&verdict.others))
+            };
+            let _ = writeln!(
+                out,
+                "<h3>{}{others}</h3>\n<table>\n<tr><th>measure</th><th class=\"n\">points</th>\
+                 <th>plateau</th><th>trend</th></tr>",
+                escape(&verdict.axis)
+            );
+        }
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>",
+            escape(verdict.measure),
+            verdict.points,
+            verdict.trend.word(),
+            escape(&verdict.trend.sentence(verdict.points, verdict.unit))
+        );
+    }
+    out.push_str("</table>\n");
 }
 
-/// Results against a parameter that is a number and takes more than one value.
-fn figure(parameter: &str, runs: &[Value]) -> Option<Figure> {
-    let at = |run: &Value| run["parameters"][parameter].as_f64();
-    let mut values: Vec<f64> = runs.iter().filter_map(at).collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    let (least, most) = (*values.first()?, *values.last()?);
-    if values.len() < 2 {
-        return None;
+/// All runs, those that failed with their reason.
+fn table(out: &mut String, sweep: &Sweep<'_>) {
+    out.push_str("<h2>Runs</h2>\n<div class=\"wide\"><table>\n<tr>");
+    for axis in &sweep.axes {
+        let _ = write!(out, "<th class=\"n\">{}</th>", escape(axis));
     }
-    let log = least > 0.0 && most / least > 20.0;
-    let mut panels = Vec::new();
-    for (heading, pointer, factor) in COLUMNS {
-        let mut points: Vec<[f64; 2]> = runs
-            .iter()
-            .filter_map(|run| Some([at(run)?, factor * run.pointer(pointer)?.as_f64()?]))
-            .collect();
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        if points.is_empty() {
-            continue;
+    out.push_str("<th>status</th>");
+    let has = |measure: &&crate::sweep::SweepMeasure| {
+        measure.in_table && sweep.runs.iter().any(|run| measure.of(*run).is_some())
+    };
+    let columns: Vec<_> = MEASURES.iter().filter(has).collect();
+    for measure in &columns {
+        let _ = write!(out, "<th class=\"n\">{}</th>", escape(&measure.heading()));
+    }
+    out.push_str("<th>checks</th></tr>\n");
+    for run in &sweep.runs {
+        out.push_str("<tr>");
+        for axis in &sweep.axes {
+            let value = shown(&run.parameter(axis));
+            let _ = write!(out, "<td class=\"n\">{}</td>", escape(&value));
         }
-        panels.push(Panel {
-            title: String::new(),
-            x: if log { Axis::log(parameter) } else { Axis::linear(parameter) },
-            y: Axis::linear(heading),
-            fill: None,
-            series: vec![Series {
-                label: String::new(),
-                points,
-                draw: Draw::Dots(colour::BLUE, 2.5),
-            }],
-            marks: Vec::new(),
-        });
+        let reason = run.entry["reason"].as_str().map(|reason| format!(": {reason}"));
+        let status = format!("{}{}", run.status(), reason.unwrap_or_default());
+        let _ = write!(out, "<td>{}</td>", escape(&status));
+        for measure in &columns {
+            let point = measure.of(*run);
+            let text = point.map_or("\u{2013}".into(), |point| digits(point.value, 4));
+            let _ = write!(out, "<td class=\"n\">{text}</td>");
+        }
+        let (word, class) = match run.entry.pointer("/check/pass").and_then(Value::as_bool) {
+            Some(true) => ("pass", "pass"),
+            Some(false) => ("fail", "fail"),
+            None => ("", ""),
+        };
+        let _ = writeln!(out, "<td class=\"{class}\">{word}</td></tr>");
     }
-    if panels.is_empty() {
-        return None;
-    }
-    let size = [1000, 250 * panels.len().div_ceil(2) as u32 + 30];
-    let caption = format!("Results of all runs against {parameter}.");
-    Some(Figure { size, columns: 2, panels, caption })
+    out.push_str("</table></div>\n");
 }

@@ -1,0 +1,26 @@
+//! The document of a sweep, found by its folder.
+
+use std::fs;
+use std::path::Path;
+
+use post::PostError;
+use serde_json::Value;
+
+use crate::commands::Failure;
+
+/// What `sweep.json` in `folder` holds; `None` where there is none.
+pub fn read(folder: &Path) -> Result<Option<Value>, Failure> {
+    let path = folder.join("sweep.json");
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let failed = |reason: String| Failure::from(PostError::Text { path: path.clone(), reason });
+    let text = fs::read_to_string(&path).map_err(|error| failed(error.to_string()))?;
+    serde_json::from_str(&text).map(Some).map_err(|error| failed(format!("is no JSON: {error}")))
+}
+
+/// The name of a sweep: that of its folder.
+pub fn name(folder: &Path) -> String {
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

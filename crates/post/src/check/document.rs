@@ -1,0 +1,318 @@
+//! What a pass over the records found, as the contract's document.
+
+use super::pass::Pass;
+use super::{CheckOptions, Report};
+use crate::basis::{Basis, Bound, SCALES};
+use crate::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
+use crate::frames::Pairing;
+use crate::law::Law;
+use crate::limits::{Limit, MEASURES, Measure};
+use crate::patch_series;
+use crate::surface::body_name;
+use crate::tally::{Statistic, Switches};
+use serde_json::{Map, Value, json};
+
+impl Pass<'_> {
+    /// The document, and whether every limit holds.
+    pub fn document(
+        &self,
+        basis: &Basis,
+        options: &CheckOptions<'_>,
+        window: [f64; 2],
+        steps: usize,
+    ) -> (Value, bool) {
+        let (own, stated) = self.history.pairing;
+        let reported = match options.report {
+            Report::Stated if stated => Report::Only(own),
+            Report::Stated => Report::Stricter,
+            report => report,
+        };
+        let mut metrics = Map::new();
+        let mut limits = Map::new();
+        let mut pass = true;
+        for measure in &MEASURES {
+            let limit = options.limits.of(measure.name);
+            let asked = options.limits.was_asked(measure.name);
+            let found = self.metric(measure, limit, asked, reported, basis);
+            pass &= found["pass"] == json!(true);
+            limits.insert(measure.name.into(), limit_value(limit));
+            metrics.insert(measure.name.into(), found);
+        }
+        let mut notes = Vec::new();
+        notes.extend(springs_give(&metrics));
+        let crossed: usize = self
+            .channels
+            .iter()
+            .filter(|c| c.pairing != own)
+            .map(|c| c.tally.records)
+            .max()
+            .unwrap_or(0);
+        notes.extend(self.gaps(crossed));
+        let scales = SCALES.iter().filter_map(|(name, units, about)| {
+            let scale = basis.scales.get(name)?;
+            let entry = json!({ "value": scale.value, "units": units, "about": about,
+                                "from": scale.from });
+            Some(((*name).to_owned(), entry))
+        });
+        let document = json!({
+            "name": basis.name,
+            "window": window,
+            "steps": steps,
+            "nodes": self.history.surface.points.len(),
+            "node_times": self.node_times,
+            "limits": limits,
+            "limits_for": options.limits.set,
+            "metrics": metrics,
+            "pass": pass,
+            "pairing": {
+                "reported": match reported {
+                    Report::Only(pairing) => pairing.name(),
+                    _ => "stricter",
+                },
+                "in_file": own.name(),
+                "stated_by_file": stated,
+                "records_with_the_other": crossed,
+            },
+            "law": law_value(basis),
+            "scales": scales.collect::<Map<_, _>>(),
+            "tolerances": {
+                "in_contact": IN_CONTACT, "in_adhesion": IN_ADHESION,
+                "law_error": LAW_TOLERANCE, "direction": DIRECTION_TOLERANCE,
+            },
+            "patch": patch_series::means(&self.patch),
+            "notes": notes,
+        });
+        (document, pass)
+    }
+
+    /// What could not be measured.
+    fn gaps(&self, crossed: usize) -> Vec<String> {
+        let mut notes = Vec::new();
+        for (field, lost) in [
+            ("gap", "penetration and complementarity are not measured"),
+            ("mu", "law_error_own is not measured"),
+            ("state", "switches are counted from the slip velocity"),
+            ("motion", "the slip of the pair is not measured (displacement and velocity)"),
+        ] {
+            if !self.history.has(field) {
+                notes.push(format!("the file has no {field}: {lost}"));
+            }
+        }
+        let other = match self.history.pairing.0 {
+            Pairing::Before => "after",
+            Pairing::After => "before",
+        };
+        if self.scales.dt.is_none() {
+            notes.push(format!(
+                "the time step is not known: the pairing `{other}` is not measured (--scale dt=S)"
+            ));
+        } else if crossed == 0 {
+            notes.push(format!(
+                "no two records lie one step apart: the pairing `{other}` is not measured, and a \
+                 chatter of two steps can hide (record every step in an [[output.window]])"
+            ));
+        }
+        if self.without_foot > 0 {
+            notes.push(format!(
+                "{} node-times in contact project on no face of the other side and are left out \
+                 of the pair",
+                self.without_foot
+            ));
+        }
+        notes
+    }
+
+    /// The entry of a measure.
+    fn metric(
+        &self,
+        measure: &Measure,
+        limit: Option<Limit>,
+        asked: bool,
+        reported: Report,
+        basis: &Basis,
+    ) -> Value {
+        let mut all = Vec::new();
+        for (body, side) in &self.sides {
+            if let Some(found) = side.statistic(measure.name) {
+                all.push((body_name(*body), None, found));
+            }
+        }
+        if all.is_empty() {
+            for channel in self.channels.iter().filter(|c| c.tally.records > 0) {
+                let found = channel.tally.statistic(measure.name);
+                all.push((channel.view.name(), Some(channel.pairing), found));
+            }
+        }
+        if measure.name == "switching_rate" {
+            return self.switching(measure, limit, asked, &all);
+        }
+        let counts = |pairing: Option<Pairing>| match (reported, pairing) {
+            (Report::Only(only), Some(pairing)) => only == pairing,
+            _ => true,
+        };
+        let badness = |value: f64| match measure.name {
+            "roughness_ratio" => value.ln().abs(),
+            _ => value,
+        };
+        let candidates = all.iter().filter(|(_, pairing, _)| counts(*pairing));
+        let worst = candidates
+            .filter_map(|entry| Some((entry, entry.2.value?)))
+            .max_by(|a, b| badness(a.1).total_cmp(&badness(b.1)));
+        let value = worst.map(|(_, value)| value);
+        let mut entry = entry(measure, value, limit, asked);
+        if let Some(((view, pairing, found), _)) = worst {
+            entry["where"] = self.place(view, *pairing, found);
+            entry["side"] = json!(view);
+            entry["pairing"] = json!(pairing.map(Pairing::name));
+            entry["deviation"] = json!(found.deviation);
+        } else {
+            entry["note"] = json!(self.why_none(measure.name, basis));
+        }
+        entry["sides"] = details(&all);
+        entry
+    }
+
+    /// Switches by the algorithm's state where the file has it, else by the slip velocity.
+    fn switching(
+        &self,
+        measure: &Measure,
+        limit: Option<Limit>,
+        asked: bool,
+        by_slip: &[(&'static str, Option<Pairing>, Statistic)],
+    ) -> Value {
+        let states: Vec<_> = self
+            .sides
+            .iter()
+            .filter(|_| self.history.has("state"))
+            .filter_map(|(body, side)| Some((body_name(*body), Switches::rate(&side.states)?)))
+            .collect();
+        let slips = by_slip.iter().filter_map(|(view, _, found)| Some((*view, found.value?)));
+        let slips: Vec<_> = slips.collect();
+        let used = if states.is_empty() { &slips } else { &states };
+        let worst = used.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let time = self.scales.shear_wave.map(|speed| self.scales.size / speed);
+        let value = worst.zip(time).map(|((_, rate), time)| rate * time);
+        let mut entry = entry(measure, value, limit, asked);
+        if let Some((view, rate)) = worst {
+            entry["side"] = json!(view);
+            entry["per_node_and_microsecond"] = json!(rate * 1e-6);
+        }
+        if time.is_none() {
+            entry["note"] = json!("the scale shear_wave is not known");
+        }
+        let per_us = |rates: &[(&str, f64)]| -> Map<String, Value> {
+            rates.iter().map(|(view, rate)| ((*view).to_owned(), json!(rate * 1e-6))).collect()
+        };
+        entry["sides"] = json!({ "by_state": per_us(&states), "by_slip": per_us(&slips) });
+        entry
+    }
+
+    fn place(&self, view: &str, pairing: Option<Pairing>, found: &Statistic) -> Value {
+        let Some((node, time, value)) = found.place else {
+            return Value::Null;
+        };
+        let position = node.map(|node| self.history.surface.points[node]);
+        json!({ "side": view, "pairing": pairing.map(Pairing::name), "node": node,
+                "position": position, "time": time, "value": value })
+    }
+
+    /// Why a measure has no value.
+    fn why_none(&self, name: &str, basis: &Basis) -> &'static str {
+        let no_law = basis.law.is_none();
+        match name {
+            "penetration" | "complementarity" if !self.history.has("gap") => {
+                "the file has no field gap"
+            }
+            "penetration" | "complementarity" => "the scale approach is not known",
+            "law_error" | "law_error_let_slip" | "roughness_ratio" | "law_scatter" if no_law => {
+                "the friction law is not known"
+            }
+            "law_error_let_slip" | "direction_let_slip" if !self.history.has("state") => {
+                "the file has no field state"
+            }
+            "law_error_own" if !self.history.has("mu") => "the file has no field mu",
+            "roughness_ratio" if matches!(basis.law, Some(Law::Coulomb(_))) => {
+                "the law's coefficient is constant"
+            }
+            "roughness_ratio" if self.scales.roughness_span.is_none() => {
+                "the scales half_length and speed are not known"
+            }
+            "roughness_ratio" => {
+                "no node slips for a tenth of a transit, or records lie too far apart"
+            }
+            "adhesion_slip" => "no node is in adhesion",
+            "law_error_let_slip" | "direction_let_slip" => "the algorithm lets no node slip",
+            _ => "no node slips",
+        }
+    }
+}
+
+/// Measures that the give of a penalty method's springs takes beyond their limits.
+const OF_SPRINGS: [&str; 3] = ["law_error", "direction", "violating_fraction"];
+
+/// What it means that law and direction fail over all that slips, but hold where the algorithm
+/// itself lets nodes slip.
+fn springs_give(metrics: &Map<String, Value>) -> Option<String> {
+    let holds = |name: &str| metrics[name]["pass"] == json!(true);
+    let measured =
+        |name: &str| metrics[name]["value"].is_number() && !metrics[name]["limit"].is_null();
+    let own = ["law_error_let_slip", "direction_let_slip"];
+    let failed: Vec<&str> = OF_SPRINGS.into_iter().filter(|name| !holds(name)).collect();
+    (!failed.is_empty() && own.iter().all(|name| measured(name) && holds(name))).then(|| {
+        format!(
+            "law and direction hold where the algorithm lets nodes slip; what takes {} beyond the \
+             limit is the give of its springs at nodes that it holds (docs/checks.md, What penalty \
+             can pass)",
+            failed.join(", ")
+        )
+    })
+}
+
+fn entry(measure: &Measure, value: Option<f64>, limit: Option<Limit>, asked: bool) -> Value {
+    // What nobody asked for and what has no value violates nothing.
+    let pass = match (value, limit) {
+        (Some(value), Some(limit)) => limit.holds(value),
+        (None, Some(_)) => !asked,
+        (_, None) => true,
+    };
+    json!({ "value": value, "limit": limit_value(limit), "pass": pass, "where": null,
+            "units": measure.units, "statistic": measure.statistic, "about": measure.about })
+}
+
+fn limit_value(limit: Option<Limit>) -> Value {
+    match limit {
+        None => Value::Null,
+        Some(Limit::Most(most)) => json!(most),
+        Some(Limit::Between(low, high)) => json!([low, high]),
+    }
+}
+
+/// Every statistic of every view and pairing.
+fn details(all: &[(&'static str, Option<Pairing>, Statistic)]) -> Value {
+    let mut sides = json!({});
+    for (view, pairing, found) in all {
+        let mut one = json!({ "value": found.value });
+        for (name, value) in &found.more {
+            one[*name] = json!(value);
+        }
+        match pairing {
+            Some(pairing) => sides[*view][pairing.name()] = one,
+            None => sides[*view] = one,
+        }
+    }
+    sides
+}
+
+fn law_value(basis: &Basis) -> Value {
+    let bound = match basis.bound {
+        Bound::Law => "mu(|s|)",
+        Bound::Used => "mu that the algorithm used",
+    };
+    match basis.law {
+        Some(Law::Coulomb(law)) => json!({ "law": "coulomb", "static": law.mu, "bound": bound }),
+        Some(Law::Exponential(law)) => json!({
+            "law": "exponential", "static": law.mu_static, "dynamic": law.mu_dynamic,
+            "decay": law.decay, "bound": bound }),
+        None => json!({ "law": null, "bound": bound }),
+    }
+}

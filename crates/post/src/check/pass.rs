@@ -1,0 +1,298 @@
+//! One pass over the records of a window: every measure on every view of the interface.
+
+use super::scales::Scales;
+use crate::basis::Basis;
+use crate::conditions::{IN_CONTACT, Judge, Node};
+use crate::foot::Pair;
+use crate::frames::{ContactHistory, Frame, Pairing};
+use crate::patch_series::{self, PatchRow};
+use crate::surface::{Surface, body_name};
+use crate::tally::{SideTally, Tally};
+use crate::vector::{Vec3, norm};
+
+/// A part of the interface on which the tangential conditions are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum View {
+    /// The nodes of a body with the slip velocity recorded for them.
+    Side(u8),
+    /// The slave nodes with their motion relative to the faces of the other side.
+    Pair,
+}
+
+impl View {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Side(body) => body_name(body),
+            Self::Pair => "pair",
+        }
+    }
+}
+
+/// The tangential conditions on a view in one pairing.
+pub(super) struct Channel {
+    pub view: View,
+    body: u8,
+    pub pairing: Pairing,
+    pub tally: Tally,
+}
+
+/// A record with what is derived of it.
+struct Record {
+    frame: Frame,
+    /// The time that it stands for (s).
+    weight: f64,
+    contact: Vec<bool>,
+    /// The pair's slip where this record, the one before or the one after has contact.
+    pair_slip: Vec<Option<Vec3>>,
+}
+
+/// The sums of a check.
+pub(super) struct Pass<'a> {
+    pub history: &'a ContactHistory,
+    pub judge: Judge,
+    pub scales: Scales,
+    pub channels: Vec<Channel>,
+    pub sides: Vec<(u8, SideTally)>,
+    pub patch: Vec<PatchRow>,
+    pub node_times: usize,
+    pub without_foot: usize,
+    pair: Option<Pair>,
+    previous: Option<Record>,
+}
+
+impl<'a> Pass<'a> {
+    pub fn new(history: &'a ContactHistory, basis: &Basis, scales: Scales) -> Self {
+        let surface = &history.surface;
+        let nodes = surface.points.len();
+        let bodies = surface.bodies();
+        let pair = (bodies.len() == 2 && history.has("motion"))
+            .then(|| Pair::new(surface, finer_body(surface, &bodies)));
+        let views = bodies.iter().map(|&body| (View::Side(body), body));
+        let views = views.chain(pair.as_ref().map(|pair| (View::Pair, pair.slave)));
+        let channels = views
+            .flat_map(|(view, body)| {
+                [Pairing::Before, Pairing::After].map(|pairing| Channel {
+                    view,
+                    body,
+                    pairing,
+                    tally: Tally::new(nodes, scales.roughness_span),
+                })
+            })
+            .collect();
+        Self {
+            history,
+            judge: Judge::new(basis, scales.slip_speed),
+            scales,
+            channels,
+            sides: bodies.iter().map(|&body| (body, SideTally::new(nodes))).collect(),
+            patch: Vec::new(),
+            node_times: 0,
+            without_foot: 0,
+            pair,
+            previous: None,
+        }
+    }
+
+    /// Takes in the next records, each with the time that it stands for (s).
+    ///
+    /// Views, pairings and sides are independent of each other and each goes through the records
+    /// in order: the same bits on any number of threads and for batches of any size.
+    pub fn take(&mut self, frames: impl IntoIterator<Item = (Frame, f64)>) {
+        let limit = IN_CONTACT * self.scales.peak_pressure;
+        let record = |(frame, weight): (Frame, f64)| {
+            let contact: Vec<bool> = frame.pressure.iter().map(|&p| p > limit).collect();
+            Record { pair_slip: vec![None; contact.len()], frame, weight, contact }
+        };
+        let mut records: Vec<Record> = self.previous.take().into_iter().collect();
+        let first = records.len();
+        records.extend(frames.into_iter().map(record));
+        self.node_times += records[first..].iter().flat_map(|r| &r.contact).filter(|c| **c).count();
+
+        let (history, judge, scales) = (self.history, &self.judge, &self.scales);
+        let surface = &history.surface;
+        let (pairs, views): (Vec<&mut Channel>, Vec<&mut Channel>) =
+            self.channels.iter_mut().partition(|channel| channel.view == View::Pair);
+        let (sides, patch) = (&mut self.sides, &mut self.patch);
+        // The motion of the pair is worked out beside the rest and what hangs on it comes after.
+        let mut slips = Vec::new();
+        let (motion, lost) = (&mut self.pair, &mut self.without_foot);
+        rayon::scope(|scope| {
+            let records = &records;
+            scope.spawn(|_| {
+                if let Some(pair) = motion {
+                    slips = pair_slips(pair, surface, records, first, lost);
+                }
+            });
+            for channel in views {
+                scope.spawn(move |_| channel.take(history, records, first, judge, scales));
+            }
+            for (body, side) in sides {
+                scope.spawn(move |_| {
+                    for record in &records[first..] {
+                        take_side(side, *body, surface, record, judge, scales);
+                    }
+                });
+            }
+            scope.spawn(|_| {
+                let body = surface.bodies().last().copied().unwrap_or(0);
+                let p0 = scales.peak_pressure;
+                let rows = records[first..].iter();
+                patch.extend(rows.map(|r| patch_series::measure(surface, &r.frame, body, p0)));
+            });
+        });
+        for (record, slip) in records[first..].iter_mut().zip(slips) {
+            record.pair_slip = slip;
+        }
+        rayon::scope(|scope| {
+            let records = &records;
+            for channel in pairs {
+                scope.spawn(move |_| channel.take(history, records, first, judge, scales));
+            }
+        });
+        self.previous = records.pop();
+    }
+}
+
+impl Channel {
+    /// Judges `records[first..]`; one before them is known already.
+    fn take(
+        &mut self,
+        history: &ContactHistory,
+        records: &[Record],
+        first: usize,
+        judge: &Judge,
+        scales: &Scales,
+    ) {
+        let own = history.pairing.0;
+        for k in first..records.len() {
+            let record = &records[k];
+            if self.pairing == own {
+                self.judge(&history.surface, record, record, record.weight, judge);
+                continue;
+            }
+            // the other pairing takes slip or traction from the record one step before
+            let Some(before) = k.checked_sub(1).map(|k| &records[k]) else {
+                continue;
+            };
+            let step = record.frame.time - before.frame.time;
+            if !scales.dt.is_some_and(|dt| (step / dt - 1.0).abs() < 0.01) {
+                continue;
+            }
+            let (traction, slip) = match own {
+                Pairing::Before => (before, record),
+                Pairing::After => (record, before),
+            };
+            self.judge(&history.surface, traction, slip, step, judge);
+        }
+    }
+
+    /// Judges the traction of one record with the slip of another or the same.
+    fn judge(
+        &mut self,
+        surface: &Surface,
+        Record { frame: traction, contact, .. }: &Record,
+        slip: &Record,
+        weight: f64,
+        judge: &Judge,
+    ) {
+        let tally = &mut self.tally;
+        tally.begin_record(traction.time);
+        for row in (0..contact.len()).filter(|&row| surface.body[row] == self.body) {
+            let slip = match self.view {
+                View::Side(_) => Some(slip.frame.slip_velocity[row]),
+                View::Pair => slip.pair_slip[row],
+            };
+            let Some(slip) = slip.filter(|_| contact[row]) else {
+                tally.open(row);
+                continue;
+            };
+            let node = Node {
+                pressure: traction.pressure[row],
+                shear: traction.shear[row],
+                slip,
+                mu_used: traction.mu.as_ref().map(|mu| mu[row]),
+                state: traction.state.as_ref().map(|state| state[row]),
+            };
+            tally.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
+        }
+        tally.end_record(traction.time, weight);
+    }
+}
+
+/// The pair's slip in `records[first..]`, where a record or the one before it has contact: both
+/// pairings need it. `lost` counts nodes in contact without a foot.
+fn pair_slips(
+    pair: &mut Pair,
+    surface: &Surface,
+    records: &[Record],
+    first: usize,
+    lost: &mut usize,
+) -> Vec<Vec<Option<Vec3>>> {
+    let of_record = |k: usize| {
+        let contact = &records[k].contact;
+        let mut slips = vec![None; contact.len()];
+        let Some(motion) = &records[k].frame.motion else {
+            return slips;
+        };
+        let before = k.checked_sub(1).map(|k| &records[k].contact);
+        let wanted = |&row: &usize| {
+            surface.body[row] == pair.slave
+                && (contact[row] || before.is_some_and(|before| before[row]))
+        };
+        let rows: Vec<usize> = (0..contact.len()).filter(wanted).collect();
+        for (&row, slip) in rows.iter().zip(pair.slip(surface, motion, &rows)) {
+            *lost += usize::from(slip.is_none() && contact[row]);
+            slips[row] = slip;
+        }
+        slips
+    };
+    (first..records.len()).map(of_record).collect()
+}
+
+/// The body with the smaller nodal area, the first of equals: its nodes follow the other's faces.
+fn finer_body(surface: &Surface, bodies: &[u8]) -> u8 {
+    let mean = |body: u8| {
+        let areas = surface.body.iter().zip(&surface.area).filter(|(b, _)| **b == body);
+        let (count, sum) = areas.fold((0.0, 0.0), |(n, s), (_, a)| (n + 1.0, s + a));
+        sum / f64::max(count, 1.0)
+    };
+    match bodies {
+        [a, b] if mean(*b) < 0.99 * mean(*a) => *b,
+        [a, ..] => *a,
+        [] => 0,
+    }
+}
+
+fn take_side(
+    side: &mut SideTally,
+    body: u8,
+    surface: &Surface,
+    Record { frame, contact, weight, .. }: &Record,
+    judge: &Judge,
+    scales: &Scales,
+) {
+    let time = frame.time;
+    for row in (0..contact.len()).filter(|&row| surface.body[row] == body) {
+        let area = weight * surface.area[row];
+        let pressure = frame.pressure[row];
+        side.add_pressure(row, time, area, (-pressure).max(0.0) / scales.peak_pressure);
+        if let (Some(gap), Some(approach)) = (&frame.gap, scales.approach) {
+            let pressure = pressure.max(0.0) / scales.peak_pressure;
+            side.add_gap(row, time, area, gap[row] / approach, pressure);
+        }
+        if !contact[row] {
+            side.states.open(row);
+            continue;
+        }
+        // without a law the largest coefficient used is all that is known of the cone
+        let used = frame.mu.as_ref().map(|mu| mu[row]);
+        if let Some(mu) = judge.law.map(|law| law.mu_static()).or(used) {
+            side.add_cone(row, time, area, norm(frame.shear[row]) / (mu * pressure) - 1.0);
+        }
+        match frame.state.as_ref().map(|state| state[row]) {
+            Some(state @ (1 | 2)) => side.states.add(row, time, state == 2),
+            _ => side.states.open(row),
+        }
+    }
+    side.end_record(*weight);
+}

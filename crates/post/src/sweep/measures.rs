@@ -1,0 +1,142 @@
+//! What is followed over the axes of a sweep.
+
+use super::Run;
+use serde_json::Value;
+
+/// A number that every run of a sweep has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SweepMeasure {
+    /// Name in tables and verdicts.
+    pub name: &'static str,
+    /// Unit after `factor`; empty for pure numbers.
+    pub unit: &'static str,
+    /// From SI.
+    pub factor: f64,
+    /// Where a run's entry holds it: pointers to the value and to its deviation over the window,
+    /// the first that is there.
+    places: &'static [(&'static str, &'static str)],
+    /// Whether the table of runs shows it.
+    pub in_table: bool,
+}
+
+/// A measure of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    pub value: f64,
+    /// Its deviation over the window, where it is known.
+    pub deviation: Option<f64>,
+}
+
+const fn measure(
+    name: &'static str,
+    unit: &'static str,
+    factor: f64,
+    in_table: bool,
+    places: &'static [(&'static str, &'static str)],
+) -> SweepMeasure {
+    SweepMeasure { name, unit, factor, places, in_table }
+}
+
+/// Place of a measure of the contact conditions.
+macro_rules! metric {
+    ($name:literal) => {
+        (
+            concat!("/check/metrics/", $name, "/value"),
+            concat!("/check/metrics/", $name, "/deviation"),
+        )
+    };
+}
+
+/// Place of a patch measure.
+macro_rules! patch {
+    ($name:literal) => {
+        (concat!("/check/patch/", $name, "/mean"), concat!("/check/patch/", $name, "/deviation"))
+    };
+}
+
+/// All of them, in the order of figures and tables.
+pub(crate) const MEASURES: [SweepMeasure; 20] = [
+    measure(
+        "peak pressure (fit)",
+        "MPa",
+        1e-6,
+        true,
+        &[patch!("peak_pressure"), ("/summary/contact/peak_pressure", "")],
+    ),
+    measure(
+        "creepage",
+        "10\u{207b}\u{b3}",
+        1e3,
+        true,
+        &[patch!("creepage"), ("/summary/contact/creepage", "")],
+    ),
+    measure(
+        "T/N",
+        "",
+        1.0,
+        true,
+        &[patch!("traction_coefficient"), ("/summary/contact/traction_coefficient", "")],
+    ),
+    measure("peak shear", "MPa", 1e-6, true, &[patch!("peak_shear")]),
+    measure(
+        "half length",
+        "mm",
+        1e3,
+        true,
+        &[patch!("half_length"), ("/summary/contact/patch_half_length", "")],
+    ),
+    measure(
+        "stick fraction",
+        "",
+        1.0,
+        true,
+        &[patch!("stick_fraction"), ("/summary/contact/stick_fraction", "")],
+    ),
+    measure("power of friction", "kW", 1e-3, false, &[patch!("power")]),
+    measure(
+        "slip_roughness",
+        "",
+        1.0,
+        true,
+        &[
+            ("/check/metrics/roughness_ratio/sides/bar/before/deviation_slip", ""),
+            ("/check/metrics/roughness_ratio/sides/disk/before/deviation_slip", ""),
+        ],
+    ),
+    measure("roughness_ratio", "", 1.0, true, &[metric!("roughness_ratio")]),
+    measure("violating_fraction", "", 1.0, true, &[metric!("violating_fraction")]),
+    measure("wrong_direction", "", 1.0, true, &[metric!("wrong_direction")]),
+    measure("dissipation", "", 1.0, false, &[metric!("dissipation")]),
+    measure("law_error", "", 1.0, true, &[metric!("law_error")]),
+    measure("law_error_let_slip", "", 1.0, true, &[metric!("law_error_let_slip")]),
+    measure("direction", "degrees", 1.0, true, &[metric!("direction")]),
+    measure("direction_let_slip", "degrees", 1.0, true, &[metric!("direction_let_slip")]),
+    measure("adhesion_slip", "", 1.0, true, &[metric!("adhesion_slip")]),
+    measure("law_scatter", "", 1.0, false, &[metric!("law_scatter")]),
+    measure("penetration", "", 1.0, true, &[metric!("penetration")]),
+    measure("switching_rate", "", 1.0, true, &[metric!("switching_rate")]),
+];
+
+impl SweepMeasure {
+    /// The measure of a run, times `factor`; `None` where the run has none.
+    pub fn of(&self, run: Run<'_>) -> Option<Point> {
+        let number = |pointer: &str| {
+            run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
+        };
+        self.places.iter().find_map(|(value, deviation)| {
+            let value = number(value)?;
+            let deviation = (!deviation.is_empty()).then(|| number(deviation)).flatten();
+            let scaled = deviation.map(|deviation| self.factor * deviation);
+            Some(Point { value: self.factor * value, deviation: scaled })
+        })
+    }
+
+    /// Name with unit.
+    pub fn heading(&self) -> String {
+        if self.unit.is_empty() {
+            format!("{} (-)", self.name)
+        } else {
+            format!("{} ({})", self.name, self.unit)
+        }
+    }
+}

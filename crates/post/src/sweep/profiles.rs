@@ -1,0 +1,63 @@
+//! The centre line of a run, mean over its window.
+
+use crate::PostError;
+use crate::basis::{Basis, RunPaths};
+use crate::check::Scales;
+use crate::figures::Scene;
+use crate::frames::ContactHistory;
+use crate::vector::norm;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Most records that a mean is taken over, evenly spread: the patch passes fewer new nodes.
+const MOST_RECORDS: usize = 40;
+
+/// Pressure, shear and slip speed along y = 0: where (m from the patch's centre), p, p_f (Pa) and
+/// |s| (m/s; NaN where no record has contact).
+pub(super) struct Profile(pub Vec<[f64; 4]>);
+
+/// The mean over the records of the evaluation window, in bins of an element's length that move
+/// with the patch.
+pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
+    let paths = RunPaths::of(run)?;
+    let mut basis = Basis::read(&paths)?;
+    let history = ContactHistory::open(&paths.contact)?;
+    let span = basis.window.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let records = history.window(span).unwrap_or(0..history.times.len());
+    let scales = Scales::settle(&mut basis, &history, &records)?;
+    let body = history.surface.bodies().last().copied().unwrap_or(0);
+    let every = records.len().div_ceil(MOST_RECORDS);
+    let scene = Scene {
+        history: &history,
+        basis: &basis,
+        scales,
+        body,
+        records: records.clone(),
+        instants: Vec::new(),
+    };
+    let line = scene.centreline(body);
+    // per bin: p, p_f, |s| and how many nodes gave the first two and the last
+    let mut bins: BTreeMap<i64, [f64; 5]> = BTreeMap::new();
+    for index in records.step_by(every) {
+        let frame = history.record(index)?;
+        let centre = scene.centre(&frame);
+        for &row in &line {
+            let x = scene.position(&frame, row)[0] - centre;
+            if x.abs() > scene.reach() {
+                continue;
+            }
+            let bin = bins.entry((x / scales.size).round() as i64).or_default();
+            bin[0] += frame.pressure[row];
+            bin[1] += norm(frame.shear[row]);
+            bin[3] += 1.0;
+            if scene.in_contact(&frame, row) {
+                bin[2] += norm(frame.slip_velocity[row]);
+                bin[4] += 1.0;
+            }
+        }
+    }
+    let mean = |(bin, [p, shear, slip, all, touching]): (i64, [f64; 5])| {
+        [bin as f64 * scales.size, p / all, shear / all, slip / touching]
+    };
+    Ok(Profile(bins.into_iter().map(mean).collect()))
+}

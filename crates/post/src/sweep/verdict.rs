@@ -1,0 +1,74 @@
+//! The verdicts of a sweep: every measure along every axis.
+
+use super::{MEASURES, Sample, Sweep, Trend, trend};
+use crate::PostError;
+use serde_json::Value;
+use std::path::Path;
+
+/// What is said of a measure along an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepVerdict {
+    /// Key of the axis.
+    pub axis: String,
+    /// Values of the other axes; empty where there are none.
+    pub others: String,
+    /// The measure.
+    pub measure: &'static str,
+    /// Its unit; empty for pure numbers.
+    pub unit: &'static str,
+    /// Number of points.
+    pub points: usize,
+    /// The trend.
+    pub trend: Trend,
+}
+
+/// Keys that are refined towards zero; others are followed upwards.
+const TOWARDS_ZERO: [&str; 6] = [
+    "mesh.zone.size",
+    "mesh.growth",
+    "mesh.coarsest",
+    "time.factor",
+    "time.step",
+    "friction.memory.length",
+];
+
+/// Whether an axis is refined towards zero.
+pub(crate) fn towards_zero(axis: &str) -> bool {
+    TOWARDS_ZERO.contains(&axis)
+}
+
+/// The verdicts on all measures that the runs of a sweep have, along each axis of numbers greater
+/// than zero.
+///
+/// # Errors
+/// A document that is no sweep.
+pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>, PostError> {
+    let sweep = Sweep::of(folder, sweep)?;
+    let mut verdicts = Vec::new();
+    for axis in sweep.numeric_axes() {
+        for group in sweep.groups(axis) {
+            for measure in &MEASURES {
+                let samples: Vec<Sample> = group
+                    .members
+                    .iter()
+                    .filter_map(|(x, run)| {
+                        let point = measure.of(*run)?;
+                        let deviation = point.deviation.unwrap_or(0.0);
+                        Some(Sample { x: *x, value: point.value, deviation })
+                    })
+                    .collect();
+                if !samples.is_empty() {
+                    verdicts.push(SweepVerdict {
+                        axis: axis.into(),
+                        others: group.label.clone(),
+                        measure: measure.name,
+                        unit: measure.unit,
+                        points: samples.len(),
+                        trend: trend(&samples, towards_zero(axis)),
+                    });
+                }
+            }
+        }
+    }
+    Ok(verdicts)
+}

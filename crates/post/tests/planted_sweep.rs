@@ -1,0 +1,156 @@
+//! Sweeps with planted trends: the verdicts find them, the figures draw what completed.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+#[allow(dead_code)]
+mod planted;
+
+use planted::*;
+use post::{SweepVerdict, Trend, sweep_figures, sweep_page, sweep_verdicts};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const SPRING: &str = "contact.penalty.tangential";
+const MESH: &str = "mesh.zone.size";
+
+/// A run with a plateau at 1.24 GPa, slip that falls with a power, switches that grow with the
+/// logarithm of `k`, and a creepage that stays.
+fn run(k: f64, h: f64) -> Value {
+    let scatter = 1.0 + 0.4 * if k.log10().round() as i32 % 2 == 0 { 1.0 } else { -1.0 };
+    json!({
+        "parameters": { SPRING: k, MESH: h }, "status": "completed", "run": "none",
+        "summary": { "contact": { "traction_coefficient": 0.27 } },
+        "check": {
+            "pass": false,
+            "patch": {
+                "peak_pressure": { "mean": 1.24e9 - 30e6 / k - 1e13 * h * h, "deviation": 1e6 },
+                "creepage": { "mean": 2.4e-3, "deviation": 0.0 },
+            },
+            "metrics": {
+                "adhesion_slip": { "value": 0.3 / k.sqrt(), "deviation": 0.0 },
+                "switching_rate": { "value": 0.01 + 0.004 * k.log10() },
+                "violating_fraction": { "value": 0.3 * scatter, "deviation": 0.01 },
+            },
+        },
+    })
+}
+
+fn failed(k: f64, h: f64) -> Value {
+    json!({ "parameters": { SPRING: k, MESH: h }, "status": "failed", "run": "none",
+            "reason": "the energy grew <12 times>", "summary": null, "check": null })
+}
+
+fn verdict<'a>(all: &'a [SweepVerdict], axis: &str, measure: &str) -> &'a SweepVerdict {
+    all.iter().find(|v| v.axis == axis && v.measure == measure).unwrap()
+}
+
+#[test]
+fn planted_trends_get_their_verdicts_and_a_failed_run_is_no_point() {
+    let runs: Vec<Value> = [0.1, 1.0, 10.0, 100.0, 1000.0].map(|k| run(k, 1e-3)).into();
+    let mut runs = runs;
+    runs.push(failed(1e4, 1e-3));
+    let sweep = json!({ "parameters": [SPRING], "runs": runs });
+    let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+    let of = |measure| verdict(&found, SPRING, measure);
+    let Trend::Reached { limit, exponent } = of("peak pressure (fit)").trend else {
+        panic!("{:?}", of("peak pressure (fit)"));
+    };
+    assert!((limit - 1230.0).abs() < 0.5 && (exponent - 1.0).abs() < 0.02, "{limit} {exponent}");
+    assert_eq!(of("peak pressure (fit)").points, 5);
+    assert!(matches!(of("creepage").trend, Trend::Flat { .. }));
+    assert!(matches!(of("T/N").trend, Trend::Flat { .. }), "from the summary");
+    assert!(
+        matches!(of("adhesion_slip").trend, Trend::Vanishes { exponent } if (exponent - 0.5).abs() < 1e-9)
+    );
+    assert!(matches!(of("switching_rate").trend, Trend::Grows { .. }));
+    assert_eq!(of("violating_fraction").trend.word(), "cannot be said");
+    assert!(found.iter().all(|v| v.measure != "wrong_direction"), "nobody measured it");
+}
+
+#[test]
+fn two_axes_have_a_map_a_line_for_each_value_of_the_other_and_a_verdict_for_each() {
+    let mut runs = Vec::new();
+    for h in [2e-3, 1e-3, 0.5e-3] {
+        runs.extend([0.1, 1.0, 10.0, 100.0].map(|k| run(k, h)));
+    }
+    runs[5] = failed(1.0, 1e-3);
+    let sweep = json!({ "parameters": [SPRING, MESH], "runs": runs });
+    let figures = sweep_figures(Path::new("s"), &sweep).unwrap();
+    let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["measures-contact-penalty-tangential", "measures-mesh-zone-size", "map"]);
+    let spring = &figures[0].1;
+    assert!(spring.caption.contains("1 of 12 runs did not complete"), "{}", spring.caption);
+    let labels: Vec<&str> = spring.panels[0].series.iter().map(|s| s.label.as_str()).collect();
+    assert!(labels.contains(&"mesh.zone.size = 0.002"), "{labels:?}");
+    let pressure = &spring.panels[0].series;
+    assert_eq!(pressure[0].points.len(), 4);
+    assert_eq!(pressure[3].points.len(), 3, "the failed run is no point");
+    // a bar of one deviation to each side
+    let bar = &pressure[2].points[..2];
+    assert!((bar[1][1] - bar[0][1] - 2.0).abs() < 1e-9, "{bar:?}");
+    let cells = &figures[2].1.panels[0].fill.as_ref().unwrap().cells;
+    assert_eq!(cells.len(), 11);
+    let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+    let pressure = found.iter().filter(|v| v.axis == MESH && v.measure == "peak pressure (fit)");
+    let pressure: Vec<_> = pressure.collect();
+    assert_eq!(pressure.len(), 4);
+    // h = 2, 1, 0.5 mm: 40, 10, 2.5 MPa away from the limit, power 2; one value has two points only
+    assert_eq!(pressure[1].trend.word(), "cannot be said");
+    let Trend::Reached { limit, exponent } = pressure[3].trend else {
+        panic!("{:?}", pressure[3]);
+    };
+    assert!((limit - 1239.7).abs() < 1e-6 && (exponent - 2.0).abs() < 1e-6, "{limit} {exponent}");
+}
+
+#[test]
+fn profiles_are_read_from_the_runs_and_runs_without_a_file_are_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut runs = [0.1, 1.0, 10.0].map(|k| run(k, 1e-3));
+    for (k, name) in ["a", "b"].into_iter().enumerate() {
+        write(&folder.path().join(name), FALLING, "penalty", 5, |x, _| perfect(FALLING, x, 0));
+        runs[k]["run"] = json!(name);
+    }
+    let sweep = json!({ "parameters": [SPRING], "runs": runs });
+    let figures = sweep_figures(folder.path(), &sweep).unwrap();
+    let (name, profiles) = &figures[1];
+    assert_eq!(name, "profiles-contact-penalty-tangential");
+    let [pressure, shear, slip] = &profiles.panels[..] else { panic!("{profiles:?}") };
+    assert_eq!(pressure.series.len(), 2, "two of three runs have a contact history");
+    for (panel, planted) in [(pressure, 1e-6 * P0), (shear, 0.0), (slip, 0.0)] {
+        let most = panel.series[0].points.iter().map(|p| p[1]).filter(|v| v.is_finite());
+        let most = most.fold(0.0, f64::max);
+        // the planted patch rests, its centre within half a bin
+        assert!(if planted > 0.0 { (most / planted - 1.0).abs() < 1e-9 } else { most > 0.0 });
+    }
+}
+
+#[test]
+fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_refused() {
+    let runs = [run(0.1, 1e-3), run(1.0, 1e-3), run(10.0, 1e-3), failed(100.0, 1e-3)];
+    let sweep = json!({ "parameters": [SPRING], "runs": runs });
+    let page = sweep_page("kt", Path::new("s/sweep.json"), &sweep).unwrap();
+    for part in [
+        "4 runs over contact.penalty.tangential; 3 completed",
+        "failed: the energy grew &lt;12 times&gt;",
+        "reaches a plateau",
+        "three points determine the fit",
+        "id=\"measures-contact-penalty-tangential\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    for bad in [json!({}), json!({ "parameters": [] }), json!(3), json!({ "runs": [] })] {
+        assert!(sweep_figures(Path::new("s"), &bad).is_err());
+        assert!(sweep_verdicts(Path::new("s"), &bad).is_err());
+        assert!(sweep_page("s", Path::new("s/sweep.json"), &bad).is_err());
+    }
+    // words as values, no runs at all, values of another kind: nothing to draw, no harm
+    for odd in [
+        json!({ "parameters": ["friction.law"], "runs": [
+            { "parameters": { "friction.law": "coulomb" }, "status": "completed" },
+            { "parameters": { "friction.law": "exponential" }, "status": "completed" }] }),
+        json!({ "parameters": [SPRING], "runs": [] }),
+        json!({ "parameters": [3, SPRING], "runs": [3, null, { "parameters": 4, "run": 5 }] }),
+    ] {
+        assert!(sweep_figures(Path::new("s"), &odd).unwrap().is_empty());
+        assert!(sweep_page("s", Path::new("s/sweep.json"), &odd).is_ok());
+    }
+}
