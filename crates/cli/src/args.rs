@@ -118,6 +118,12 @@ pub struct RunArgs {
     /// Replace the run that is already in the folder
     #[arg(long)]
     pub force: bool,
+    /// Keep the preload in this folder, and take it from there if a run with the same has been
+    #[arg(long, value_name = "DIR")]
+    pub preload_cache: Option<PathBuf>,
+    /// Live as long as standard input is open, and print progress: how a sweep holds its runs
+    #[arg(long, hide = true)]
+    pub leash: bool,
 }
 
 /// Options of `mesh`.

@@ -96,6 +96,7 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
         out: out.clone(),
         threads: options.threads.unwrap_or_else(all_cores),
         force: options.force,
+        preload_cache: options.preload_cache.clone(),
         source: options.case.clone(),
     };
     let stop = stop_flag()?;
