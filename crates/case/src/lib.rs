@@ -30,6 +30,7 @@ pub mod schema;
 mod sense;
 mod start;
 mod summary;
+pub mod sweep;
 #[cfg(test)]
 mod tests;
 

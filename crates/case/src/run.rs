@@ -20,6 +20,9 @@ use output::Provenance;
 use output::summary::Status;
 use serde_json::json;
 
+/// How the last line of the log begins where a run was refused after its mesh was made.
+pub(crate) const REFUSED: &str = "end: refused before rolling: ";
+
 /// How to run a case, apart from what the case itself says.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
@@ -89,7 +92,7 @@ fn run_in_pool(
                 return Ok(json!(summary));
             }
             Err(error) => {
-                log.say(&format!("end: Failed before rolling: {error}"))?;
+                log.say(&format!("{REFUSED}{error}"))?;
                 return Err(error);
             }
             Ok(begun) => begun,

@@ -10,6 +10,7 @@ mod progress;
 mod report;
 mod report_page;
 mod slider;
+mod sweep;
 mod verify;
 
 use std::io::Write;
