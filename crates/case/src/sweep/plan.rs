@@ -53,8 +53,8 @@ pub enum SweepError {
         /// The folder.
         path: PathBuf,
     },
-    /// The folder is not one of a sweep, so there is nothing to go on with or to replace.
-    #[error("{} holds no sweep", path.display())]
+    /// The folder is not one of a sweep, so there is nothing to go on with, to replace or to gather.
+    #[error("{} holds no sweep, or files of another kind", path.display())]
     #[diagnostic(help("choose another folder with --out DIR"))]
     NoSweep {
         /// The folder.
@@ -149,11 +149,13 @@ pub enum Existing {
 fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<(), SweepError> {
     let path = || folder.to_path_buf();
     let Some(plan) = read_plan(folder)? else {
-        // Files of other kinds are nobody's to remove.
-        crate::folder::check(folder, false)?;
-        return match existing {
-            Existing::Resume if folder.exists() => Err(SweepError::NoSweep { path: path() }),
-            _ => Ok(()),
+        // One that was stopped before its plan was made has its lock alone, and perhaps preloads.
+        if folder.join(LOCK).exists() {
+            return Ok(());
+        }
+        return match crate::folder::check(folder, false) {
+            Err(FolderError::Taken { path, .. }) => Err(SweepError::NoSweep { path }),
+            other => Ok(other?),
         };
     };
     match existing {
