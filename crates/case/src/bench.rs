@@ -56,7 +56,8 @@ fn measure(threads: usize, kernels: Level) -> Result<serde_json::Value, RunError
             solid.subtract_internal_force(&u, &u, &mut force, false);
         });
     });
-    let mut begun = start(&case, &model, &AtomicBool::new(false), &mut |_| {}, &mut |_| Ok(()))?;
+    let mut begun =
+        start(&case, &model, None, &AtomicBool::new(false), &mut |_| {}, &mut |_| Ok(()))?;
     let simulation = &mut begun.simulation;
     let mut contact = 0.0;
     let step = median(|| {

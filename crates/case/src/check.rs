@@ -127,7 +127,7 @@ fn missing(layers: &Layers, section: &str, name: &str, key: &Key) -> KeyError {
 }
 
 /// Why a value does not suit its key, if it does not: the value, then what is allowed.
-fn refused(key: &Key, value: &Value) -> Option<String> {
+pub fn refused(key: &Key, value: &Value) -> Option<String> {
     let allowed = key.form.allowed(key.unit);
     let not_allowed = || Some(format!("{} must be {allowed}", show(value)));
     let fine = match (&key.form, value) {
@@ -158,7 +158,7 @@ fn refused(key: &Key, value: &Value) -> Option<String> {
     if fine { None } else { not_allowed() }
 }
 
-fn float(value: &Value) -> Option<f64> {
+pub fn float(value: &Value) -> Option<f64> {
     match value {
         Value::Float(x) => Some(*x),
         Value::Integer(n) => Some(*n as f64),
@@ -167,7 +167,7 @@ fn float(value: &Value) -> Option<f64> {
 }
 
 /// A value as it would be written, shortened.
-fn show(value: &Value) -> String {
+pub fn show(value: &Value) -> String {
     let text = match value {
         Value::Float(x) => number(*x),
         other => other.to_string(),
@@ -194,27 +194,7 @@ fn siblings(prefix: &str) -> String {
 }
 
 fn unknown(layers: &Layers, path: &str, pattern: &str) -> KeyError {
-    let (section, name) = match pattern.rsplit_once('.') {
-        Some((section, name)) => (format!("{section}."), name),
-        None => (String::new(), pattern),
-    };
-    let here = siblings(&section);
-    let near = here
-        .split(", ")
-        .map(|sibling| (distance(name, sibling), sibling))
-        .min()
-        .filter(|(distance, sibling)| *distance <= 1 + sibling.len() / 4);
-    let elsewhere = KEYS.iter().find(|key| key.path.rsplit('.').next() == Some(name));
-    let place = if section.is_empty() {
-        "at the top level".to_owned()
-    } else {
-        format!("in [{}]", section.trim_end_matches('.'))
-    };
-    let help = match (near, elsewhere) {
-        (Some((_, sibling)), _) => format!("did you mean `{sibling}`? {place} there are: {here}"),
-        (None, Some(key)) => format!("did you mean `{}`? {place} there are: {here}", key.path),
-        (None, None) => format!("{place} there are: {here}"),
-    };
+    let help = suggestion(pattern);
     let value = get(&layers.table, path).map(|value| format!(" = {}", show(value)));
     let message = format!("unknown key {path}{}", value.unwrap_or_default());
     match layers.origins.get(path) {
@@ -224,6 +204,36 @@ fn unknown(layers: &Layers, path: &str, pattern: &str) -> KeyError {
         }
         None => layers.error_nowhere(path, &message, &help),
     }
+}
+
+/// What may have been meant by a key that there is not, and what keys there are in its section.
+pub fn suggestion(pattern: &str) -> String {
+    let (section, name) = match pattern.rsplit_once('.') {
+        Some((section, name)) => (format!("{section}."), name),
+        None => (String::new(), pattern),
+    };
+    let here = siblings(&section);
+    let near = nearest(name, here.split(", "));
+    let elsewhere = KEYS.iter().find(|key| key.path.rsplit('.').next() == Some(name));
+    let place = if section.is_empty() {
+        "at the top level".to_owned()
+    } else {
+        format!("in [{}]", section.trim_end_matches('.'))
+    };
+    match (near, elsewhere) {
+        (Some(sibling), _) => format!("did you mean `{sibling}`? {place} there are: {here}"),
+        (None, Some(key)) => format!("did you mean `{}`? {place} there are: {here}", key.path),
+        (None, None) => format!("{place} there are: {here}"),
+    }
+}
+
+/// The name that a misspelt one was most likely meant to be.
+pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    names
+        .map(|other| (distance(name, other), other))
+        .min()
+        .filter(|(distance, other)| *distance <= 1 + other.len() / 4)
+        .map(|(_, other)| other)
 }
 
 /// Levenshtein's distance.

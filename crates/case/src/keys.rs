@@ -265,6 +265,7 @@ pub const KEYS: &[Key] = &[
         "-",
         "0.67 is the default; up to 1 is stable, up to 2 is accepted to show a blow-up",
     ),
+    key("time.step", Number(over(0.0, 1e-3)), "s", "give the step in seconds: 1.5e-7"),
     key("time.roll", LENGTH, "m", "give the rolled distance in metres: 0.06"),
     key("time.duration", Number(over(0.0, 10.0)), "s", "give the time in seconds: 1.5e-3"),
     key("evaluate.last", LENGTH, "m", "give the rolled distance in metres: 0.02"),

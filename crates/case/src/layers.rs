@@ -53,6 +53,8 @@ pub struct Layers {
 /// Choosing the left (a key, and for some the word it is set to) takes the right back from the
 /// layers beneath: a file that extends a case with a creepage may set a torque instead.
 const TAKES_BACK: &[(&str, Option<&str>, &[&str])] = &[
+    ("time.factor", None, &["time.step"]),
+    ("time.step", None, &["time.factor"]),
     ("time.roll", None, &["time.duration"]),
     ("time.duration", None, &["time.roll"]),
     ("drive.creepage", None, &["drive.torque"]),

@@ -31,6 +31,7 @@ pub mod schema;
 mod sense;
 mod start;
 mod summary;
+pub mod sweep;
 #[cfg(test)]
 mod tests;
 

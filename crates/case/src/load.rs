@@ -7,7 +7,8 @@ use sha2::{Digest, Sha256};
 use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
-use crate::schema::{Case, ContactLayers, DriveMode, FrictionLaw};
+use crate::preload::store::hexadecimal;
+use crate::schema::{Case, ContactLayers, DriveMode, FrictionLaw, Time};
 use crate::sense;
 
 impl Case {
@@ -30,7 +31,7 @@ impl Case {
 
     /// SHA-256 of [`Case::to_toml`], in hexadecimal.
     pub fn hash(&self) -> String {
-        Sha256::digest(self.to_toml()).iter().map(|byte| format!("{byte:02x}")).collect()
+        hexadecimal(&Sha256::digest(self.to_toml()))
     }
 
     /// What is allowed but deserves a warning, one sentence each.
@@ -94,6 +95,9 @@ fn write_defaults(case: &mut Case) {
     if case.element.contact_layers == ContactLayers::Full {
         case.element.layers.get_or_insert(sense::LAYERS);
         case.element.volumetric.get_or_insert_default();
+    }
+    if case.time.step.is_none() {
+        case.time.factor.get_or_insert(Time::FACTOR);
     }
     if case.time.duration.is_none() {
         case.time.roll = Some(case.rolled());

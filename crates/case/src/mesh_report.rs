@@ -23,7 +23,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
     let omega = elastic_frequency(&model, &mut solid);
     let elements = model.mesh.hexes.len();
     let nodes = model.mesh.nodes.len();
-    let step = case.time.factor * 2.0 / omega;
+    let step = case.step().under(2.0 / omega);
     let steps = (case.duration() / step).ceil();
     let per_step = step_seconds(&mut solid, nodes);
     if let Some(path) = out {

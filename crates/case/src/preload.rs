@@ -1,5 +1,7 @@
 //! The state before rolling: equilibrium under the load, by whichever method the case asks for.
 
+pub(crate) mod store;
+
 use crate::hertz::hertz;
 use crate::model::{DISK, Model};
 use crate::progress::{Progress, Stage};
@@ -8,6 +10,7 @@ use crate::schema::{Case, PreloadMethod};
 use contact::PenaltyContact;
 use dynamics::{Hub, Relaxation, RelaxationError, RelaxationReport};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 use serde_json::json;
 use solid::Solid;
 use statics::{Axis, Ending, Enforcement, Problem, Spin, StaticsError, Supports, Tied};
@@ -15,20 +18,63 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// How the preload was found.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Report {
-    /// By Newton's method, with the displacement of the hub in z (m).
-    Static(statics::Report, f64),
+    /// By Newton's method.
+    Static {
+        iterations: usize,
+        /// Conjugate-gradient iterations in all.
+        cg_iterations: usize,
+        /// Sum of the contact's normal forces (N).
+        normal_force: f64,
+        closed_pairs: usize,
+        /// Residual over the load, before and after the normals follow the facets.
+        residual: f64,
+        facets: f64,
+        /// Whether the residual ended at round-off, above the tolerance.
+        round_off: bool,
+        /// Displacement of the hub in z (m).
+        hub: f64,
+    },
     /// By dynamic relaxation.
-    Relaxation(RelaxationReport),
+    Relaxation {
+        iterations: usize,
+        normal_force: f64,
+        /// Kinetic (fictitious) over internal energy at the end.
+        kinetic_ratio: f64,
+        hub: f64,
+    },
+}
+
+impl Report {
+    fn of_statics(report: &statics::Report, hub: f64) -> Self {
+        Self::Static {
+            iterations: report.last.iteration,
+            cg_iterations: report.cg_iterations,
+            normal_force: report.last.normal_force,
+            closed_pairs: report.last.closed,
+            residual: report.last.residual,
+            facets: report.facets,
+            round_off: report.ending == Ending::RoundOff,
+            hub,
+        }
+    }
+
+    fn of_relaxation(report: &RelaxationReport) -> Self {
+        Self::Relaxation {
+            iterations: report.iterations,
+            normal_force: report.normal_force,
+            kinetic_ratio: report.kinetic_ratio,
+            hub: report.hub,
+        }
+    }
 }
 
 impl Report {
     /// Displacement of the hub in z (m).
     pub(crate) fn hub(&self) -> f64 {
         match self {
-            Self::Static(_, hub) => *hub,
-            Self::Relaxation(report) => report.hub,
+            Self::Static { hub, .. } | Self::Relaxation { hub, .. } => *hub,
         }
     }
 
@@ -37,24 +83,25 @@ impl Report {
         let found =
             |normal: f64, hub: f64| format!("normal force {normal:.3} N, hub {:.3} um", hub * 1e6);
         match self {
-            Self::Static(r, hub) => format!(
-                "preload: static, {} Newton iterations with {} of conjugate gradients, {}, {} pairs \
-                 closed, residual {:.1e} of the load{}",
-                r.last.iteration,
-                r.cg_iterations,
-                found(r.last.normal_force, *hub),
-                r.last.closed,
-                r.last.residual,
-                match r.ending {
-                    Ending::Tolerance => "",
-                    Ending::RoundOff => ", which is round-off",
-                }
+            Self::Static {
+                iterations,
+                cg_iterations,
+                normal_force,
+                closed_pairs,
+                residual,
+                round_off,
+                hub,
+                ..
+            } => format!(
+                "preload: static, {iterations} Newton iterations with {cg_iterations} of conjugate \
+                 gradients, {}, {closed_pairs} pairs closed, residual {residual:.1e} of the load{}",
+                found(*normal_force, *hub),
+                if *round_off { ", which is round-off" } else { "" }
             ),
-            Self::Relaxation(r) => format!(
-                "preload: relaxation, {} iterations, {}, kinetic/internal {:.1e}",
-                r.iterations,
-                found(r.normal_force, r.hub),
-                r.kinetic_ratio
+            Self::Relaxation { iterations, normal_force, kinetic_ratio, hub } => format!(
+                "preload: relaxation, {iterations} iterations, {}, kinetic/internal \
+                 {kinetic_ratio:.1e}",
+                found(*normal_force, *hub),
             ),
         }
     }
@@ -62,16 +109,23 @@ impl Report {
     /// The section of the summary.
     pub(crate) fn json(&self) -> serde_json::Value {
         match self {
-            Self::Static(r, hub) => json!({
-                "method": "static", "iterations": r.last.iteration,
-                "cg_iterations": r.cg_iterations, "normal_force": r.last.normal_force,
-                "closed_pairs": r.last.closed, "residual": r.last.residual, "facet_residual": r.facets,
-                "hub_displacement": hub
+            Self::Static {
+                iterations,
+                cg_iterations,
+                normal_force,
+                closed_pairs,
+                residual,
+                facets,
+                hub,
+                ..
+            } => json!({
+                "method": "static", "iterations": iterations, "cg_iterations": cg_iterations,
+                "normal_force": normal_force, "closed_pairs": closed_pairs, "residual": residual,
+                "facet_residual": facets, "hub_displacement": hub
             }),
-            Self::Relaxation(r) => json!({
-                "method": "relaxation", "iterations": r.iterations,
-                "normal_force": r.normal_force, "kinetic_ratio": r.kinetic_ratio,
-                "hub_displacement": r.hub
+            Self::Relaxation { iterations, normal_force, kinetic_ratio, hub } => json!({
+                "method": "relaxation", "iterations": iterations, "normal_force": normal_force,
+                "kinetic_ratio": kinetic_ratio, "hub_displacement": hub
             }),
         }
     }
@@ -126,7 +180,7 @@ impl PreloadError {
 }
 
 /// Displacements of the preloaded bodies (m), and how they were found: not at all with
-/// `preload.method = "none"`. Says how Newton's iterations go. Leaves the contact in the state of the preload.
+/// `preload.method = "none"`. Says how Newton's iterations go.
 pub(crate) fn preload(
     case: &Case,
     model: &Model,
@@ -203,7 +257,7 @@ pub(crate) fn preload(
             said?;
             let found = found.map_err(PreloadError::from)?;
             let height = found.displacement[hub.nodes[0] as usize][2];
-            Ok((found.displacement, Some(Report::Static(found.report, height))))
+            Ok((found.displacement, Some(Report::of_statics(&found.report, height))))
         }
         PreloadMethod::Relaxation => {
             let setup = Relaxation {
@@ -226,15 +280,9 @@ pub(crate) fn preload(
                 look(now.iterations, now.iterations, now.normal_force)
             })
             .map_err(PreloadError::from)?;
-            Ok((u, Some(Report::Relaxation(report))))
+            Ok((u, Some(Report::of_relaxation(&report))))
         }
-        PreloadMethod::None => {
-            let u = lowered(-case.disk.lift);
-            // closes the pairs that touch, for the stable step
-            let mut unused = u.clone();
-            contact.apply_frictionless(solid.reference(), &u, &mut unused);
-            Ok((u, None))
-        }
+        PreloadMethod::None => Ok((lowered(-case.disk.lift), None)),
     }
 }
 

@@ -20,6 +20,9 @@ use output::Provenance;
 use output::summary::Status;
 use serde_json::json;
 
+/// How the last line of the log begins where a run was refused after its mesh was made.
+pub(crate) const REFUSED: &str = "end: refused before rolling: ";
+
 /// How to run a case, apart from what the case itself says.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
@@ -29,6 +32,8 @@ pub struct RunOptions {
     pub threads: usize,
     /// Replace the run that is already in `out`.
     pub force: bool,
+    /// Folder in which preloads are kept for other runs with the same, and taken from.
+    pub preload_cache: Option<PathBuf>,
     /// The case file, for the log.
     pub source: PathBuf,
 }
@@ -76,15 +81,22 @@ fn run_in_pool(
     }
     observe(&stage(case, Stage::Mesh));
 
-    let begun = match start(case, &model, stop, observe, &mut |line| log.say(line)) {
-        Err(RunError::Preload(error)) => {
-            let summary = without_rolling(case, &model, options.threads, wall, &error);
-            output::write_json_atomically(options.out.join("summary.json"), &summary)?;
-            log.say(&format!("end: {:?} before rolling: {error}", summary.status))?;
-            return Ok(json!(summary));
-        }
-        begun => begun?,
-    };
+    let begun =
+        match start(case, &model, options.preload_cache.as_deref(), stop, observe, &mut |line| {
+            log.say(line)
+        }) {
+            Err(RunError::Preload(error)) => {
+                let summary = without_rolling(case, &model, options.threads, wall, &error);
+                output::write_json_atomically(options.out.join("summary.json"), &summary)?;
+                log.say(&format!("end: {:?} before rolling: {error}", summary.status))?;
+                return Ok(json!(summary));
+            }
+            Err(error) => {
+                log.say(&format!("{REFUSED}{error}"))?;
+                return Err(error);
+            }
+            Ok(begun) => begun,
+        };
     let Start { mut simulation, facts } = begun;
     let (stability, steps) = (facts.stability, facts.steps);
     if let Some(preload) = &facts.preload {

@@ -39,6 +39,18 @@ pub enum RunError {
     #[error("the mesh has no contact surface in its fine zone")]
     #[diagnostic(help("enlarge mesh.zone"))]
     NoContact,
+    /// The time step asked for is not stable.
+    #[error(
+        "time.step = {step:.4e} s is above the stability limit of {limit:.4e} s, which the closed \
+         contact springs lower"
+    )]
+    #[diagnostic(help("lower time.step, or give time.factor, a fraction of the limit"))]
+    Step {
+        /// The step asked for (s).
+        step: f64,
+        /// The stability limit (s).
+        limit: f64,
+    },
     /// The preload was not found.
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
@@ -75,6 +87,7 @@ impl RunError {
             Self::Mesh(mesh::MeshError::TooManyElements { .. }) | Self::Memory { .. } => {
                 Some("mesh.zone.size")
             }
+            Self::Step { .. } => Some("time.step"),
             _ => None,
         }
     }
@@ -85,6 +98,7 @@ impl RunError {
         match self {
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
             Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
+            Self::Step { .. } => 2,
             Self::Preload(error) if error.is_interruption() => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
         }

@@ -317,12 +317,20 @@ pub enum PreloadMethod {
 }
 
 /// Time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Time {
     /// Time step as a fraction of 2/omega_max (dimensionless). Above 1 the run is unstable;
-    /// that is accepted with a warning, to show a blow-up. Default 0.67.
-    pub factor: f64,
+    /// that is accepted with a warning, to show a blow-up. Give this or `step`, not both.
+    /// Default 0.67 without `step`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = Time::FACTOR))]
+    pub factor: Option<f64>,
+    /// Longest time step (s), whatever the stability limit; refused above that limit. Runs whose
+    /// stability limits differ then have the same step. Give this or `factor`, not both.
+    /// Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
     /// Rolled distance (m). Give this or `duration`, not both. Default 0.060.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roll: Option<f64>,
@@ -331,9 +339,27 @@ pub struct Time {
     pub duration: Option<f64>,
 }
 
-impl Default for Time {
-    fn default() -> Self {
-        Self { factor: 0.67, roll: None, duration: None }
+impl Time {
+    /// `factor` where neither it nor `step` is given.
+    pub const FACTOR: f64 = 0.67;
+}
+
+/// What the time step is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// A fraction of the stability limit (dimensionless).
+    Fraction(f64),
+    /// This step (s), which must not exceed the limit.
+    Absolute(f64),
+}
+
+impl Step {
+    /// The step (s) for a stability limit (s).
+    pub fn under(self, limit: f64) -> f64 {
+        match self {
+            Self::Fraction(factor) => factor * limit,
+            Self::Absolute(step) => step,
+        }
     }
 }
 
@@ -419,6 +445,14 @@ impl Case {
     /// The bar's material: `[material]` with the keys of `[bar.material]` over it.
     pub fn bar_material(&self) -> Material {
         self.bar.material.over(self.material)
+    }
+
+    /// What the time step is taken from.
+    pub fn step(&self) -> Step {
+        match self.time.step {
+            Some(step) => Step::Absolute(step),
+            None => Step::Fraction(self.time.factor.unwrap_or(Time::FACTOR)),
+        }
     }
 
     /// Duration of rolling (s).

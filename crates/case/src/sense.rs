@@ -7,7 +7,7 @@ use crate::keys::number;
 use crate::layers::{Layers, Origin, key_error_in};
 use crate::schema::{
     Case, ContactLayers, Crown, DriveMode, FrictionLaw, LoadMode, Material, PreloadMethod,
-    Stiffness,
+    Stiffness, Time,
 };
 
 /// Coefficient at high slip velocity where an exponential law gives none.
@@ -179,6 +179,12 @@ fn check_choices(case: &Case, found: &mut Findings) {
         &["time.duration"],
         || "time.duration and time.roll are both given".into(),
         "give the rolled distance or the duration, not both",
+    );
+    found.require(
+        time.factor.is_none() || time.step.is_none(),
+        &["time.step"],
+        || "time.step and time.factor are both given".into(),
+        "give the step itself or its fraction of the stability limit, not both",
     );
     let preloaded = case.preload.method != PreloadMethod::None;
     found.require(
@@ -399,7 +405,7 @@ fn steps(case: &Case) -> f64 {
         (modulus / m.density).sqrt()
     };
     let fastest = speed(case.disk_material()).max(speed(case.bar_material()));
-    case.duration() * fastest / (case.time.factor * case.mesh.zone.size)
+    case.duration() / case.step().under(case.mesh.zone.size / fastest)
 }
 
 /// The run must end while somebody still waits for it.
@@ -407,7 +413,14 @@ fn check_length(case: &Case, found: &mut Findings) {
     let steps = steps(case);
     found.require(
         steps <= MOST_STEPS,
-        &["time.duration", "time.factor", "drive.speed", "mesh.zone.size", "time.roll"],
+        &[
+            "time.duration",
+            "time.factor",
+            "time.step",
+            "drive.speed",
+            "mesh.zone.size",
+            "time.roll",
+        ],
         || {
             format!(
                 "the run of {} s needs about {steps:.1e} time steps, more than {MOST_STEPS:.0e}: \
@@ -488,7 +501,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
             warnings.push(text);
         }
     };
-    let factor = case.time.factor;
+    let factor = case.time.factor.unwrap_or(Time::FACTOR);
     warn(
         factor > 1.0,
         format!("time.factor = {factor} is above 1: THE RUN IS UNSTABLE and will blow up"),

@@ -2,15 +2,16 @@
 
 use crate::model::{BAR, DISK, Model};
 use crate::numbers::{Numbers, numbers};
-use crate::preload::{self, preload};
+use crate::preload::{self, preload, store};
 use crate::progress::Progress;
 use crate::run_error::RunError;
-use crate::schema::{Case, DriveMode, LoadMode};
+use crate::schema::{Case, DriveMode, LoadMode, Step};
 use contact::{PenaltyContact, StabilityScale};
 use dynamics::{Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
 use mesh::Padded;
 use serde::Serialize;
 use solid::Solid;
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -63,29 +64,60 @@ pub(crate) struct Start {
     pub(crate) facts: Facts,
 }
 
-/// Preloads the model and sets it rolling.
-pub(crate) fn start(
+/// The bodies at rest under the load, and what the step must respect.
+struct Settled {
+    solid: Solid,
+    contact: PenaltyContact,
+    hub: Hub,
+    quiet: QuietEnd,
+    displacement: Vec<Padded>,
+    preload: Option<preload::Report>,
+    preload_wall: f64,
+    omega_elastic: f64,
+    omega_max: f64,
+    /// Longest stable step (s).
+    limit: f64,
+}
+
+/// Longest stable step (s) of a case: that of the preloaded state.
+pub(crate) fn stable_limit(
     case: &Case,
     model: &Model,
+    cache: Option<&Path>,
+    stop: &AtomicBool,
+) -> Result<f64, RunError> {
+    Ok(settle(case, model, cache, stop, &mut |_| {}, &mut |_| Ok(()))?.limit)
+}
+
+/// Preloads the model, or takes the preload from `cache`.
+fn settle(
+    case: &Case,
+    model: &Model,
+    cache: Option<&Path>,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
     say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
-) -> Result<Start, RunError> {
+) -> Result<Settled, RunError> {
     let mut solid = model.solid(case)?;
     let inverse_mass = inverse_mass(model);
     let omega_elastic = elastic_frequency(model, &mut solid);
-    let scale = StabilityScale { omega_elastic, dt: case.time.factor * 2.0 / omega_elastic };
-    let mut contact = model.contact(case, scale)?;
+    let scale = StabilityScale { omega_elastic, dt: case.step().under(2.0 / omega_elastic) };
     let hub = hub(case, model, &solid);
     let quiet: Vec<_> = model.quiet.iter().collect();
     let quiet = QuietEnd::new(&model.mesh, &quiet, &model.materials[BAR], &model.clamped);
 
     let clock = Instant::now();
-    let nominal = case.disk.radius;
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
-    let (displacement, preload) =
-        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)?;
+    let (displacement, preload) = store::kept(case, model, cache, stop, say, &mut |say| {
+        let mut contact = model.contact(case, scale)?;
+        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)
+    })?;
+    // Contact starts from the displacements alone, so that a preload from the cache and one just
+    // found lead to the same bits; this also closes the pairs that touch, for the stable step.
+    let mut contact = model.contact(case, scale)?;
+    let mut unused = vec![Padded::ZERO; displacement.len()];
+    contact.apply_frictionless(solid.reference(), &displacement, &mut unused);
     let preload_wall = clock.elapsed().as_secs_f64();
 
     let omega_max = MARGIN
@@ -97,13 +129,54 @@ pub(crate) fn start(
             },
             LANCZOS,
         );
-    let (element_bound, _) =
-        solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
-    let contact_bound = contact.rigorous_omega_squared(&inverse_mass);
     // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
     let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
     let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
-    let steps = (case.duration() / (case.time.factor * limit)).ceil().max(1.0);
+    Ok(Settled {
+        solid,
+        contact,
+        hub,
+        quiet,
+        displacement,
+        preload,
+        preload_wall,
+        omega_elastic,
+        omega_max,
+        limit,
+    })
+}
+
+/// Preloads the model, or takes the preload from `cache`, and sets it rolling.
+pub(crate) fn start(
+    case: &Case,
+    model: &Model,
+    cache: Option<&Path>,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+    say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
+) -> Result<Start, RunError> {
+    let Settled {
+        mut solid,
+        contact,
+        hub,
+        quiet,
+        displacement,
+        preload,
+        preload_wall,
+        omega_elastic,
+        omega_max,
+        limit,
+    } = settle(case, model, cache, stop, observe, say)?;
+    let nominal = case.disk.radius;
+    let (element_bound, _) =
+        solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
+    let contact_bound = contact.rigorous_omega_squared(&inverse_mass(model));
+    if let Step::Absolute(step) = case.step()
+        && step > limit
+    {
+        return Err(RunError::Step { step, limit });
+    }
+    let steps = (case.duration() / case.step().under(limit)).ceil().max(1.0);
     let dt = case.duration() / steps;
     let stability = Stability {
         omega_elastic,

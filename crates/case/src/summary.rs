@@ -165,11 +165,19 @@ fn window(case: &Case, means: &Means) -> serde_json::Value {
         "deviation": {
             "normal_force": means.force[2].deviation(),
             "tangential_force": means.force[0].deviation(),
+            "lateral_force": means.force[1].deviation(),
             "traction_coefficient": means.traction.deviation(),
+            "creepage": means.creepage.deviation(),
             "patch_half_length": means.half_length.deviation(),
             "patch_half_width": means.half_width.deviation(),
+            "patch_area": means.area.deviation(),
             "peak_pressure": means.peak_pressure.deviation(),
+            "peak_shear": means.peak_shear.deviation(),
+            "stick_fraction": means.stick.deviation(),
+            "slip_fraction": means.slip.deviation(),
             "stick_border": means.stick_border.deviation(),
+            "torque": means.torque.deviation(),
+            "max_penetration": means.penetration.deviation(),
         },
     })
 }

@@ -7,6 +7,7 @@ use crate::import_contact::ImportArgs;
 use crate::plot::PlotArgs;
 use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
+use crate::sweep::SweepArgs;
 use crate::verify::VerifyArgs;
 use case::Level;
 use clap::{ArgAction, Parser, Subcommand};
@@ -68,6 +69,16 @@ pub enum Command {
     #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
         runs/b-falling --out b-falling.html")]
     Report(ReportArgs),
+    /// Run a case many times over a grid of parameters: one table, and a report; exit code 1 if a
+    /// run fails
+    #[command(
+        after_help = "Examples:\n  creepage sweep cases/sweeps/kt.toml --jobs 2\n  creepage \
+        sweep cases/sweeps/kt.toml --resume\n  creepage sweep cases/sweeps/kt-large.toml --plan \
+        runs.sh\n  creepage sweep cases/sweeps/kt-large.toml --collect\n  creepage report \
+        runs/kt\n\nCtrl-C ends the runs under way in order; --resume goes on. The sweep file, \
+        other engines, results: docs/sweeps.md."
+    )]
+    Sweep(SweepArgs),
     /// Bring a contact history of another code, as CSV, into the layout that the checks read
     #[command(
         after_help = "Example:\n  creepage import-contact --nodes nodes.csv --faces faces.csv \
@@ -119,6 +130,12 @@ pub struct RunArgs {
     /// Replace the run that is already in the folder
     #[arg(long)]
     pub force: bool,
+    /// Keep the preload in this folder, and take it from there if a run with the same has been
+    #[arg(long, value_name = "DIR")]
+    pub preload_cache: Option<PathBuf>,
+    /// Live as long as standard input is open, and print progress: how a sweep holds its runs
+    #[arg(long, hide = true)]
+    pub leash: bool,
 }
 
 /// Options of `mesh`.
@@ -156,7 +173,7 @@ fn kernels(text: &str) -> Result<Level, String> {
     }
 }
 
-fn threads(text: &str) -> Result<usize, String> {
+pub fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(n @ 1..=1024) => Ok(n),
         _ => Err("a whole number from 1 to 1024 is needed".into()),

@@ -69,6 +69,7 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         Command::Check(options) => crate::check::command(args, options),
         Command::Plot(options) => crate::plot::command(args, options),
         Command::Report(options) => crate::report_page::command(args, options),
+        Command::Sweep(options) => crate::sweep::command(args, options),
         Command::ImportContact(options) => crate::import_contact::command(args, options),
         Command::Schema => {
             report::print_json(&case::json_schema());
@@ -96,10 +97,14 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
         out: out.clone(),
         threads: options.threads.unwrap_or_else(all_cores),
         force: options.force,
+        preload_cache: options.preload_cache.clone(),
         source: options.case.clone(),
     };
     let stop = stop_flag()?;
-    let mut watch = Watch::new(args.quiet);
+    let mut watch = Watch::new(args.quiet, options.leash);
+    if options.leash {
+        hold_leash(Arc::clone(&stop));
+    }
     let result = case::run(&case, &run_options, &stop, &mut |progress| watch.show(progress));
     watch.finish();
     let summary = result.map_err(|error| placed(error, &options.case, &options.sets))?;
@@ -181,8 +186,21 @@ fn load(args: &Args, path: &Path, sets: &[String]) -> Result<Case, Failure> {
     Ok(case)
 }
 
-fn all_cores() -> usize {
+pub fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, |n| n.get())
+}
+
+/// Ends the run with the process at the other end of standard input: in order where that asks for
+/// it, at once where it is gone.
+fn hold_leash(stop: Arc<AtomicBool>) {
+    std::thread::spawn(move || {
+        for line in std::io::stdin().lines().map_while(Result::ok) {
+            if line == case::sweep::schedule::STOP {
+                stop.store(true, Ordering::SeqCst);
+            }
+        }
+        std::process::exit(INTERRUPTED.into());
+    });
 }
 
 /// The first Ctrl-C or SIGTERM asks the run to end in order, the second ends the process.

@@ -10,6 +10,7 @@ mod progress;
 mod report;
 mod report_page;
 mod slider;
+mod sweep;
 mod sweep_folder;
 mod verify;
 

@@ -1,33 +1,42 @@
 //! The progress bar, on a terminal only.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
+use std::time::{Duration, Instant};
 
+use case::sweep::Watched;
 use case::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const TICKS: u64 = 1000;
 
-/// Watches a run: a bar on standard error where that is a terminal, silence elsewhere.
+/// How often a run tells the sweep that it belongs to how far it is.
+const TOLD: Duration = Duration::from_millis(200);
+
+/// Watches a run: a bar on standard error where that is a terminal, silence elsewhere. For a sweep
+/// it also writes the share that is done to standard output, a number a line.
 pub struct Watch {
     bar: ProgressBar,
     stage: Option<Stage>,
+    told: Option<Instant>,
 }
 
 impl Watch {
     /// A watch that has seen nothing yet.
-    pub fn new(quiet: bool) -> Self {
-        let bar = ProgressBar::new(TICKS);
-        let visible = !quiet && std::io::stderr().is_terminal();
-        bar.set_draw_target(if visible {
-            ProgressDrawTarget::stderr_with_hz(8)
-        } else {
-            ProgressDrawTarget::hidden()
-        });
-        Self { bar, stage: None }
+    pub fn new(quiet: bool, for_sweep: bool) -> Self {
+        Self { bar: bar(quiet), stage: None, told: for_sweep.then(Instant::now) }
     }
 
     /// Shows how far the run is.
     pub fn show(&mut self, progress: &Progress) {
+        if let Some(told) = self.told.as_mut().filter(|told| told.elapsed() >= TOLD)
+            && progress.stage == Stage::Roll
+        {
+            *told = Instant::now();
+            let done = progress.step as f64 / progress.steps.max(1) as f64;
+            let mut out = std::io::stdout();
+            // A sweep that is gone ends this run by another way.
+            let _ = writeln!(out, "{done:.4}").and_then(|()| out.flush());
+        }
         if self.bar.is_hidden() {
             return;
         }
@@ -61,6 +70,47 @@ impl Watch {
     pub fn finish(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Watches a sweep.
+pub struct SweepWatch {
+    bar: ProgressBar,
+}
+
+impl SweepWatch {
+    /// A watch that has seen nothing yet.
+    pub fn new(quiet: bool) -> Self {
+        let bar = bar(quiet);
+        let template = "{percent:>3}% {bar:12} {elapsed}, {eta} left, {msg}";
+        let style = ProgressStyle::with_template(template);
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self { bar }
+    }
+
+    /// Shows how far the sweep is.
+    pub fn show(&mut self, now: &Watched) {
+        let failed =
+            if now.failed > 0 { format!(", {} failed", now.failed) } else { String::new() };
+        let (done, all) = (now.completed, now.runs);
+        self.bar.set_message(format!("{done} of {all} runs done{failed}, {} running", now.running));
+        self.bar.set_position((now.fraction * TICKS as f64) as u64);
+    }
+
+    /// Removes the bar.
+    pub fn finish(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn bar(quiet: bool) -> ProgressBar {
+    let bar = ProgressBar::new(TICKS);
+    let visible = !quiet && std::io::stderr().is_terminal();
+    bar.set_draw_target(if visible {
+        ProgressDrawTarget::stderr_with_hz(8)
+    } else {
+        ProgressDrawTarget::hidden()
+    });
+    bar
 }
 
 fn style(stage: Stage) -> ProgressStyle {

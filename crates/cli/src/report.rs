@@ -5,6 +5,7 @@ mod check;
 mod layout;
 mod mesh;
 mod run;
+mod sweep;
 
 use std::io::Write;
 use std::path::Path;
@@ -31,6 +32,11 @@ pub fn print_mesh(report: &Value) {
 /// Prints what `creepage check` found.
 pub fn print_check(document: &Value) {
     print(&check::text(document));
+}
+
+/// Prints the runs of a sweep.
+pub fn print_sweep(results: &Value, folder: &Path) {
+    print(&sweep::text(results, folder));
 }
 
 /// Prints what `creepage bench` measured.

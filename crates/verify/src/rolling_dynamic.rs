@@ -142,6 +142,7 @@ fn rolled(reference: &Reference, h: f64, factor: f64) -> Result<Rolled, crate::p
     let case = Case::from_text(CASE, Path::new("a-coulomb.toml"), &sets)?;
     let folder = tempfile::tempdir()?;
     let options = RunOptions {
+        preload_cache: None,
         out: folder.path().join("run"),
         threads: std::thread::available_parallelism().map_or(1, |n| n.get()),
         force: false,

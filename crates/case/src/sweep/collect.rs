@@ -1,0 +1,137 @@
+//! The results of a sweep, gathered from its runs wherever they ran.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
+use super::points::Point;
+use super::table;
+
+/// Fields of a run's summary that the clock, the memory and the number of threads put in. All
+/// other numbers of a sweep are the same to the bit however often it was interrupted, wherever and
+/// on however many threads its runs ran, as long as program and kernels are the same.
+pub const NOT_REPEATED: [&str; 5] =
+    ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads"];
+
+/// How far a run is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum State {
+    /// It came to its end and was checked.
+    Completed,
+    /// Its own guards, or its preload, stopped it; or it could not begin.
+    Failed(String),
+    /// It came to its end but has no checks yet.
+    Unchecked,
+    /// It was interrupted, or has not begun.
+    Undone(&'static str),
+}
+
+impl State {
+    /// The word in the results.
+    pub fn word(&self) -> &str {
+        match self {
+            Self::Completed => "completed",
+            Self::Failed(_) => "failed",
+            Self::Unchecked => "unchecked",
+            Self::Undone(word) => word,
+        }
+    }
+}
+
+/// Writes `sweep.json` and `sweep.csv` into the sweep's folder, and returns the first. Runs are
+/// looked for there and in `elsewhere`, in folders that have a run's name.
+pub fn collect(plan: &Plan, elsewhere: &[PathBuf]) -> Result<Value, SweepError> {
+    collect_with(plan, elsewhere, &BTreeMap::new())
+}
+
+/// The same, with what is known of runs that left nothing that says why.
+pub(crate) fn collect_with(
+    plan: &Plan,
+    elsewhere: &[PathBuf],
+    failures: &BTreeMap<String, String>,
+) -> Result<Value, SweepError> {
+    let runs: Vec<Value> =
+        plan.runs.iter().map(|run| entry(plan, run, elsewhere, failures)).collect();
+    let mut document = plan.document.clone();
+    document["runs"] = json!(runs);
+    document["not_repeated"] = json!(NOT_REPEATED);
+    table::write(&plan.folder.join(RESULTS[1]), &document)?;
+    output::write_json_atomically(plan.folder.join(RESULTS[0]), &document)?;
+    Ok(document)
+}
+
+fn entry(
+    plan: &Plan,
+    run: &Point,
+    elsewhere: &[PathBuf],
+    failures: &BTreeMap<String, String>,
+) -> Value {
+    let own = run_folder(&plan.folder, &run.name);
+    let others =
+        elsewhere.iter().flat_map(|folder| [run_folder(folder, &run.name), folder.join(&run.name)]);
+    let places: Vec<PathBuf> = std::iter::once(own.clone()).chain(others).collect();
+    let done = |state: &State| matches!(state, State::Completed | State::Failed(_));
+    let found = places.iter().map(|place| (state(place, run), place));
+    let (state, folder) = found
+        .clone()
+        .find(|(state, _)| done(state))
+        .or_else(|| found.clone().find(|(state, _)| *state != State::Undone(NOT_BEGUN)))
+        .unwrap_or((State::Undone(NOT_BEGUN), &own));
+    let state = match failures.get(&run.name) {
+        Some(reason) => State::Failed(reason.clone()),
+        None => state,
+    };
+    let shown = folder.strip_prefix(&plan.folder).unwrap_or(folder);
+    let mut entry = json!({
+        "name": run.name,
+        "parameters": run.parameters,
+        "status": state.word(),
+        "run": shown.display().to_string(),
+        "summary": read(&folder.join("summary.json")),
+        "check": read(&folder.join(CHECK)),
+    });
+    if let State::Failed(reason) = state {
+        entry["reason"] = json!(reason);
+    }
+    entry
+}
+
+const NOT_BEGUN: &str = "not begun";
+
+/// How far a run in `folder` is; one of another case has not begun.
+pub fn state(folder: &Path, run: &Point) -> State {
+    let case = fs::read_to_string(folder.join("case.toml")).unwrap_or_default();
+    if case != run.case.to_toml() {
+        return State::Undone(NOT_BEGUN);
+    }
+    let Some(summary) = read(&folder.join("summary.json")) else {
+        // A run that was refused says so last; one that was killed does not.
+        return match last_words(folder) {
+            Some(reason) => State::Failed(reason),
+            None => State::Undone("unfinished"),
+        };
+    };
+    match summary["status"].as_str() {
+        Some("completed") if read(&folder.join(CHECK)).is_some() => State::Completed,
+        Some("completed") => State::Unchecked,
+        Some("failed") => {
+            State::Failed(summary["diagnosis"].as_str().unwrap_or("no reason given").into())
+        }
+        _ => State::Undone("interrupted"),
+    }
+}
+
+/// What a run that was refused after its mesh said at the end of its log.
+fn last_words(folder: &Path) -> Option<String> {
+    let log = fs::read_to_string(folder.join("run.log")).ok()?;
+    let last = log.lines().next_back()?;
+    last.strip_prefix(crate::run::REFUSED).map(str::to_owned)
+}
+
+/// A JSON document that is there and whole.
+fn read(path: &Path) -> Option<Value> {
+    serde_json::from_slice(&fs::read(path).ok()?).ok()
+}

@@ -1,0 +1,432 @@
+//! The folder of a sweep: what is to be run in it, and as what commands.
+//!
+//! | file | what |
+//! |---|---|
+//! | `plan.json` | the sweep: its hash, axes, step, and the runs with their parameters |
+//! | `cases/NAME.toml` | the resolved case of each run |
+//! | `runs/NAME/` | the run, with `check.json` beside its own files |
+//! | `logs/NAME.log` | what the run and its check said on standard error |
+//! | `preload/` | preloads that runs share |
+//! | `sweep.json`, `sweep.csv` | the results |
+
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use miette::Diagnostic;
+use serde_json::{Map, Value, json};
+use thiserror::Error;
+
+use super::file::{StepRule, Sweep};
+use super::points::Point;
+use crate::error::CaseError;
+use crate::folder::FolderError;
+use crate::model::Model;
+use crate::run_error::RunError;
+use crate::schema::Time;
+use crate::start::stable_limit;
+
+/// The plan of a sweep in its folder.
+pub const PLAN: &str = "plan.json";
+/// The results of a sweep in its folder, and the same as a table.
+pub const RESULTS: [&str; 2] = ["sweep.json", "sweep.csv"];
+/// The checks of a run, in its folder.
+pub const CHECK: &str = "check.json";
+const LOCK: &str = "sweep.lock";
+
+/// Why a sweep could not be run.
+#[derive(Debug, Error, Diagnostic)]
+pub enum SweepError {
+    /// The sweep file, or a case that it leads to.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Case(#[from] CaseError),
+    /// The folder cannot be used.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Folder(#[from] FolderError),
+    /// The folder holds this sweep, and it was not said what to do with it.
+    #[error("{} already holds this sweep", path.display())]
+    #[diagnostic(help("go on with --resume, or run everything anew with --force"))]
+    Begun {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder is not one of a sweep, so there is nothing to go on with, to replace or to gather.
+    #[error("{} holds no sweep, or files of another kind", path.display())]
+    #[diagnostic(help("choose another folder with --out DIR"))]
+    NoSweep {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Another process runs a sweep in the folder.
+    #[error("another process is at work in {}", path.display())]
+    #[diagnostic(help("wait for it, or stop it, or choose another folder with --out DIR"))]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A run that needs more memory than there may be used.
+    #[error(
+        "the run {run} needs about {needed_mb:.0} MB of memory, more than the {free_mb:.0} MB \
+             that the sweep may use"
+    )]
+    #[diagnostic(help("raise --memory, or enlarge the elements of that run"))]
+    Memory {
+        /// The run.
+        run: String,
+        /// What it needs (MB).
+        needed_mb: f64,
+        /// What there is (MB).
+        free_mb: f64,
+    },
+    /// The smallest stability limit could not be found.
+    #[error("the stability limit of the run {run} cannot be found: {cause}")]
+    #[diagnostic(help("rule = \"fixed\" needs the limit of every run; rule = \"bound\" does not"))]
+    Limit {
+        /// The run.
+        run: String,
+        /// Why.
+        cause: Box<RunError>,
+    },
+    /// The sweep was asked to stop before its first run.
+    #[error("interrupted before the first run began")]
+    Interrupted,
+    /// A file of the sweep cannot be read or written.
+    #[error("{}: {cause}", path.display())]
+    #[diagnostic(help("check that the folder is there, that you may write to it, and its room"))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        cause: io::Error,
+    },
+    /// Results cannot be written.
+    #[error(transparent)]
+    Output(#[from] output::OutputError),
+    /// Threads cannot be started.
+    #[error("threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl SweepError {
+    /// Exit code of the process: 2 for bad input, 130 when interrupted, 3 else.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Interrupted => 130,
+            Self::File { .. } | Self::Output(_) => 3,
+            _ => 2,
+        }
+    }
+}
+
+/// A sweep laid out in its folder.
+#[derive(Debug)]
+pub struct Plan {
+    /// The folder.
+    pub folder: PathBuf,
+    /// `plan.json`.
+    pub document: Value,
+    /// The runs, in order.
+    pub runs: Vec<Point>,
+    /// Held as long as the plan is, against a second process in the folder.
+    _lock: Option<File>,
+}
+
+/// What to do with a folder that holds this sweep already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// Refuse it.
+    Refuse,
+    /// Keep the runs that are done.
+    Resume,
+    /// Remove every run.
+    Replace,
+}
+
+/// What a folder is good for, found without touching it.
+fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<(), SweepError> {
+    let path = || folder.to_path_buf();
+    let Some(plan) = read_plan(folder)? else {
+        // One that was stopped before its plan was made has its lock alone, and perhaps preloads.
+        if folder.join(LOCK).exists() {
+            return Ok(());
+        }
+        return match crate::folder::check(folder, false) {
+            Err(FolderError::Taken { path, .. }) => Err(SweepError::NoSweep { path }),
+            other => Ok(other?),
+        };
+    };
+    match existing {
+        Existing::Replace => Ok(()),
+        _ if plan["hash"] != hash => Err(other_sweep(folder, sweep, &plan).into()),
+        Existing::Refuse => Err(SweepError::Begun { path: path() }),
+        Existing::Resume => Ok(()),
+    }
+}
+
+/// The folder is another sweep's: points at the first thing in which the two differ.
+fn other_sweep(folder: &Path, sweep: &Sweep, plan: &Value) -> CaseError {
+    let theirs = plan["axes"].as_object().cloned().unwrap_or_default();
+    let differs = |axis: &super::file::Axis| theirs.get(&axis.key) != Some(&json!(axis.values));
+    let (at, what) = match sweep.axes.iter().position(differs) {
+        Some(i) => (format!("axis[{i}].key"), format!("axis {}", sweep.axes[i].key)),
+        None => ("base".into(), "base case, mode, [set] or [[derive]]".into()),
+    };
+    let file = plan["file"].as_str().unwrap_or("another file");
+    let message =
+        format!("{} holds another sweep, of {file}: it differs in the {what}", folder.display());
+    let remedy = "choose another folder with --out DIR, or replace that sweep with --force";
+    CaseError::Key(Box::new(sweep.layers.error_at(&at, &message, remedy)))
+}
+
+fn read_plan(folder: &Path) -> Result<Option<Value>, SweepError> {
+    let path = folder.join(PLAN);
+    match fs::read(&path) {
+        Ok(bytes) => match serde_json::from_slice(&bytes) {
+            Ok(plan) => Ok(Some(plan)),
+            Err(error) => Err(SweepError::File { path, cause: error.into() }),
+        },
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
+        // A path through a file is told by the check of the folder.
+        Err(cause) if cause.kind() == io::ErrorKind::NotADirectory => Ok(None),
+        Err(cause) => Err(SweepError::File { path, cause }),
+    }
+}
+
+/// Lays the sweep out in `folder`; nothing is written before everything has been checked.
+///
+/// `threads` find the smallest stability limit where the sweep asks for it; `say` is told of work
+/// that takes time.
+pub fn prepare(
+    sweep: &Sweep,
+    folder: &Path,
+    existing: Existing,
+    threads: usize,
+    stop: &AtomicBool,
+    say: &mut dyn FnMut(&str),
+) -> Result<Plan, SweepError> {
+    let mut runs = sweep.points()?;
+    let hash = sweep.hash(&runs);
+    look(folder, sweep, &hash, existing)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    say(&format!("{} runs: building their meshes", runs.len()));
+    pool.install(|| sweep.count_elements(&mut runs))?;
+    let failed = |path: PathBuf| move |cause| SweepError::File { path, cause };
+    fs::create_dir_all(folder).map_err(failed(folder.into()))?;
+    let lock = lock(folder)?;
+    // Looked at again under the lock: another process may just have finished here.
+    look(folder, sweep, &hash, existing)?;
+    if existing == Existing::Replace {
+        clear(folder)?;
+    }
+    let kept = read_plan(folder)?;
+    let kept_step = kept.as_ref().and_then(|plan| plan.pointer("/step/step")?.as_f64());
+    let step = match (sweep.step, kept_step) {
+        (Some(StepRule::Fixed), Some(step)) => Some(step),
+        (Some(StepRule::Fixed), None) => {
+            say("finding the smallest stability limit");
+            Some(pool.install(|| smallest_step(sweep, &runs, folder, stop))?)
+        }
+        _ => None,
+    };
+    if let Some(step) = step {
+        for run in &mut runs {
+            (run.case.time.step, run.case.time.factor) = (Some(step), None);
+        }
+    }
+    let axes: Map<String, Value> =
+        sweep.axes.iter().map(|axis| (axis.key.clone(), json!(axis.values))).collect();
+    let described = |run: &Point| json!({ "name": run.name, "parameters": run.parameters });
+    let document = json!({
+        "name": sweep.name,
+        "title": sweep.title,
+        "file": sweep.path.display().to_string(),
+        "base": sweep.base.display().to_string(),
+        "creepage_version": env!("CARGO_PKG_VERSION"),
+        "hash": hash,
+        "mode": sweep.mode.word(),
+        "parameters": sweep.axes.iter().map(|axis| &axis.key).collect::<Vec<_>>(),
+        "axes": axes,
+        "step": { "rule": sweep.step.map(|rule| rule.word()), "step": step },
+        "runs": runs.iter().map(described).collect::<Vec<_>>(),
+    });
+    for name in ["cases", "runs", "logs"] {
+        let path = folder.join(name);
+        fs::create_dir_all(&path).map_err(failed(path))?;
+    }
+    for run in &runs {
+        let path = case_file(folder, &run.name);
+        fs::write(&path, run.case.to_toml()).map_err(failed(path))?;
+    }
+    output::write_json_atomically(folder.join(PLAN), &document)?;
+    Ok(Plan { folder: folder.into(), document, runs, _lock: lock })
+}
+
+/// The plan of a folder in which this sweep was begun, to gather its results.
+pub fn open(sweep: &Sweep, folder: &Path) -> Result<Plan, SweepError> {
+    let mut runs = sweep.points()?;
+    let path = || folder.to_path_buf();
+    let document = read_plan(folder)?.ok_or_else(|| SweepError::NoSweep { path: path() })?;
+    if document["hash"] != sweep.hash(&runs).as_str() {
+        return Err(other_sweep(folder, sweep, &document).into());
+    }
+    if let Some(step) = document.pointer("/step/step").and_then(Value::as_f64) {
+        for run in &mut runs {
+            (run.case.time.step, run.case.time.factor) = (Some(step), None);
+        }
+    }
+    Ok(Plan { folder: path(), document, runs, _lock: None })
+}
+
+/// `time.factor` times the smallest stability limit of the sweep (s).
+fn smallest_step(
+    sweep: &Sweep,
+    runs: &[Point],
+    folder: &Path,
+    stop: &AtomicBool,
+) -> Result<f64, SweepError> {
+    let mut known: Vec<Value> = Vec::new();
+    let mut smallest = f64::INFINITY;
+    for run in runs {
+        let case = &run.case;
+        // Friction, drive, output and length do not reach the limit.
+        let basis = json!([
+            case.disk,
+            case.bar,
+            case.material,
+            case.mesh,
+            case.element,
+            case.load,
+            case.contact,
+            case.damping,
+            case.preload,
+            case.drive.speed,
+            case.time.factor
+        ]);
+        if known.contains(&basis) {
+            continue;
+        }
+        known.push(basis);
+        let limit = Model::build(case)
+            .and_then(|model| stable_limit(case, &model, Some(&preloads(folder)), stop));
+        let limit = limit.map_err(|error| match error {
+            RunError::Preload(preload) if preload.is_interruption() => SweepError::Interrupted,
+            error if error.key().is_some() => sweep.refused(error, &run.indices).into(),
+            cause => SweepError::Limit { run: run.name.clone(), cause: Box::new(cause) },
+        })?;
+        smallest = smallest.min(case.time.factor.unwrap_or(Time::FACTOR) * limit);
+    }
+    Ok(smallest)
+}
+
+/// Removes what a sweep wrote, by its plan; notes and figures beside it survive.
+fn clear(folder: &Path) -> Result<(), SweepError> {
+    let Some(plan) = read_plan(folder)? else {
+        return Ok(());
+    };
+    let gone = |path: PathBuf, result: io::Result<()>| match result {
+        Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
+            Err(SweepError::File { path, cause })
+        }
+        _ => Ok(()),
+    };
+    for run in plan["runs"].as_array().into_iter().flatten() {
+        // A name from a file must not lead out of the folder.
+        let Some(name) = run["name"].as_str().filter(|name| !name.contains(['/', '\\'])) else {
+            continue;
+        };
+        for path in [case_file(folder, name), log_file(folder, name)] {
+            gone(path.clone(), fs::remove_file(path))?;
+        }
+        let path = run_folder(folder, name);
+        gone(path.clone(), fs::remove_dir_all(path))?;
+    }
+    let path = preloads(folder);
+    gone(path.clone(), fs::remove_dir_all(path))?;
+    for name in RESULTS.into_iter().chain([PLAN]) {
+        let path = folder.join(name);
+        gone(path.clone(), fs::remove_file(path))?;
+    }
+    Ok(())
+}
+
+fn lock(folder: &Path) -> Result<Option<File>, SweepError> {
+    let path = folder.join(LOCK);
+    let file = File::create(&path).map_err(|cause| SweepError::File { path, cause })?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(SweepError::Busy { path: folder.into() }),
+        // A file system without locks: nobody can be kept out.
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+/// The resolved case of a run.
+pub fn case_file(folder: &Path, name: &str) -> PathBuf {
+    folder.join("cases").join(format!("{name}.toml"))
+}
+
+/// The folder of a run.
+pub fn run_folder(folder: &Path, name: &str) -> PathBuf {
+    folder.join("runs").join(name)
+}
+
+/// What a run and its check said.
+pub fn log_file(folder: &Path, name: &str) -> PathBuf {
+    folder.join("logs").join(format!("{name}.log"))
+}
+
+/// The preloads of a sweep.
+pub fn preloads(folder: &Path) -> PathBuf {
+    folder.join("preload")
+}
+
+/// The arguments with which this program does a run, and those with which it checks it.
+pub fn arguments(folder: &Path, name: &str, threads: usize) -> [Vec<String>; 2] {
+    let text = |path: PathBuf| path.display().to_string();
+    let run = run_folder(folder, name);
+    let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+    [
+        words(&[
+            "run",
+            &text(case_file(folder, name)),
+            "--out",
+            &text(run.clone()),
+            "--threads",
+            &threads.to_string(),
+            "--preload-cache",
+            &text(preloads(folder)),
+            "--force",
+        ]),
+        words(&["check", &text(run), "--json"]),
+    ]
+}
+
+impl Plan {
+    /// The runs as commands for a shell, one line each. `$CREEPAGE` names the program where it
+    /// is not on the path; paths are relative to where the sweep was planned.
+    pub fn commands(&self, threads: usize) -> Vec<String> {
+        let line = |run: &Point| {
+            let [run_words, check_words] = arguments(&self.folder, &run.name, threads)
+                .map(|words| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "));
+            let check = quoted(&run_folder(&self.folder, &run.name).join(CHECK).to_string_lossy());
+            // The check ends with 1 where a measure is beyond its limit: a result, not a failure.
+            format!(
+                "${{CREEPAGE:-creepage}} {run_words} && {{ ${{CREEPAGE:-creepage}} {check_words} \
+                 > {check} || [ $? -eq 1 ]; }}"
+            )
+        };
+        self.runs.iter().map(line).collect()
+    }
+}
+
+/// A word that a POSIX shell takes as it is.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}

@@ -1,0 +1,166 @@
+//! From a sweep file to the resolved case of every run.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value as Json, json};
+use sha2::{Digest, Sha256};
+use toml::Value;
+
+use super::file::{Mode, Sweep};
+use crate::check;
+use crate::error::CaseError;
+use crate::model::Model;
+use crate::preload::store::hexadecimal;
+use crate::run_error::RunError;
+use crate::schema::{Case, Time};
+use crate::sense;
+
+/// More runs than this is a slip of a digit.
+const MOST_RUNS: usize = 10_000;
+/// Longest name of a run, without its number.
+const LONGEST_NAME: usize = 60;
+
+/// One run of a sweep.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Name: of the run's folder and of its case.
+    pub name: String,
+    /// Values of the swept keys.
+    pub parameters: Map<String, Json>,
+    /// The resolved case.
+    pub case: Case,
+    /// Elements of its mesh; zero before [`Sweep::count_elements`].
+    pub elements: usize,
+    /// Which value of each axis it takes.
+    pub(crate) indices: Vec<usize>,
+}
+
+impl Sweep {
+    /// The runs in their order, every case resolved and checked. Where all runs are to have the
+    /// same step, they have their own here: the smallest limit takes meshes to find.
+    pub fn points(&self) -> Result<Vec<Point>, CaseError> {
+        let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
+        let count = match self.mode {
+            Mode::Zip => lengths[0],
+            Mode::Grid => lengths.iter().fold(1_usize, |all, &n| all.saturating_mul(n)),
+        };
+        if count > MOST_RUNS {
+            let message = format!("the axes make {count} runs, more than {MOST_RUNS}");
+            let error = self.layers.error_at("axis", &message, "give fewer values");
+            return Err(CaseError::Key(Box::new(error)));
+        }
+        (0..count).map(|n| self.point(n, &lengths)).collect()
+    }
+
+    fn point(&self, n: usize, lengths: &[usize]) -> Result<Point, CaseError> {
+        let mut rest = n;
+        let mut indices = vec![n; lengths.len()];
+        if self.mode == Mode::Grid {
+            for (index, length) in indices.iter_mut().zip(lengths).rev() {
+                (*index, rest) = (rest % length, rest / length);
+            }
+        }
+        let chosen: Vec<(&str, &Value)> = self
+            .axes
+            .iter()
+            .zip(&indices)
+            .map(|(axis, &i)| (axis.key.as_str(), &axis.values[i]))
+            .collect();
+        let name = name(n, &chosen);
+        let mut sets: Vec<String> =
+            self.sets.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        if self.step.is_some() {
+            // The rule speaks of a fraction, which an absolute step of the base would hide.
+            let base = Case::load(&self.base, &sets)?;
+            if base.time.step.is_some() {
+                sets.push(format!("time.factor={}", Time::FACTOR));
+            }
+        }
+        sets.extend(chosen.iter().map(|(key, value)| format!("{key}={value}")));
+        for follow in &self.follows {
+            let x = check::float(chosen[follow.axis].1).unwrap_or(f64::NAN);
+            let value = Value::Float(follow.factor * x.powf(follow.power));
+            sets.push(format!("{}={value}", follow.key));
+        }
+        sets.push(format!("name=\"{name}\""));
+        let case = Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
+        let parameters =
+            chosen.iter().map(|(key, value)| ((*key).to_owned(), json!(value))).collect();
+        Ok(Point { name, parameters, case, elements: 0, indices })
+    }
+
+    /// Builds the mesh of every run, the same once, and notes its size.
+    pub fn count_elements(&self, points: &mut [Point]) -> Result<(), CaseError> {
+        let mut known: BTreeMap<String, usize> = BTreeMap::new();
+        for point in points {
+            let case = &point.case;
+            let key = json!([case.disk, case.bar, case.mesh, case.element]).to_string();
+            point.elements = match known.get(&key) {
+                Some(elements) => *elements,
+                None => {
+                    let model = Model::build(case).map_err(|e| self.refused(e, &point.indices))?;
+                    *known.entry(key).or_insert(model.mesh.hexes.len())
+                }
+            };
+        }
+        Ok(())
+    }
+
+    /// SHA-256, in hexadecimal, of what the sweep is: its runs' cases and the rule of the step.
+    pub fn hash(&self, points: &[Point]) -> String {
+        let mut hash = Sha256::new();
+        for point in points {
+            hash.update(point.case.to_toml());
+        }
+        hash.update(self.step.map_or("", |rule| rule.word()));
+        hexadecimal(&hash.finalize())
+    }
+
+    /// An error of a run's case, at the place of the sweep file that caused it, if one did.
+    fn placed(&self, error: CaseError, indices: &[usize]) -> CaseError {
+        let CaseError::Key(found) = error else {
+            return error;
+        };
+        let Some(place) = self.place_of(&found.key, indices) else {
+            return CaseError::Key(found);
+        };
+        let said = found.message.trim_start_matches("--set: ");
+        let remedy = found.help.as_deref().unwrap_or("change this value");
+        CaseError::Key(Box::new(self.layers.error_at(&place, said, remedy)))
+    }
+
+    /// An error of a run before it began, at the place that caused it.
+    pub(crate) fn refused(&self, error: RunError, indices: &[usize]) -> CaseError {
+        let message = error.to_string();
+        let place = error.key().and_then(|key| self.place_of(key, indices));
+        match (place, error.key()) {
+            (Some(place), _) => {
+                let error = self.layers.error_at(&place, &message, "change this value");
+                CaseError::Key(Box::new(error))
+            }
+            (None, Some(key)) => {
+                crate::load::error_at_key(&self.base, &[], key, &message, "change this key")
+            }
+            (None, None) => {
+                let remedy = "change the base case or the axes";
+                CaseError::Key(Box::new(self.layers.error_at("base", &message, remedy)))
+            }
+        }
+    }
+}
+
+/// The number of the run and what is special to it, as a folder's name.
+fn name(n: usize, chosen: &[(&str, &Value)]) -> String {
+    let mut name = String::new();
+    for (key, value) in chosen {
+        let short = key.rsplit('.').next().unwrap_or(key);
+        let value = match value {
+            Value::Float(x) => crate::keys::number(*x),
+            other => other.to_string(),
+        };
+        name += &format!("-{short}-{value}");
+    }
+    let fit = |c: &char| sense::in_a_name(*c) && *c != ' ' && c.is_ascii();
+    let name: String = name.chars().filter(fit).take(LONGEST_NAME).collect();
+    format!("{n:03}{name}")
+}

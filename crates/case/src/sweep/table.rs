@@ -1,0 +1,122 @@
+//! `sweep.csv`: one line per run, SI units.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::plan::SweepError;
+
+/// What the table shows of a run besides its parameters and the measures of its checks: heading
+/// and pointer into the run's entry.
+const COLUMNS: [(&str, &str); 47] = [
+    ("dt", "/summary/dt"),
+    ("dt_limit", "/summary/stability/dt_limit"),
+    ("steps", "/summary/steps"),
+    ("elements", "/summary/elements"),
+    ("normal_force", "/summary/contact/normal_force"),
+    ("normal_force_sd", "/summary/window/deviation/normal_force"),
+    ("tangential_force", "/summary/contact/tangential_force"),
+    ("tangential_force_sd", "/summary/window/deviation/tangential_force"),
+    ("lateral_force", "/summary/contact/lateral_force"),
+    ("traction_coefficient", "/summary/contact/traction_coefficient"),
+    ("traction_coefficient_sd", "/summary/window/deviation/traction_coefficient"),
+    ("creepage", "/summary/contact/creepage"),
+    ("creepage_sd", "/summary/window/deviation/creepage"),
+    ("patch_half_length", "/summary/contact/patch_half_length"),
+    ("patch_half_length_sd", "/summary/window/deviation/patch_half_length"),
+    ("patch_half_width", "/summary/contact/patch_half_width"),
+    ("patch_half_width_sd", "/summary/window/deviation/patch_half_width"),
+    ("patch_area", "/summary/contact/patch_area"),
+    ("patch_area_sd", "/summary/window/deviation/patch_area"),
+    ("peak_pressure", "/summary/contact/peak_pressure"),
+    ("peak_pressure_sd", "/summary/window/deviation/peak_pressure"),
+    ("peak_shear", "/summary/window/peak_shear"),
+    ("peak_shear_sd", "/summary/window/deviation/peak_shear"),
+    ("stick_fraction", "/summary/contact/stick_fraction"),
+    ("stick_fraction_sd", "/summary/window/deviation/stick_fraction"),
+    ("slip_fraction", "/summary/contact/slip_fraction"),
+    ("slip_fraction_sd", "/summary/window/deviation/slip_fraction"),
+    ("stick_border", "/summary/window/stick_border"),
+    ("stick_border_sd", "/summary/window/deviation/stick_border"),
+    ("torque", "/summary/window/torque"),
+    ("torque_sd", "/summary/window/deviation/torque"),
+    ("max_penetration", "/summary/window/max_penetration"),
+    ("max_penetration_sd", "/summary/window/deviation/max_penetration"),
+    ("energy_kinetic", "/summary/energy/kinetic"),
+    ("energy_internal", "/summary/energy/internal"),
+    ("energy_hourglass", "/summary/energy/hourglass"),
+    ("energy_contact_stored", "/summary/energy/contact_stored"),
+    ("friction_dissipated", "/summary/energy/friction_dissipated"),
+    ("damping_dissipated", "/summary/energy/damping_dissipated"),
+    ("external_work", "/summary/energy/external_work"),
+    ("balance_error", "/summary/energy/balance_error"),
+    ("cone_excess", "/summary/checks/cone_excess"),
+    ("resultant_mismatch", "/summary/checks/resultant_mismatch"),
+    ("check_pass", "/check/pass"),
+    ("wall_s", "/summary/wall_s"),
+    ("peak_rss_mb", "/summary/peak_rss_mb"),
+    ("threads", "/summary/threads"),
+];
+
+/// Writes the table of a sweep's document beside it.
+pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
+    let parameters: Vec<&str> =
+        document["parameters"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    let runs = document["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
+    // The measures of all runs: a run of another friction law may lack some.
+    let mut measures: Vec<&str> = Vec::new();
+    for run in runs {
+        let metrics = run.pointer("/check/metrics").and_then(Value::as_object);
+        for name in metrics.into_iter().flat_map(|metrics| metrics.keys()) {
+            if !measures.contains(&name.as_str()) {
+                measures.push(name);
+            }
+        }
+    }
+    measures.sort_unstable();
+    let mut text = String::new();
+    let headings = ["name"].into_iter().chain(parameters.iter().copied()).chain(["status"]);
+    let headings = headings.chain(COLUMNS.iter().map(|(heading, _)| *heading));
+    let measured = measures.iter().map(|name| format!("check_{name}"));
+    let headings = headings.map(str::to_owned).chain(measured).chain(["reason".to_owned()]);
+    line(&mut text, headings);
+    for run in runs {
+        let values = [&run["name"]].into_iter();
+        let values = values.chain(parameters.iter().map(|name| &run["parameters"][*name]));
+        let values = values.chain([&run["status"]]);
+        let values = values
+            .chain(COLUMNS.iter().map(|(_, at)| run.pointer(at).unwrap_or(&Value::Null)))
+            .chain(measures.iter().map(|name| &run["check"]["metrics"][*name]["value"]))
+            .chain([&run["reason"]]);
+        line(&mut text, values.map(cell));
+    }
+    let failed = |cause| SweepError::File { path: path.into(), cause };
+    let partial = path.with_extension("csv.partial");
+    fs::write(&partial, text).and_then(|()| fs::rename(&partial, path)).map_err(failed)
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// A line of comma-separated values (RFC 4180).
+fn line(text: &mut String, cells: impl Iterator<Item = String>) {
+    for (i, cell) in cells.enumerate() {
+        if i > 0 {
+            text.push(',');
+        }
+        if cell.contains([',', '"', '\n', '\r']) {
+            text.push('"');
+            text.push_str(&cell.replace('"', "\"\""));
+            text.push('"');
+        } else {
+            text.push_str(&cell);
+        }
+    }
+    text.push('\n');
+}

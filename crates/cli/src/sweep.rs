@@ -1,0 +1,142 @@
+//! `creepage sweep`.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use case::sweep::plan::{self, Existing};
+use case::sweep::{Budget, Plan, Sweep, SweepError, collect, schedule};
+use miette::{Report, miette};
+use serde_json::Value;
+
+use crate::args::{Args, threads};
+use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, all_cores, stop_flag};
+use crate::progress::SweepWatch;
+use crate::report;
+
+/// Exit code: a run failed.
+const FAILED: u8 = 1;
+
+/// Options of `sweep`.
+#[derive(Debug, clap::Args)]
+pub struct SweepArgs {
+    /// The sweep file
+    #[arg(value_name = "SWEEP.toml")]
+    sweep: PathBuf,
+    /// Folder of the sweep [default: runs/NAME, by the name of the sweep]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Runs at a time [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    jobs: Option<usize>,
+    /// Threads of each run [default: cores over jobs]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    threads: Option<usize>,
+    /// Memory that the runs may take together, in MB [default: nine tenths of what is free]
+    #[arg(long, value_name = "MB", value_parser = megabytes)]
+    memory: Option<f64>,
+    /// Go on with the sweep in the folder: keep the runs that are done, do the others
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+    /// Replace the sweep that is in the folder
+    #[arg(long)]
+    force: bool,
+    /// Run nothing: write the runs as shell commands, one a line, for an engine of your own
+    #[arg(long, value_name = "FILE", conflicts_with = "collect")]
+    plan: Option<PathBuf>,
+    /// Run nothing: gather the results of runs from the sweep's folder and these
+    #[arg(long, value_name = "DIR", num_args = 0..)]
+    collect: Option<Vec<PathBuf>>,
+}
+
+/// Runs the command.
+pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
+    let sweep = Sweep::load(&options.sweep)?;
+    let folder = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&sweep.name));
+    if let Some(elsewhere) = &options.collect {
+        if let Some(missing) = elsewhere.iter().find(|folder| !folder.is_dir()) {
+            let report = miette!("--collect {}: there is no such folder", missing.display());
+            return Err(Failure { report, code: BAD_INPUT });
+        }
+        let plan = plan::open(&sweep, &folder)?;
+        return finish(args, &plan, collect(&plan, elsewhere)?);
+    }
+    let stop = stop_flag()?;
+    let mut say = |line: &str| {
+        if !args.quiet {
+            let _ = writeln!(std::io::stderr(), "{}: {line}", sweep.name);
+        }
+    };
+    let existing = match (options.force, options.resume, &options.plan) {
+        (true, ..) => Existing::Replace,
+        // A plan runs nothing, so that writing it once more harms no run.
+        (false, false, None) => Existing::Refuse,
+        (false, true, _) => Existing::Resume,
+        (false, false, Some(_)) if folder.join(plan::PLAN).exists() => Existing::Resume,
+        (false, false, Some(_)) => Existing::Refuse,
+    };
+    let cores = all_cores();
+    let plan = plan::prepare(&sweep, &folder, existing, cores, &stop, &mut say)?;
+    let jobs = options.jobs.unwrap_or(cores).clamp(1, plan.runs.len());
+    let threads = options.threads.unwrap_or((cores / jobs).max(1));
+    if let Some(path) = &options.plan {
+        let text = plan.commands(options.threads.unwrap_or(1)).join("\n") + "\n";
+        fs::write(path, text).map_err(|error| Failure {
+            report: miette!("--plan {}: cannot be written: {error}", path.display()),
+            code: BAD_INPUT,
+        })?;
+        if args.json {
+            report::print_json(&plan.document);
+        } else if !args.quiet {
+            let _ = writeln!(std::io::stdout(), "{}", path.display());
+        }
+        return Ok(0);
+    }
+    let program = std::env::current_exe().map_err(|error| Failure {
+        report: miette!("this program cannot find itself to start its runs: {error}"),
+        code: BAD_INPUT,
+    })?;
+    let budget = Budget { jobs, threads, memory_mb: options.memory };
+    say(&format!(
+        "{} runs in {}, {jobs} at a time, {threads} thread{} each",
+        plan.runs.len(),
+        folder.display(),
+        if threads == 1 { "" } else { "s" }
+    ));
+    let mut watch = SweepWatch::new(args.quiet);
+    let results = schedule::run(&plan, &program, &budget, &stop, &mut |now| watch.show(now));
+    watch.finish();
+    let code = finish(args, &plan, results?)?;
+    if stop.load(Ordering::SeqCst) && code != 0 {
+        say("interrupted: --resume goes on");
+        return Ok(INTERRUPTED);
+    }
+    Ok(code)
+}
+
+/// Shows the results; the exit code is 1 unless every run came to its end.
+fn finish(args: &Args, plan: &Plan, results: Value) -> Result<u8, Failure> {
+    // Here the figures of the sweep are drawn: post::sweep_figures(&plan.folder, &results).
+    if args.json {
+        report::print_json(&results);
+    } else if !args.quiet {
+        report::print_sweep(&results, &plan.folder);
+    }
+    let runs = results["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
+    Ok(if runs.iter().all(|run| run["status"] == "completed") { 0 } else { FAILED })
+}
+
+fn megabytes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mb) if mb.is_finite() && mb > 0.0 => Ok(mb),
+        _ => Err("a positive number of megabytes is needed".into()),
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        let code = error.exit_code();
+        Self { report: Report::from(error), code }
+    }
+}
