@@ -4,7 +4,7 @@ use crate::hertz::hertz;
 use crate::model::{DISK, Model};
 use crate::progress::{Progress, Stage};
 use crate::run_error::RunError;
-use crate::schema::{Case, PreloadMethod};
+use crate::schema::{self, Case, PreloadMethod};
 use contact::PenaltyContact;
 use dynamics::{Hub, Relaxation, RelaxationError, RelaxationReport};
 use mesh::Padded;
@@ -125,8 +125,18 @@ impl PreloadError {
     }
 }
 
-/// Displacements of the preloaded bodies (m), and how they were found: not at all with
-/// `preload.method = "none"`. Says how Newton's iterations go. Leaves the contact in the state of the preload.
+/// What the preload found.
+pub(crate) struct Preloaded {
+    /// Displacements of the bodies (m).
+    pub(crate) displacement: Vec<Padded>,
+    /// How they were found: not at all with `preload.method = "none"`.
+    pub(crate) report: Option<Report>,
+    /// Slaves of exact contact under pressure, and their normal force (N).
+    pub(crate) pressed: Vec<(contact::Gap, f64)>,
+}
+
+/// The preload of a case. Says how Newton's iterations go. Leaves penalty contact in the state of the
+/// preload.
 pub(crate) fn preload(
     case: &Case,
     model: &Model,
@@ -137,7 +147,7 @@ pub(crate) fn preload(
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
     say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
-) -> Result<(Vec<Padded>, Option<Report>), RunError> {
+) -> Result<Preloaded, RunError> {
     let disk = model.mesh.bodies[DISK].nodes.clone();
     let lowered = |by: f64| {
         let mut u = vec![Padded::ZERO; model.mass.len()];
@@ -178,7 +188,10 @@ pub(crate) fn preload(
                     mass: &model.mass,
                     hub: 0,
                 }),
-                enforcement: Enforcement::Penalty,
+                enforcement: match case.contact.enforcement {
+                    schema::Enforcement::Penalty => Enforcement::Penalty,
+                    schema::Enforcement::Exact => Enforcement::Exact { slave: model.slave() },
+                },
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
             };
@@ -202,7 +215,11 @@ pub(crate) fn preload(
             said?;
             let found = found.map_err(PreloadError::from)?;
             let height = found.displacement[hub.nodes[0] as usize][2];
-            Ok((found.displacement, Some(Report::Static(found.report, height))))
+            Ok(Preloaded {
+                displacement: found.displacement,
+                report: Some(Report::Static(found.report, height)),
+                pressed: found.pressed,
+            })
         }
         PreloadMethod::Relaxation => {
             let setup = Relaxation {
@@ -225,14 +242,15 @@ pub(crate) fn preload(
                 look(now.iterations, now.iterations, now.normal_force)
             })
             .map_err(PreloadError::from)?;
-            Ok((u, Some(Report::Relaxation(report))))
+            let report = Some(Report::Relaxation(report));
+            Ok(Preloaded { displacement: u, report, pressed: Vec::new() })
         }
         PreloadMethod::None => {
             let u = lowered(-case.disk.lift);
             // closes the pairs that touch, for the stable step
             let mut unused = u.clone();
             contact.apply_frictionless(solid.reference(), &u, &mut unused);
-            Ok((u, None))
+            Ok(Preloaded { displacement: u, report: None, pressed: Vec::new() })
         }
     }
 }

@@ -1,11 +1,11 @@
 //! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
 
 use crate::model::{BAR, DISK, Model};
-use crate::preload::{self, preload};
+use crate::preload::{self, Preloaded, preload};
 use crate::progress::Progress;
 use crate::run_error::RunError;
-use crate::schema::{Case, DriveMode, LoadMode};
-use contact::{PenaltyContact, StabilityScale};
+use crate::schema::{Case, DriveMode, Enforcement, LoadMode};
+use contact::{Contact, Gap, PenaltyContact, StabilityScale};
 use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
 use mesh::Padded;
 use serde::Serialize;
@@ -81,22 +81,24 @@ pub(crate) fn start(
     let nominal = case.disk.radius;
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
-    let (displacement, preload) =
+    let Preloaded { displacement, report: preload, pressed } =
         preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)?;
     let preload_wall = clock.elapsed().as_secs_f64();
 
-    let omega_max = MARGIN
-        * solid::largest_frequency(
-            &inverse_mass,
-            |x, y| {
-                solid.add_stiffness_product(x, y);
-                contact.stiffness_product(x, y);
-            },
-            LANCZOS,
-        );
+    let exact = case.contact.enforcement == Enforcement::Exact;
+    // exact contact has no stiffness
+    let (omega_max, contact_bound) = if exact {
+        (omega_elastic, 0.0)
+    } else {
+        let with_springs = |x: &[Padded], y: &mut [Padded]| {
+            solid.add_stiffness_product(x, y);
+            contact.stiffness_product(x, y);
+        };
+        let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
+        (MARGIN * omega, contact.rigorous_omega_squared(&inverse_mass))
+    };
     let (element_bound, _) =
         solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
-    let contact_bound = contact.rigorous_omega_squared(&inverse_mass);
     // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
     let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
     let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
@@ -118,7 +120,10 @@ pub(crate) fn start(
         dt,
     };
     let effective = match preload {
-        Some(_) => effective_radius(model, &contact, &displacement, &field),
+        Some(_) => {
+            let loads = if exact { loads_of_slaves(model.slave(), &pressed) } else { loads(&contact) };
+            effective_radius(model, &loads, &displacement, &field)
+        }
         None => nominal,
     };
     let free = case.drive.speed / effective;
@@ -140,6 +145,8 @@ pub(crate) fn start(
         solid.subtract_elastic_force(&displacement, &mut force, false);
         quiet.keep_reactions(&force);
     }
+    let contact: Box<dyn Contact> =
+        if exact { Box::new(model.exact_contact(case)?) } else { Box::new(contact) };
     let simulation = Simulation::new(Setup {
         solid,
         contact: Some(contact),
@@ -205,22 +212,41 @@ fn spin(case: &Case, free: f64) -> Spin {
 /// disk and -V e on the bar; they agree at V/omega = R_d/(1 + e).
 fn effective_radius(
     model: &Model,
-    contact: &PenaltyContact,
+    loads: &[Vec<(u32, f64)>; 2],
     displacement: &[Padded],
     field: &RollingField,
 ) -> f64 {
     let velocity =
         dynamics::rolling_field(&model.mesh, displacement, &RollingField { dt: 0.0, ..*field });
     let mean = |side: usize| {
-        let mut table = contact.nodal_table(side);
-        contact.nodal(&mut table);
         let (mut sum, mut weight) = (0.0, 0.0);
-        for ((&n, p), a) in table.nodes.iter().zip(&table.pressure).zip(&table.area) {
-            sum += p * a * velocity[n as usize].0[0];
-            weight += p * a;
+        for &(n, load) in &loads[side] {
+            sum += load * velocity[n as usize].0[0];
+            weight += load;
         }
         sum / weight
     };
     let disk = (field.speed - mean(DISK)) / field.omega;
     disk / (1.0 - mean(BAR) / field.speed)
+}
+
+/// Normal forces (N) on the nodes of both sides.
+fn loads(contact: &PenaltyContact) -> [Vec<(u32, f64)>; 2] {
+    [DISK, BAR].map(|side| {
+        let mut table = contact.nodal_table(side);
+        contact.nodal(&mut table);
+        let force = table.pressure.iter().zip(&table.area).map(|(p, a)| p * a);
+        table.nodes.iter().copied().zip(force).collect()
+    })
+}
+
+/// The same where the nodes of `slave` bear `pressed`.
+fn loads_of_slaves(slave: usize, pressed: &[(Gap, f64)]) -> [Vec<(u32, f64)>; 2] {
+    let mut loads = [Vec::new(), Vec::new()];
+    for (gap, force) in pressed {
+        loads[slave].push((gap.node, *force));
+        let corners = gap.corners.iter().zip(gap.weights);
+        loads[1 - slave].extend(corners.map(|(&n, weight)| (n, weight * force)));
+    }
+    loads
 }
