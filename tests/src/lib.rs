@@ -40,8 +40,13 @@ pub fn load(path: &Path, sets: &[&str]) -> Case {
 pub fn run(case: &Case, threads: usize) -> Results {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
-    let options =
-        RunOptions { out: out.clone(), threads, force: false, preload_cache: None, source: PathBuf::from("test") };
+    let options = RunOptions {
+        out: out.clone(),
+        threads,
+        force: false,
+        preload_cache: None,
+        source: PathBuf::from("test"),
+    };
     let returned = case::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
     let summary = std::fs::read(out.join("summary.json")).unwrap();
     let summary: Value = serde_json::from_slice(&summary).unwrap();

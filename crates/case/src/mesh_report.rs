@@ -108,6 +108,7 @@ fn write(path: &Path, case: &Case, model: &Model) -> Result<(), RunError> {
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: case.hash(),
         created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        attributes: Vec::new(),
     };
     Ok(TransientGrid::create(path, &grid, &[], &provenance)?.append(0.0, &[])?)
 }

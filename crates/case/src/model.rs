@@ -1,11 +1,11 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
 use crate::run_error::RunError;
-use crate::schema::{Case, ContactLayers, Ends};
+use crate::schema::{Case, ContactLayers, Ends, FrictionMode};
 use crate::sense::LAYERS;
 use contact::{
-    BodyMaterial, Coulomb, Exponential, FrictionLaw, PenaltyContact, PenaltySettings,
-    StabilityScale,
+    BodyMaterial, Coulomb, ExactContact, ExactSettings, Exponential, Implicit, Lagged, Memory,
+    NodeFriction, PenaltyContact, PenaltySettings, Remembering, StabilityScale,
 };
 use mesh::{Face, FineZone, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
@@ -123,24 +123,50 @@ impl Model {
         Ok(Solid::new(&self.mesh, &self.materials, self.elements(), viscosity, self.kernels)?)
     }
 
-    /// The contact of disk and bar.
+    /// Penalty contact of disk and bar: that of the time loop, or for exact enforcement what the
+    /// preload takes search and gaps from.
     pub(crate) fn contact(
         &self,
         case: &Case,
         scale: StabilityScale,
     ) -> Result<PenaltyContact, RunError> {
-        let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
         let settings = PenaltySettings {
             normal: stiffness(case.contact.penalty.normal),
             tangential: stiffness(case.contact.penalty.tangential),
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
         };
-        let sides = [
-            (&self.surfaces[DISK], body(self.materials[DISK])),
-            (&self.surfaces[BAR], body(self.materials[BAR])),
-        ];
-        Ok(PenaltyContact::new(&self.mesh, sides, &settings, Some(scale), law(case))?)
+        let law = match case.friction.mode {
+            // no friction acts in the preload
+            Some(FrictionMode::Exact) => Box::new(Coulomb { mu: case.friction.static_ }),
+            _ => law(case),
+        };
+        Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
+    }
+
+    /// Exact contact of disk and bar.
+    pub(crate) fn exact_contact(&self, case: &Case) -> Result<ExactContact, RunError> {
+        let settings =
+            ExactSettings { slave: Some(self.slave()), curvature: case.contact.curvature };
+        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, law(case))?)
+    }
+
+    /// The side whose nodes are slaves of exact contact: that of the finer zone, the disk's where both
+    /// are alike.
+    pub(crate) fn slave(&self) -> usize {
+        let mean = |side: usize| {
+            let area = |f: &Face| {
+                let corners = f.nodes.map(|n| self.mesh.nodes[n as usize]);
+                mesh::quad_corner_areas(&corners).iter().sum::<f64>()
+            };
+            self.zones[side].iter().map(area).sum::<f64>() / self.zones[side].len() as f64
+        };
+        if mean(BAR) < 0.99 * mean(DISK) { BAR } else { DISK }
+    }
+
+    fn sides(&self) -> [(&Surface, BodyMaterial); 2] {
+        let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
+        [DISK, BAR].map(|side| (&self.surfaces[side], body(self.materials[side])))
     }
 }
 
@@ -171,14 +197,20 @@ pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {
     }
 }
 
-fn law(case: &Case) -> Box<dyn FrictionLaw> {
+fn law(case: &Case) -> Box<dyn NodeFriction> {
     let friction = &case.friction;
-    match friction.law {
-        crate::schema::FrictionLaw::Coulomb => Box::new(Coulomb { mu: friction.static_ }),
-        crate::schema::FrictionLaw::Exponential => Box::new(Exponential {
-            mu_static: friction.static_,
-            mu_dynamic: friction.dynamic.unwrap_or(friction.static_),
-            decay: friction.decay.unwrap_or(0.0),
+    let exponential = Exponential {
+        mu_static: friction.static_,
+        mu_dynamic: friction.dynamic.unwrap_or(friction.static_),
+        decay: friction.decay.unwrap_or(0.0),
+    };
+    match (friction.law, friction.memory, friction.mode.unwrap_or_default()) {
+        (crate::schema::FrictionLaw::Coulomb, ..) => Box::new(Coulomb { mu: friction.static_ }),
+        (_, Some(memory), _) => Box::new(Remembering {
+            steady: exponential,
+            memory: Memory { distance: memory.distance, floor: memory.floor },
         }),
+        (_, None, FrictionMode::Lagged) => Box::new(Lagged(exponential)),
+        (_, None, FrictionMode::Exact) => Box::new(Implicit(exponential)),
     }
 }

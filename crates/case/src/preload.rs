@@ -6,8 +6,8 @@ use crate::hertz::hertz;
 use crate::model::{DISK, Model};
 use crate::progress::{Progress, Stage};
 use crate::run_error::RunError;
-use crate::schema::{Case, PreloadMethod};
-use contact::PenaltyContact;
+use crate::schema::{self, Case, PreloadMethod};
+use contact::{Gap, PenaltyContact};
 use dynamics::{Hub, Relaxation, RelaxationError, RelaxationReport};
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
@@ -179,8 +179,17 @@ impl PreloadError {
     }
 }
 
-/// Displacements of the preloaded bodies (m), and how they were found: not at all with
-/// `preload.method = "none"`. Says how Newton's iterations go.
+/// What the preload found.
+pub(crate) struct Preloaded {
+    /// Displacements of the bodies (m).
+    pub(crate) displacement: Vec<Padded>,
+    /// How they were found: not at all with `preload.method = "none"`.
+    pub(crate) report: Option<Report>,
+    /// Normal forces (N) of exact contact on the nodes of both sides.
+    pub(crate) loads: [Vec<(u32, f64)>; 2],
+}
+
+/// The preload of a case. Says how Newton's iterations go.
 pub(crate) fn preload(
     case: &Case,
     model: &Model,
@@ -191,7 +200,7 @@ pub(crate) fn preload(
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
     say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
-) -> Result<(Vec<Padded>, Option<Report>), RunError> {
+) -> Result<Preloaded, RunError> {
     let disk = model.mesh.bodies[DISK].nodes.clone();
     let lowered = |by: f64| {
         let mut u = vec![Padded::ZERO; model.mass.len()];
@@ -233,7 +242,10 @@ pub(crate) fn preload(
                     mass: &model.mass,
                     hub: 0,
                 }),
-                enforcement: Enforcement::Penalty,
+                enforcement: match case.contact.enforcement {
+                    schema::Enforcement::Penalty => Enforcement::Penalty,
+                    schema::Enforcement::Exact => Enforcement::Exact { slave: model.slave() },
+                },
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
             };
@@ -257,7 +269,11 @@ pub(crate) fn preload(
             said?;
             let found = found.map_err(PreloadError::from)?;
             let height = found.displacement[hub.nodes[0] as usize][2];
-            Ok((found.displacement, Some(Report::of_statics(&found.report, height))))
+            Ok(Preloaded {
+                displacement: found.displacement,
+                report: Some(Report::of_statics(&found.report, height)),
+                loads: loads_of_slaves(model.slave(), &found.pressed),
+            })
         }
         PreloadMethod::Relaxation => {
             let setup = Relaxation {
@@ -280,10 +296,26 @@ pub(crate) fn preload(
                 look(now.iterations, now.iterations, now.normal_force)
             })
             .map_err(PreloadError::from)?;
-            Ok((u, Some(Report::of_relaxation(&report))))
+            let report = Some(Report::of_relaxation(&report));
+            Ok(Preloaded { displacement: u, report, loads: [Vec::new(), Vec::new()] })
         }
-        PreloadMethod::None => Ok((lowered(-case.disk.lift), None)),
+        PreloadMethod::None => Ok(Preloaded {
+            displacement: lowered(-case.disk.lift),
+            report: None,
+            loads: [Vec::new(), Vec::new()],
+        }),
     }
+}
+
+/// Normal forces (N) on the nodes of both sides where the slaves of exact contact bear `pressed`.
+fn loads_of_slaves(slave: usize, pressed: &[(Gap, f64)]) -> [Vec<(u32, f64)>; 2] {
+    let mut loads = [Vec::new(), Vec::new()];
+    for (gap, force) in pressed {
+        loads[slave].push((gap.node, *force));
+        let corners = gap.corners.iter().zip(gap.weights);
+        loads[1 - slave].extend(corners.map(|(&n, weight)| (n, weight * force)));
+    }
+    loads
 }
 
 /// How deep the undeformed disk is lowered into the bar before Newton's iterations (m): Hertz's approach; in line

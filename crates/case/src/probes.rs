@@ -96,7 +96,7 @@ impl Probes {
 
     pub(crate) fn record(
         &mut self,
-        contact: &contact::PenaltyContact,
+        contact: &dyn contact::Contact,
         report: &StepReport,
     ) -> Result<(), RunError> {
         self.tables.iter_mut().for_each(|t| contact.nodal(t));

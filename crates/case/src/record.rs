@@ -16,7 +16,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Columns of `history.h5`: name, units, meaning.
-const HISTORY: [(&str, &str, &str); 35] = [
+const HISTORY: [(&str, &str, &str); 38] = [
     ("time", "s", "time since the start of rolling"),
     ("step", "1", "number of the full step"),
     ("kinetic", "J", "kinetic energy, 1/2 v(n-1/2) M v(n+1/2)"),
@@ -51,15 +51,24 @@ const HISTORY: [(&str, &str, &str); 35] = [
     ("slipping_pairs", "1", "pairs that slip, both passes"),
     ("max_penetration", "m", "largest penetration"),
     ("cone_excess", "1", "largest (|shear| - mu pressure) over the Hertz peak pressure"),
+    ("contact_damping", "J", "the part of damping_dissipated that contact took"),
+    ("sweeps", "1", "sweeps over the contact nodes, exact enforcement"),
+    ("manifold", "1", "nodes at which the law of friction had more than one solution"),
     ("resultant_mismatch", "1", "|sum of the contact forces on both bodies| over the normal force"),
 ];
+
+/// Root attributes of `contact.vtkhdf`: whether a record pairs traction with the slip velocity of the
+/// step `before` or `after` it, and the body at whose nodes the conditions are enforced.
+const SLIP_PAIRING: &str = "slip_pairing";
+const ENFORCED_ON: &str = "enforced_on";
 
 /// Rows of the history gathered before they are handed to the writer.
 const HISTORY_BATCH: usize = 64;
 
 /// The contact quantities recorded per node.
-fn contact_fields() -> Vec<FieldSpec> {
+fn contact_fields(after: bool) -> Vec<FieldSpec> {
     let at = FieldSpec::at_points;
+    let step = if after { "over the next step" } else { "over the last step" };
     vec![
         at("pressure", "Pa", 1, "contact pressure, positive in compression"),
         at("shear", "Pa", 3, "shear traction on this surface"),
@@ -67,13 +76,13 @@ fn contact_fields() -> Vec<FieldSpec> {
             "slip_velocity",
             "m/s",
             3,
-            "velocity of this surface relative to the other, over the last step",
+            &format!("velocity of this surface relative to the other, {step}"),
         ),
         at("slip", "m", 3, "relative tangential motion since contact began"),
         at("mu", "1", 1, "coefficient of friction that the algorithm used"),
         at("state", "1", 1, "0 open, 1 stick, 2 slip").integer(),
         at("gap", "m", 1, "gap, negative when penetrating"),
-        at("velocity", "m/s", 3, "velocity over the last step"),
+        at("velocity", "m/s", 3, &format!("velocity {step}")),
         at("displacement", "m", 3, "displacement"),
     ]
 }
@@ -81,6 +90,8 @@ fn contact_fields() -> Vec<FieldSpec> {
 /// Nodes of both contact zones and the motion copied from them before a step.
 struct Zones {
     tables: [NodalContact; 2],
+    /// Whether records hold the velocities of the step that leaves, not of the one that led there.
+    after: bool,
     displacement: Vec<[f64; 3]>,
     velocity: Vec<[f64; 3]>,
 }
@@ -135,7 +146,7 @@ impl Recorder {
         });
         let files = RunFiles {
             fields: create_fields(case, model, basis)?,
-            contact: create_contact(model, &tables, &points, basis)?,
+            contact: create_contact(model, &tables, &points, contact.enforced_on(), basis)?,
             history: History::create(
                 basis.folder.join("history.h5"),
                 &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
@@ -161,6 +172,7 @@ impl Recorder {
             line: Vec::with_capacity(centreline.len()),
             zones: Zones {
                 tables,
+                after: contact.enforced_on().is_some(),
                 displacement: vec![[0.0; 3]; count],
                 velocity: vec![[0.0; 3]; count],
             },
@@ -207,7 +219,9 @@ impl Recorder {
             let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
             for (row, &node) in nodes.enumerate() {
                 self.zones.displacement[row] = simulation.displacement()[node as usize].xyz();
-                self.zones.velocity[row] = simulation.velocity()[node as usize].xyz();
+                if !self.zones.after {
+                    self.zones.velocity[row] = simulation.velocity()[node as usize].xyz();
+                }
             }
         }
         self.wall += clock.elapsed();
@@ -251,6 +265,12 @@ impl Recorder {
             self.zones.tables.iter_mut().for_each(|t| contact.nodal(t));
         }
         if records {
+            if self.zones.after {
+                let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
+                for (v, &node) in self.zones.velocity.iter_mut().zip(nodes) {
+                    *v = simulation.velocity()[node as usize].xyz();
+                }
+            }
             self.write_contact(report.time)?;
         }
         if reads {
@@ -312,6 +332,9 @@ impl Recorder {
                 report.contact.slipping as f64,
                 report.contact.max_penetration,
                 cone,
+                e.contact_damping,
+                report.contact.sweeps as f64,
+                report.contact.manifold as f64,
                 mismatch,
             ]);
             if self.rows.len() >= HISTORY_BATCH * HISTORY.len() {
@@ -357,7 +380,7 @@ impl Recorder {
     }
 
     fn write_contact(&mut self, time: f64) -> Result<(), RunError> {
-        let Zones { tables: [disk, bar], displacement, velocity } = &self.zones;
+        let Zones { tables: [disk, bar], displacement, velocity, .. } = &self.zones;
         let pressure = [&disk.pressure[..], &bar.pressure].concat();
         let shear = [&disk.shear[..], &bar.shear].concat();
         let slip_velocity = [&disk.slip_velocity[..], &bar.slip_velocity].concat();
@@ -439,8 +462,14 @@ fn create_contact(
     model: &Model,
     tables: &[NodalContact; 2],
     points: &[Vec<[f64; 3]>; 2],
+    enforced_on: Option<usize>,
     basis: &Basis<'_>,
 ) -> Result<TransientGrid, RunError> {
+    let mut provenance = basis.provenance.clone();
+    if let Some(side) = enforced_on {
+        provenance.attributes.push((SLIP_PAIRING.into(), "after".into()));
+        provenance.attributes.push((ENFORCED_ON.into(), ["disk", "bar"][side].into()));
+    }
     let mut quads = Vec::new();
     let mut offset = 0;
     for side in [DISK, BAR] {
@@ -470,8 +499,8 @@ fn create_contact(
     Ok(TransientGrid::create(
         basis.folder.join("contact.vtkhdf"),
         &grid,
-        &contact_fields(),
-        &basis.provenance,
+        &contact_fields(enforced_on.is_some()),
+        &provenance,
     )?)
 }
 

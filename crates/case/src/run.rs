@@ -124,6 +124,7 @@ fn run_in_pool(
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),
             created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            attributes: Vec::new(),
         },
         effective_radius: facts.radius.effective,
         hertz_pressure: hertz.p0,

@@ -209,6 +209,44 @@ pub struct Friction {
     /// `law = "exponential"`, refused with `"coulomb"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decay: Option<f64>,
+    /// Which slip velocity the coefficient of `law = "exponential"` belongs to: `"lagged"`, that of the
+    /// step before, or `"exact"`, that of the same instant, which needs
+    /// `contact.enforcement = "exact"`. Default `"lagged"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mode: Option<FrictionMode>,
+    /// Memory of the coefficient: it follows the law over a distance of slip. Only with
+    /// `law = "exponential"`; default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<FrictionMemory>,
+}
+
+/// Which slip velocity the coefficient belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FrictionMode {
+    /// That of the step before.
+    #[default]
+    Lagged,
+    /// That of the same instant.
+    Exact,
+}
+
+/// Memory of friction: d(mu)/dt = -(max(|s|, floor)/distance) (mu - mu_law(|s|)), back at `static`
+/// out of contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionMemory {
+    /// Distance of slip over which the coefficient adapts (m). Required.
+    pub distance: f64,
+    /// Slip speed below which it adapts in time instead (m/s). Default 10e-3.
+    #[serde(default = "FrictionMemory::default_floor")]
+    pub floor: f64,
+}
+
+impl FrictionMemory {
+    fn default_floor() -> f64 {
+        10e-3
+    }
 }
 
 /// The friction laws.
@@ -226,13 +264,14 @@ pub enum FrictionLaw {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Contact {
-    /// `"penalty"`: two-pass surface-to-surface penalty with a friction spring (Eqs 10-11).
+    /// `"penalty"`: two-pass surface-to-surface penalty with a friction spring (Eqs 10-11), or
+    /// `"exact"`: no penetration and no slip in adhesion at the nodes of the finer surface.
     /// Default `"penalty"`.
     pub enforcement: Enforcement,
     /// Correct gap and normal with the exact cylinder and crown instead of the facets
     /// (true or false). Default true.
     pub curvature: bool,
-    /// The penalty springs.
+    /// The penalty springs; without meaning for `enforcement = "exact"`.
     pub penalty: Penalty,
 }
 
@@ -249,6 +288,8 @@ pub enum Enforcement {
     /// Two-pass penalty.
     #[default]
     Penalty,
+    /// Lagrange multipliers in one pass.
+    Exact,
 }
 
 /// The penalty springs.

@@ -6,8 +6,8 @@ use crate::hertz::hertz;
 use crate::keys::number;
 use crate::layers::{Layers, Origin, key_error_in};
 use crate::schema::{
-    Case, ContactLayers, Crown, DriveMode, FrictionLaw, LoadMode, Material, PreloadMethod,
-    Stiffness, Time,
+    Case, ContactLayers, Crown, DriveMode, Enforcement, FrictionLaw, FrictionMode, LoadMode,
+    Material, PreloadMethod, Stiffness, Time,
 };
 
 /// Coefficient at high slip velocity where an exponential law gives none.
@@ -146,11 +146,14 @@ fn check_choices(case: &Case, found: &mut Findings) {
     let friction = &case.friction;
     match friction.law {
         FrictionLaw::Coulomb => {
-            for (key, value) in
-                [("friction.dynamic", friction.dynamic), ("friction.decay", friction.decay)]
-            {
+            for (key, given) in [
+                ("friction.dynamic", friction.dynamic.is_some()),
+                ("friction.decay", friction.decay.is_some()),
+                ("friction.mode", friction.mode.is_some()),
+                ("friction.memory", friction.memory.is_some()),
+            ] {
                 found.require(
-                    value.is_none(),
+                    !given,
                     &[key],
                     || format!("{key} is not used with friction.law = \"coulomb\""),
                     "leave it out, or set friction.law = \"exponential\"",
@@ -173,6 +176,34 @@ fn check_choices(case: &Case, found: &mut Findings) {
             );
         }
     }
+    let exact = case.contact.enforcement == Enforcement::Exact;
+    if friction.mode == Some(FrictionMode::Exact) {
+        found.require(
+            exact,
+            &["friction.mode", "contact.enforcement"],
+            || "friction.mode = \"exact\" needs exact enforcement of contact".into(),
+            "set contact.enforcement = \"exact\", or friction.mode = \"lagged\"",
+        );
+        found.require(
+            friction.memory.is_none(),
+            &["friction.mode", "friction.memory"],
+            || {
+                "friction.mode = \"exact\" and friction.memory are both given: friction with memory \
+                 does not depend on the slip velocity of the instant"
+                    .into()
+            },
+            "leave one of them out",
+        );
+    }
+    found.require(
+        !exact || case.preload.method != PreloadMethod::Relaxation,
+        &["preload.method", "contact.enforcement"],
+        || {
+            "preload.method = \"relaxation\" needs contact springs, and exact enforcement has none"
+                .into()
+        },
+        "set preload.method = \"static\"",
+    );
     let time = &case.time;
     found.require(
         time.roll.is_none() || time.duration.is_none(),

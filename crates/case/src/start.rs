@@ -2,11 +2,11 @@
 
 use crate::model::{BAR, DISK, Model};
 use crate::numbers::{Numbers, numbers};
-use crate::preload::{self, preload, store};
+use crate::preload::{self, Preloaded, preload, store};
 use crate::progress::Progress;
 use crate::run_error::RunError;
-use crate::schema::{Case, DriveMode, LoadMode, Step};
-use contact::{PenaltyContact, StabilityScale};
+use crate::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
+use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
 use mesh::Padded;
 use serde::Serialize;
@@ -70,11 +70,12 @@ struct Settled {
     contact: PenaltyContact,
     hub: Hub,
     quiet: QuietEnd,
-    displacement: Vec<Padded>,
-    preload: Option<preload::Report>,
+    preloaded: Preloaded,
     preload_wall: f64,
     omega_elastic: f64,
     omega_max: f64,
+    /// What contact adds to the rigorous bound of the squared frequency (1/s^2).
+    contact_bound: f64,
     /// Longest stable step (s).
     limit: f64,
 }
@@ -109,26 +110,28 @@ fn settle(
     let clock = Instant::now();
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
-    let (displacement, preload) = store::kept(case, model, cache, stop, say, &mut |say| {
+    let preloaded = store::kept(case, model, cache, stop, say, &mut |say| {
         let mut contact = model.contact(case, scale)?;
         preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)
     })?;
     // Contact starts from the displacements alone, so that a preload from the cache and one just
     // found lead to the same bits; this also closes the pairs that touch, for the stable step.
     let mut contact = model.contact(case, scale)?;
-    let mut unused = vec![Padded::ZERO; displacement.len()];
-    contact.apply_frictionless(solid.reference(), &displacement, &mut unused);
+    let mut unused = vec![Padded::ZERO; preloaded.displacement.len()];
+    contact.apply_frictionless(solid.reference(), &preloaded.displacement, &mut unused);
     let preload_wall = clock.elapsed().as_secs_f64();
 
-    let omega_max = MARGIN
-        * solid::largest_frequency(
-            &inverse_mass,
-            |x, y| {
-                solid.add_stiffness_product(x, y);
-                contact.stiffness_product(x, y);
-            },
-            LANCZOS,
-        );
+    // exact contact has no stiffness
+    let (omega_max, contact_bound) = if case.contact.enforcement == Enforcement::Exact {
+        (omega_elastic, 0.0)
+    } else {
+        let with_springs = |x: &[Padded], y: &mut [Padded]| {
+            solid.add_stiffness_product(x, y);
+            contact.stiffness_product(x, y);
+        };
+        let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
+        (MARGIN * omega, contact.rigorous_omega_squared(&inverse_mass))
+    };
     // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
     let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
     let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
@@ -137,11 +140,11 @@ fn settle(
         contact,
         hub,
         quiet,
-        displacement,
-        preload,
+        preloaded,
         preload_wall,
         omega_elastic,
         omega_max,
+        contact_bound,
         limit,
     })
 }
@@ -160,17 +163,17 @@ pub(crate) fn start(
         contact,
         hub,
         quiet,
-        displacement,
-        preload,
+        preloaded: Preloaded { displacement, report: preload, loads: pressed },
         preload_wall,
         omega_elastic,
         omega_max,
+        contact_bound,
         limit,
     } = settle(case, model, cache, stop, observe, say)?;
     let nominal = case.disk.radius;
+    let exact = case.contact.enforcement == Enforcement::Exact;
     let (element_bound, _) =
         solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
-    let contact_bound = contact.rigorous_omega_squared(&inverse_mass(model));
     if let Step::Absolute(step) = case.step()
         && step > limit
     {
@@ -194,7 +197,10 @@ pub(crate) fn start(
         dt,
     };
     let effective = match preload {
-        Some(_) => effective_radius(model, &contact, &displacement, &field),
+        Some(_) => {
+            let loads = if exact { pressed } else { loads(&contact) };
+            effective_radius(model, &loads, &displacement, &field)
+        }
         None => nominal,
     };
     let free = case.drive.speed / effective;
@@ -216,6 +222,8 @@ pub(crate) fn start(
         solid.subtract_elastic_force(&displacement, &mut force, false);
         quiet.keep_reactions(&force);
     }
+    let contact: Box<dyn Contact> =
+        if exact { Box::new(model.exact_contact(case)?) } else { Box::new(contact) };
     let simulation = Simulation::new(Setup {
         solid,
         contact: Some(contact),
@@ -288,22 +296,30 @@ fn spin(case: &Case, free: f64) -> Spin {
 /// disk and -V e on the bar; they agree at V/omega = R_d/(1 + e).
 fn effective_radius(
     model: &Model,
-    contact: &PenaltyContact,
+    loads: &[Vec<(u32, f64)>; 2],
     displacement: &[Padded],
     field: &RollingField,
 ) -> f64 {
     let velocity =
         dynamics::rolling_field(&model.mesh, displacement, &RollingField { dt: 0.0, ..*field });
     let mean = |side: usize| {
-        let mut table = contact.nodal_table(side);
-        contact.nodal(&mut table);
         let (mut sum, mut weight) = (0.0, 0.0);
-        for ((&n, p), a) in table.nodes.iter().zip(&table.pressure).zip(&table.area) {
-            sum += p * a * velocity[n as usize].0[0];
-            weight += p * a;
+        for &(n, load) in &loads[side] {
+            sum += load * velocity[n as usize].0[0];
+            weight += load;
         }
         sum / weight
     };
     let disk = (field.speed - mean(DISK)) / field.omega;
     disk / (1.0 - mean(BAR) / field.speed)
+}
+
+/// Normal forces (N) on the nodes of both sides.
+fn loads(contact: &PenaltyContact) -> [Vec<(u32, f64)>; 2] {
+    [DISK, BAR].map(|side| {
+        let mut table = contact.nodal_table(side);
+        contact.nodal(&mut table);
+        let force = table.pressure.iter().zip(&table.area).map(|(p, a)| p * a);
+        table.nodes.iter().copied().zip(force).collect()
+    })
 }

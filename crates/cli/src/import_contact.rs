@@ -122,6 +122,7 @@ fn values(
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: "imported".into(),
         created: "imported".into(),
+        attributes: Vec::new(),
     };
     let mut file = TransientGrid::create(&options.out, &grid, &specs, &provenance)?;
     let mut record = Record::new(points.len(), &specs);

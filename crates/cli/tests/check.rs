@@ -133,6 +133,7 @@ fn truncated_foreign_and_empty_files_are_refused_with_a_sentence() {
             creepage_version: "0".into(),
             case_hash: "0".into(),
             created: "0".into(),
+            attributes: Vec::new(),
         },
     )
     .unwrap();

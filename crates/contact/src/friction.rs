@@ -2,12 +2,14 @@
 
 mod expression;
 mod memory;
+mod node;
 mod numbers;
 mod steady;
 mod table;
 
 pub use expression::{Expression, ExpressionError};
 pub use memory::Memory;
+pub use node::{Implicit, Lagged, NodeFriction, Place, Remembering};
 pub use numbers::{Falling, Interface, falling, nucleation_length, spring_number};
 pub use steady::{SteadyLaw, Strengthens};
 pub use table::{Table, TableError};
@@ -20,6 +22,12 @@ pub trait FrictionLaw: Send + Sync + Debug {
     fn mu(&self, slip_speed: f64) -> f64;
     /// Coefficient of friction at rest, `mu(0)`.
     fn mu_static(&self) -> f64;
+    /// Slope `mu'(|s|)` (s/m); by central difference unless the law knows it.
+    fn slope(&self, slip_speed: f64) -> f64 {
+        let step = 1e-6 * (1.0 + slip_speed);
+        let low = (slip_speed - step).max(0.0);
+        (self.mu(slip_speed + step) - self.mu(low)) / (slip_speed + step - low)
+    }
 }
 
 /// Coulomb's law: one coefficient at every slip speed.
@@ -36,6 +44,10 @@ impl FrictionLaw for Coulomb {
 
     fn mu_static(&self) -> f64 {
         self.mu
+    }
+
+    fn slope(&self, _slip_speed: f64) -> f64 {
+        0.0
     }
 }
 
@@ -58,6 +70,10 @@ impl FrictionLaw for Exponential {
 
     fn mu_static(&self) -> f64 {
         self.mu_static
+    }
+
+    fn slope(&self, slip_speed: f64) -> f64 {
+        -self.decay * (self.mu_static - self.mu_dynamic) * (-self.decay * slip_speed).exp()
     }
 }
 

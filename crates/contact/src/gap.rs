@@ -3,6 +3,7 @@
 use crate::PenaltyContact;
 use crate::face::{Positions, corner_normals, project, shape};
 use crate::pair::Pair;
+use crate::touch::Listed;
 use crate::vector::{add, axpy, norm, scale};
 use mesh::Padded;
 

@@ -1,31 +1,39 @@
-//! Contact of two deformable surfaces: search, gap and slip kinematics, penalty enforcement in
-//! two passes with a friction spring, friction laws, patch measures.
+//! Contact of two deformable surfaces: search, gap and slip kinematics, enforcement by penalty in
+//! two passes with a friction spring or exactly in one, friction laws, patch measures.
 //!
 //! Side 0 is the first surface given (the disk's tread), side 1 the second (the bar's top). In
 //! pass `i` the nodes of side `i` are slaves and the faces of the other side are masters; the
-//! forces of both passes add. SI units.
+//! forces of both passes of penalty contact add. SI units.
 
+mod enforcement;
 mod error;
+mod exact;
 mod face;
 mod friction;
 mod gap;
+mod local;
 mod nodal;
 mod pair;
 pub mod patch;
 mod penalty;
 #[cfg(test)]
 mod plates;
+mod row;
 mod search;
 mod stiffness;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod touch;
 mod vector;
 
+pub use enforcement::{Contact, Trial};
 pub use error::ContactError;
+pub use exact::{ExactContact, ExactSettings};
 pub use friction::{
-    Coulomb, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Interface, Memory,
-    SteadyLaw, Strengthens, Table, TableError, falling, nucleation_length, spring_number,
+    Coulomb, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Implicit, Interface,
+    Lagged, Memory, NodeFriction, Place, Remembering, SteadyLaw, Strengthens, Table, TableError,
+    falling, nucleation_length, spring_number,
 };
 pub use gap::Gap;
 pub use nodal::NodalContact;

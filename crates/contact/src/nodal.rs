@@ -1,8 +1,9 @@
 //! Contact quantities at the nodes of one surface.
 
 use crate::PenaltyContact;
-use crate::pair::State;
-use crate::surface::NONE;
+use crate::pair::Pair;
+use crate::surface::{ContactSurface, NONE};
+use crate::touch::{State, Touch};
 use crate::vector::{axpy, scale};
 use mesh::Face;
 
@@ -79,50 +80,66 @@ impl NodalContact {
     }
 }
 
-impl PenaltyContact {
-    /// An output table for all nodes of side `side`.
-    pub fn nodal_table(&self, side: usize) -> NodalContact {
-        let surface = &self.sides[side];
-        NodalContact::new(side, &surface.nodes, &surface.area, |_| true)
+impl NodalContact {
+    /// A table for all nodes of a side.
+    pub(crate) fn whole(sides: &[ContactSurface; 2], side: usize) -> Self {
+        let surface = &sides[side];
+        Self::new(side, &surface.nodes, &surface.area, |_| true)
     }
 
-    /// An output table for the nodes of `faces`, a part of the surface of side `side`.
-    pub fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact {
-        let surface = &self.sides[side];
+    /// A table for the nodes of `faces`, a part of the surface of a side.
+    pub(crate) fn part(sides: &[ContactSurface; 2], side: usize, faces: &[Face]) -> Self {
+        let surface = &sides[side];
         let mut wanted = vec![false; surface.nodes.len()];
         for node in faces.iter().flat_map(|f| f.nodes) {
             if let Ok(i) = surface.nodes.binary_search(&node) {
                 wanted[i] = true;
             }
         }
-        NodalContact::new(side, &surface.nodes, &surface.area, |i| wanted[i])
+        Self::new(side, &surface.nodes, &surface.area, |i| wanted[i])
     }
 
-    /// Fills a `table` of this contact with the values of the last call.
-    pub fn nodal(&self, table: &mut NodalContact) {
-        table.clear(self.search.margin);
+    /// Fills the table from the pairs in which nodes of its side are slaves (`own`) and those in
+    /// which they are corners of masters (`others`). `followed` says whether nodes of its side are
+    /// slaves at all: the gap of those that are not is the mean of the gaps of the pairs that load them.
+    pub(crate) fn fill(
+        &mut self,
+        sides: &[ContactSurface; 2],
+        own: impl Iterator<Item = Touch>,
+        others: impl Iterator<Item = Touch>,
+        margin: f64,
+        mu_static: f64,
+        followed: bool,
+    ) {
+        let table = self;
+        table.clear(margin);
         let side = table.side;
-        let Some(surface) = self.sides.get(side).filter(|s| s.nodes.len() == table.rows.len())
-        else {
+        let Some(surface) = sides.get(side).filter(|s| s.nodes.len() == table.rows.len()) else {
             return;
         };
+        if !followed {
+            table.gap.fill(0.0);
+        }
         // The other pass: what the faces of this side take as masters. Forces and slip of its
         // slaves are those of the other side, hence the signs.
-        for pair in self.pairs[1 - side].iter().filter(|p| p.is_closed()) {
-            let corners = surface.faces[pair.face as usize].local;
-            for (&weight, corner) in pair.weights.iter().zip(corners) {
+        for touch in others.filter(Touch::is_closed) {
+            let corners = surface.faces[touch.face as usize].local;
+            for (&weight, corner) in touch.weights.iter().zip(corners) {
                 let Some(row) = table.row(corner) else {
                     continue;
                 };
-                let normal = weight * pair.normal_force;
+                let normal = weight * touch.normal_force;
                 table.pressure[row] += normal;
                 table.from_others[row] += normal;
-                table.mu[row] += pair.mu * normal;
-                table.shear[row] = axpy(table.shear[row], -weight, pair.friction);
+                table.mu[row] += touch.mu * normal;
+                table.shear[row] = axpy(table.shear[row], -weight, touch.friction);
                 let slip = &mut table.slip_velocity[row];
-                *slip = axpy(*slip, -normal, pair.slip_velocity);
-                if pair.state == State::Slip {
+                *slip = axpy(*slip, -normal, touch.slip_velocity);
+                if touch.state == State::Slip {
                     table.slipping[row] += normal;
+                }
+                if !followed {
+                    table.gap[row] += normal * touch.gap;
                 }
             }
         }
@@ -135,32 +152,58 @@ impl PenaltyContact {
             } else {
                 table.slip_velocity[row] = [0.0; 3];
             }
+            if !followed {
+                table.gap[row] = if total > 0.0 { table.gap[row] / total } else { margin };
+            }
         }
-        for pair in &self.pairs[side] {
-            let Some(row) = table.row(pair.slave) else {
+        for touch in own {
+            let Some(row) = table.row(touch.slave) else {
                 continue;
             };
-            table.gap[row] = pair.gap.min(self.search.margin);
-            if pair.is_closed() {
-                table.pressure[row] += pair.normal_force;
-                table.mu[row] += pair.mu * pair.normal_force;
-                table.shear[row] = axpy(table.shear[row], 1.0, pair.friction);
-                table.slip_velocity[row] = pair.slip_velocity;
-                table.slip[row] = pair.slip;
-                table.state[row] = pair.state as u8;
+            table.gap[row] = touch.gap.min(margin);
+            if touch.is_closed() {
+                table.pressure[row] += touch.normal_force;
+                table.mu[row] += touch.mu * touch.normal_force;
+                table.shear[row] = axpy(table.shear[row], 1.0, touch.friction);
+                table.slip_velocity[row] = touch.slip_velocity;
+                table.slip[row] = touch.slip;
+                table.state[row] = touch.state as u8;
             }
         }
         for row in 0..table.nodes.len() {
             let normal = table.pressure[row];
-            table.mu[row] =
-                if normal > 0.0 { table.mu[row] / normal } else { self.law.mu_static() };
+            table.mu[row] = if normal > 0.0 { table.mu[row] / normal } else { mu_static };
             table.pressure[row] = normal / table.area[row];
             table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
         }
     }
 }
 
+impl PenaltyContact {
+    /// An output table for all nodes of side `side`.
+    pub fn nodal_table(&self, side: usize) -> NodalContact {
+        NodalContact::whole(&self.sides, side)
+    }
+
+    /// Fills a `table` of this contact with the values of the last call.
+    pub fn nodal(&self, table: &mut NodalContact) {
+        let Some([own, others]) = passes(&self.pairs, table.side) else { return };
+        let (own, others) = (own.iter().map(Pair::touch), others.iter().map(Pair::touch));
+        let (margin, mu) = (self.search.margin, self.law.mu_static());
+        table.fill(&self.sides, own, others, margin, mu, true);
+    }
+}
+
+/// The pairs with slaves on `side` and those with masters there.
+fn passes(pairs: &[Vec<Pair>; 2], side: usize) -> Option<[&[Pair]; 2]> {
+    Some([pairs.get(side)?, pairs.get(1 - side)?])
+}
+
 impl NodalContact {
+    pub(crate) fn side(&self) -> usize {
+        self.side
+    }
+
     fn row(&self, local: u32) -> Option<usize> {
         let row = self.rows[local as usize];
         (row != NONE).then_some(row as usize)

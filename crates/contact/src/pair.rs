@@ -1,27 +1,13 @@
 //! One slave node and its foot on the master surface: normal spring and damper, friction spring.
 
-use crate::FrictionLaw;
 use crate::face::{Positions, SurfacePoint, project, shape};
+use crate::friction::{NodeFriction, Place};
 use crate::penalty::Motion;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
+use crate::touch::{Listed, State, Touch, relative_velocity, sleep};
 use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub, tangential};
 use mesh::Padded;
-
-/// An open pair is looked at again after at most this many steps.
-const LONGEST_SLEEP: u32 = 8;
-
-/// Part of the search margin within which every open pair is looked at in every step.
-const WATCHED: f64 = 1.0 / 32.0;
-
-/// State of a pair, as the output codes it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub(crate) enum State {
-    Open = 0,
-    Stick = 1,
-    Slip = 2,
-}
 
 /// A slave node near the master surface.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +34,8 @@ pub(crate) struct Pair {
     /// `friction` in the frame of the face.
     framed: [f64; 2],
     pub mu: f64,
+    /// State of the friction law.
+    memory: [f64; 2],
     pub slip_velocity: Vec3,
     pub slip: Vec3,
     /// Dissipated in the last step (J).
@@ -55,9 +43,8 @@ pub(crate) struct Pair {
     pub damping_work: f64,
 }
 
-impl Pair {
-    /// An open pair whose foot is to be sought from `face`.
-    pub fn near(slave: u32, face: u32) -> Self {
+impl Listed for Pair {
+    fn near(slave: u32, face: u32) -> Self {
         Self {
             slave,
             state: State::Open,
@@ -74,6 +61,7 @@ impl Pair {
             friction: [0.0; 3],
             framed: [0.0; 2],
             mu: 0.0,
+            memory: [0.0; 2],
             slip_velocity: [0.0; 3],
             slip: [0.0; 3],
             friction_work: 0.0,
@@ -81,8 +69,29 @@ impl Pair {
         }
     }
 
-    pub fn is_closed(&self) -> bool {
+    fn slave(&self) -> u32 {
+        self.slave
+    }
+
+    fn is_closed(&self) -> bool {
         self.state != State::Open
+    }
+}
+
+impl Pair {
+    pub fn touch(&self) -> Touch {
+        Touch {
+            slave: self.slave,
+            face: self.face,
+            weights: self.weights,
+            state: self.state,
+            gap: self.gap,
+            normal_force: self.normal_force,
+            friction: self.friction,
+            mu: self.mu,
+            slip_velocity: self.slip_velocity,
+            slip: self.slip,
+        }
     }
 
     /// Energy in the normal spring (J).
@@ -118,7 +127,7 @@ pub(crate) struct Pass<'a> {
     pub damping: f64,
     pub curvature: bool,
     pub margin: f64,
-    pub law: &'a dyn FrictionLaw,
+    pub law: &'a dyn NodeFriction,
 }
 
 impl Pass<'_> {
@@ -162,8 +171,8 @@ impl Pass<'_> {
             if before.is_closed() {
                 pair.open();
             } else if let Some(motion) = motion {
-                pair.sleep =
-                    self.sleep(foot.gap, relative_velocity(motion, node, face, pair), motion.dt);
+                let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
+                pair.sleep = sleep(foot.gap, norm(velocity), self.margin, motion.dt);
             }
             return;
         }
@@ -187,17 +196,6 @@ impl Pass<'_> {
         }
     }
 
-    /// Steps for which an open pair cannot close unless its relative speed more than doubles.
-    /// Pairs within a part of the margin are never left unwatched.
-    fn sleep(&self, gap: f64, velocity: Vec3, dt: f64) -> u32 {
-        if gap < WATCHED * self.margin {
-            return 0;
-        }
-        let steps = gap / (2.0 * dt * norm(velocity));
-        // A saturating cast: NaN gives zero.
-        (steps as u32).min(LONGEST_SLEEP)
-    }
-
     /// Spring and damper. The damper's work in the step is the trapezoidal
     /// `-(d^n + d^{n+1})/2 (g^{n+1} - g^n)`, with `d` what the force exceeds the spring's by.
     fn press(
@@ -215,7 +213,8 @@ impl Pass<'_> {
         if self.damping == 0.0 {
             return;
         }
-        let rate = dot(pair.normal, relative_velocity(motion, node, face, pair));
+        let rate =
+            dot(pair.normal, relative_velocity(motion.velocity, node, face.nodes, &pair.weights));
         let mut compliance = motion.inverse_mass[node as usize];
         for (weight, corner) in pair.weights.iter().zip(face.nodes) {
             compliance += weight * weight * motion.inverse_mass[corner as usize];
@@ -261,9 +260,11 @@ impl Pass<'_> {
     ) {
         pair.state = State::Stick;
         if !before.is_closed() {
-            let velocity = relative_velocity(motion, node, face, pair);
+            let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
             pair.slip_velocity = tangential(velocity, pair.normal);
-            pair.mu = self.law.mu(norm(pair.slip_velocity));
+            pair.memory = self.law.begin(&self.place(pair, x, motion));
+            pair.mu =
+                self.law.mu(pair.memory, norm(pair.slip_velocity), &self.place(pair, x, motion));
             return;
         }
         let delta = tangential(sub(x, old.x), pair.normal);
@@ -271,7 +272,9 @@ impl Pass<'_> {
         let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
         let start = lay_into(turned, pair.normal);
         let stiffness = pair.stiffness[1];
-        pair.mu = self.law.mu(norm(before.slip_velocity));
+        let (place, speed) = (self.place(pair, x, motion), norm(before.slip_velocity));
+        pair.memory = self.law.advance(before.memory, speed, &place, motion.dt);
+        pair.mu = self.law.mu(pair.memory, speed, &place);
         let mut friction = axpy(start, -stiffness, delta);
         let (trial, cap) = (norm(friction), pair.mu * pair.normal_force);
         if trial > cap {
@@ -288,27 +291,22 @@ impl Pass<'_> {
         pair.slip_velocity = scale(1.0 / motion.dt, delta);
         pair.slip = axpy(before.slip, 1.0, delta);
     }
-}
 
-/// Velocity of the slave relative to its foot (m/s).
-#[inline]
-fn relative_velocity(motion: &Motion<'_>, node: u32, face: &MasterFace, pair: &Pair) -> Vec3 {
-    let mut velocity = motion.velocity[node as usize].xyz();
-    for (weight, corner) in pair.weights.iter().zip(face.nodes) {
-        velocity = axpy(velocity, -weight, motion.velocity[corner as usize].xyz());
+    fn place(&self, pair: &Pair, position: Vec3, motion: &Motion<'_>) -> Place {
+        let pressure = pair.normal_force / self.slave.area[pair.slave as usize];
+        Place { position, time: motion.time, pressure }
     }
-    velocity
 }
 
 /// Orthonormal vectors in the tangent plane that turn with the face.
-fn frame(at: &SurfacePoint) -> [Vec3; 2] {
+pub(crate) fn frame(at: &SurfacePoint) -> [Vec3; 2] {
     let e = tangential(at.tangent, at.normal);
     let e1 = scale(1.0 / norm(e), e);
     [e1, cross(at.normal, e1)]
 }
 
 /// `f` laid into the plane with unit normal `n`, its length kept.
-fn lay_into(f: Vec3, n: Vec3) -> Vec3 {
+pub(crate) fn lay_into(f: Vec3, n: Vec3) -> Vec3 {
     let flat = tangential(f, n);
     let (length, left) = (norm(f), norm(flat));
     if left > 0.0 { scale(length / left, flat) } else { [0.0; 3] }

@@ -1,11 +1,13 @@
 //! Two-pass penalty contact: the criticised method of surface-to-surface contact.
 
 use crate::face::Positions;
-use crate::pair::{Pair, Pass, State, scatter};
+use crate::friction::NodeFriction;
+use crate::pair::{Pair, Pass, scatter};
 use crate::search::{Search, neighbours};
 use crate::surface::ContactSurface;
+use crate::touch::{Listed, State};
 use crate::vector::{Vec3, add, axpy, dot, scale};
-use crate::{BodyMaterial, ContactError, FrictionLaw, StabilityScale, Stiffness};
+use crate::{BodyMaterial, ContactError, StabilityScale, Stiffness};
 use mesh::{Mesh, Padded, Surface};
 use rayon::prelude::*;
 
@@ -39,6 +41,8 @@ pub struct Motion<'a> {
     pub velocity: &'a [Padded],
     /// Inverse lumped masses (1/kg), zero for nodes that are held.
     pub inverse_mass: &'a [f64],
+    /// Time t^n (s).
+    pub time: f64,
     /// Time step (s).
     pub dt: f64,
 }
@@ -59,6 +63,14 @@ pub struct ContactSums {
     /// Work dissipated by the normal dampers in that step, and the energy of the normal springs of
     /// nodes that slid off the border of the other surface (J).
     pub damping_work: f64,
+    /// Work that friction dissipates in the step that leaves `x^n` (J), of a method that knows it.
+    pub friction_ahead: f64,
+    /// What else contact dissipates in that step (J).
+    pub damping_ahead: f64,
+    /// Sweeps over the contact nodes that exact enforcement took.
+    pub sweeps: usize,
+    /// Slave nodes at which the law of friction had more than one solution.
+    pub manifold: usize,
     /// Pairs in contact.
     pub closed: usize,
     /// Pairs that stick.
@@ -83,7 +95,7 @@ pub struct PenaltyContact {
     pub(crate) sides: [ContactSurface; 2],
     /// The pairs of each pass, ascending by slave: pass `i` has the nodes of side `i` as slaves.
     pub(crate) pairs: [Vec<Pair>; 2],
-    pub(crate) law: Box<dyn FrictionLaw>,
+    pub(crate) law: Box<dyn NodeFriction>,
     pub(crate) search: Search,
     pub(crate) settings: PenaltySettings,
     stability: Option<StabilityScale>,
@@ -104,18 +116,13 @@ impl PenaltyContact {
         surfaces: [(&Surface, BodyMaterial); 2],
         settings: &PenaltySettings,
         stability: Option<StabilityScale>,
-        law: Box<dyn FrictionLaw>,
+        law: Box<dyn NodeFriction>,
     ) -> Result<Self, ContactError> {
         check(settings, stability, &surfaces, &*law)?;
-        let [(first, first_material), (second, second_material)] = surfaces;
-        let sides = [
-            ContactSurface::new(mesh, first, first_material, 0)?,
-            ContactSurface::new(mesh, second, second_material, 1)?,
-        ];
-        if let Some(&node) = sides[0].nodes.iter().find(|n| sides[1].nodes.binary_search(n).is_ok())
-        {
-            return Err(ContactError::SharedNode { node });
+        if law.is_implicit() {
+            return Err(ContactError::ImplicitLaw);
         }
+        let sides = ContactSurface::both(mesh, surfaces)?;
         let mut contact = Self {
             search: Search::new(&sides),
             sides,
@@ -127,11 +134,6 @@ impl PenaltyContact {
         };
         contact.bound = contact.stiffness_bounds(mesh);
         Ok(contact)
-    }
-
-    /// The friction law.
-    pub fn law(&self) -> &dyn FrictionLaw {
-        &*self.law
     }
 
     /// Mesh indices of the surface nodes of a side, ascending.
@@ -341,20 +343,14 @@ fn check(
     settings: &PenaltySettings,
     stability: Option<StabilityScale>,
     surfaces: &[(&Surface, BodyMaterial); 2],
-    law: &dyn FrictionLaw,
+    law: &dyn NodeFriction,
 ) -> Result<(), ContactError> {
-    let positive = |name, value: f64| in_range(name, value, value > 0.0, "positive and finite");
     positive("the normal contact stiffness", settings.normal.value())?;
     let tangential = settings.tangential.value();
     in_range("the tangential contact stiffness", tangential, tangential >= 0.0, "at least zero")?;
     let damping = settings.damping;
     in_range("the contact damping", damping, (0.0..=1.0).contains(&damping), "from 0 to 1")?;
-    for (_, material) in surfaces {
-        positive("the bulk modulus", material.bulk_modulus)?;
-        positive("the density", material.density)?;
-    }
-    let mu = law.mu_static();
-    in_range("the coefficient of friction", mu, mu >= 0.0, "at least zero")?;
+    check_common(surfaces, law)?;
     let fraction = [settings.normal, settings.tangential]
         .iter()
         .any(|s| matches!(s, Stiffness::StabilityFraction(_)));
@@ -368,7 +364,24 @@ fn check(
     Ok(())
 }
 
-fn in_range(
+/// What every enforcement asks of materials and friction.
+pub(crate) fn check_common(
+    surfaces: &[(&Surface, BodyMaterial); 2],
+    law: &dyn NodeFriction,
+) -> Result<(), ContactError> {
+    for (_, material) in surfaces {
+        positive("the bulk modulus", material.bulk_modulus)?;
+        positive("the density", material.density)?;
+    }
+    let mu = law.mu_static();
+    in_range("the coefficient of friction", mu, mu >= 0.0, "at least zero")
+}
+
+fn positive(name: &'static str, value: f64) -> Result<(), ContactError> {
+    in_range(name, value, value > 0.0, "positive and finite")
+}
+
+pub(crate) fn in_range(
     name: &'static str,
     value: f64,
     holds: bool,

@@ -20,8 +20,8 @@
 //! the first call are found too. Pairs that are closed stay listed until they open.
 
 use crate::face::Positions;
-use crate::pair::Pair;
 use crate::surface::{ContactSurface, NONE};
+use crate::touch::Listed;
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
@@ -88,7 +88,7 @@ impl Search {
         &mut self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        pairs: &[Vec<Pair>; 2],
+        pairs: &[Vec<impl Listed>; 2],
     ) -> bool {
         if self.at[0].is_empty() {
             return true;
@@ -122,13 +122,13 @@ impl Search {
         &self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        pairs: &[Vec<Pair>; 2],
+        pairs: &[Vec<impl Listed>; 2],
     ) -> Vec3 {
         let mut sum = [0.0; 3];
         let mut count = 0.0;
         for side in 0..2 {
             for pair in &pairs[side] {
-                let i = pair.slave as usize;
+                let i = pair.slave() as usize;
                 sum = add(sum, sub(positions.at(sides[side].nodes[i]), self.at[side][i]));
                 count += 1.0;
             }
@@ -142,7 +142,7 @@ impl Search {
         &mut self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        pairs: &mut [Vec<Pair>; 2],
+        pairs: &mut [Vec<impl Listed>; 2],
     ) {
         let far = RESOLVED * self.margin;
         for side in 0..2 {
@@ -234,13 +234,13 @@ impl Search {
 }
 
 /// The old closed pairs and the newly listed ones, ascending by slave.
-fn merged(old: &[Pair], nearest: &[(f64, u32)]) -> Vec<Pair> {
+fn merged<P: Listed>(old: &[P], nearest: &[(f64, u32)]) -> Vec<P> {
     let mut closed = old.iter().filter(|p| p.is_closed()).peekable();
     let mut result = Vec::with_capacity(old.len() + old.len() / 2 + 64);
     for (slave, &(_, face)) in nearest.iter().enumerate() {
-        match closed.next_if(|p| p.slave as usize == slave) {
+        match closed.next_if(|p| p.slave() as usize == slave) {
             Some(pair) => result.push(*pair),
-            None if face != NONE => result.push(Pair::near(slave as u32, face)),
+            None if face != NONE => result.push(P::near(slave as u32, face)),
             None => {}
         }
     }

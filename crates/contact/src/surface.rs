@@ -41,6 +41,22 @@ pub(crate) struct ContactSurface {
 }
 
 impl ContactSurface {
+    /// Side 0 and side 1, which must have no node in common.
+    pub fn both(
+        mesh: &Mesh,
+        surfaces: [(&Surface, BodyMaterial); 2],
+    ) -> Result<[Self; 2], ContactError> {
+        let [(first, first_material), (second, second_material)] = surfaces;
+        let sides = [
+            Self::new(mesh, first, first_material, 0)?,
+            Self::new(mesh, second, second_material, 1)?,
+        ];
+        match sides[0].nodes.iter().find(|n| sides[1].nodes.binary_search(n).is_ok()) {
+            Some(&node) => Err(ContactError::SharedNode { node }),
+            None => Ok(sides),
+        }
+    }
+
     pub fn new(
         mesh: &Mesh,
         surface: &Surface,

@@ -20,6 +20,9 @@ pub struct Energies {
     pub friction_dissipated: f64,
     /// Dissipated by bulk viscosity, Kelvin–Voigt, mass damping, contact dampers and quiet ends.
     pub damping_dissipated: f64,
+    /// The part of it that contact took: dampers of the penalty springs; with exact enforcement the
+    /// impacts of nodes that close, and what the trapezoidal work of friction exceeds its heat by.
+    pub contact_damping: f64,
     /// Work of the hub's drive and load, of the given forces and of the quiet ends' constant
     /// reactions.
     pub external_work: f64,
@@ -44,6 +47,8 @@ pub struct Ledger {
     pub friction: f64,
     /// Dissipated by damping of every kind (J).
     pub damping: f64,
+    /// The part of it that contact took (J).
+    pub contact_damping: f64,
     /// External work (J).
     pub external: f64,
     initial: Option<Energies>,

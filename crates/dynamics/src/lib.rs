@@ -1,7 +1,7 @@
 //! Explicit dynamics of the disk on the bar.
 //!
 //! Central difference with half-step velocities v^{n-1/2} and lumped mass. A step reads as the
-//! method does: internal force, contact, quiet ends, then velocity and position of every node in one
+//! method does: internal force, given forces and quiet ends, contact, then velocity and position of every node in one
 //! pass (with mass damping) and the hub, with the energy ledger in the form that the scheme
 //! conserves.
 

@@ -63,6 +63,26 @@ pub(crate) fn advance(
     total
 }
 
+/// v^{n+1/2} of one node under `force`, as [`advance`] gives it up to round-off.
+pub(crate) fn trial(
+    node: usize,
+    v: [f64; 3],
+    force: [f64; 3],
+    inverse_mass: f64,
+    dt: f64,
+    dashpots: Option<&Dashpots<'_>>,
+) -> [f64; 3] {
+    let mut after = [0, 1, 2].map(|i: usize| v[i] + dt * inverse_mass * force[i]);
+    if let Some(d) = dashpots.filter(|_| inverse_mass > 0.0) {
+        let motion = if d.disk.contains(&node) { d.motion } else { None }.unwrap_or_default();
+        let (rigid, _) = motion.at(d.reference[node]);
+        for i in 0..3 {
+            after[i] -= dt * d.alpha * (v[i] - rigid[i]);
+        }
+    }
+    after
+}
+
 /// Number of chunks, hence of partial sums, for `nodes` nodes.
 pub(crate) fn chunks(nodes: usize) -> usize {
     nodes.div_ceil(CHUNK)

@@ -7,7 +7,7 @@ use crate::ledger::{Energies, Ledger};
 use crate::load::{Fixed, Load};
 use crate::nodes::{self, NodeSums};
 use crate::quiet::QuietEnd;
-use contact::{ContactSums, Motion, PenaltyContact};
+use contact::{Contact, ContactSums, Motion, Trial};
 use mesh::Padded;
 use solid::Solid;
 use std::time::{Duration, Instant};
@@ -17,7 +17,7 @@ pub struct Setup {
     /// The elements.
     pub solid: Solid,
     /// The contact of the two bodies; none for a free body.
-    pub contact: Option<PenaltyContact>,
+    pub contact: Option<Box<dyn Contact>>,
     /// The hub; none for a free body.
     pub hub: Option<Hub>,
     /// The quiet ends; empty for none.
@@ -78,7 +78,7 @@ pub struct StepReport {
 /// Central difference over the whole model.
 pub struct Simulation {
     solid: Solid,
-    contact: Option<PenaltyContact>,
+    contact: Option<Box<dyn Contact>>,
     hub: Option<Hub>,
     quiet: QuietEnd,
     fixed: Vec<Fixed>,
@@ -145,7 +145,20 @@ impl Simulation {
         );
         let internal = Instant::now();
 
-        // contact at u^n
+        // boundary forces
+        self.load.apply(time, &mut self.force);
+        Fixed::clear(&self.fixed, &mut self.force);
+        let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
+        let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
+        let bounded = Instant::now();
+
+        // contact at u^n, with all other forces known
+        let dashpots = (self.mass_damping > 0.0).then(|| Dashpots {
+            alpha: self.mass_damping,
+            disk: self.disk.clone(),
+            reference: self.solid.reference(),
+            motion: self.hub.as_ref().map(RigidMotion::new),
+        });
         let contact = match &mut self.contact {
             Some(contact) => {
                 let motion = Motion {
@@ -153,29 +166,26 @@ impl Simulation {
                     displacement: &self.displacement,
                     velocity: &self.velocity,
                     inverse_mass: &self.inverse_mass,
+                    time,
                     dt,
                 };
-                contact.apply(&motion, &mut self.force)
+                let (velocity, inverse_mass) = (&self.velocity, &self.inverse_mass);
+                let trial = Trial {
+                    velocity: &|node, force| {
+                        let (v, w) = (velocity[node as usize].xyz(), inverse_mass[node as usize]);
+                        nodes::trial(node as usize, v, force, w, dt, dashpots.as_ref())
+                    },
+                    inverse_mass,
+                };
+                contact.apply(&motion, &trial, &mut self.force)
             }
             None => ContactSums::default(),
         };
+        Fixed::clear(&self.fixed, &mut self.force);
+        let load = self.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
         let contacted = Instant::now();
 
-        // boundary forces
-        self.load.apply(time, &mut self.force);
-        Fixed::clear(&self.fixed, &mut self.force);
-        let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
-        let load = self.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
-        let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
-        let bounded = Instant::now();
-
         // velocity v^{n+1/2} and position u^{n+1}, then the hub with its nodes
-        let dashpots = (self.mass_damping > 0.0).then(|| Dashpots {
-            alpha: self.mass_damping,
-            disk: self.disk.clone(),
-            reference: self.solid.reference(),
-            motion: self.hub.as_ref().map(RigidMotion::new),
-        });
         let nodes = nodes::advance(
             &mut self.displacement,
             &mut self.velocity,
@@ -199,6 +209,7 @@ impl Simulation {
 
         let viscous = 0.5 * dt * (sums.viscous_power + nodes.dashpot_power);
         self.ledger.friction += contact.friction_work;
+        self.ledger.contact_damping += contact.damping_work;
         self.ledger.damping += contact.damping_work + viscous + quiet.dissipated_before;
         self.ledger.external += hub.before + quiet.external_before + given_before;
         let energies = read.then(|| {
@@ -209,18 +220,21 @@ impl Simulation {
                 contact_stored: contact.stored_normal + contact.stored_tangential,
                 friction_dissipated: self.ledger.friction,
                 damping_dissipated: self.ledger.damping,
+                contact_damping: self.ledger.contact_damping,
                 external_work: self.ledger.external,
             };
             self.ledger.read(&now);
             now
         });
-        self.ledger.damping += viscous + quiet.dissipated_after;
+        self.ledger.friction += contact.friction_ahead;
+        self.ledger.contact_damping += contact.damping_ahead;
+        self.ledger.damping += contact.damping_ahead + viscous + quiet.dissipated_after;
         self.ledger.external += hub.after + quiet.external_after + given_after;
 
         self.timers.internal_force += internal - start;
-        self.timers.contact += contacted - internal;
-        self.timers.boundary += bounded - contacted;
-        self.timers.nodes += moved - bounded;
+        self.timers.boundary += bounded - internal;
+        self.timers.contact += contacted - bounded;
+        self.timers.nodes += moved - contacted;
         self.step += 1;
         let (drive, omega) = match &self.hub {
             Some(h) => (h.reaction, 0.5 * (omega_before + h.state.omega)),
@@ -298,8 +312,8 @@ impl Simulation {
     }
 
     /// The contact.
-    pub fn contact(&self) -> Option<&PenaltyContact> {
-        self.contact.as_ref()
+    pub fn contact(&self) -> Option<&dyn Contact> {
+        self.contact.as_deref()
     }
 
     /// The hub.

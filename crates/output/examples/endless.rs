@@ -33,6 +33,7 @@ pub fn write_forever(folder: &Path, pause: Duration) -> Result<(), OutputError> 
         creepage_version: "0".into(),
         case_hash: "none".into(),
         created: "2026-01-01T00:00:00Z".into(),
+        attributes: Vec::new(),
     };
     let points: Vec<[f64; 3]> =
         (0..2 * (QUADS + 1)).map(|i| [(i / 2) as f64, (i % 2) as f64, 0.0]).collect();

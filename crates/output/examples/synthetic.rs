@@ -31,6 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: "0".repeat(64),
         created: "2026-01-01T00:00:00Z".into(),
+        attributes: Vec::new(),
     };
     let model = Model::new(refine);
     write_fields(&folder, &model, steps, &provenance)?;

@@ -46,6 +46,9 @@ impl Creator {
             file.set_attr_string("creepage_version", &provenance.creepage_version)?;
             file.set_attr_string("case_hash", &provenance.case_hash)?;
             file.set_attr_string("created", &provenance.created)?;
+            for (name, text) in &provenance.attributes {
+                file.set_attr_string(name, text)?;
+            }
             Ok(file)
         };
         let file = open().map_err(|error| create_error(path, error))?;

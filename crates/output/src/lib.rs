@@ -50,4 +50,6 @@ pub struct Provenance {
     pub case_hash: String,
     /// When the run started, ISO 8601 in UTC. The only content that differs between equal runs.
     pub created: String,
+    /// Further root attributes: name and text.
+    pub attributes: Vec<(String, String)>,
 }

@@ -26,6 +26,7 @@ fn provenance() -> Provenance {
         creepage_version: "1.2.3".into(),
         case_hash: "abc".into(),
         created: "2026-01-01T00:00:00Z".into(),
+        attributes: Vec::new(),
     }
 }
 

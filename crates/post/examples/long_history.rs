@@ -57,6 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: "0".repeat(64),
         created: "2026-01-01T00:00:00Z".into(),
+        attributes: Vec::new(),
     };
     let path = folder.join("contact.vtkhdf");
     let mut file = TransientGrid::create(&path, &grid, &fields, &provenance)?;

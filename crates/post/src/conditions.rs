@@ -38,9 +38,9 @@ pub(crate) struct Judged {
     pub slips: bool,
     /// Whether the algorithm lets it slip.
     pub let_slip: bool,
-    /// mu(|s|) of the law.
+    /// mu(|s|) of the law; with memory the coefficient that the algorithm used.
     pub mu_law: Option<f64>,
-    /// p_f/(mu(|s|) p_n) - 1 where it slips.
+    /// p_f/(mu p_n) - 1 with that coefficient where it slips.
     pub law_error: Option<f64>,
     /// p_f/(mu p_n) - 1 with the coefficient that the algorithm used, where it slips.
     pub law_error_own: Option<f64>,
@@ -75,7 +75,11 @@ impl Judge {
         let (speed, shear) = (norm(node.slip), norm(node.shear));
         let ratio = shear / node.pressure;
         let slips = speed > self.threshold;
-        let mu_law = self.law.map(|law| law.mu(speed));
+        // with memory the law is that of the coefficient's own state
+        let mu_law = match self.bound {
+            Bound::Law => self.law.map(|law| law.mu(speed)),
+            Bound::Used => node.mu_used.filter(|_| self.law.is_some()),
+        };
         let bound = match self.bound {
             Bound::Law => mu_law,
             Bound::Used => node.mu_used,
@@ -100,6 +104,7 @@ impl Judge {
             adhesion_slip: adheres.then_some(speed / self.slip_speed),
             law_scatter: self
                 .law
+                .filter(|_| self.bound == Bound::Law)
                 .zip(mu_law)
                 .map(|(law, mu)| law.distance(speed, mu, ratio, self.slip_speed)),
             power: -dot(node.shear, node.slip),

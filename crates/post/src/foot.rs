@@ -8,6 +8,8 @@ use std::collections::HashMap;
 /// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
 const EDGE: f64 = 1e-6;
 const NONE: u32 = u32::MAX;
+/// Face coordinates of the corners.
+const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// Relative motion of the nodes of one body (the slaves) over the faces of the other.
 pub(crate) struct Pair {
@@ -104,8 +106,10 @@ impl Pair {
             found.push(best.map(|(face, foot)| {
                 let mut relative = velocity[node];
                 let corners = surface.faces[face as usize];
-                for (weight, corner) in foot.weights.into_iter().zip(corners) {
-                    relative = axpy(relative, -weight, velocity[corner as usize]);
+                for (i, corner) in corners.into_iter().enumerate() {
+                    let v = velocity[corner as usize];
+                    relative = axpy(relative, -foot.weights[i], v);
+                    relative = axpy(relative, dot(foot.normal, v), foot.levers[i]);
                 }
                 axpy(relative, -dot(relative, foot.normal), foot.normal)
             }));
@@ -147,6 +151,10 @@ struct Foot {
     weights: [f64; 4],
     normal: Vec3,
     gap: f64,
+    /// Surface gradients of the weights times the gap: the point of the other body that the node
+    /// touches moves with the face at that distance from it, `-sum levers (normal . v)` faster than
+    /// the foot. A rotation common to both bodies gives no slip.
+    levers: [Vec3; 4],
 }
 
 /// Where the foot of a node on the surface that continues a face lies.
@@ -201,12 +209,22 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Projected {
                 return Projected::Beside([xi, eta]);
             }
             let normal = cross(along, across);
-            let normal = axpy([0.0; 3], 1.0 / norm(normal), normal);
+            let size = norm(normal);
+            let normal = normal.map(|c| c / size);
+            let gap = dot(normal, away);
+            // dual tangents
+            let duals = [cross(across, normal), cross(normal, along)].map(|g| g.map(|c| c / size));
+            let levers = SIGNS.map(|[sx, se]| {
+                let by_xi = 0.25 * sx * (1.0 + se * eta) * gap;
+                let by_eta = 0.25 * se * (1.0 + sx * xi) * gap;
+                axpy(duals[0].map(|c| c * by_xi), by_eta, duals[1])
+            });
             return Projected::On(Foot {
                 at: [xi, eta],
                 weights: shape(xi, eta),
                 normal,
-                gap: dot(normal, away),
+                gap,
+                levers,
             });
         }
     }
@@ -245,6 +263,29 @@ mod tests {
         assert!(matches!(beside, Projected::Beside([xi, eta]) if xi > 1.0 && eta.abs() < 1e-12));
         assert!(project(x, [f64::NAN; 3], [0.0; 2]).on_face().is_none());
         assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2]).on_face().is_none());
+    }
+
+    #[test]
+    fn a_common_rotation_gives_no_slip_across_a_gap() {
+        let points = vec![
+            [0.0, 0.0, 0.0],
+            [1.0, 0.1, 0.0],
+            [1.1, 1.0, 0.0],
+            [-0.1, 1.0, 0.0],
+            [0.4, 0.5, 0.2],
+        ];
+        let turn = [3.0, -2.0, 5.0];
+        let velocity = points.iter().map(|&x| cross(turn, x)).collect();
+        let surface = Surface {
+            faces: vec![[0, 1, 2, 3]],
+            face_body: vec![1],
+            body: vec![1, 1, 1, 1, 0],
+            area: vec![1.0; 5],
+            points,
+        };
+        let motion = [vec![[0.0; 3]; 5], velocity];
+        let slip = Pair::new(&surface, 0).slip(&surface, &motion, &[4])[0].unwrap();
+        assert!(norm(slip) < 1e-14, "{slip:?}");
     }
 
     #[test]

@@ -34,6 +34,10 @@ impl Pairing {
 /// `before` (as without it) or `after`.
 pub const PAIRING_ATTRIBUTE: &str = "slip_pairing";
 
+/// Root attribute of a contact history that names the body, `disk` or `bar`, at whose nodes the
+/// method enforces the conditions of contact; the other body's nodes receive what its faces bear.
+pub const ENFORCED_ATTRIBUTE: &str = "enforced_on";
+
 /// One record.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
@@ -67,6 +71,8 @@ pub struct ContactHistory {
     pub times: Vec<f64>,
     /// How a record pairs slip with traction, and whether the file says so itself.
     pub pairing: (Pairing, bool),
+    /// The body at whose nodes the method enforces the conditions, if the file names one.
+    pub enforced_on: Option<u8>,
     has: Optional,
 }
 
@@ -136,10 +142,15 @@ impl ContactHistory {
             Ok("before") => (Pairing::Before, true),
             _ => (Pairing::Before, false),
         };
+        let enforced_on = match file.provenance(ENFORCED_ATTRIBUTE).as_deref() {
+            Ok("disk") => Some(0),
+            Ok("bar") => Some(1),
+            _ => None,
+        };
         let has =
             Optional { gap: found[3], mu: found[4], state: found[5], motion: found[6] && found[7] };
         let surface = Surface::read(&file, path)?;
-        Ok(Self { path: path.into(), surface, times, pairing, has })
+        Ok(Self { path: path.into(), surface, times, pairing, enforced_on, has })
     }
 
     /// The file.

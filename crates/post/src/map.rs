@@ -40,6 +40,7 @@ impl MapWriter {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: text("case_hash"),
             created: text("created"),
+            attributes: Vec::new(),
         };
         let mut fields: Vec<FieldSpec> = FIELDS
             .iter()

@@ -116,7 +116,7 @@ fn collide(n: usize, c: f64) -> Result<Collision, Cause> {
     let [first, second] = [0, 1].map(|b: usize| mesh.bodies[b].nodes.clone());
     setup.velocity[first.clone()].fill(Padded::new([SPEED, 0.0, 0.0]));
     setup.velocity[second].fill(Padded::new([-SPEED, 0.0, 0.0]));
-    setup.contact = Some(contact);
+    setup.contact = Some(Box::new(contact));
     let masses = setup.mass.clone();
     let bar: f64 = masses[first.clone()].iter().sum();
     let dt = setup.dt;

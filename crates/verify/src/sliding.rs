@@ -140,7 +140,8 @@ impl Block {
         let mesh = mesh::join(&[block, plane]);
 
         let down = [0.0, 0.0, acceleration[2]];
-        let mut settling = setup(&mesh, down, 1.0)?;
+        let (mut settling, contact) = setup(&mesh, down, 1.0)?;
+        settling.contact = Some(Box::new(contact));
         let pressure = -down[2] * MATERIAL.density * BLOCK[2];
         let body = mesh.bodies[0].nodes.clone();
         settling.displacement[body.clone()].fill(Padded::new([0.0, 0.0, -pressure / SPRING]));
@@ -149,7 +150,7 @@ impl Block {
             settling.step(false);
         }
 
-        let mut setup = setup(&mesh, acceleration, 0.1)?;
+        let (mut setup, mut contact) = setup(&mesh, acceleration, 0.1)?;
         setup.displacement.copy_from_slice(settling.displacement());
         let dt = setup.dt;
         if speed > 0.0 {
@@ -162,10 +163,9 @@ impl Block {
             let mut before = setup.displacement.clone();
             before[body.clone()].iter_mut().for_each(|u| u.0[0] -= dt * speed);
             let mut unused = vec![Padded::ZERO; before.len()];
-            if let Some(contact) = &mut setup.contact {
-                contact.apply_frictionless(setup.solid.reference(), &before, &mut unused);
-            }
+            contact.apply_frictionless(setup.solid.reference(), &before, &mut unused);
         }
+        setup.contact = Some(Box::new(contact));
         let masses = setup.mass[body].to_vec();
         let mass = masses.iter().sum();
         Ok(Self { simulation: Simulation::new(setup), masses, mass })
@@ -191,8 +191,12 @@ impl Block {
     }
 }
 
-/// Block and held plane at rest, with normal contact damping as a share of critical.
-fn setup(mesh: &Mesh, acceleration: [f64; 3], damping: f64) -> Result<Setup, Cause> {
+/// Block and held plane at rest, and their contact with normal contact damping as a share of critical.
+fn setup(
+    mesh: &Mesh,
+    acceleration: [f64; 3],
+    damping: f64,
+) -> Result<(Setup, PenaltyContact), Cause> {
     let settings = PenaltySettings {
         normal: Stiffness::Areal(SPRING),
         tangential: Stiffness::Areal(SPRING),
@@ -210,6 +214,5 @@ fn setup(mesh: &Mesh, acceleration: [f64; 3], damping: f64) -> Result<Setup, Cau
     let mut setup = at_rest(mesh, MATERIAL, 0.7, Some(&contact))?;
     setup.held = mesh.bodies[1].nodes.clone().map(|n| n as u32).collect();
     setup.load = Load::weight(&setup.mass, mesh.bodies[0].nodes.clone(), acceleration);
-    setup.contact = Some(contact);
-    Ok(setup)
+    Ok((setup, contact))
 }

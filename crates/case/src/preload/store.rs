@@ -7,7 +7,7 @@
 //! | bytes | what |
 //! |---|---|
 //! | a line | `creepage preload 1` |
-//! | a line | JSON: `hash`, `nodes`, `report` |
+//! | a line | JSON: `hash`, `nodes`, `report`, `loads` |
 //! | 24 per node | displacement x, y, z (m), little-endian doubles |
 //! | 32 | SHA-256 of all before |
 //!
@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::Report;
+use super::{Preloaded, Report};
 use crate::model::Model;
 use crate::run_error::RunError;
 use crate::schema::{Case, PreloadMethod, Stiffness};
@@ -36,8 +36,6 @@ const CHECKSUM: usize = 32;
 /// How often a run that waits for another's preload looks again.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Displacements (m) and how they were found.
-type Found = (Vec<Padded>, Option<Report>);
 type Say<'a> = dyn FnMut(&str) -> Result<(), RunError> + Send + 'a;
 
 #[derive(Serialize, Deserialize)]
@@ -45,6 +43,7 @@ struct Header {
     hash: String,
     nodes: usize,
     report: Report,
+    loads: [Vec<(u32, f64)>; 2],
 }
 
 /// SHA-256, in hexadecimal, of everything that a preload's bits depend on: the program's version,
@@ -84,8 +83,8 @@ pub(crate) fn kept(
     folder: Option<&Path>,
     stop: &AtomicBool,
     say: &mut Say<'_>,
-    find: &mut dyn FnMut(&mut Say<'_>) -> Result<Found, RunError>,
-) -> Result<Found, RunError> {
+    find: &mut dyn FnMut(&mut Say<'_>) -> Result<Preloaded, RunError>,
+) -> Result<Preloaded, RunError> {
     let Some(folder) = folder.filter(|_| case.preload.method != PreloadMethod::None) else {
         return find(say);
     };
@@ -96,9 +95,9 @@ pub(crate) fn kept(
     // Held to the end of this function; a system without locks costs a second computation at most.
     let _lock = lock(&folder.join(format!("{key}.lock")), stop);
     match read(&path, &key, model.mesh.nodes.len()) {
-        Ok(Some((displacement, report))) => {
+        Ok(Some(preloaded)) => {
             say(&format!("preload: taken from {}", path.display()))?;
-            return Ok((displacement, Some(report)));
+            return Ok(preloaded);
         }
         Ok(None) => {}
         Err(damage) => {
@@ -106,10 +105,11 @@ pub(crate) fn kept(
         }
     }
     let found = find(say)?;
-    if let Some(report) = found.1 {
-        let header = Header { hash: key, nodes: found.0.len(), report };
+    if let Some(report) = found.report {
+        let loads = found.loads.clone();
+        let header = Header { hash: key, nodes: found.displacement.len(), report, loads };
         // A cache that cannot be written makes runs slower, not wrong.
-        if let Err(cause) = write(&path, &header, &found.0) {
+        if let Err(cause) = write(&path, &header, &found.displacement) {
             say(&format!("preload: not kept in {}: {cause}", path.display()))?;
         }
     }
@@ -130,7 +130,7 @@ fn lock(path: &Path, stop: &AtomicBool) -> Option<File> {
 }
 
 /// The entry, if there is one; why it is not to be trusted, if so.
-fn read(path: &Path, key: &str, nodes: usize) -> Result<Option<(Vec<Padded>, Report)>, String> {
+fn read(path: &Path, key: &str, nodes: usize) -> Result<Option<Preloaded>, String> {
     let bytes = match fs::read(path) {
         Ok(bytes) => bytes,
         Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(None),
@@ -156,7 +156,7 @@ fn read(path: &Path, key: &str, nodes: usize) -> Result<Option<(Vec<Padded>, Rep
     let (points, _) = numbers.as_chunks::<3>();
     let displacement =
         points.iter().map(|point| Padded::new(point.map(f64::from_le_bytes))).collect();
-    Ok(Some((displacement, header.report)))
+    Ok(Some(Preloaded { displacement, report: Some(header.report), loads: header.loads }))
 }
 
 fn write(path: &Path, header: &Header, displacement: &[Padded]) -> std::io::Result<()> {

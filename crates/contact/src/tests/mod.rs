@@ -8,7 +8,7 @@ mod search;
 
 use crate::plates::{STEEL, plate, together};
 use crate::vector::{Vec3, add, sub};
-use crate::{ContactSums, FrictionLaw, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use crate::{ContactSums, Motion, NodeFriction, PenaltyContact, PenaltySettings, Stiffness};
 use mesh::{Mesh, Padded, Surface};
 
 /// Areal stiffness of both passes together (N/m^3).
@@ -39,7 +39,7 @@ impl Rig {
         upper: (Mesh, Surface),
         lower: (Mesh, Surface),
         settings: &PenaltySettings,
-        law: impl FrictionLaw + 'static,
+        law: impl NodeFriction + 'static,
     ) -> Self {
         let count = upper.0.nodes.len();
         let (mesh, second) = together(upper.0, lower.0, lower.1);
@@ -59,7 +59,7 @@ impl Rig {
     }
 
     /// Square plates of 8 mm: `fine` cells above, `coarse` below.
-    pub fn plates(fine: usize, coarse: usize, law: impl FrictionLaw + 'static) -> Self {
+    pub fn plates(fine: usize, coarse: usize, law: impl NodeFriction + 'static) -> Self {
         Self::new(
             plate([0.0, 0.0], [8e-3, 8e-3], [fine, fine], 0.0, 1e-3, false),
             plate([0.0, 0.0], [8e-3, 8e-3], [coarse, coarse], 0.0, 1e-3, true),
@@ -69,7 +69,7 @@ impl Rig {
     }
 
     /// A plate of 4 mm on a longer one with other cells.
-    pub fn slider(law: impl FrictionLaw + 'static, settings: &PenaltySettings) -> Self {
+    pub fn slider(law: impl NodeFriction + 'static, settings: &PenaltySettings) -> Self {
         Self::new(
             plate([2.3e-3, 2.1e-3], [6.3e-3, 6.1e-3], [5, 5], 0.0, 1e-3, false),
             plate([0.0, 0.0], [20e-3, 8e-3], [23, 9], 0.0, 1e-3, true),
@@ -101,6 +101,7 @@ impl Rig {
             displacement: &self.displacement,
             velocity: &self.velocity,
             inverse_mass: &self.inverse_mass,
+            time: 0.0,
             dt: self.dt,
         };
         self.contact.apply(&motion, &mut self.force)

@@ -71,6 +71,7 @@ impl Pass<'_> {
                 },
                 "in_file": own.name(),
                 "stated_by_file": stated,
+                "enforced_on": self.history.enforced_on.map(body_name),
                 "records_with_the_other": crossed,
             },
             "law": law_value(basis),
@@ -154,7 +155,13 @@ impl Pass<'_> {
             "roughness_ratio" => value.ln().abs(),
             _ => value,
         };
-        let candidates = all.iter().filter(|(_, pairing, _)| counts(*pairing));
+        // What the faces hand on to the nodes of the other body obeys the law only on the mean.
+        let judged = |view: &str, pairing: Option<Pairing>| {
+            let receives = |body: u8| view == body_name(1 - body);
+            pairing.is_none() || !self.history.enforced_on.is_some_and(receives)
+        };
+        let candidates =
+            all.iter().filter(|(view, pairing, _)| counts(*pairing) && judged(view, *pairing));
         let worst = candidates
             .filter_map(|entry| Some((entry, entry.2.value?)))
             .max_by(|a, b| badness(a.1).total_cmp(&badness(b.1)));

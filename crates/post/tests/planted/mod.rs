@@ -154,6 +154,7 @@ pub fn create(path: &Path, s: &Surfaces, leave: Leave) -> TransientGrid {
         creepage_version: "0".into(),
         case_hash: "0".into(),
         created: "2026-01-01T00:00:00Z".into(),
+        attributes: Vec::new(),
     };
     let constant = [
         StaticField {

@@ -1,0 +1,64 @@
+//! What a time loop asks of a method of contact.
+
+use crate::{ContactSums, Motion, NodalContact, PenaltyContact};
+use mesh::{Face, Padded};
+use std::fmt::Debug;
+
+/// The motion that a step would have without contact.
+#[derive(Clone, Copy)]
+pub struct Trial<'a> {
+    /// Velocity `v^{n+1/2}` (m/s) of a node under a force (N): the step's own update of velocities.
+    pub velocity: &'a (dyn Fn(u32, [f64; 3]) -> [f64; 3] + Sync),
+    /// Inverse lumped masses (1/kg), zero for nodes that are held.
+    pub inverse_mass: &'a [f64],
+}
+
+/// Enforcement of contact and friction in explicit dynamics.
+pub trait Contact: Send + Debug {
+    /// Adds the contact forces (N) of the step from `x^n = X + u^n` to `force`, which holds all other
+    /// forces on the nodes of the contact surfaces.
+    ///
+    /// # Panics
+    /// If a slice has fewer entries than the mesh has nodes.
+    fn apply(
+        &mut self,
+        motion: &Motion<'_>,
+        trial: &Trial<'_>,
+        force: &mut [Padded],
+    ) -> ContactSums;
+
+    /// An output table for all nodes of side `side`.
+    fn nodal_table(&self, side: usize) -> NodalContact;
+
+    /// An output table for the nodes of `faces`, a part of the surface of side `side`.
+    fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact;
+
+    /// Fills a `table` of this contact with the values of the last call.
+    fn nodal(&self, table: &mut NodalContact);
+
+    /// The side at whose nodes the conditions of contact hold, with the slip velocity of the step that
+    /// leaves `x^n`; none for a method that violates them everywhere.
+    fn enforced_on(&self) -> Option<usize>;
+}
+
+impl Contact for PenaltyContact {
+    fn apply(&mut self, motion: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
+        self.apply(motion, force)
+    }
+
+    fn nodal_table(&self, side: usize) -> NodalContact {
+        self.nodal_table(side)
+    }
+
+    fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact {
+        NodalContact::part(&self.sides, side, faces)
+    }
+
+    fn nodal(&self, table: &mut NodalContact) {
+        self.nodal(table);
+    }
+
+    fn enforced_on(&self) -> Option<usize> {
+        None
+    }
+}

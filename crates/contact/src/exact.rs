@@ -1,0 +1,390 @@
+//! Exact enforcement: the conditions of contact and friction hold at the end of every step.
+//!
+//! Forward-increment Lagrange multipliers (Carpenter, Taylor and Katona 1991) with friction: the
+//! velocities without contact, `v_free = v^{n-1/2} + dt M^-1 f`, are corrected by the contact forces `r`,
+//! `v^{n+1/2} = v_free + dt M^-1 G^T r`, such that for every slave node
+//!
+//! - the gap at the end of the step, `g + dt G_n v^{n+1/2} >= 0`, is complementary to `r_n >= 0`;
+//! - `|r_t| <= mu r_n`, with equality and against the slip velocity where that is not zero.
+//!
+//! Nodes of one side, the slaves, meet faces of the other. The system is solved by projected block
+//! Gauss–Seidel: a node's own block `W_ii = (1/m_s + sum phi_I^2/m_I) I` is isotropic for lumped masses,
+//! so that its normal problem, and then its tangential one (module [`local`](crate::local)) are closed;
+//! blocks of neighbouring nodes couple little. The order is fixed, hence the bits are.
+
+use crate::enforcement::{Contact, Trial};
+use crate::face::{Positions, project};
+use crate::friction::{NodeFriction, Place};
+use crate::local;
+use crate::nodal::NodalContact;
+use crate::pair::{frame, lay_into};
+use crate::penalty::{check_common, in_range};
+use crate::row::Row;
+use crate::search::Search;
+use crate::surface::ContactSurface;
+use crate::touch::{Listed, State, WATCHED, finer, relative_velocity, sleep};
+use crate::vector::{Vec3, add, axpy, dot, norm, scale, sub};
+use crate::{BodyMaterial, ContactError, ContactSums, Motion};
+use mesh::{Face, Mesh, Padded, Surface};
+
+/// Sweeps end when no force changes by more than this part of the largest.
+const TOLERANCE: f64 = 1e-12;
+/// Sweeps at most. Their errors fall tenfold each where pitches are alike.
+const SWEEPS: usize = 100;
+
+/// Settings of [`ExactContact`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ExactSettings {
+    /// Side whose nodes are slaves; the finer one unless given.
+    pub slave: Option<usize>,
+    /// Corrects gap and normal with the exact surface where the master has one.
+    pub curvature: bool,
+}
+
+/// Contact of two surfaces without penetration, and friction without elastic slip.
+#[derive(Debug)]
+pub struct ExactContact {
+    sides: [ContactSurface; 2],
+    slave: usize,
+    /// The rows, ascending by slave, in the list of the slaves' side.
+    rows: [Vec<Row>; 2],
+    law: Box<dyn NodeFriction>,
+    search: Search,
+    curvature: bool,
+    /// Rows that may carry force in this step.
+    active: Vec<u32>,
+    /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step.
+    velocity: [Vec<Vec3>; 2],
+    pace: [Vec<f64>; 2],
+    stamp: [Vec<u64>; 2],
+    now: u64,
+}
+
+impl ExactContact {
+    /// Contact of two `surfaces` of `mesh`, side 0 and side 1.
+    ///
+    /// # Errors
+    /// Surfaces that are empty, degenerate, outside the mesh or in touch by a common node, and
+    /// numbers out of range.
+    pub fn new(
+        mesh: &Mesh,
+        surfaces: [(&Surface, BodyMaterial); 2],
+        settings: &ExactSettings,
+        law: Box<dyn NodeFriction>,
+    ) -> Result<Self, ContactError> {
+        check_common(&surfaces, &*law)?;
+        let sides = ContactSurface::both(mesh, surfaces)?;
+        let slave = settings.slave.unwrap_or_else(|| finer(&sides));
+        in_range("the side of the slaves", slave as f64, slave < 2, "0 or 1")?;
+        let zeros = |side: usize| sides[side].nodes.len();
+        Ok(Self {
+            search: Search::new(&sides),
+            slave,
+            rows: [Vec::new(), Vec::new()],
+            law,
+            curvature: settings.curvature,
+            active: Vec::new(),
+            velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
+            pace: [0, 1].map(|s| vec![0.0; zeros(s)]),
+            stamp: [0, 1].map(|s| vec![0; zeros(s)]),
+            now: 0,
+            sides,
+        })
+    }
+
+    /// Side whose nodes are slaves.
+    pub fn slave(&self) -> usize {
+        self.slave
+    }
+
+    /// Follows a row to the positions of the step. Returns whether it may close.
+    fn follow(&self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
+        row.slipped = row.state == State::Slip;
+        if row.sleep > 0 {
+            row.sleep -= 1;
+            return false;
+        }
+        let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
+        let node = own.nodes[row.slave as usize];
+        let x = positions.at(node);
+        let followed = project(master, positions, self.curvature, x, row.face, row.xi, row.eta);
+        let Some(foot) = followed.foot else {
+            row.gap = f64::INFINITY;
+            row.open();
+            // Walk anew from the middle of the face.
+            (row.xi, row.eta) = (0.0, 0.0);
+            return false;
+        };
+        (row.face, row.xi, row.eta, row.gap) = (foot.face, foot.xi, foot.eta, foot.gap);
+        let face = &master.faces[foot.face as usize];
+        row.place(&foot, face, positions, x);
+        row.frame = frame(&foot.point);
+        if row.is_closed() {
+            // the force of the last step turns with the face and is laid into the new plane
+            let [e1, e2] = frame(&followed.old);
+            let turned = axpy(scale(row.framed[0], e1), row.framed[1], e2);
+            row.friction = lay_into(turned, row.normal);
+            return true;
+        }
+        let speed = norm(relative_velocity(motion.velocity, node, face.nodes, &row.weights));
+        row.sleep = sleep(row.gap, speed, self.search.margin, motion.dt);
+        row.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed
+    }
+
+    /// Takes the velocity without contact of a node of `side`.
+    fn release(&mut self, side: usize, local: u32, trial: &Trial<'_>, force: &[Padded], dt: f64) {
+        let i = local as usize;
+        if self.stamp[side][i] == self.now {
+            return;
+        }
+        let node = self.sides[side].nodes[i];
+        self.stamp[side][i] = self.now;
+        self.velocity[side][i] = (trial.velocity)(node, force[node as usize].xyz());
+        self.pace[side][i] = dt * trial.inverse_mass[node as usize];
+    }
+
+    fn rates(&self, row: &Row, corners: [u32; 4]) -> (f64, Vec3) {
+        let master = &self.velocity[1 - self.slave];
+        let mut moving = [[0.0; 3]; 4];
+        for (v, &corner) in moving.iter_mut().zip(&corners) {
+            *v = master[corner as usize];
+        }
+        row.rates(self.velocity[self.slave][row.slave as usize], moving)
+    }
+
+    /// Adds what the forces of a row change in the velocities.
+    fn push(&mut self, row: &Row, corners: [u32; 4], normal: f64, friction: Vec3) {
+        let (i, own) = (row.slave as usize, self.slave);
+        let on_slave = axpy(friction, normal, row.normal);
+        self.velocity[own][i] = axpy(self.velocity[own][i], self.pace[own][i], on_slave);
+        for (c, &corner) in corners.iter().enumerate() {
+            let (c_force, corner) = (row.reaction(c, normal, friction), corner as usize);
+            let (v, pace) = (&mut self.velocity[1 - own][corner], self.pace[1 - own][corner]);
+            *v = axpy(*v, pace, c_force);
+        }
+    }
+
+    fn corners(&self, row: &Row) -> [u32; 4] {
+        self.sides[1 - self.slave].faces[row.face as usize].local
+    }
+
+    fn at(&self, row: &Row, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
+        let own = &self.sides[self.slave];
+        Place {
+            position: positions.at(own.nodes[row.slave as usize]),
+            time: motion.time,
+            pressure: row.normal_force / own.area[row.slave as usize],
+        }
+    }
+
+    /// One visit of Gauss–Seidel; returns the change of the force and its size (N).
+    fn visit(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> [f64; 2] {
+        let corners = self.corners(row);
+        let (opening, slip) = self.rates(row, corners);
+        let (pressed, rubbed) = (row.normal_force, row.friction);
+        let free_gap = row.gap + motion.dt * (opening - row.mobility * pressed);
+        row.normal_force = (-free_gap / (motion.dt * row.mobility)).max(0.0);
+        let free = axpy(slip, -row.mobility, rubbed);
+        (row.friction, row.state) = self.rub(row, free, positions, motion);
+        let change = sub(row.friction, rubbed);
+        self.push(row, corners, row.normal_force - pressed, change);
+        [
+            (row.normal_force - pressed).abs() + norm(change),
+            row.normal_force.max(norm(row.friction)),
+        ]
+    }
+
+    /// Friction on the slave for the pressure of the row, from the slip velocity without it. Sets the
+    /// coefficient.
+    fn rub(
+        &self,
+        row: &mut Row,
+        free: Vec3,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> (Vec3, State) {
+        if row.normal_force == 0.0 {
+            return ([0.0; 3], State::Open);
+        }
+        let at = self.at(row, positions, motion);
+        let speed = norm(free);
+        let c = row.mobility * row.normal_force;
+        let sticking = (scale(-1.0 / row.mobility, free), State::Stick);
+        if self.law.is_implicit() {
+            let curve =
+                |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
+            let Some((_, mu)) = local::solve(speed, c, row.slipped, &curve) else {
+                row.mu = self.law.mu(row.memory, 0.0, &at);
+                return sticking;
+            };
+            row.mu = mu;
+        } else {
+            row.mu = self.law.mu(row.memory, 0.0, &at);
+            if speed <= c * row.mu {
+                return sticking;
+            }
+        }
+        (scale(-row.mu * row.normal_force / speed, free), State::Slip)
+    }
+
+    /// Whether friction at a row has more than one solution.
+    fn is_manifold(&self, row: &Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
+        if !self.law.is_implicit() {
+            return false;
+        }
+        let at = self.at(row, positions, motion);
+        let (_, slip) = self.rates(row, self.corners(row));
+        let free = norm(axpy(slip, -row.mobility, row.friction));
+        let curve = |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
+        local::is_manifold(free, row.mobility * row.normal_force, &curve)
+    }
+}
+
+impl Contact for ExactContact {
+    fn apply(
+        &mut self,
+        motion: &Motion<'_>,
+        trial: &Trial<'_>,
+        force: &mut [Padded],
+    ) -> ContactSums {
+        let positions =
+            Positions { reference: motion.reference, displacement: motion.displacement };
+        let mut sums = ContactSums {
+            searched: self.search.is_due(&self.sides, &positions, &self.rows),
+            ..ContactSums::default()
+        };
+        let own = self.slave;
+        if sums.searched {
+            self.search.refresh(&self.sides, &positions, &mut self.rows);
+            self.rows[1 - own].clear();
+            let most = self.rows[own].len();
+            self.active.reserve(most.saturating_sub(self.active.len()));
+        }
+        let mut rows = std::mem::take(&mut self.rows[own]);
+        let mut active = std::mem::take(&mut self.active);
+        active.clear();
+        self.now += 1;
+
+        // velocities without contact, rows that may close, the forces of the last step
+        for (i, row) in rows.iter_mut().enumerate() {
+            let was_closed = row.is_closed();
+            if !self.follow(row, &positions, motion) {
+                continue;
+            }
+            let corners = self.corners(row);
+            self.release(own, row.slave, trial, force, motion.dt);
+            corners.iter().for_each(|&c| self.release(1 - own, c, trial, force, motion.dt));
+            row.mobility = self.pace[own][row.slave as usize];
+            for (weight, &corner) in row.weights.iter().zip(&corners) {
+                row.mobility += weight * weight * self.pace[1 - own][corner as usize];
+            }
+            // both ends held: nothing to enforce
+            if row.mobility == 0.0 {
+                row.open();
+                continue;
+            }
+            let at = self.at(row, &positions, motion);
+            row.memory = if was_closed {
+                self.law.advance(row.memory, norm(row.slip_velocity), &at, motion.dt)
+            } else {
+                self.law.begin(&at)
+            };
+            active.push(i as u32);
+        }
+        // Only now: all velocities are free ones.
+        for &i in &active {
+            let row = &rows[i as usize];
+            if row.is_closed() {
+                self.push(row, self.corners(row), row.normal_force, row.friction);
+            }
+        }
+
+        for _ in 0..SWEEPS {
+            sums.sweeps += 1;
+            let (mut change, mut size) = (0.0_f64, 0.0_f64);
+            for &i in &active {
+                let [changed, force] = self.visit(&mut rows[i as usize], &positions, motion);
+                change = change.max(changed);
+                size = size.max(force);
+            }
+            // NaN ends the sweeps too
+            let goes_on = change > TOLERANCE * size;
+            if !goes_on {
+                break;
+            }
+        }
+
+        let (mut on_slaves, mut on_masters) = ([0.0; 3], [0.0; 3]);
+        for &i in &active {
+            let row = &mut rows[i as usize];
+            if !row.is_closed() {
+                row.open();
+                continue;
+            }
+            let (opening, slip) = self.rates(row, self.corners(row));
+            let node = self.sides[own].nodes[row.slave as usize];
+            let corners = self.sides[1 - own].faces[row.face as usize].nodes;
+            let moved = corners.map(|c| motion.velocity[c as usize].xyz());
+            let before = row.rates(motion.velocity[node as usize].xyz(), moved);
+            // the trapezoidal work of the force, in halves around t^n
+            let work = |(opening, slip): (f64, Vec3)| {
+                0.5 * motion.dt * (row.normal_force * opening + dot(row.friction, slip))
+            };
+            let heat = -motion.dt * dot(row.friction, slip);
+            sums.friction_ahead += heat.max(0.0);
+            sums.damping_work -= work(before);
+            sums.damping_ahead -= work((opening, slip)) + heat.max(0.0);
+
+            let on_slave = axpy(row.friction, row.normal_force, row.normal);
+            add_to(&mut force[node as usize], on_slave);
+            on_slaves = add(on_slaves, on_slave);
+            for (c, corner) in corners.into_iter().enumerate() {
+                let on_corner = row.reaction(c, row.normal_force, row.friction);
+                add_to(&mut force[corner as usize], on_corner);
+                on_masters = add(on_masters, on_corner);
+            }
+            row.framed = row.frame.map(|e| dot(row.friction, e));
+            row.slip_velocity = slip;
+            row.slip = axpy(row.slip, motion.dt, slip);
+            sums.normal_force += row.normal_force;
+            sums.closed += 1;
+            sums.slipping += usize::from(row.state == State::Slip);
+            sums.max_penetration = sums.max_penetration.max(-row.gap);
+            sums.manifold += usize::from(self.is_manifold(row, &positions, motion));
+        }
+        sums.sticking = sums.closed - sums.slipping;
+        sums.force[own] = on_slaves;
+        sums.force[1 - own] = on_masters;
+        self.rows[own] = rows;
+        self.active = active;
+        sums
+    }
+
+    fn nodal_table(&self, side: usize) -> NodalContact {
+        NodalContact::whole(&self.sides, side)
+    }
+
+    fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact {
+        NodalContact::part(&self.sides, side, faces)
+    }
+
+    fn nodal(&self, table: &mut NodalContact) {
+        let rows = |wanted: bool| {
+            let list: &[Row] = if wanted { &self.rows[self.slave] } else { &[] };
+            list.iter().map(Row::touch)
+        };
+        let is_slave = table.side() == self.slave;
+        let (margin, mu) = (self.search.margin, self.law.mu_static());
+        table.fill(&self.sides, rows(is_slave), rows(!is_slave), margin, mu, is_slave);
+    }
+
+    fn enforced_on(&self) -> Option<usize> {
+        Some(self.slave)
+    }
+}
+
+fn add_to(force: &mut Padded, by: Vec3) {
+    for i in 0..3 {
+        force[i] += by[i];
+    }
+}

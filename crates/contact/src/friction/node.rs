@@ -1,0 +1,185 @@
+//! Friction of a contact node: a law together with the state that it keeps from step to step.
+
+use super::{Coulomb, FrictionLaw, Memory};
+use std::fmt::Debug;
+
+/// Where a contact node is, when, and what presses it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// Position (m).
+    pub position: [f64; 3],
+    /// Time (s).
+    pub time: f64,
+    /// Contact pressure (Pa).
+    pub pressure: f64,
+}
+
+/// Friction of a contact node: the bound `|p_tau| <= mu p_n` with a coefficient that may depend on
+/// the slip speed of the same instant, on place, time and pressure, and on two numbers of state,
+/// whose meaning is the law's own.
+///
+/// Enforcement keeps the state of each node. In the step in which a node comes into contact it is
+/// [`begin`](Self::begin); in every later step it is first advanced with the slip speed of the step
+/// before, then [`mu`](Self::mu) gives the coefficient of this step.
+pub trait NodeFriction: Send + Sync + Debug {
+    /// State at the beginning of contact.
+    fn begin(&self, at: &Place) -> [f64; 2];
+
+    /// State after a step `dt` (s) in which the node slipped at `slip_speed` (m/s).
+    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2];
+
+    /// Coefficient of friction in this state at the slip speed `slip_speed >= 0` (m/s) of the same
+    /// instant. Does not depend on the latter unless [`is_implicit`](Self::is_implicit).
+    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &Place) -> f64;
+
+    /// Derivative of [`mu`](Self::mu) with respect to the slip speed (s/m).
+    fn slope(&self, _state: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+        0.0
+    }
+
+    /// Whether the coefficient depends on the slip speed of the same instant.
+    fn is_implicit(&self) -> bool {
+        false
+    }
+
+    /// Coefficient of friction of a node that has always been at rest.
+    fn mu_static(&self) -> f64;
+}
+
+impl NodeFriction for Coulomb {
+    fn begin(&self, _at: &Place) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    fn advance(&self, state: [f64; 2], _slip_speed: f64, _at: &Place, _dt: f64) -> [f64; 2] {
+        state
+    }
+
+    fn mu(&self, _state: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+        self.mu
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.mu
+    }
+}
+
+/// `mu(|s|)` with the slip speed of the step before, as the explicit codes evaluate Eq. (8). The state
+/// is that speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lagged<L>(pub L);
+
+impl<L: FrictionLaw> NodeFriction for Lagged<L> {
+    fn begin(&self, _at: &Place) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    fn advance(&self, _state: [f64; 2], slip_speed: f64, _at: &Place, _dt: f64) -> [f64; 2] {
+        [slip_speed, 0.0]
+    }
+
+    fn mu(&self, state: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+        self.0.mu(state[0])
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.0.mu_static()
+    }
+}
+
+/// `mu(|s|)` at the slip speed of the same instant, as Eq. (8) says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Implicit<L>(pub L);
+
+impl<L: FrictionLaw> NodeFriction for Implicit<L> {
+    fn begin(&self, _at: &Place) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    fn advance(&self, state: [f64; 2], _slip_speed: f64, _at: &Place, _dt: f64) -> [f64; 2] {
+        state
+    }
+
+    fn mu(&self, _state: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+        self.0.mu(slip_speed)
+    }
+
+    fn slope(&self, _state: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+        self.0.slope(slip_speed)
+    }
+
+    fn is_implicit(&self) -> bool {
+        true
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.0.mu_static()
+    }
+}
+
+/// A law with memory: the coefficient, which is the state, follows the steady one over a distance of
+/// slip. Out of contact it returns to that at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Remembering<L> {
+    /// The steady law.
+    pub steady: L,
+    /// How the coefficient follows it.
+    pub memory: Memory,
+}
+
+impl<L: FrictionLaw> NodeFriction for Remembering<L> {
+    fn begin(&self, _at: &Place) -> [f64; 2] {
+        [self.steady.mu_static(), 0.0]
+    }
+
+    fn advance(&self, [mu, _]: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
+        [self.memory.advance(mu, self.steady.mu(slip_speed), slip_speed, dt), 0.0]
+    }
+
+    fn mu(&self, [mu, _]: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+        mu
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.steady.mu_static()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Exponential;
+
+    const PAPER: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+
+    #[test]
+    fn lagged_friction_is_that_of_the_speed_before() {
+        let (law, at) = (Lagged(PAPER), Place::default());
+        let state = law.begin(&at);
+        assert_eq!(law.mu(state, 3.0, &at), 0.5);
+        let state = law.advance(state, 0.2, &at, 1e-7);
+        assert_eq!(law.mu(state, 3.0, &at), PAPER.mu(0.2));
+    }
+
+    #[test]
+    fn implicit_friction_has_the_slope_of_its_law() {
+        let (law, at) = (Implicit(PAPER), Place::default());
+        let state = law.begin(&at);
+        for s in [0.01, 0.3, 2.0] {
+            let by_difference = (PAPER.mu(s + 1e-6) - PAPER.mu(s - 1e-6)) / 2e-6;
+            assert!((law.slope(state, s, &at) - by_difference).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn remembered_friction_begins_at_rest_and_ends_at_the_steady_coefficient() {
+        let memory = Memory { distance: 1e-6, floor: 1e-2 };
+        let (law, at) = (Remembering { steady: PAPER, memory }, Place::default());
+        let mut state = law.begin(&at);
+        assert_eq!(law.mu(state, 0.7, &at), 0.5);
+        for _ in 0..1000 {
+            state = law.advance(state, 0.7, &at, 1e-7);
+        }
+        assert!((law.mu(state, 0.0, &at) - PAPER.mu(0.7)).abs() < 1e-15);
+    }
+}

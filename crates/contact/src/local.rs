@@ -1,0 +1,142 @@
+//! The tangential problem of one node: `T s + p_f = T |s_free|` with `p_f` from the law of friction.
+//!
+//! `s_free` is the slip velocity that the node would have without its own friction. Slip is parallel
+//! to it, and its speed `s` solves `s + c mu(s) = |s_free|` with `c = dt W p_n A` (m/s), or is zero where
+//! `c mu(0) >= |s_free|`: Coulomb's law for a known coefficient, and Eq. (8) of Vollebregt (2017) with the
+//! coefficient at the same instant.
+//!
+//! # Selection
+//! Where `c mu` falls faster than `s` rises there are three solutions: adhesion, and two in slip, the
+//! slower of which is unstable. A node stays on its branch until that ends (perfect delay, Ionescu and
+//! Paumier 1994): a node that stuck sticks as long as it can; one that slipped slips as long as there
+//! is a solution in slip, and takes the fastest.
+
+/// Bisections and Newton steps at most.
+const ROUNDS: usize = 100;
+
+/// A coefficient of friction and its slope (s/m) over the slip speed (m/s).
+pub(crate) trait Curve {
+    fn at(&self, speed: f64) -> (f64, f64);
+}
+
+impl<F: Fn(f64) -> (f64, f64)> Curve for F {
+    fn at(&self, speed: f64) -> (f64, f64) {
+        self(speed)
+    }
+}
+
+/// Slip speed (m/s) and coefficient of friction with a coefficient that depends on the speed; no
+/// speed where the node sticks.
+pub(crate) fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option<(f64, f64)> {
+    let sticks = c * mu.at(0.0).0 >= free;
+    if sticks && !slipped {
+        return None;
+    }
+    fastest(free, c, mu).filter(|(speed, _)| *speed > 0.0)
+}
+
+/// Whether adhesion and slip are both solutions.
+pub(crate) fn is_manifold(free: f64, c: f64, mu: &impl Curve) -> bool {
+    c * mu.at(0.0).0 >= free && fastest(free, c, mu).is_some_and(|(speed, _)| speed > 0.0)
+}
+
+/// The largest root of `F(s) = s + c mu(s) - free`, by Newton's method from above, where `F > 0`.
+///
+/// On the way down `F` falls along a curve that is convex for laws that level off, so that Newton's
+/// steps do not pass the root. Where one does, the root lies in between and is bracketed.
+fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
+    // F(free) = c mu >= 0
+    let (mut above, mut below) = (free, f64::NAN);
+    let mut s = free;
+    for _ in 0..ROUNDS {
+        let (value, slope) = mu.at(s);
+        let f = s + c * value - free;
+        if f.abs() <= f64::EPSILON * (free + c * value) {
+            return Some((s, value));
+        }
+        if f > 0.0 {
+            above = s
+        } else {
+            below = s
+        }
+        let derivative = 1.0 + c * slope;
+        let newton = s - f / derivative;
+        if below.is_nan() {
+            // no root on this branch: F turns up again, or reaches rest, without a change of sign
+            if derivative <= 0.0 {
+                return None;
+            }
+            if newton < 0.0 {
+                if c * mu.at(0.0).0 >= free || s == 0.0 {
+                    return None;
+                }
+                below = 0.0;
+                s = 0.5 * above;
+                continue;
+            }
+            if newton == s {
+                return Some((s, value));
+            }
+            s = newton;
+        } else {
+            let inside = newton > below && newton < above;
+            let next = if inside { newton } else { 0.5 * (below + above) };
+            if next == s || above - below <= f64::EPSILON * above {
+                return Some((s, value));
+            }
+            s = next;
+        }
+    }
+    Some((s, mu.at(s).0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eq. (8) with steel's impedance: T = Z/p at 1 GPa, R = 86.
+    fn paper(s: f64) -> (f64, f64) {
+        let above = 0.18 * (-6.0 * s).exp();
+        (0.32 + above, -6.0 * above)
+    }
+    const C: f64 = 1e9 / 12.6e6;
+
+    #[test]
+    fn a_constant_coefficient_gives_coulomb() {
+        let law = |_: f64| (0.3, 0.0);
+        assert_eq!(solve(0.29, 1.0, true, &law), None);
+        let (s, mu) = solve(0.5, 1.0, false, &law).unwrap();
+        assert!((s - 0.2).abs() < 1e-15 && mu == 0.3);
+    }
+
+    #[test]
+    fn a_node_that_stuck_sticks_up_to_the_static_bound_and_jumps_to_14_19_metres_per_second() {
+        assert_eq!(solve(0.4999 * C, C, false, &paper), None);
+        let (s, mu) = solve(0.500_001 * C, C, false, &paper).unwrap();
+        assert!((s / 14.19 - 1.0).abs() < 1e-2, "{s}");
+        assert!((s + C * mu - 0.500_001 * C).abs() < 1e-12 * C);
+    }
+
+    #[test]
+    fn a_node_that_slipped_slips_down_to_the_minimum_of_the_curve() {
+        // f_min/p_n = mu_D + dmu (1 + ln R)/R with R = c k dmu
+        let r = C * 6.0 * 0.18;
+        let least = 0.32 + 0.18 * (1.0 + r.ln()) / r;
+        assert!(solve((least + 1e-5) * C, C, true, &paper).is_some());
+        assert_eq!(solve((least - 1e-5) * C, C, true, &paper), None);
+        assert!(is_manifold(0.4 * C, C, &paper));
+        assert!(!is_manifold(0.51 * C, C, &paper));
+        assert!(!is_manifold(0.3 * C, C, &paper));
+    }
+
+    #[test]
+    fn a_well_posed_law_has_one_solution_for_any_history() {
+        // R = 0.5
+        let c = 0.5 / (6.0 * 0.18);
+        for i in 1..200 {
+            let free = f64::from(i) * 5e-3;
+            assert_eq!(solve(free, c, true, &paper), solve(free, c, false, &paper), "{free}");
+            assert!(!is_manifold(free, c, &paper));
+        }
+    }
+}
