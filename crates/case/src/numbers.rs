@@ -2,7 +2,7 @@
 
 use crate::hertz::hertz;
 use crate::model::{BAR, DISK, Model};
-use crate::schema::{Case, DriveMode, FrictionLaw};
+use crate::schema::{Case, DriveMode, Enforcement, FrictionLaw};
 use contact::{Exponential, Falling, Interface, Stiffness};
 use serde_json::json;
 use solid::Material;
@@ -11,12 +11,14 @@ use solid::Material;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Numbers {
     at: Interface,
-    /// `N_1 = dt^2 k_t/m*` (dimensionless) of the friction springs.
-    n1: f64,
+    /// `N_1 = dt^2 k_t/m*` (dimensionless) of the friction springs of penalty contact.
+    n1: Option<f64>,
     /// The numbers of falling friction; `None` for a law that does not fall.
     falling: Option<Falling>,
     /// Length of the zone of slip (m) by Carter's theory; twice the half length of the patch where all slips.
     slip_length: f64,
+    /// Nucleation length (m) of friction with memory.
+    nucleation: Option<f64>,
 }
 
 /// The numbers of a case with the time step `dt` (s).
@@ -36,9 +38,12 @@ pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
         surface_mass: in_series(surface(disk), surface(bar)),
         dt,
     };
+    let falls = law(case).filter(|law| contact::falling(law, &at).is_some());
+    let memory = case.friction.memory.map(|memory| memory.distance);
     Numbers {
-        n1: contact::spring_number(tangential(case, model, depth), &at),
-        falling: law(case).and_then(|law| contact::falling(&law, &at)),
+        n1: tangential(case, model, depth).map(|k| contact::spring_number(k, &at)),
+        falling: falls.and_then(|law| contact::falling(&law, &at)),
+        nucleation: falls.zip(memory).map(|(law, d)| contact::nucleation_length(&law, d, &at)),
         slip_length: 2.0 * patch.a * slipping(case, patch.a),
         at,
     }
@@ -53,15 +58,19 @@ fn law(case: &Case) -> Option<Exponential> {
     })
 }
 
-/// Areal stiffness of the friction springs of both passes (N/m^3) between cubes of the size `depth`.
-fn tangential(case: &Case, model: &Model, depth: f64) -> f64 {
+/// Areal stiffness of the friction springs of both passes (N/m^3) between cubes of the size `depth`,
+/// if there are any.
+fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
+    if case.contact.enforcement == Enforcement::Exact {
+        return None;
+    }
     match crate::model::stiffness(case.contact.penalty.tangential) {
         Stiffness::Scale(factor) => {
-            [DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum()
+            Some([DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum())
         }
-        Stiffness::Areal(both) => both,
-        // of 4 m*/dt^2 less what the bodies need, which is left out here
-        Stiffness::StabilityFraction(_) => f64::NAN,
+        Stiffness::Areal(both) => Some(both),
+        // a fraction of 4 m*/dt^2 less what the bodies need, which is not known here
+        Stiffness::StabilityFraction(_) => None,
     }
 }
 
@@ -85,46 +94,61 @@ impl Numbers {
     /// The line of the log; `None` for a law that does not fall.
     pub(crate) fn line(&self) -> Option<String> {
         let f = self.falling?;
-        let mut line = format!(
-            "falling friction at {:.0} MPa: R {}, N1 {}, N2 {}",
-            self.at.pressure * 1e-6,
-            three(f.r),
-            three(self.n1),
-            three(f.n2)
-        );
+        let mut line =
+            format!("falling friction at {:.0} MPa: R {}", self.at.pressure * 1e-6, three(f.r));
+        if let Some(n1) = self.n1 {
+            line += &format!(", N1 {}", three(n1));
+        }
+        line += &format!(", N2 {}", three(f.n2));
         if let (Some(least), Some(s_m), Some(jump)) = (f.f_min, f.s_m, f.s_jump) {
             line += &format!(", f_min/p {least:.4}, s_m {s_m:.3} m/s, jump to {jump:.2} m/s");
         }
+        if let (Some(length), Some(gamma)) = (self.nucleation, self.gamma()) {
+            line += &format!(", h_n {} mm, Gamma {}", three(1e3 * length), three(gamma));
+        }
         Some(line)
+    }
+
+    /// `Gamma = l_slip/h_n` of friction with memory.
+    fn gamma(&self) -> Option<f64> {
+        self.nucleation.map(|length| self.slip_length / length)
     }
 
     /// One sentence on what to expect of the run, where there is reason to warn.
     pub(crate) fn expectation(&self) -> Option<String> {
         let f = self.falling?;
-        (f.r > 1.0).then(|| {
-            format!(
+        match self.gamma() {
+            Some(gamma) if gamma > 1.0 => Some(format!(
+                "Gamma = {} is above 1: the zone of slip is longer than the nucleation length, and slip \
+                 may oscillate by itself",
+                three(gamma)
+            )),
+            None if f.r > 1.0 => Some(format!(
                 "R = {} is above 1 and friction has no memory: Eq. (8) has no solution that meshes \
-                 converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in its place",
+                 converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in \
+                 its place",
                 three(f.r),
                 f.s_jump.unwrap_or(0.0)
-            )
-        })
+            )),
+            _ => None,
+        }
     }
 
     /// The section of the summary. Lengths in m, speeds in m/s, pressure in Pa.
     pub(crate) fn json(&self) -> serde_json::Value {
-        let n1 = Some(self.n1).filter(|n| n.is_finite());
         let f = self.falling;
         json!({
             "pressure": self.at.pressure,
             "impedance": self.at.impedance,
             "r": f.map(|f| f.r),
-            "n1": n1,
+            "n1": self.n1,
             "n2": f.map(|f| f.n2),
             "f_min": f.and_then(|f| f.f_min),
             "s_m": f.and_then(|f| f.s_m),
             "s_jump": f.and_then(|f| f.s_jump),
             "slip_length": self.slip_length,
+            "nucleation_length": self.nucleation,
+            "gamma": self.gamma(),
             "expect": self.expectation(),
         })
     }

@@ -1,58 +1,59 @@
-//! The dimensionless numbers of section 6 of the project's physics notes and what they mean.
+//! The dimensionless numbers of a run and what they mean.
 
 use super::digits;
-use crate::basis::{Basis, number_at};
-use crate::law::Law;
+use crate::basis::Basis;
 use std::fmt::Write;
 
-/// Appends the section, where the case gives what the numbers are made of.
-///
-/// With p0 Hertz's peak pressure, k and dmu of Eq. (8), Z = rho c_s/2 the shear radiation impedance
-/// of two equal half-spaces and m* = rho d/4 the reduced mass of two surface layers of depth d
-/// (the element size): R = p0 k dmu/Z, N2 = dt p0 k dmu/m*, N1 = dt^2 k_t/m*.
+/// What a number of the summary's section `numbers` is called, and what it means.
+const MEANINGS: [(&str, &str, &str); 8] = [
+    (
+        "r",
+        "R = p0 k \u{394}\u{3bc}/Z",
+        "above 1 Eq. (8) alone is ill-posed between elastic bodies: three states are possible at one load, \
+         disturbances grow the faster the finer the mesh, and no refinement converges point by point; below 1 \
+         the bodies radiate energy faster than falling friction feeds it",
+    ),
+    (
+        "n2",
+        "N2 = dt p0 k \u{394}\u{3bc}/m*",
+        "negative damping per step of falling friction against the mass of the surface layer; below 1 it is \
+         a small correction to the step",
+    ),
+    (
+        "n1",
+        "N1 = dt\u{b2} k_t/m*",
+        "friction spring against the mass of the surface layer, per step squared: the softer the spring, \
+         the more nodes that stick move",
+    ),
+    ("f_min", "f_min/p0", "the least shear over pressure at which slip goes on by Eq. (8) alone"),
+    ("s_m", "s_m (m/s)", "between rest and this slip speed no state is stable by Eq. (8) alone"),
+    (
+        "s_jump",
+        "s_jump (m/s)",
+        "slip speed to which a point jumps by Eq. (8) alone when it begins to slip",
+    ),
+    (
+        "nucleation_length",
+        "h_n (m)",
+        "nucleation length of friction with memory: shorter zones of slip are stable",
+    ),
+    (
+        "gamma",
+        "\u{393} = l_slip/h_n",
+        "zone of slip, by Carter, over the nucleation length; above 1 slip may oscillate by itself",
+    ),
+];
+
+/// Appends the section: the numbers of the summary, and how finely time and patch are divided.
 pub(super) fn section(out: &mut String, basis: &Basis) {
-    let (Some(p0), Some(shear_wave)) = (basis.scale("peak_pressure"), basis.scale("shear_wave"))
-    else {
-        return;
-    };
-    let at = |key: &str, default: f64| {
-        basis.case.as_ref().and_then(|case| number_at(case, key)).unwrap_or(default)
-    };
-    let density = at("material.density", 7800.0);
     let mut rows: Vec<(&str, f64, String)> = Vec::new();
-    let depth = basis.scale("size");
-    let surface_mass = depth.map(|d| density * d / 4.0);
-    if let Some(Law::Exponential(law)) = basis.law {
-        let slope = p0 * law.decay * (law.mu_static - law.mu_dynamic);
-        let ratio = slope / (0.5 * density * shear_wave);
-        let meaning = if ratio > 1.0 {
-            "above 1 Eq. (8) alone is ill-posed between elastic bodies: three states are possible \
-             at one load, disturbances grow the faster the finer the mesh, and no refinement \
-             converges point by point"
-        } else {
-            "below 1 Eq. (8) is well posed: the bodies radiate energy faster than falling friction \
-             feeds it"
-        };
-        rows.push(("R = p0 k \u{394}\u{3bc}/Z", ratio, meaning.into()));
-        if let (Some(dt), Some(mass)) = (basis.scale("dt"), surface_mass) {
-            let value = dt * slope / mass;
-            let meaning = "negative damping per step of falling friction against the mass of the surface \
-                           layer; below 1 it is a small correction to the step";
-            rows.push(("N2 = dt p0 k \u{394}\u{3bc}/m*", value, meaning.into()));
+    let numbers = basis.summary.as_ref().map(|summary| &summary["numbers"]);
+    for (key, name, meaning) in MEANINGS {
+        if let Some(value) = numbers.and_then(|numbers| numbers[key].as_f64()) {
+            rows.push((name, value, meaning.into()));
         }
     }
-    let factor = basis.case.as_ref().and_then(|c| number_at(c, "contact.penalty.tangential"));
-    if let (Some(factor), Some(dt), Some(mass), Some(depth)) =
-        (factor, basis.scale("dt"), surface_mass, depth)
-    {
-        let (young, poisson) = (at("material.young", 210e9), at("material.poisson", 0.3));
-        let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
-        // two passes, each SF K/d
-        let value = dt * dt * 2.0 * factor * bulk / depth / mass;
-        let meaning = "friction spring against the mass of the surface layer, per step squared: the \
-                       softer the spring, the more nodes that stick move";
-        rows.push(("N1 = dt\u{b2} k_t/m*", value, meaning.into()));
-    }
+    let depth = basis.scale("size");
     if let (Some(a), Some(speed), Some(dt)) =
         (basis.scale("half_length"), basis.scale("speed"), basis.scale("dt"))
     {
