@@ -130,7 +130,7 @@ fn smoke_run(root: &Path) -> Outcome {
 fn report_page(root: &Path) -> Outcome {
     let browsers = ["chromium", "chromium-browser", "google-chrome"];
     let runs = |name: &&str| Command::new(name).arg("--version").output().is_ok();
-    if !browsers.iter().any(|name| runs(&name)) {
+    if !browsers.iter().any(runs) {
         eprintln!("warning: there is no Chromium; tests/python/check_page.py was skipped");
         return Outcome::Skipped;
     }

@@ -93,6 +93,12 @@ fn a_grid_reads_back_bit_for_bit() {
         assert_eq!(read, vectors::<6>(1, step).as_flattened());
         assert_eq!(file.read("body", true, step).unwrap(), [3.0]);
     }
+    let three = file.read_steps("displacement", false, 148..151).unwrap();
+    let one_by_one = [148, 149, 150].map(|step| file.read("displacement", false, step).unwrap());
+    assert_eq!(three, one_by_one.concat());
+    assert_eq!(file.read_steps("body", true, 0..300).unwrap(), [3.0], "stored once");
+    assert!(file.read_steps("stress", true, 299..301).is_err());
+    assert_eq!(file.read_steps("stress", true, 7..7).unwrap(), [0.0; 0]);
     let stress = file.fields().iter().find(|field| field.name == "stress").unwrap();
     assert_eq!((stress.components, stress.units.as_str()), (6, "Pa"));
     assert!(stress.on_cells && !stress.constant && !stress.integer);

@@ -218,7 +218,7 @@ impl ContactHistory {
         self.stream_batches(records, |batch| batch.into_iter().try_for_each(&mut take))
     }
 
-    /// As [`Self::stream`], a few records at a time: as many as fit into [`BATCH_BYTES`].
+    /// As [`Self::stream`], a few records at a time: as many as fit into `BATCH_BYTES`.
     ///
     /// # Errors
     /// As there.

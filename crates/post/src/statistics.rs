@@ -68,15 +68,14 @@ fn bin_of(size: f64) -> usize {
     ((at + 1).saturating_sub(first) as usize).min(BINS - 1)
 }
 
-/// Smallest and largest value of a bin.
+/// Smallest and largest value of a bin; what is below all of them counts as zero.
 fn ends(bin: usize) -> [f64; 2] {
     let first = EXPONENTS.start << FRACTION_BITS;
     let end = |bin: usize| match bin {
-        0 => 0.0,
         BINS.. => f64::INFINITY,
         bin => f64::from_bits((first + bin as u64 - 1) << (52 - FRACTION_BITS)),
     };
-    [end(bin), end(bin + 1)]
+    if bin == 0 { [0.0; 2] } else { [end(bin), end(bin + 1)] }
 }
 
 impl Spread {

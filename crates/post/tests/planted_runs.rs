@@ -271,3 +271,68 @@ fn a_resting_patch_has_the_planted_measures() {
     let sides: Value = found.document["metrics"]["law_error"]["sides"].clone();
     assert_eq!(sides.as_object().unwrap().keys().collect::<Vec<_>>(), ["bar", "disk", "pair"]);
 }
+
+#[test]
+fn springs_that_give_under_held_nodes_are_told_from_what_the_algorithm_does() {
+    let folder = tempfile::tempdir().unwrap();
+    // held nodes move across their shear by a tenth of s_c; those let slip obey law and direction
+    write(folder.path(), COULOMB, "penalty", 10, |x, _| {
+        let mut node = perfect(COULOMB, x, 0);
+        if node.state == 1 {
+            let [sx, sy, _] = node.shear.map(|c| -c / (0.3 * node.pressure));
+            node.slip = [-0.1 * SLIP * sy, 0.1 * SLIP * sx, 0.0];
+        }
+        node
+    });
+    let found = judge(folder.path(), Report::Stricter).unwrap();
+    is(&found, "law_error_let_slip", 0.0);
+    is(&found, "direction_let_slip", 0.0);
+    is(&found, "adhesion_slip", 0.1);
+    let metrics = &found.document["metrics"];
+    for (name, pass) in [
+        ("law_error_let_slip", true),
+        ("direction_let_slip", true),
+        ("law_error", false),
+        ("direction", false),
+        ("violating_fraction", false),
+    ] {
+        assert_eq!(metrics[name]["pass"], pass, "{name}: {:#}", metrics[name]);
+    }
+    let note = found.document["notes"][0].as_str().unwrap();
+    assert!(note.contains("law_error, direction, violating_fraction"), "{note}");
+    assert!(note.contains("give of its springs"), "{note}");
+}
+
+#[test]
+fn a_law_that_the_algorithm_itself_breaks_is_not_put_down_to_springs() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), COULOMB, "penalty", 10, |x, _| {
+        let mut node = perfect(COULOMB, x, 0);
+        if node.state == 2 {
+            node.shear = node.shear.map(|c| 0.9 * c);
+        }
+        node
+    });
+    let found = judge(folder.path(), Report::Stricter).unwrap();
+    is(&found, "law_error_let_slip", 0.1);
+    is(&found, "direction_let_slip", 0.0);
+    assert_eq!(found.document["metrics"]["law_error_let_slip"]["pass"], false);
+    assert_eq!(found.document["notes"], serde_json::json!([]));
+}
+
+#[test]
+fn the_deviation_over_the_window_is_that_of_what_was_planted_record_by_record() {
+    let folder = tempfile::tempdir().unwrap();
+    // every second record is off its bound by 20 %, the others by none
+    write(folder.path(), COULOMB, "penalty", 40, |x, step| {
+        let mut node = perfect(COULOMB, x, 0);
+        if node.state == 2 && step % 2 == 0 {
+            node.shear = node.shear.map(|c| 0.8 * c);
+        }
+        node
+    });
+    let found = judge(folder.path(), Report::Only(Pairing::Before)).unwrap();
+    is(&found, "law_error", 0.2 / 2f64.sqrt());
+    let deviation = found.document["metrics"]["law_error"]["deviation"].as_f64().unwrap();
+    assert!((deviation - 0.1).abs() < 1e-10, "{deviation}");
+}

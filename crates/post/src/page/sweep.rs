@@ -53,36 +53,32 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
         "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to each measure; what the words mean: \
          docs/checks.md of Creepage, Verdicts on a sweep.</p>\n",
     );
-    let mut section = None;
-    for verdict in verdicts {
-        let here = (&verdict.axis, &verdict.others);
-        if section != Some(here) {
-            if section.is_some() {
-                out.push_str("</table>\n");
-            }
-            section = Some(here);
-            let others = if verdict.others.is_empty() {
-                String::new()
-            } else {
-                format!(", {}", escape(&verdict.others))
-            };
+    let section = |a: &SweepVerdict, b: &SweepVerdict| a.axis == b.axis && a.others == b.others;
+    for verdicts in verdicts.chunk_by(section) {
+        let (axis, others) = (escape(&verdicts[0].axis), escape(&verdicts[0].others));
+        let others = if others.is_empty() { others } else { format!(", {others}") };
+        let _ = writeln!(out, "<h3>{axis}{others}</h3>");
+        let most = verdicts.iter().map(|verdict| verdict.points).max().unwrap_or(0);
+        if most < 3 {
+            let _ = writeln!(out, "<p>Cannot be said: {most} points; three are the least.</p>");
+            continue;
+        }
+        out.push_str(
+            "<table>\n<tr><th>measure</th><th class=\"n\">points</th><th>plateau</th>\
+             <th>trend</th></tr>\n",
+        );
+        for verdict in verdicts {
             let _ = writeln!(
                 out,
-                "<h3>{}{others}</h3>\n<table>\n<tr><th>measure</th><th class=\"n\">points</th>\
-                 <th>plateau</th><th>trend</th></tr>",
-                escape(&verdict.axis)
+                "<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>",
+                escape(verdict.measure),
+                verdict.points,
+                verdict.trend.word(),
+                escape(&verdict.trend.sentence(verdict.points, verdict.unit))
             );
         }
-        let _ = writeln!(
-            out,
-            "<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>",
-            escape(verdict.measure),
-            verdict.points,
-            verdict.trend.word(),
-            escape(&verdict.trend.sentence(verdict.points, verdict.unit))
-        );
+        out.push_str("</table>\n");
     }
-    out.push_str("</table>\n");
 }
 
 /// All runs, those that failed with their reason.

@@ -7,9 +7,10 @@ use crate::figures::Scene;
 use crate::frames::ContactHistory;
 use crate::vector::norm;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 
-/// Most records that a mean is taken over, evenly spread: the patch passes fewer new nodes.
+/// Most records that a mean is taken over: the patch passes fewer new nodes.
 const MOST_RECORDS: usize = 40;
 
 /// Pressure, shear and slip speed along y = 0: where (m from the patch's centre), p, p_f (Pa) and
@@ -26,7 +27,6 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
     let records = history.window(span).unwrap_or(0..history.times.len());
     let scales = Scales::settle(&mut basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
-    let every = records.len().div_ceil(MOST_RECORDS);
     let scene = Scene {
         history: &history,
         basis: &basis,
@@ -38,7 +38,7 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
     let line = scene.centreline(body);
     // per bin: p, p_f, |s| and how many nodes gave the first two and the last
     let mut bins: BTreeMap<i64, [f64; 5]> = BTreeMap::new();
-    for index in records.step_by(every) {
+    for index in spread(&history.times, records) {
         let frame = history.record(index)?;
         let centre = scene.centre(&frame);
         for &row in &line {
@@ -60,4 +60,32 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
         [bin as f64 * scales.size, p / all, shear / all, slip / touching]
     };
     Ok(Profile(bins.into_iter().map(mean).collect()))
+}
+
+/// Records nearest to times that are spread evenly over the window, so that spans recorded at every
+/// step do not outweigh others.
+fn spread(times: &[f64], records: Range<usize>) -> Vec<usize> {
+    let (from, to) = (times[records.start], times[records.end - 1]);
+    let nearest = |i: usize| {
+        let wanted = from + (to - from) * i as f64 / (MOST_RECORDS - 1) as f64;
+        let away = |k: &usize| (times[*k] - wanted).abs();
+        records.clone().min_by(|a, b| away(a).total_cmp(&away(b)))
+    };
+    let mut chosen: Vec<usize> = (0..MOST_RECORDS).filter_map(nearest).collect();
+    chosen.dedup();
+    chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn a_span_recorded_densely_does_not_outweigh_the_rest() {
+        let mut times: Vec<f64> = (0..90).map(f64::from).collect();
+        times.extend((0..900).map(|i| 90.0 + 1e-3 * f64::from(i)));
+        let dense = spread(&times, 0..times.len()).iter().filter(|k| times[**k] >= 89.5).count();
+        assert!(dense <= 2, "{dense}");
+        assert_eq!(spread(&times, 3..4), [3]);
+    }
 }

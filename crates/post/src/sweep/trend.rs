@@ -64,15 +64,17 @@ pub enum Trend {
 }
 
 /// Changes below this share of the largest size are no changes.
-pub const FLAT: f64 = 0.02;
+const FLAT: f64 = 0.02;
 /// A limit is reached within this share of it.
-pub const REACHED: f64 = 0.05;
+const REACHED: f64 = 0.05;
 /// A fit holds where its root mean square residual is below this share of the range of values.
-pub const RESIDUAL: f64 = 0.08;
+const RESIDUAL: f64 = 0.08;
+/// A step against the way that the measure goes says something where it exceeds this share of the range.
+const TURN: f64 = 0.05;
 /// Exponents from here on mean a limit: each decade of refinement leaves at most 56 % of the way.
-pub const SETTLES: f64 = 0.25;
+const SETTLES: f64 = 0.25;
 /// Exponents up to here mean none: each decade adds at least 79 % of what the one before did.
-pub const GOES_ON: f64 = 0.1;
+const GOES_ON: f64 = 0.1;
 
 /// Largest exponent of the fit.
 const STEEPEST: f64 = 6.0;
@@ -80,14 +82,16 @@ const STEEPEST: f64 = 6.0;
 /// The trend of a measure along an axis, refined towards zero or upwards.
 ///
 /// 1. Fewer than three points say nothing about a limit.
-/// 2. *Flat*: the range of the values is below [`FLAT`] of the largest, or below the mean deviation
+/// 2. *Flat*: the range of the values is below `FLAT` of the largest, or below the mean deviation
 ///    over the window.
-/// 3. Otherwise the fit must hold: its root mean square residual is below [`RESIDUAL`] of the range,
+/// 3. A measure that turns back by more than `TURN` of its range, and by more than the mean
+///    deviation, has no trend that a fit could tell.
+/// 4. Otherwise the fit must hold: its root mean square residual is below `RESIDUAL` of the range,
 ///    or below the mean deviation. Three points determine the fit and cannot contradict it, which
 ///    the words say.
-/// 4. q >= [`SETTLES`]: a limit. It is zero where |v_inf| is below [`REACHED`] of the range or has the
-///    other sign than the last value; it is *reached* where the last point is within [`REACHED`] of it
-///    or within its deviation. q <= [`GOES_ON`]: none. In between the points do not tell.
+/// 5. q >= `SETTLES`: a limit. It is zero where |v_inf| is below `REACHED` of the range or has the
+///    other sign than the last value; it is *reached* where the last point is within `REACHED` of it
+///    or within its deviation. q <= `GOES_ON`: none. In between the points do not tell.
 pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     let mut points: Vec<Sample> = samples
         .iter()
@@ -110,6 +114,13 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     if range <= (FLAT * largest).max(noise) {
         let mean = values().sum::<f64>() / n as f64;
         return Trend::Flat { mean, range };
+    }
+    let way = points[n - 1].value - points[0].value;
+    let against = |pair: &[Sample]| -(pair[1].value - pair[0].value) * way.signum();
+    let turn = points.windows(2).map(against).fold(0.0, f64::max);
+    if turn > (TURN * range).max(noise) {
+        let share = digits(100.0 * turn / range, 2);
+        return unclear(format!("the measure turns back on its way, by {share} % of its range"));
     }
     let fit = Fit::to(&points);
     if fit.residual > (RESIDUAL * range).max(noise) {
@@ -322,6 +333,12 @@ mod tests {
             .map(|(&x, value)| Sample { x, value, deviation: 0.0 })
             .collect();
         assert_eq!(trend(&points, false).word(), "cannot be said");
+        let turns = sampled(|x| 1.0 + 0.3 / x - 0.1 * (x - 100.0).max(0.0) / 900.0, &DECADES);
+        assert!(matches!(trend(&turns[..4], false), Trend::Reached { .. }));
+        let mut back = turns;
+        back[4].value += 0.4;
+        let found = trend(&back, false);
+        assert!(found.sentence(5, "").contains("turns back"), "{found:?}");
         // the same differences within the fluctuation over the window are none
         let noisy: Vec<Sample> = points.iter().map(|p| Sample { deviation: 3.0, ..*p }).collect();
         assert!(matches!(trend(&noisy, false), Trend::Flat { .. }));
