@@ -21,7 +21,7 @@ pub fn validate() -> ExitCode {
     // Asked at run time: clones that share a target folder share this program as well.
     let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
     let root = Path::new(&home).parent().unwrap_or(Path::new("."));
-    let steps: [(&str, Step); 7] = [
+    let steps: [(&str, Step); 8] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -29,6 +29,7 @@ pub fn validate() -> ExitCode {
         ("tests", tests),
         ("schema", schema),
         ("smoke run", smoke_run),
+        ("sweep through Dask", dask),
     ];
     let mut report = Vec::new();
     for (name, step) in steps {
@@ -122,6 +123,12 @@ fn smoke_run(root: &Path) -> Outcome {
         return Outcome::Failed;
     }
     check_with_python(root, "check_run.py", &[folder])
+}
+
+/// A plan of `creepage sweep` run by the Dask driver gives the sweep's own numbers.
+fn dask(root: &Path) -> Outcome {
+    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    check_with_python(root, "check_dask.py", &[binary, root.to_path_buf()])
 }
 
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous
