@@ -44,7 +44,10 @@ def main():
     failures = 0
     cases = sorted(Path(sys.argv[2]).rglob("*.toml"))
     for case in cases:
-        for error in validator.iter_errors(tomllib.loads(case.read_text(encoding="utf-8"))):
+        table = tomllib.loads(case.read_text(encoding="utf-8"))
+        if "axis" in table:  # a sweep file, whose base is among the cases
+            continue
+        for error in validator.iter_errors(table):
             failures += 1
             print(f"{case}: {error.json_path}: {error.message}")
     if not validator.is_valid(tomllib.loads(GOOD)):

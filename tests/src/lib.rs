@@ -38,13 +38,18 @@ pub fn load(path: &Path, sets: &[&str]) -> Case {
 
 /// Runs a case to its end.
 pub fn run(case: &Case, threads: usize) -> Results {
+    run_with(case, threads, None).0
+}
+
+/// Runs a case to its end with its preload kept in `cache`; also returns its log.
+pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, String) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
     let options = RunOptions {
         out: out.clone(),
         threads,
         force: false,
-        preload_cache: None,
+        preload_cache: cache.map(Path::to_path_buf),
         source: PathBuf::from("test"),
     };
     let returned = case::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
@@ -62,7 +67,8 @@ pub fn run(case: &Case, threads: usize) -> Results {
         }
     }
     let resolved = std::fs::read_to_string(out.join("case.toml")).unwrap();
-    Results { data, summary, resolved }
+    let log = std::fs::read_to_string(out.join("run.log")).unwrap();
+    (Results { data, summary, resolved }, log)
 }
 
 fn read_grid(path: &Path, name: &str, data: &mut BTreeMap<String, Vec<f64>>) {

@@ -30,6 +30,7 @@ pub fn validate() -> ExitCode {
         ("schema", schema),
         ("smoke run", smoke_run),
         ("report page", report_page),
+        ("sweep through Dask", dask),
     ];
     let mut report = Vec::new();
     for (name, step) in steps {
@@ -139,6 +140,12 @@ fn report_page(root: &Path) -> Outcome {
         return Outcome::Failed;
     }
     check_with_python(root, "check_page.py", &[target(root).join("smoke/report.html")])
+}
+
+/// A plan of `creepage sweep` run by the Dask driver gives the sweep's own numbers.
+fn dask(root: &Path) -> Outcome {
+    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    check_with_python(root, "check_dask.py", &[binary, root.to_path_buf()])
 }
 
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous

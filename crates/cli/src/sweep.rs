@@ -34,7 +34,7 @@ pub struct SweepArgs {
     #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<usize>,
     /// Memory that the runs may take together, in MB [default: nine tenths of what is free]
-    #[arg(long, value_name = "MB", value_parser = megabytes)]
+    #[arg(long, value_name = "MB", value_parser = megabytes, allow_hyphen_values = true)]
     memory: Option<f64>,
     /// Go on with the sweep in the folder: keep the runs that are done, do the others
     #[arg(long, conflicts_with = "force")]

@@ -154,13 +154,21 @@ fn name(n: usize, chosen: &[(&str, &Value)]) -> String {
     let mut name = String::new();
     for (key, value) in chosen {
         let short = key.rsplit('.').next().unwrap_or(key);
-        let value = match value {
-            Value::Float(x) => crate::keys::number(*x),
-            other => other.to_string(),
-        };
-        name += &format!("-{short}-{value}");
+        name += &format!("-{short}-{}", shown(value));
     }
     let fit = |c: &char| sense::in_a_name(*c) && *c != ' ' && c.is_ascii();
     let name: String = name.chars().filter(fit).take(LONGEST_NAME).collect();
     format!("{n:03}{name}")
+}
+
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Float(x) => crate::keys::number(*x),
+        Value::Table(table) => {
+            let entries: Vec<_> =
+                table.iter().map(|(key, value)| format!("{key}-{}", shown(value))).collect();
+            entries.join("-")
+        }
+        other => other.to_string(),
+    }
 }

@@ -3,6 +3,7 @@
 mod any_input;
 mod refusals;
 mod schema;
+mod sweep;
 
 use std::fs;
 use std::path::Path;

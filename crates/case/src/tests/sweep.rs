@@ -1,0 +1,103 @@
+//! Sweep files: what they lead to. How they are refused stands in the tests of the command.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::SHORT;
+use crate::sweep::Sweep;
+use crate::sweep::file::StepRule;
+use crate::{Case, CaseError};
+
+/// A folder with a base case and a sweep file.
+fn sweep(text: &str) -> (tempfile::TempDir, Result<Sweep, CaseError>) {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("base.toml"), SHORT).unwrap();
+    let path = dir.path().join("sweep.toml");
+    fs::write(&path, format!("base = \"base.toml\"\n{text}")).unwrap();
+    let sweep = Sweep::load(&path);
+    (dir, sweep)
+}
+
+fn cases(text: &str) -> Vec<Case> {
+    let (_dir, sweep) = sweep(text);
+    sweep.unwrap().points().unwrap().into_iter().map(|point| point.case).collect()
+}
+
+const TWO: &str = "[[axis]]\nkey = \"friction.static\"\nvalues = [0.2, 0.3]\n\
+                   [[axis]]\nkey = \"drive.creepage\"\nvalues = [1e-3, 2e-3, 4e-3]\n";
+
+#[test]
+fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
+    let pairs: Vec<_> =
+        cases(TWO).iter().map(|c| (c.friction.static_, c.drive.creepage.unwrap())).collect();
+    let all = [(0.2, 1e-3), (0.2, 2e-3), (0.2, 4e-3), (0.3, 1e-3), (0.3, 2e-3), (0.3, 4e-3)];
+    assert_eq!(pairs, all);
+}
+
+#[test]
+fn a_zip_takes_the_values_together() {
+    let zip = format!("mode = \"zip\"\n{}", TWO.replace(", 4e-3", ""));
+    let pairs: Vec<_> =
+        cases(&zip).iter().map(|c| (c.friction.static_, c.drive.creepage.unwrap())).collect();
+    assert_eq!(pairs, [(0.2, 1e-3), (0.3, 2e-3)]);
+}
+
+#[test]
+fn spans_hold_their_ends_to_the_bit_and_are_even_between() {
+    let axis = |span: &str| {
+        let text = format!("[[axis]]\nkey = \"friction.static\"\n{span}\n");
+        cases(&text).iter().map(|case| case.friction.static_).collect::<Vec<f64>>()
+    };
+    let log = axis("log = { from = 0.003, to = 3.0, n = 4 }");
+    assert_eq!((log[0], log[3]), (0.003, 3.0));
+    assert!((log[1] / 0.03 - 1.0).abs() < 1e-14 && (log[2] / 0.3 - 1.0).abs() < 1e-14, "{log:?}");
+    assert_eq!(axis("linear = { from = 0, to = 1, n = 5 }"), [0.0, 0.25, 0.5, 0.75, 1.0]);
+}
+
+#[test]
+fn a_key_follows_an_axis_by_factor_and_power() {
+    let text = "[[axis]]\nkey = \"mesh.zone.size\"\nvalues = [1e-3, 2e-3]\n\
+                [[derive]]\nkey = \"output.contact_interval\"\nfrom = \"mesh.zone.size\"\n\
+                factor = 5.0\npower = 2.0\n[[derive]]\nkey = \"time.step\"\nrule = \"bound\"\n";
+    let intervals: Vec<f64> = cases(text).iter().map(|c| c.output.contact_interval).collect();
+    assert_eq!(intervals, [5.0 * 1e-3_f64.powi(2), 5.0 * 2e-3_f64.powi(2)]);
+}
+
+#[test]
+fn springs_may_be_swept_in_any_form_and_keys_set_for_all() {
+    let text = "[set]\nfriction.static = 0.4\n[[axis]]\nkey = \"contact.penalty.tangential\"\n\
+                values = [0.1, { stiffness = 1e13 }]\n[[derive]]\nkey = \"time.step\"\n\
+                rule = \"fixed\"\n";
+    let (_dir, sweep) = sweep(text);
+    let sweep = sweep.unwrap();
+    assert_eq!(sweep.step, Some(StepRule::Fixed));
+    let points = sweep.points().unwrap();
+    assert!(points.iter().all(|point| point.case.friction.static_ == 0.4));
+    assert_eq!(points[1].parameters["contact.penalty.tangential"]["stiffness"], 1e13);
+    assert_eq!(points[1].name, "001-tangential-stiffness-1e13");
+}
+
+#[test]
+fn a_rule_for_the_step_replaces_an_absolute_step_of_the_base() {
+    let text = "[set]\ntime.step = 1e-7\n[[axis]]\nkey = \"friction.static\"\nvalues = [0.1]\n";
+    assert_eq!(cases(text)[0].time.step, Some(1e-7));
+}
+
+#[test]
+fn every_sweep_of_the_project_resolves_and_its_runs_have_names_of_their_own() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/sweeps");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let sweeps: Vec<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .filter(|path| fs::read_to_string(path).unwrap().contains("[[axis]]"))
+        .collect();
+    assert_eq!(sweeps.len(), 8, "{sweeps:?}");
+    for path in sweeps {
+        let sweep = Sweep::load(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let points = sweep.points().unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let names: BTreeSet<_> = points.iter().map(|point| &point.name).collect();
+        assert_eq!(names.len(), points.len());
+        assert!(points.len() >= 4, "{}", path.display());
+    }
+}
