@@ -1,5 +1,6 @@
 use super::{Rig, SETTINGS};
 use crate::face::{Positions, project};
+use crate::touch::Listed;
 use crate::plates::{STEEL, plate, tread};
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, norm, sub};
