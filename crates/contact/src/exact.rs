@@ -31,6 +31,10 @@ use mesh::{Face, Mesh, Padded, Surface};
 const TOLERANCE: f64 = 1e-12;
 /// Sweeps at most. Their errors fall tenfold each where pitches are alike.
 const SWEEPS: usize = 100;
+/// After so many sweeps a node whose friction has several solutions stays on the branch that the last
+/// sweep found, not on that of the step before: near the end of a branch neighbours could else drive
+/// one another to and fro.
+const SETTLED: usize = 20;
 
 /// Settings of [`ExactContact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -303,7 +307,11 @@ impl Contact for ExactContact {
             sums.sweeps += 1;
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for &i in &active {
-                let [changed, force] = self.visit(&mut rows[i as usize], &positions, motion);
+                let row = &mut rows[i as usize];
+                let [changed, force] = self.visit(row, &positions, motion);
+                if sums.sweeps > SETTLED {
+                    row.slipped = row.state == State::Slip;
+                }
                 change = change.max(changed);
                 size = size.max(force);
             }

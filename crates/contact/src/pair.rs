@@ -262,9 +262,10 @@ impl Pass<'_> {
         if !before.is_closed() {
             let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
             pair.slip_velocity = tangential(velocity, pair.normal);
-            pair.memory = self.law.begin(&self.place(pair, x, motion));
-            pair.mu =
-                self.law.mu(pair.memory, norm(pair.slip_velocity), &self.place(pair, x, motion));
+            let (at, speed) = (self.place(pair, x, motion), norm(pair.slip_velocity));
+            pair.memory = self.law.begin(&at);
+            let after = self.law.advance(pair.memory, speed, &at, motion.dt);
+            pair.mu = self.law.mu(after, speed, &at);
             return;
         }
         let delta = tangential(sub(x, old.x), pair.normal);

@@ -1,8 +1,9 @@
 //! The list of problems.
 
 use crate::{
-    Row, carter, cattaneo, collision, finite_body, free_block, hertz, kalker, lamb, lysmer, patch,
-    rolling_dynamic, slider_tables, sliding, steady_rolling, waves,
+    Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker,
+    lamb, lysmer, patch, rolling_dynamic, shear_column, slider_tables, sliding, steady_rolling,
+    waves,
 };
 use thiserror::Error;
 
@@ -101,6 +102,36 @@ pub const PROBLEMS: &[Problem] = &[
         about: "Two equal bars colliding: contact time 2L/c, pressure rho c v, energies, momentum",
         set: Set::Default,
         run: collision::run,
+    },
+    Problem {
+        name: "block-slide-exact",
+        about: "The sliding block with exact contact",
+        set: Set::Default,
+        run: sliding::stop_exact,
+    },
+    Problem {
+        name: "incline-exact",
+        about: "The block on an incline with exact contact",
+        set: Set::Default,
+        run: sliding::incline_exact,
+    },
+    Problem {
+        name: "colliding-bars-exact",
+        about: "The colliding bars with exact contact",
+        set: Set::Default,
+        run: collision::run_exact,
+    },
+    Problem {
+        name: "shear-column",
+        about: "Falling friction between two half-spaces sheared in one dimension: both jumps",
+        set: Set::Default,
+        run: shear_column::run,
+    },
+    Problem {
+        name: "interface-patch",
+        about: "Uniform pressure across meshes that do not match: the pressure of exact contact",
+        set: Set::Default,
+        run: interface_patch::run,
     },
     Problem {
         name: "lysmer",

@@ -1,4 +1,5 @@
-//! A block sliding on a plane: Coulomb friction of penalty contact against rigid-body mechanics.
+//! A block sliding on a plane: Coulomb friction of penalty and of exact contact against rigid-body
+//! mechanics.
 //!
 //! *Stop.* A block under the weight m g slides at v_0: x = v_0 t - mu g t^2/2 until it stops at
 //! v_0^2/(2 mu g), and stays. *Incline.* On a plane at the angle alpha the block sticks for
@@ -14,14 +15,20 @@
 //! - a block that starts to slide: while its springs load it gains at most the speed
 //!   v_1 = sqrt(2 g sin(alpha) d), the load's work over d, and runs ahead by v_1 t.
 //!
-//! The block first settles under its weight, with critically damped contact.
+//! Exact contact has no springs: d is then what the block itself gives, mu rho g H^2/(2G).
+//!
+//! The block first settles under its weight, with critically damped contact springs, or on exact
+//! contact with damping in proportion to mass.
 
 use crate::body::{STEEL, at_rest, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{
+    BodyMaterial, Contact, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
+    Stiffness,
+};
 use dynamics::{Load, Setup, Simulation};
-use mesh::{Mesh, Padded};
+use mesh::{Mesh, Padded, Surface};
 use solid::Material;
 
 const MU: f64 = 0.3;
@@ -40,16 +47,34 @@ const SPRING: f64 = 4e13;
 
 /// Share of the give in the limit of a sliding block: doubled, at the start and at the stop.
 const SUDDEN: f64 = 4.0;
+/// How contact is enforced.
+#[derive(Clone, Copy, PartialEq)]
+enum Method {
+    Penalty,
+    Exact,
+}
+
 const FROM: &str = "elastic give d of friction springs and block, loaded at once (module text)";
 
 pub(crate) fn stop(size: Size) -> Outcome {
+    stops(size, Method::Penalty)
+}
+
+pub(crate) fn stop_exact(size: Size) -> Outcome {
+    stops(size, Method::Exact)
+}
+
+fn stops(size: Size, method: Method) -> Outcome {
     let v0 = 1.5;
     let (time, distance) = (v0 / (MU * GRAVITY), v0 * v0 / (2.0 * MU * GRAVITY));
-    let limit = (SUDDEN * give() / distance, FROM);
-    let mut block = Block::new(size, [0.0, 0.0, -GRAVITY], v0)?;
-    // contact books the step that ended at t = 0 in the first step
-    block.simulation.step(false);
-    let earlier = block.simulation.ledger().friction;
+    let limit = (SUDDEN * give(method) / distance, FROM);
+    let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], v0)?;
+    let mut earlier = 0.0;
+    if method == Method::Penalty {
+        // it books the step that ended at t = 0 in the first step
+        block.simulation.step(false);
+        earlier = block.simulation.ledger().friction;
+    }
     let source = "x = v0 t - mu g t^2/2";
     let mut rows = Vec::new();
     for share in [0.25, 0.5, 0.75] {
@@ -73,6 +98,14 @@ pub(crate) fn stop(size: Size) -> Outcome {
 }
 
 pub(crate) fn incline(size: Size) -> Outcome {
+    inclines(size, Method::Penalty)
+}
+
+pub(crate) fn incline_exact(size: Size) -> Outcome {
+    inclines(size, Method::Exact)
+}
+
+fn inclines(size: Size, method: Method) -> Outcome {
     let time = match size {
         Size::Quick => 5e-4,
         Size::Full => 2.5e-3,
@@ -80,10 +113,10 @@ pub(crate) fn incline(size: Size) -> Outcome {
     let mut rows = Vec::new();
     for share in [0.5, 0.9] {
         let angle = (share * MU).atan();
-        let x = Block::new(size, weight(angle), 0.0)?.slide_until(time);
+        let x = Block::new(size, method, weight(angle), 0.0)?.slide_until(time);
         // a block without friction sets the scale
         let free = 0.5 * GRAVITY * angle.sin() * time * time;
-        let held = f64::max(2.0, 0.5 / (1.0 - share)) * give();
+        let held = f64::max(2.0, 0.5 / (1.0 - share)) * give(method);
         rows.push(Row::new(
             format!("tan(angle) = {share} mu: x over that without friction"),
             [0.0, x / free],
@@ -95,9 +128,10 @@ pub(crate) fn incline(size: Size) -> Outcome {
     for share in [1.2, 2.0] {
         let angle = (share * MU).atan();
         let acceleration = GRAVITY * (angle.sin() - MU * angle.cos());
-        let x = Block::new(size, weight(angle), 0.0)?.slide_until(time);
+        let x = Block::new(size, method, weight(angle), 0.0)?.slide_until(time);
         let exact = 0.5 * acceleration * time * time;
-        let ahead = (2.0 * GRAVITY * angle.sin() * give()).sqrt() * time + SUDDEN * give();
+        let ahead =
+            (2.0 * GRAVITY * angle.sin() * give(method)).sqrt() * time + SUDDEN * give(method);
         rows.push(Row::new(
             format!("tan(angle) = {share} mu: 2 x/t^2 (m/s^2)"),
             [acceleration, 2.0 * x / (time * time)],
@@ -114,9 +148,13 @@ fn weight(angle: f64) -> [f64; 3] {
 }
 
 /// d = mu p/k_t + mu rho g H^2/(2G) (m).
-fn give() -> f64 {
+fn give(method: Method) -> f64 {
     let pressure = MATERIAL.density * GRAVITY * BLOCK[2];
-    MU * pressure / SPRING + MU * pressure * BLOCK[2] / (2.0 * MATERIAL.shear())
+    let spring = match method {
+        Method::Penalty => MU * pressure / SPRING,
+        Method::Exact => 0.0,
+    };
+    spring + MU * pressure * BLOCK[2] / (2.0 * MATERIAL.shear())
 }
 
 struct Block {
@@ -127,7 +165,7 @@ struct Block {
 
 impl Block {
     /// A block on the plane z = 0 that has settled under its weight, sliding at `speed` along x.
-    fn new(size: Size, acceleration: [f64; 3], speed: f64) -> Result<Self, Cause> {
+    fn new(size: Size, method: Method, acceleration: [f64; 3], speed: f64) -> Result<Self, Cause> {
         let cells = match size {
             Size::Quick => [4, 2, 1],
             Size::Full => [8, 4, 2],
@@ -141,10 +179,23 @@ impl Block {
 
         let down = [0.0, 0.0, acceleration[2]];
         let (mut settling, contact) = setup(&mesh, down, 1.0)?;
-        settling.contact = Some(Box::new(contact));
+        settling.contact = Some(match method {
+            Method::Penalty => Box::new(contact),
+            Method::Exact => Box::new(exact(&mesh)?),
+        });
         let pressure = -down[2] * MATERIAL.density * BLOCK[2];
         let body = mesh.bodies[0].nodes.clone();
-        settling.displacement[body.clone()].fill(Padded::new([0.0, 0.0, -pressure / SPRING]));
+        match method {
+            Method::Penalty => {
+                let pressed = Padded::new([0.0, 0.0, -pressure / SPRING]);
+                settling.displacement[body.clone()].fill(pressed);
+            }
+            // critical for the column: omega = pi c/(2 H)
+            Method::Exact => {
+                let c = (MATERIAL.young / MATERIAL.density).sqrt();
+                settling.mass_damping = std::f64::consts::PI * c / BLOCK[2];
+            }
+        }
         let mut settling = Simulation::new(settling);
         while settling.time() < SETTLING {
             settling.step(false);
@@ -165,7 +216,11 @@ impl Block {
             let mut unused = vec![Padded::ZERO; before.len()];
             contact.apply_frictionless(setup.solid.reference(), &before, &mut unused);
         }
-        setup.contact = Some(Box::new(contact));
+        let contact: Box<dyn Contact> = match method {
+            Method::Penalty => Box::new(contact),
+            Method::Exact => Box::new(exact(&mesh)?),
+        };
+        setup.contact = Some(contact);
         let masses = setup.mass[body].to_vec();
         let mass = masses.iter().sum();
         Ok(Self { simulation: Simulation::new(setup), masses, mass })
@@ -191,6 +246,17 @@ impl Block {
     }
 }
 
+fn exact(mesh: &Mesh) -> Result<ExactContact, Cause> {
+    let settings = ExactSettings { slave: Some(0), curvature: false };
+    let law = Box::new(Coulomb { mu: MU });
+    Ok(ExactContact::new(mesh, surfaces(mesh), &settings, law)?)
+}
+
+fn surfaces(mesh: &Mesh) -> [(&Surface, BodyMaterial); 2] {
+    let material = contact_material(&MATERIAL);
+    [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]].map(|s| (s, material))
+}
+
 /// Block and held plane at rest, and their contact with normal contact damping as a share of critical.
 fn setup(
     mesh: &Mesh,
@@ -203,14 +269,8 @@ fn setup(
         damping,
         curvature: false,
     };
-    let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
-    let contact = PenaltyContact::new(
-        mesh,
-        surfaces.map(|surface| (surface, contact_material(&MATERIAL))),
-        &settings,
-        None,
-        Box::new(Coulomb { mu: MU }),
-    )?;
+    let contact =
+        PenaltyContact::new(mesh, surfaces(mesh), &settings, None, Box::new(Coulomb { mu: MU }))?;
     let mut setup = at_rest(mesh, MATERIAL, 0.7, Some(&contact))?;
     setup.held = mesh.bodies[1].nodes.clone().map(|n| n as u32).collect();
     setup.load = Load::weight(&setup.mass, mesh.bodies[0].nodes.clone(), acceleration);

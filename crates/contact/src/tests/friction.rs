@@ -1,6 +1,7 @@
 use super::{K, Rig, SETTINGS};
+use crate::touch::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::{Coulomb, Exponential, FrictionLaw, Lagged, PenaltySettings, Stiffness};
+use crate::{Contact, Coulomb, Exponential, FrictionLaw, Lagged, PenaltySettings, Stiffness};
 use mesh::Padded;
 
 const DEPTH: f64 = 3e-6;
@@ -104,7 +105,7 @@ fn part_of_the_surface_has_the_values_of_the_whole() {
     let mut whole = rig.contact.nodal_table(0);
     rig.contact.nodal(&mut whole);
     let face = mesh::Face { nodes: [whole.nodes[8], whole.nodes[9], whole.nodes[3], 9999], hex: 0 };
-    let mut part = rig.contact.nodal_table_of(0, &[face]);
+    let mut part = Contact::nodal_table_of(&rig.contact, 0, &[face]);
     rig.contact.nodal(&mut part);
     assert_eq!(part.nodes, [whole.nodes[3], whole.nodes[8], whole.nodes[9]]);
     for (row, i) in [3, 8, 9].into_iter().enumerate() {
@@ -181,7 +182,7 @@ fn sliding_over_many_faces_keeps_the_force() {
             let own: f64 = rig.contact.pairs[0].iter().map(|p| p.friction[0]).sum();
             let expected = -0.3 * 0.5 * K * 16e-6 * DEPTH;
             assert!((own / expected - 1.0).abs() < 1e-9, "step {step}: {own} {expected}");
-            assert!(rig.contact.pairs[0].iter().all(|p| p.state == crate::pair::State::Slip));
+            assert!(rig.contact.pairs[0].iter().all(|p| p.state == crate::touch::State::Slip));
             assert!(sums.friction_work > 0.0);
         }
     }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod curvature;
+mod exact;
 mod friction;
 mod normal;
 mod search;

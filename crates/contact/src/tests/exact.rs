@@ -1,0 +1,246 @@
+use crate::enforcement::Trial;
+use crate::plates::{STEEL, plate, together, tread};
+use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
+use crate::{
+    Contact, ContactSums, Coulomb, ExactContact, ExactSettings, Exponential, Implicit, Motion,
+    NodalContact, NodeFriction,
+};
+use mesh::{Mesh, Padded, Surface};
+
+/// Two bodies whose nodes are masses without springs: what contact does to them in a step.
+struct Masses {
+    contact: ExactContact,
+    upper: usize,
+    reference: Vec<Padded>,
+    displacement: Vec<Padded>,
+    velocity: Vec<Padded>,
+    inverse_mass: Vec<f64>,
+    force: Vec<Padded>,
+    dt: f64,
+}
+
+impl Masses {
+    fn new(
+        upper: (Mesh, Surface),
+        lower: (Mesh, Surface),
+        slave: usize,
+        law: impl NodeFriction + 'static,
+    ) -> Self {
+        let count = upper.0.nodes.len();
+        let (mesh, second) = together(upper.0, lower.0, lower.1);
+        let surfaces = [(&upper.1, STEEL), (&second, STEEL)];
+        let settings = ExactSettings { slave: Some(slave), curvature: true };
+        let contact = ExactContact::new(&mesh, surfaces, &settings, Box::new(law)).unwrap();
+        let n = mesh.nodes.len();
+        let noise =
+            |i: usize| f64::from((i as u32).wrapping_mul(2_654_435_761) >> 8) / 16_777_216.0;
+        Self {
+            contact,
+            upper: count,
+            reference: mesh.nodes.iter().map(|&x| Padded::new(x)).collect(),
+            displacement: vec![Padded::ZERO; n],
+            velocity: vec![Padded::ZERO; n],
+            inverse_mass: (0..n).map(|i| 1e5 * (1.0 + noise(i))).collect(),
+            force: vec![Padded::ZERO; n],
+            dt: 1e-7,
+        }
+    }
+
+    /// A tread of large radius, 4 um above the plate at half its length, on a plate with other cells.
+    fn rolling(slave: usize, law: impl NodeFriction + 'static) -> Self {
+        Self::new(
+            tread(2.0, 4e-3, 8e-3, [14, 7], 1e-3),
+            plate([-9e-3, -6e-3], [9e-3, 6e-3], [17, 11], 0.0, 1e-3, true),
+            slave,
+            law,
+        )
+    }
+
+    /// A step under the forces `given(body, X)` (N) on every node.
+    fn step(&mut self, given: impl Fn(usize, Vec3) -> Vec3) -> ContactSums {
+        for (i, (f, x)) in self.force.iter_mut().zip(&self.reference).enumerate() {
+            *f = Padded::new(given(usize::from(i >= self.upper), x.xyz()));
+        }
+        let motion = Motion {
+            reference: &self.reference,
+            displacement: &self.displacement,
+            velocity: &self.velocity,
+            inverse_mass: &self.inverse_mass,
+            time: 0.0,
+            dt: self.dt,
+        };
+        let (velocity, pace) = (&self.velocity, &self.inverse_mass);
+        let trial = Trial {
+            velocity: &|n, f| axpy(velocity[n as usize].xyz(), self.dt * pace[n as usize], f),
+            inverse_mass: pace,
+        };
+        let sums = self.contact.apply(&motion, &trial, &mut self.force);
+        for i in 0..self.force.len() {
+            let v =
+                axpy(self.velocity[i].xyz(), self.dt * self.inverse_mass[i], self.force[i].xyz());
+            self.velocity[i] = Padded::new(v);
+            self.displacement[i] =
+                Padded::new(axpy(self.displacement[i].xyz(), self.dt, self.velocity[i].xyz()));
+        }
+        sums
+    }
+
+    fn table(&self, side: usize) -> NodalContact {
+        let mut table = self.contact.nodal_table(side);
+        self.contact.nodal(&mut table);
+        table
+    }
+}
+
+/// Presses and pushes the upper body.
+fn pressed(body: usize, _: Vec3) -> Vec3 {
+    if body == 0 { [4.0, 1.5, -20.0] } else { [0.0, 0.0, 2.0] }
+}
+
+#[test]
+fn contact_forces_have_no_resultant_and_no_moment() {
+    for slave in [0, 1] {
+        let mut masses = Masses::rolling(slave, Coulomb { mu: 0.3 });
+        let (mut closed, mut slipping) = (0, 0);
+        for _ in 0..40 {
+            let positions: Vec<Vec3> = masses
+                .reference
+                .iter()
+                .zip(&masses.displacement)
+                .map(|(x, u)| add(x.xyz(), u.xyz()))
+                .collect();
+            let sums = masses.step(pressed);
+            let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
+            for (i, x) in positions.iter().enumerate() {
+                let given = pressed(usize::from(i >= masses.upper), *x);
+                let by_contact = sub(masses.force[i].xyz(), given);
+                force = add(force, by_contact);
+                moment = add(moment, cross(*x, by_contact));
+            }
+            closed += sums.closed;
+            slipping += sums.slipping;
+            let both = add(sums.force[0], sums.force[1]);
+            assert!(norm(both) <= 1e-14 * sums.normal_force, "{both:?}");
+            assert!(norm(force) <= 1e-12 * sums.normal_force.max(1.0), "{force:?}");
+            // half the length of the patch as the arm
+            assert!(norm(moment) <= 1e-9 * sums.normal_force * 4e-3, "{moment:?}");
+        }
+        assert!(closed > 400 && slipping > 100, "{closed} {slipping}");
+    }
+}
+
+#[test]
+fn the_conditions_hold_at_the_end_of_the_step() {
+    let mu = 0.3;
+    let mut masses = Masses::rolling(0, Coulomb { mu });
+    let (mut sticks, mut slips) = (0, 0);
+    for _ in 0..60 {
+        let sums = masses.step(pressed);
+        assert!(sums.sweeps < 40, "{}", sums.sweeps);
+        assert!(sums.friction_ahead >= 0.0);
+        let table = masses.table(0);
+        for i in 0..table.nodes.len() {
+            let (p, shear, slip) = (table.pressure[i], table.shear[i], table.slip_velocity[i]);
+            assert!(p >= 0.0);
+            assert!(norm(shear) <= mu * p * (1.0 + 1e-14));
+            match table.state[i] {
+                1 => {
+                    assert!(norm(slip) < 1e-9, "{slip:?}");
+                    sticks += 1;
+                }
+                2 => {
+                    assert!((norm(shear) / (mu * p) - 1.0).abs() < 1e-12);
+                    let along = -dot(shear, slip) / (norm(shear) * norm(slip));
+                    assert!(along > 1.0 - 1e-9, "{along}");
+                    slips += 1;
+                }
+                _ => assert_eq!(p, 0.0),
+            }
+        }
+    }
+    assert!(sticks > 100 && slips > 100, "{sticks} {slips}");
+}
+
+#[test]
+fn nodes_that_were_pressed_end_the_step_without_a_gap() {
+    let mut masses = Masses::rolling(0, Coulomb { mu: 0.3 });
+    for _ in 0..30 {
+        masses.step(pressed);
+    }
+    let before = masses.table(0);
+    masses.step(pressed);
+    let after = masses.table(0);
+    let pressed = (0..before.nodes.len()).filter(|&i| before.pressure[i] > 0.0);
+    let largest = pressed.map(|i| after.gap[i].abs()).fold(0.0, f64::max);
+    // second order in the motion of a step: tilt of faces times slip
+    let motion = masses.velocity.iter().map(|v| norm(v.xyz()) * masses.dt).fold(0.0, f64::max);
+    assert!(largest < 1e-3 * motion, "{largest:e} {motion:e}");
+}
+
+#[test]
+fn the_master_bears_what_the_slaves_do() {
+    let mut masses = Masses::rolling(0, Coulomb { mu: 0.3 });
+    for _ in 0..20 {
+        masses.step(pressed);
+    }
+    let [normal, friction] = [0, 1].map(|side: usize| {
+        let t = masses.table(side);
+        let sum = |value: &dyn Fn(usize) -> f64| {
+            (0..t.nodes.len()).map(|i| value(i) * t.area[i]).sum::<f64>()
+        };
+        [sum(&|i| t.pressure[i]), sum(&|i| t.shear[i][0])]
+    });
+    assert!((normal[0] / friction[0] - 1.0).abs() < 1e-12);
+    assert!((normal[1] / friction[1] + 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_common_rotation_gives_no_slip_velocity_across_the_sag_of_facets() {
+    // pressed together at rest, then turning as one: slaves lie up to 0.4 um above the facets
+    let mut masses = Masses::rolling(1, Coulomb { mu: 0.5 });
+    for _ in 0..60 {
+        masses.velocity.fill(Padded::ZERO);
+        masses.step(pressed);
+    }
+    let turn = [20.0, 70.0, -30.0];
+    for i in 0..masses.velocity.len() {
+        let x = add(masses.reference[i].xyz(), masses.displacement[i].xyz());
+        masses.velocity[i] = Padded::new(cross(turn, x));
+    }
+    let sums = masses.step(|_, _| [0.0; 3]);
+    assert!(sums.normal_force < 1e-9, "nothing presses: {sums:?}");
+    let sums = masses.step(|body, _| if body == 0 { [0.0, 0.0, -1e-3] } else { [0.0; 3] });
+    assert!(sums.closed > 5, "{sums:?}");
+    let table = masses.table(1);
+    let slip = table.slip_velocity.iter().map(|s| norm(*s)).fold(0.0, f64::max);
+    assert!(slip < 1e-6, "{slip:e}");
+}
+
+#[test]
+fn falling_friction_of_the_same_instant_obeys_equation_8_and_counts_where_it_has_more_solutions() {
+    let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+    // R = dt W p_n A k dmu is about 10
+    let mut masses = Masses::new(
+        plate([-3e-3, -3e-3], [3e-3, 3e-3], [7, 7], 0.0, 1e-3, false),
+        plate([-9e-3, -6e-3], [9e-3, 6e-3], [17, 11], 0.0, 1e-3, true),
+        0,
+        Implicit(law),
+    );
+    let (mut slips, mut manifold) = (0, 0);
+    for n in 0..80 {
+        let push = 5.0 * f64::from(n);
+        let given = |body: usize, _: Vec3| {
+            if body == 0 { [push, 0.0, -400.0] } else { [0.0, 0.0, 40.0] }
+        };
+        let sums = masses.step(given);
+        assert!(sums.sweeps < 100, "step {n}");
+        manifold += sums.manifold;
+        let table = masses.table(0);
+        for i in (0..table.nodes.len()).filter(|&i| table.state[i] == 2) {
+            let mu = crate::FrictionLaw::mu(&law, norm(table.slip_velocity[i]));
+            assert!((norm(table.shear[i]) / (mu * table.pressure[i]) - 1.0).abs() < 1e-9);
+            slips += 1;
+        }
+    }
+    assert!(slips > 100 && manifold > 0, "{slips} {manifold}");
+}

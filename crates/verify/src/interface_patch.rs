@@ -1,0 +1,100 @@
+//! The patch test of an interface: uniform pressure across two meshes that do not match.
+//!
+//! A block with n elements an edge lies on one with m, both pressed together by a uniform pressure;
+//! with nu = 0 the exact solution is that pressure everywhere. Contact is exact, node to face, in one
+//! pass, as in dynamics. A node's force is spread to the corners of one face by its shape functions,
+//! which is not what a uniform pressure on the faces gives them: node to face does not pass the
+//! test, and the rows say by how much. Where the meshes match, it does.
+//!
+//! The measure is the pressure of the slaves, force over nodal area, without the edges of the
+//! interface, where areas are cut.
+
+use crate::body::{STEEL, contact_material, side_nodes};
+use crate::problem::{Cause, Outcome, Size};
+use crate::row::Row;
+use contact::{Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use mesh::Padded;
+use solid::{Element, Level, Material, Solid, Viscosity};
+use statics::{Axis, Enforcement, Problem, Supports, Tied};
+
+const MATERIAL: Material = Material { poisson: 0.0, ..STEEL };
+const EDGE: f64 = 10e-3;
+const PRESSURE: f64 = 1e6;
+
+pub(crate) fn run(size: Size) -> Outcome {
+    let finest = match size {
+        Size::Quick => 1,
+        Size::Full => 2,
+    };
+    let mut rows = Vec::new();
+    let reported = (f64::INFINITY, "none: reported; node to face does not pass this test");
+    let round_off = (1e-6, "round-off of the equilibrium");
+    for (slaves, masters, limit) in [(6, 6, round_off), (6, 5, reported), (9, 5, reported)] {
+        let [rms, largest] = pressures(finest * slaves, finest * masters)?;
+        let meshes = format!("{} on {} elements", finest * slaves, finest * masters);
+        for (what, error) in [("rms", rms), ("largest", largest)] {
+            rows.push(Row::new(
+                format!("{meshes}: pressure over the applied one, less 1, {what}"),
+                [0.0, error],
+                1.0,
+                limit,
+                "uniform pressure",
+            ));
+        }
+    }
+    Ok(rows)
+}
+
+/// Departure of the slaves' pressure from the applied one: root mean square and largest.
+fn pressures(slaves: usize, masters: usize) -> Result<[f64; 2], Cause> {
+    let upper = mesh::block([slaves, slaves, 3], [EDGE, EDGE, 0.5 * EDGE]);
+    let mut lower = mesh::block([masters, masters, 3], [EDGE, EDGE, 0.5 * EDGE]);
+    lower.nodes.iter_mut().for_each(|x| x[2] -= 0.5 * EDGE);
+    let mesh = mesh::join(&[upper, lower]);
+    let element = Element { hourglass: 0.05 };
+    let materials = [MATERIAL; 2];
+    let mut solid = Solid::new(&mesh, &materials, element, Viscosity::default(), Level::detect())?;
+    let settings = PenaltySettings {
+        normal: Stiffness::Scale(1.0),
+        tangential: Stiffness::Scale(1.0),
+        damping: 0.0,
+        curvature: false,
+    };
+    let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
+    let mut contact = PenaltyContact::new(
+        &mesh,
+        surfaces.map(|s| (s, contact_material(&MATERIAL))),
+        &settings,
+        None,
+        Box::new(Coulomb { mu: 0.0 }),
+    )?;
+    // pressed by rigid plates: the solution is uniform as well
+    let press = Tied {
+        nodes: side_nodes(&mesh, 0, "z+").to_vec(),
+        axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-PRESSURE * EDGE * EDGE)],
+    };
+    let supports = Supports { held: side_nodes(&mesh, 1, "z-").to_vec(), tied: vec![press] };
+    let problem = Problem {
+        mesh: &mesh,
+        supports: &supports,
+        spin: None,
+        enforcement: Enforcement::Exact { slave: 0 },
+        tolerance: 1e-10,
+        max_iterations: 100,
+    };
+    let start = vec![Padded::ZERO; mesh.nodes.len()];
+    let found = statics::solve(&mut solid, Some(&mut contact), &problem, &start, |_| true)?;
+    let inside = |n: u32| {
+        let x = mesh.nodes[n as usize];
+        let off = |c: f64| c > 1e-9 && c < EDGE - 1e-9;
+        off(x[0]) && off(x[1])
+    };
+    let errors: Vec<f64> = found
+        .pressed
+        .iter()
+        .filter(|(gap, _)| inside(gap.node))
+        .map(|(gap, force)| force / (gap.area * PRESSURE) - 1.0)
+        .collect();
+    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    Ok([rms, errors.iter().map(|e| e.abs()).fold(0.0, f64::max)])
+}
