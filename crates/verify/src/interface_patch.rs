@@ -77,6 +77,7 @@ fn pressures(slaves: usize, masters: usize) -> Result<[f64; 2], Cause> {
     let problem = Problem {
         mesh: &mesh,
         supports: &supports,
+        plane_strain: false,
         spin: None,
         enforcement: Enforcement::Exact { slave: 0 },
         tolerance: 1e-10,
