@@ -48,7 +48,7 @@ fn nesting_error(page: &str) -> Option<String> {
             }
         } else {
             // attributes are quoted in pairs
-            if tag.matches('"').count() % 2 != 0 {
+            if !tag.matches('"').count().is_multiple_of(2) {
                 return Some(format!("<{tag}> has an odd quote"));
             }
             if name == "style" {
