@@ -21,7 +21,7 @@ pub fn validate() -> ExitCode {
     // Asked at run time: clones that share a target folder share this program as well.
     let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
     let root = Path::new(&home).parent().unwrap_or(Path::new("."));
-    let steps: [(&str, Step); 8] = [
+    let steps: [(&str, Step); 9] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
