@@ -55,6 +55,15 @@ pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
     Ok(0)
 }
 
+/// Writes the page of a sweep into its folder.
+pub fn write_sweep(folder: &Path) -> Result<PathBuf, Failure> {
+    let out = folder.join("report.html");
+    fs::write(&out, sweep_page(&folder.join("sweep.json"))?).map_err(|error| {
+        PostError::Asked(format!("{}: cannot write the page: {error}", out.display()))
+    })?;
+    Ok(out)
+}
+
 fn sweep_page(path: &Path) -> Result<String, Failure> {
     let failed = |reason: String| Failure::from(PostError::Text { path: path.to_owned(), reason });
     let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;

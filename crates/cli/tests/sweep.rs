@@ -110,6 +110,10 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
             after_axis("values = [0.1]\n[set]\nfriction.static = 0.2"),
             &["sweep.toml:4", "friction.static is given twice"],
         ),
+        (
+            after_axis("values = [0.1]\n[set]\noutput.window = [{ from = 1, to = 99 }]"),
+            &["sweep.toml:7", "output.window"],
+        ),
         (after_axis("values = [0.1]\n[set]\nfriction.dinamic = 0.2"), &["sweep.toml:7", "dynamic"]),
         (
             "base = \"base.toml\"\n[[axis]]\nkey = \"mesh.zone.length\"\nvalues = [0.014, 0.3]\n\
