@@ -30,7 +30,8 @@ pub fn text(sweep: &Value, folder: &Path, page: &Path) -> String {
     for run in runs {
         let _ = write!(out, "{:<width$}  {:<11}", word(run, "/name"), word(run, "/status"));
         for (_, pointer, factor) in COLUMNS {
-            let value = number(run, pointer).map(|x| x * factor);
+            let done = run["status"] == "completed";
+            let value = number(run, pointer).filter(|_| done).map(|x| x * factor);
             let shown = value.map_or("-".into(), |x| digits(Some(x), 4));
             let _ = write!(out, "{shown:>15}");
         }
