@@ -301,6 +301,11 @@ pub fn find(path: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.path == path)
 }
 
+/// Whether the path is that of a list of sections.
+pub fn is_list(path: &str) -> bool {
+    KEYS.iter().any(|key| key.path.strip_prefix(path).is_some_and(|rest| rest.starts_with("[]")))
+}
+
 impl Form {
     /// What the form allows, as a noun phrase.
     pub fn allowed(&self, unit: &str) -> String {

@@ -72,19 +72,24 @@ impl Watch {
     }
 }
 
-/// Watches a sweep.
+/// Watches a sweep: a bar on standard error where that is a terminal, elsewhere a line for every
+/// run that ends.
 pub struct SweepWatch {
     bar: ProgressBar,
+    /// Name of the sweep, and the runs done as of the last line.
+    lines: Option<(String, usize)>,
+    begun: Instant,
 }
 
 impl SweepWatch {
     /// A watch that has seen nothing yet.
-    pub fn new(quiet: bool) -> Self {
+    pub fn new(quiet: bool, name: &str) -> Self {
         let bar = bar(quiet);
+        let lines = (bar.is_hidden() && !quiet).then(|| (name.to_owned(), 0));
         let template = "{percent:>3}% {bar:12} {elapsed}, {eta} left, {msg}";
         let style = ProgressStyle::with_template(template);
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { bar }
+        Self { bar, lines, begun: Instant::now() }
     }
 
     /// Shows how far the sweep is.
@@ -92,7 +97,18 @@ impl SweepWatch {
         let failed =
             if now.failed > 0 { format!(", {} failed", now.failed) } else { String::new() };
         let (done, all) = (now.completed, now.runs);
-        self.bar.set_message(format!("{done} of {all} runs done{failed}, {} running", now.running));
+        let said = format!("{done} of {all} runs done{failed}, {} running", now.running);
+        if let Some((name, told)) = &mut self.lines
+            && *told != done + now.failed
+        {
+            *told = done + now.failed;
+            let left = self.begun.elapsed().as_secs_f64() * (1.0 / now.fraction - 1.0);
+            let left =
+                if left.is_finite() { format!(", about {left:.0} s left") } else { "".into() };
+            // A closed standard error must not end the sweep.
+            let _ = writeln!(std::io::stderr(), "{name}: {said}{left}");
+        }
+        self.bar.set_message(said);
         self.bar.set_position((now.fraction * TICKS as f64) as u64);
     }
 

@@ -35,8 +35,8 @@ pub fn print_check(document: &Value) {
 }
 
 /// Prints the runs of a sweep.
-pub fn print_sweep(results: &Value, folder: &Path) {
-    print(&sweep::text(results, folder));
+pub fn print_sweep(results: &Value, folder: &Path, page: &Path) {
+    print(&sweep::text(results, folder, page));
 }
 
 /// Prints what `creepage bench` measured.

@@ -2,10 +2,10 @@
 
 use std::fs;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use post::{CheckOptions, Limits, PostError, Report};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::args::Args;
 use crate::check::{BasisArgs, basis};
@@ -28,9 +28,7 @@ pub struct ReportArgs {
 /// Runs the command.
 pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
     let (page, folder, pass) = if let Some(found) = sweep::read(&options.run)? {
-        let path = options.run.join("sweep.json");
-        let page = post::sweep_page(&sweep::name(&options.run), &path, &found)?;
-        (page, options.run.clone(), None)
+        (sweep_page(&options.run, &found)?, options.run.clone(), None)
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis)?;
         let wanted = CheckOptions {
@@ -54,4 +52,17 @@ pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
         let _ = writeln!(std::io::stdout(), "{}", out.display());
     }
     Ok(0)
+}
+
+/// Writes the page of a sweep into its folder.
+pub fn write_sweep(folder: &Path, results: &Value) -> Result<PathBuf, Failure> {
+    let out = folder.join("report.html");
+    fs::write(&out, sweep_page(folder, results)?).map_err(|error| {
+        PostError::Asked(format!("{}: cannot write the page: {error}", out.display()))
+    })?;
+    Ok(out)
+}
+
+fn sweep_page(folder: &Path, results: &Value) -> Result<String, Failure> {
+    Ok(post::sweep_page(&sweep::name(folder), &folder.join("sweep.json"), results)?)
 }

@@ -14,6 +14,7 @@ use crate::args::{Args, threads};
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, all_cores, stop_flag};
 use crate::progress::SweepWatch;
 use crate::report;
+use crate::report_page::write_sweep;
 
 /// Exit code: a run failed.
 const FAILED: u8 = 1;
@@ -104,7 +105,7 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         folder.display(),
         if threads == 1 { "" } else { "s" }
     ));
-    let mut watch = SweepWatch::new(args.quiet);
+    let mut watch = SweepWatch::new(args.quiet, &sweep.name);
     let results = schedule::run(&plan, &program, &budget, &stop, &mut |now| watch.show(now));
     watch.finish();
     let code = finish(args, &plan, results?)?;
@@ -117,11 +118,17 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
 
 /// Shows the results; the exit code is 1 unless every run came to its end.
 fn finish(args: &Args, plan: &Plan, results: Value) -> Result<u8, Failure> {
-    // Here the figures of the sweep are drawn: post::sweep_figures(&plan.folder, &results).
+    let figures = plan.folder.join("figures");
+    for (stem, figure) in post::sweep_figures(&plan.folder, &results)? {
+        for format in [Format::Svg, Format::Png] {
+            figure.write_as(&figures, &stem, format).map_err(PostError::from)?;
+        }
+    }
+    let page = write_sweep(&plan.folder, &results)?;
     if args.json {
         report::print_json(&results);
     } else if !args.quiet {
-        report::print_sweep(&results, &plan.folder);
+        report::print_sweep(&results, &plan.folder, &page);
     }
     let runs = results["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
     Ok(if runs.iter().all(|run| run["status"] == "completed") { 0 } else { FAILED })

@@ -110,6 +110,10 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
             after_axis("values = [0.1]\n[set]\nfriction.static = 0.2"),
             &["sweep.toml:4", "friction.static is given twice"],
         ),
+        (
+            after_axis("values = [0.1]\n[set]\noutput.window = [{ from = 1, to = 99 }]"),
+            &["sweep.toml:7", "output.window"],
+        ),
         (after_axis("values = [0.1]\n[set]\nfriction.dinamic = 0.2"), &["sweep.toml:7", "dynamic"]),
         (
             "base = \"base.toml\"\n[[axis]]\nkey = \"mesh.zone.length\"\nvalues = [0.014, 0.3]\n\
@@ -173,6 +177,29 @@ fn a_failed_run_is_told_with_its_reason_and_the_others_complete() {
     let again = place.sweep(&["--out", "out", "--resume"]);
     assert_eq!(again.status.code(), Some(1), "{}", said(&again));
     assert_eq!(place.results("out"), results);
+}
+
+#[test]
+fn a_step_above_the_limit_is_refused_with_the_limit_and_does_not_stop_the_others() {
+    let place =
+        Place::new("base = \"base.toml\"\n[[axis]]\nkey = \"time.step\"\nvalues = [5e-7, 6e-8]\n");
+    let output = place.sweep(&["--out", "out"]);
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    let results = place.results("out");
+    let runs = results["runs"].as_array().unwrap();
+    let reason = runs[0]["reason"].as_str().unwrap();
+    assert!(reason.contains("5.0000e-7 s is above the stability limit of 1."), "{reason}");
+    assert_eq!(runs[0]["status"], "failed");
+    assert!(runs[1]["summary"]["dt"].as_f64().unwrap() <= 6e-8);
+    let run = ["run", "base.toml", "--set", "time.step=5e-7"];
+    let alone = Command::new(PROGRAM).current_dir(place.dir.path()).args(run).output().unwrap();
+    assert_eq!(alone.status.code(), Some(2), "{}", said(&alone));
+    assert!(said(&alone).contains("--set: time.step = 5.0000e-7"), "{}", said(&alone));
+    // A run that did not come to its end has no results to show.
+    let table = fs::read_to_string(place.path("out/sweep.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let at = rows[0].iter().position(|name| *name == "peak_pressure").unwrap();
+    assert!(rows[1][at].is_empty() && !rows[2][at].is_empty());
 }
 
 /// The sweep of the kill tests: four runs that share a preload and a step.

@@ -152,11 +152,11 @@ impl Sweep {
             );
             return refuse(&format!("axis[{i}].key"), &message, "give all axes the same number");
         }
-        let stated = self.step.is_some() || taken.contains(&"time.factor");
+        let by_axis = self.axes.iter().any(|axis| axis.key.starts_with("time."));
+        let stated = self.step.is_some() || by_axis || taken.contains(&"time.step");
         let moves = self.axes.iter().position(|axis| moves_the_limit(&axis.key));
         if let Some(i) = moves
             && !stated
-            && !taken.contains(&"time.step")
         {
             let message = format!(
                 "{} changes the stability limit: the file must say what the time step does",
@@ -167,10 +167,10 @@ impl Sweep {
                           smallest limit)";
             return refuse(&format!("axis[{i}].key"), &message, remedy);
         }
-        if self.step.is_some() && self.axes.iter().any(|a| a.key.starts_with("time.")) {
+        if self.step.is_some() && (by_axis || taken.contains(&"time.step")) {
             let at = format!("derive[{}].key", self.derive_of("time.step"));
-            let message = "time.step is derived, but an axis gives the time itself";
-            return refuse(&at, message, "leave out the axis or the rule");
+            let message = "time.step is derived, but an axis or [set] gives the time itself";
+            return refuse(&at, message, "leave out the rule or the other");
         }
         Ok(())
     }
@@ -199,8 +199,10 @@ impl Sweep {
             let written = self.layers.origins.contains_key(&value);
             return Some(if written { value } else { format!("axis[{i}].key") });
         }
-        if self.sets.iter().any(|(set, _)| set == key) {
-            return Some(join("set", key));
+        // A key in a list of sections is told where the list is given.
+        let list = key.split('[').next().unwrap_or(key);
+        if self.sets.iter().any(|(set, _)| set == list) {
+            return Some(join("set", list));
         }
         let derived = self.follows.iter().any(|f| f.key == key);
         derived.then(|| format!("derive[{}].key", self.derive_of(key)))
@@ -352,6 +354,8 @@ impl Reading<'_> {
                     sets.push((key, value.clone()));
                 }
                 (None, Value::Table(inner)) => self.sets(inner, &key, sets),
+                // A list of sections, whose keys are checked with the case.
+                (None, Value::Array(_)) if keys::is_list(&key) => sets.push((key, value.clone())),
                 (None, _) => {
                     self.refuse(&at, &format!("unknown key {key}"), &check::suggestion(&key));
                 }

@@ -214,7 +214,8 @@ pub fn prepare(
     say(&format!("{} runs: building their meshes", runs.len()));
     pool.install(|| sweep.count_elements(&mut runs))?;
     let failed = |path: PathBuf| move |cause| SweepError::File { path, cause };
-    fs::create_dir_all(folder).map_err(failed(folder.into()))?;
+    fs::create_dir_all(folder)
+        .map_err(|cause| FolderError::NotWritable { path: folder.into(), cause })?;
     let lock = lock(folder)?;
     // Looked at again under the lock: another process may just have finished here.
     look(folder, sweep, &hash, existing)?;

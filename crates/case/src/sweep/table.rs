@@ -86,7 +86,7 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
         let values = values.chain(parameters.iter().map(|name| &run["parameters"][*name]));
         let values = values.chain([&run["status"]]);
         let values = values
-            .chain(COLUMNS.iter().map(|(_, at)| run.pointer(at).unwrap_or(&Value::Null)))
+            .chain(COLUMNS.iter().map(|(_, at)| shown(run, at)))
             .chain(measures.iter().map(|name| &run["check"]["metrics"][*name]["value"]))
             .chain([&run["reason"]]);
         line(&mut text, values.map(cell));
@@ -94,6 +94,15 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
     let failed = |cause| SweepError::File { path: path.into(), cause };
     let partial = path.with_extension("csv.partial");
     fs::write(&partial, text).and_then(|()| fs::rename(&partial, path)).map_err(failed)
+}
+
+/// A value of a run; means over the evaluation window only where the run came to its end.
+fn shown<'a>(run: &'a Value, at: &str) -> &'a Value {
+    let mean = at.starts_with("/summary/contact/") || at.starts_with("/summary/window/");
+    match run.pointer(at) {
+        Some(value) if !mean || run["status"] == "completed" => value,
+        _ => &Value::Null,
+    }
 }
 
 fn cell(value: &Value) -> String {

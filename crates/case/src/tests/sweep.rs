@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::SHORT;
+use crate::schema::Step;
 use crate::sweep::Sweep;
 use crate::sweep::file::StepRule;
 use crate::{Case, CaseError};
@@ -79,9 +80,39 @@ fn springs_may_be_swept_in_any_form_and_keys_set_for_all() {
 }
 
 #[test]
-fn a_rule_for_the_step_replaces_an_absolute_step_of_the_base() {
+fn a_step_for_all_is_set_and_a_rule_beside_it_refused() {
     let text = "[set]\ntime.step = 1e-7\n[[axis]]\nkey = \"friction.static\"\nvalues = [0.1]\n";
-    assert_eq!(cases(text)[0].time.step, Some(1e-7));
+    assert_eq!(cases(text)[0].step(), Step::Absolute(1e-7));
+    let (_dir, both) = sweep(&format!("{text}[[derive]]\nkey = \"time.step\"\nrule = \"fixed\"\n"));
+    let error = both.unwrap_err().to_string();
+    assert!(error.contains("sweep.toml:8") && error.contains("[set]"), "{error}");
+}
+
+#[test]
+fn a_rule_for_the_step_replaces_an_absolute_step_of_the_base() {
+    let text = "[[axis]]\nkey = \"friction.static\"\nvalues = [0.1]\n";
+    let (dir, plain) = sweep(text);
+    fs::write(dir.path().join("base.toml"), format!("{SHORT}time.step = 1e-7\n")).unwrap();
+    let step = |sweep: Sweep| sweep.points().unwrap()[0].case.step();
+    assert_eq!(step(plain.unwrap()), Step::Absolute(1e-7));
+    let path = dir.path().join("sweep.toml");
+    let rule = "[[derive]]\nkey = \"time.step\"\nrule = \"bound\"\n";
+    fs::write(&path, format!("base = \"base.toml\"\n{text}{rule}")).unwrap();
+    assert_eq!(step(Sweep::load(&path).unwrap()), Step::Fraction(0.67));
+}
+
+#[test]
+fn a_step_and_its_fraction_take_one_another_back_and_are_refused_together() {
+    let both = format!("{SHORT}time.step = 1e-7\ntime.factor = 0.5\n");
+    let path = Path::new("short.toml");
+    let error = Case::from_text(&both, path, &[]).unwrap_err().to_string();
+    assert!(error.contains("both given"), "{error}");
+    let one = format!("{SHORT}time.step = 1e-7\n");
+    let case = Case::from_text(&one, path, &["time.factor=0.5".into()]).unwrap();
+    assert_eq!((case.step(), case.time.step), (Step::Fraction(0.5), None));
+    let again = Case::from_text(&case.to_toml(), path, &["time.step=2e-8".into()]).unwrap();
+    assert_eq!((again.step(), again.time.factor), (Step::Absolute(2e-8), None));
+    assert_eq!(Case::from_text(&again.to_toml(), path, &[]).unwrap(), again);
 }
 
 #[test]

@@ -17,7 +17,7 @@ const COLUMNS: [(&str, &str, f64); 5] = [
 ];
 
 /// The whole page.
-pub fn text(sweep: &Value, folder: &Path) -> String {
+pub fn text(sweep: &Value, folder: &Path, page: &Path) -> String {
     let mut out = String::new();
     let runs = sweep["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
     let names: Vec<&str> = runs.iter().map(|run| word(run, "/name")).collect();
@@ -30,7 +30,8 @@ pub fn text(sweep: &Value, folder: &Path) -> String {
     for run in runs {
         let _ = write!(out, "{:<width$}  {:<11}", word(run, "/name"), word(run, "/status"));
         for (_, pointer, factor) in COLUMNS {
-            let value = number(run, pointer).map(|x| x * factor);
+            let done = run["status"] == "completed";
+            let value = number(run, pointer).filter(|_| done).map(|x| x * factor);
             let shown = value.map_or("-".into(), |x| digits(Some(x), 4));
             let _ = write!(out, "{shown:>15}");
         }
@@ -44,10 +45,10 @@ pub fn text(sweep: &Value, folder: &Path) -> String {
     let completed = runs.iter().filter(|run| run["status"] == "completed").count();
     let _ = writeln!(
         out,
-        "\n{completed} of {} runs completed. All numbers: {}; a page: creepage report {}",
+        "\n{completed} of {} runs completed. All numbers: {}; page: {}",
         runs.len(),
         folder.join("sweep.csv").display(),
-        folder.display()
+        page.display()
     );
     out
 }
