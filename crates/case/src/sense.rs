@@ -6,8 +6,8 @@ use crate::hertz::hertz;
 use crate::keys::number;
 use crate::layers::{Layers, Origin, key_error_in};
 use crate::schema::{
-    Case, ContactLayers, Crown, DriveMode, Enforcement, FrictionLaw, FrictionMode, LoadMode, Material,
-    PreloadMethod, Stiffness,
+    Case, ContactLayers, Crown, DriveMode, Enforcement, FrictionLaw, FrictionMode, LoadMode,
+    Material, PreloadMethod, Stiffness,
 };
 
 /// Coefficient at high slip velocity where an exponential law gives none.
@@ -198,7 +198,10 @@ fn check_choices(case: &Case, found: &mut Findings) {
     found.require(
         !exact || case.preload.method != PreloadMethod::Relaxation,
         &["preload.method", "contact.enforcement"],
-        || "preload.method = \"relaxation\" needs contact springs, and exact enforcement has none".into(),
+        || {
+            "preload.method = \"relaxation\" needs contact springs, and exact enforcement has none"
+                .into()
+        },
         "set preload.method = \"static\"",
     );
     let time = &case.time;

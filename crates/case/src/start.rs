@@ -121,7 +121,8 @@ pub(crate) fn start(
     };
     let effective = match preload {
         Some(_) => {
-            let loads = if exact { loads_of_slaves(model.slave(), &pressed) } else { loads(&contact) };
+            let loads =
+                if exact { loads_of_slaves(model.slave(), &pressed) } else { loads(&contact) };
             effective_radius(model, &loads, &displacement, &field)
         }
         None => nominal,

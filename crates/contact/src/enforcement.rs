@@ -20,7 +20,12 @@ pub trait Contact: Send + Debug {
     ///
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
-    fn apply(&mut self, motion: &Motion<'_>, trial: &Trial<'_>, force: &mut [Padded]) -> ContactSums;
+    fn apply(
+        &mut self,
+        motion: &Motion<'_>,
+        trial: &Trial<'_>,
+        force: &mut [Padded],
+    ) -> ContactSums;
 
     /// An output table for all nodes of side `side`.
     fn nodal_table(&self, side: usize) -> NodalContact;

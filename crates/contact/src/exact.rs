@@ -215,7 +215,8 @@ impl ExactContact {
         let c = row.mobility * row.normal_force;
         let sticking = (scale(-1.0 / row.mobility, free), State::Stick);
         if self.law.is_implicit() {
-            let curve = |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
+            let curve =
+                |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
             let Some((_, mu)) = local::solve(speed, c, row.slipped, &curve) else {
                 row.mu = self.law.mu(row.memory, 0.0, &at);
                 return sticking;
@@ -244,7 +245,12 @@ impl ExactContact {
 }
 
 impl Contact for ExactContact {
-    fn apply(&mut self, motion: &Motion<'_>, trial: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
+    fn apply(
+        &mut self,
+        motion: &Motion<'_>,
+        trial: &Trial<'_>,
+        force: &mut [Padded],
+    ) -> ContactSums {
         let positions =
             Positions { reference: motion.reference, displacement: motion.displacement };
         let mut sums = ContactSums {

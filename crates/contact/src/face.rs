@@ -27,12 +27,7 @@ pub(crate) fn shape(xi: f64, eta: f64) -> [f64; 4] {
 #[inline(always)]
 pub(crate) fn shape_gradients(xi: f64, eta: f64) -> [[f64; 2]; 4] {
     let (xm, xp, em, ep) = (0.5 - 0.5 * xi, 0.5 + 0.5 * xi, 0.5 - 0.5 * eta, 0.5 + 0.5 * eta);
-    [
-        [-0.5 * em, -0.5 * xm],
-        [0.5 * em, -0.5 * xp],
-        [0.5 * ep, 0.5 * xp],
-        [-0.5 * ep, 0.5 * xm],
-    ]
+    [[-0.5 * em, -0.5 * xm], [0.5 * em, -0.5 * xp], [0.5 * ep, 0.5 * xp], [-0.5 * ep, 0.5 * xm]]
 }
 
 /// Positions of a body's nodes: `x = X + u`.

@@ -54,7 +54,11 @@ fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
         if f.abs() <= f64::EPSILON * (free + c * value) {
             return Some((s, value));
         }
-        if f > 0.0 { above = s } else { below = s }
+        if f > 0.0 {
+            above = s
+        } else {
+            below = s
+        }
         let derivative = 1.0 + c * slope;
         let newton = s - f / derivative;
         if below.is_nan() {

@@ -171,8 +171,7 @@ impl Pass<'_> {
             if before.is_closed() {
                 pair.open();
             } else if let Some(motion) = motion {
-                let velocity =
-                    relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
+                let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
                 pair.sleep = sleep(foot.gap, norm(velocity), self.margin, motion.dt);
             }
             return;
@@ -214,7 +213,8 @@ impl Pass<'_> {
         if self.damping == 0.0 {
             return;
         }
-        let rate = dot(pair.normal, relative_velocity(motion.velocity, node, face.nodes, &pair.weights));
+        let rate =
+            dot(pair.normal, relative_velocity(motion.velocity, node, face.nodes, &pair.weights));
         let mut compliance = motion.inverse_mass[node as usize];
         for (weight, corner) in pair.weights.iter().zip(face.nodes) {
             compliance += weight * weight * motion.inverse_mass[corner as usize];

@@ -20,8 +20,8 @@
 //! the first call are found too. Pairs that are closed stay listed until they open.
 
 use crate::face::Positions;
-use crate::touch::Listed;
 use crate::surface::{ContactSurface, NONE};
+use crate::touch::Listed;
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;

@@ -479,9 +479,8 @@ impl<'a> Checker<'a> {
             let receives = |body: u8| view == body_name(1 - body);
             pairing.is_none() || !self.history.enforced_on.is_some_and(receives)
         };
-        let candidates = all
-            .iter()
-            .filter(|(view, pairing, _)| counts(*pairing) && judged(view, *pairing));
+        let candidates =
+            all.iter().filter(|(view, pairing, _)| counts(*pairing) && judged(view, *pairing));
         let worst = candidates
             .filter_map(|entry| Some((entry, entry.2.value?)))
             .max_by(|a, b| badness(a.1).total_cmp(&badness(b.1)));

@@ -73,8 +73,7 @@ fn pressures(slaves: usize, masters: usize) -> Result<[f64; 2], Cause> {
         nodes: side_nodes(&mesh, 0, "z+").to_vec(),
         axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-PRESSURE * EDGE * EDGE)],
     };
-    let supports =
-        Supports { held: side_nodes(&mesh, 1, "z-").to_vec(), tied: vec![press] };
+    let supports = Supports { held: side_nodes(&mesh, 1, "z-").to_vec(), tied: vec![press] };
     let problem = Problem {
         mesh: &mesh,
         supports: &supports,

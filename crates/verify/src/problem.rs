@@ -1,8 +1,9 @@
 //! The list of problems.
 
 use crate::{
-    Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker, lamb, lysmer, patch,
-    rolling_dynamic, shear_column, slider_tables, sliding, steady_rolling, waves,
+    Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker,
+    lamb, lysmer, patch, rolling_dynamic, shear_column, slider_tables, sliding, steady_rolling,
+    waves,
 };
 use thiserror::Error;
 

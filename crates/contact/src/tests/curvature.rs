@@ -1,8 +1,8 @@
 use super::{Rig, SETTINGS};
 use crate::face::{Positions, project};
-use crate::touch::Listed;
 use crate::plates::{STEEL, plate, tread};
 use crate::surface::ContactSurface;
+use crate::touch::Listed;
 use crate::vector::{Vec3, norm, sub};
 use crate::{Coulomb, PenaltySettings};
 use mesh::Padded;

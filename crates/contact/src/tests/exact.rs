@@ -32,7 +32,8 @@ impl Masses {
         let settings = ExactSettings { slave: Some(slave), curvature: true };
         let contact = ExactContact::new(&mesh, surfaces, &settings, Box::new(law)).unwrap();
         let n = mesh.nodes.len();
-        let noise = |i: usize| f64::from((i as u32).wrapping_mul(2_654_435_761) >> 8) / 16_777_216.0;
+        let noise =
+            |i: usize| f64::from((i as u32).wrapping_mul(2_654_435_761) >> 8) / 16_777_216.0;
         Self {
             contact,
             upper: count,
@@ -70,18 +71,13 @@ impl Masses {
         };
         let (velocity, pace) = (&self.velocity, &self.inverse_mass);
         let trial = Trial {
-            velocity: &|n, f| {
-                axpy(velocity[n as usize].xyz(), self.dt * pace[n as usize], f)
-            },
+            velocity: &|n, f| axpy(velocity[n as usize].xyz(), self.dt * pace[n as usize], f),
             inverse_mass: pace,
         };
         let sums = self.contact.apply(&motion, &trial, &mut self.force);
         for i in 0..self.force.len() {
-            let v = axpy(
-                self.velocity[i].xyz(),
-                self.dt * self.inverse_mass[i],
-                self.force[i].xyz(),
-            );
+            let v =
+                axpy(self.velocity[i].xyz(), self.dt * self.inverse_mass[i], self.force[i].xyz());
             self.velocity[i] = Padded::new(v);
             self.displacement[i] =
                 Padded::new(axpy(self.displacement[i].xyz(), self.dt, self.velocity[i].xyz()));

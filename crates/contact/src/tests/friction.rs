@@ -1,6 +1,6 @@
 use super::{K, Rig, SETTINGS};
-use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use crate::touch::Listed;
+use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use crate::{Contact, Coulomb, Exponential, FrictionLaw, Lagged, PenaltySettings, Stiffness};
 use mesh::Padded;
 

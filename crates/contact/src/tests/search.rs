@@ -1,8 +1,8 @@
 use super::{K, Rig, SETTINGS};
 use crate::Coulomb;
 use crate::face::{Positions, project};
-use crate::touch::Listed;
 use crate::plates::{plate, tread};
+use crate::touch::Listed;
 use crate::vector::Vec3;
 use proptest::prelude::*;
 
