@@ -2,7 +2,7 @@
 //! creepage-benches --bench contact`.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, Exponential, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{BodyMaterial, Exponential, Lagged, Motion, PenaltyContact, PenaltySettings, Stiffness};
 use mesh::{Bar, Disk, FineZone, Padded, bar, disk, join};
 
 fn main() {
@@ -54,7 +54,7 @@ impl Rolling {
             damping: 0.1,
             curvature: true,
         };
-        let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+        let law = Lagged(Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 });
         let surfaces =
             [(&mesh.bodies[0].surfaces["tread"], steel), (&mesh.bodies[1].surfaces["top"], steel)];
         let contact = match PenaltyContact::new(&mesh, surfaces, &settings, None, Box::new(law)) {
@@ -112,6 +112,7 @@ impl Rolling {
             displacement: &self.displacement,
             velocity: &self.velocity,
             inverse_mass: &self.inverse_mass,
+            time: 0.0,
             dt: self.dt,
         };
         self.contact.apply(&motion, &mut self.force)

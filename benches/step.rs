@@ -75,7 +75,7 @@ fn rolling(size: f64) -> Simulation {
         fixed: Vec::new(),
         load: Load::default(),
         solid,
-        contact: Some(contact),
+        contact: Some(Box::new(contact)),
         hub: Some(hub),
         quiet,
         held,

@@ -73,6 +73,7 @@ impl Rig {
             displacement: &self.displacement,
             velocity: &velocity,
             inverse_mass: &vec![1e4; self.reference.len()],
+            time: 0.0,
             dt: DT,
         };
         self.contact.apply(&motion, &mut self.force)
