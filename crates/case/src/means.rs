@@ -49,4 +49,8 @@ pub(crate) struct Means {
     pub(crate) hourglass_share: Mean,
     pub(crate) worst_cone: f64,
     pub(crate) worst_mismatch: f64,
+    /// Most sweeps of exact enforcement in a step.
+    pub(crate) most_sweeps: usize,
+    /// Nodes and steps in which the law of friction had more than one solution.
+    pub(crate) manifold: u64,
 }

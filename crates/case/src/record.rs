@@ -245,6 +245,8 @@ impl Recorder {
         if report.contact.closed > 0 {
             self.means.worst_mismatch = self.means.worst_mismatch.max(mismatch);
         }
+        self.means.most_sweeps = self.means.most_sweeps.max(report.contact.sweeps);
+        self.means.manifold += report.contact.manifold as u64;
         let inside = report.time >= self.evaluate_from;
         if inside {
             for (mean, f) in self.means.force.iter_mut().zip([tangential, lateral, normal]) {

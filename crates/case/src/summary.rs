@@ -7,7 +7,7 @@ use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
 use crate::preload::PreloadError;
-use crate::schema::Case;
+use crate::schema::{Case, Enforcement};
 use crate::start::Facts;
 use dynamics::{Diagnosis, Energies, Simulation};
 use output::summary::{Contact, Energy, Files, Status, Summary};
@@ -82,8 +82,11 @@ pub(crate) fn summary(
     let half_space = json!({ "half_length": hertz.a, "half_width": hertz.b,
         "area": hertz.area(),
         "peak_pressure": hertz.p0, "approach": hertz.approach });
-    let checks =
-        json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch });
+    let checks = json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch,
+        "contact_damping": last.contact_damping });
+    let exact = (case.contact.enforcement == Enforcement::Exact).then(
+        || json!({ "most_sweeps": means.most_sweeps, "manifold_node_steps": means.manifold }),
+    );
     let preload = facts.preload.map(|p| p.json());
     let sections = [
         ("kernels", json!(simulation.solid().level().name())),
@@ -92,6 +95,7 @@ pub(crate) fn summary(
         ("half_space", half_space),
         ("window", window(case, means)),
         ("checks", checks),
+        ("exact_contact", json!(exact)),
         ("time_loop_bytes_per_element", json!(simulation.bytes() as f64 / elements)),
         ("preload", json!(preload)),
         ("numbers", facts.numbers.json()),

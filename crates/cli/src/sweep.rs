@@ -7,7 +7,9 @@ use std::sync::atomic::Ordering;
 
 use case::sweep::plan::{self, Existing};
 use case::sweep::{Budget, Plan, Sweep, SweepError, collect, schedule};
+use figure::Format;
 use miette::{Report, miette};
+use post::PostError;
 use serde_json::Value;
 
 use crate::args::{Args, threads};

@@ -159,6 +159,37 @@ fn wrong_values_are_refused_with_key_value_and_range() {
             assert!(text.contains(word), "{set_}: {word:?} is not in {text:?}");
         }
     }
+    const FALLING: &str = "friction.law=exponential";
+    const EXACT: &str = "contact.enforcement=exact";
+    for (sets, words) in [
+        (
+            vec![FALLING, "friction.memory.distance=-1e-5"],
+            vec!["memory.distance = -1e-5", "greater"],
+        ),
+        (
+            vec![FALLING, "friction.memory.distance=0"],
+            vec!["friction.memory.distance = 0", "greater"],
+        ),
+        (vec![FALLING, "friction.memory.floor=1e-2"], vec!["friction.memory"]),
+        (vec!["friction.memory.distance=1e-5"], vec!["friction.memory", "coulomb"]),
+        (vec!["friction.mode=exact"], vec!["friction.mode", "coulomb"]),
+        (vec![FALLING, "friction.mode=exact"], vec!["friction.mode", "contact.enforcement"]),
+        (
+            vec![FALLING, "friction.mode=implicit"],
+            vec!["friction.mode = \"implicit\"", "\"lagged\""],
+        ),
+        (
+            vec![FALLING, EXACT, "friction.mode=exact", "friction.memory.distance=1e-5"],
+            vec!["friction.mode", "friction.memory", "both given"],
+        ),
+        (vec!["contact.enforcement=mortar"], vec!["contact.enforcement = \"mortar\"", "\"exact\""]),
+        (vec![EXACT, "preload.method=relaxation"], vec!["preload.method", "exact"]),
+    ] {
+        let text = refusal(set(&sets));
+        for word in words {
+            assert!(text.contains(word), "{sets:?}: {word:?} is not in {text:?}");
+        }
+    }
     refused(set(&["load.mode=height", "preload.method=none"]), &["load.mode", "preload"]);
     refused(
         set(&["friction.law=exponential", "friction.dynamic=0.6"]),
