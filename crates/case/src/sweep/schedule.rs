@@ -107,6 +107,10 @@ pub fn run(
             }
         }
     }
+    // The longest first, so that none is left alone at the end; equals keep their order.
+    let mut by_cost = Vec::from(waiting);
+    by_cost.sort_by(|a, b| cost(&plan.runs[b.0]).total_cmp(&cost(&plan.runs[a.0])));
+    let mut waiting = VecDeque::from(by_cost);
     let total: f64 = waiting.iter().map(|&(index, _)| cost(&plan.runs[index])).sum();
     let mut ended = 0.0;
     let mut failures: BTreeMap<String, String> = BTreeMap::new();
