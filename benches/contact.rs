@@ -2,7 +2,9 @@
 //! creepage-benches --bench contact`.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, Exponential, Lagged, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{
+    BodyMaterial, Exponential, Lagged, Motion, PenaltyContact, PenaltySettings, Stiffness,
+};
 use mesh::{Bar, Disk, FineZone, Padded, bar, disk, join};
 
 fn main() {
