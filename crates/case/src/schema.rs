@@ -234,18 +234,17 @@ pub enum FrictionMode {
 /// Memory of friction: d(mu)/dt = -(max(|s|, floor)/distance) (mu - mu_law(|s|)), back at `static`
 /// out of contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct FrictionMemory {
-    /// Distance of slip over which the coefficient adapts (m). Required.
+    /// Distance of slip over which the coefficient adapts (m). Default 1e-6, as in CONTACT.
     pub distance: f64,
-    /// Slip speed below which it adapts in time instead (m/s). Default 10e-3.
-    #[serde(default = "FrictionMemory::default_floor")]
+    /// Slip speed below which it adapts in time instead (m/s). Default 10e-3, as in CONTACT.
     pub floor: f64,
 }
 
-impl FrictionMemory {
-    fn default_floor() -> f64 {
-        10e-3
+impl Default for FrictionMemory {
+    fn default() -> Self {
+        Self { distance: 1e-6, floor: 10e-3 }
     }
 }
 

@@ -9,7 +9,7 @@
 //!
 //! Nodes of one side, the slaves, meet faces of the other. The system is solved by projected block
 //! Gauss–Seidel: a node's own block `W_ii = (1/m_s + sum phi_I^2/m_I) I` is isotropic for lumped masses,
-//! so that its normal problem, and then its tangential one (module [`local`](crate::local)) are closed;
+//! so that its normal problem, and then its tangential one (module `local`) are closed;
 //! blocks of neighbouring nodes couple little. The order is fixed, hence the bits are.
 
 use crate::enforcement::{Contact, Trial};
@@ -46,6 +46,9 @@ pub struct ExactSettings {
 }
 
 /// Contact of two surfaces without penetration, and friction without elastic slip.
+///
+/// A direction in which a contact node is fixed (not held altogether) must be one in which contact
+/// does not push it, as the direction across a plane motion: a node's own block counts its whole mass.
 #[derive(Debug)]
 pub struct ExactContact {
     sides: [ContactSurface; 2],

@@ -170,7 +170,7 @@ fn wrong_values_are_refused_with_key_value_and_range() {
             vec![FALLING, "friction.memory.distance=0"],
             vec!["friction.memory.distance = 0", "greater"],
         ),
-        (vec![FALLING, "friction.memory.floor=1e-2"], vec!["friction.memory"]),
+        (vec![FALLING, "friction.memory.floor=0"], vec!["friction.memory.floor = 0", "m/s"]),
         (vec!["friction.memory.distance=1e-5"], vec!["friction.memory", "coulomb"]),
         (vec!["friction.mode=exact"], vec!["friction.mode", "coulomb"]),
         (vec![FALLING, "friction.mode=exact"], vec!["friction.mode", "contact.enforcement"]),
