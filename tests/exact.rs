@@ -14,7 +14,13 @@ fn lengths(run: &Results, field: &str) -> Vec<f64> {
 
 #[test]
 fn the_bits_do_not_depend_on_the_number_of_threads() {
-    let sets = [EXACT, "time.roll=0.002", "friction.law='exponential'", "friction.mode='exact'"];
+    let sets = [
+        EXACT,
+        "time.roll=0.002",
+        "friction.law='exponential'",
+        "friction.static=0.5",
+        "friction.mode='exact'",
+    ];
     let case = load(&project("tests/small.toml"), &sets);
     let [one, two, three] = [1, 2, 3].map(|threads| run(&case, threads));
     assert!(one.number("/contact/tangential_force") > 0.0);
@@ -36,10 +42,12 @@ fn energy_balances_and_friction_only_takes() {
 
 #[test]
 fn rolling_starts_from_the_static_preload_without_a_jump() {
+    // Ten elements across the patch: with seven (0.5 mm) the force ripples by 0.65 % as nodes pass, with
+    // ten by 0.2 %.
     let run = small(&[
         EXACT,
         EVERY,
-        "mesh.zone.size=0.5e-3",
+        "mesh.zone.size=0.35e-3",
         "friction.static=0",
         "drive.creepage=0",
         "evaluate.last=0.002",
@@ -47,6 +55,7 @@ fn rolling_starts_from_the_static_preload_without_a_jump() {
     let rest = run.number("/preload/normal_force");
     let early = run.history("time").iter().zip(run.history("normal_force"));
     let early: Vec<f64> = early.filter(|(t, _)| **t <= 0.2e-3).map(|(_, n)| *n).collect();
+    assert!((early[0] / rest - 1.0).abs() < 1e-3, "{}", early[0]);
     let jump = early.iter().fold(0.0, |worst: f64, n| worst.max((n / rest - 1.0).abs()));
     assert!(jump < 5e-3, "{jump}");
 }
@@ -54,12 +63,12 @@ fn rolling_starts_from_the_static_preload_without_a_jump() {
 #[test]
 fn shear_is_the_bound_where_nodes_slip_and_slip_is_nil_where_they_stick() {
     let run = small(&[EXACT]);
-    let record = "0040";
+    let record = "0030";
     let at = |field: &str| format!("contact/{field}/{record}");
     let (shear, slip) = (lengths(&run, &at("shear")), lengths(&run, &at("slip_velocity")));
     let (pressure, state) = (&run.data[&at("pressure")], &run.data[&at("state")]);
-    // the disk's nodes, which are slaves, come first
-    let slaves = state.len() / 2;
+    // the disk's nodes, which are slaves, come first; the bar begins at the edge of its crown
+    let slaves = run.data["contact/points"].chunks(3).position(|x| x[2] < -1e-9).unwrap();
     let (mut sticks, mut slips) = (0, 0);
     for i in 0..slaves {
         match state[i] as u8 {
