@@ -14,6 +14,7 @@ fn provenance() -> Provenance {
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: "0".repeat(64),
         created: "2026-01-01T00:00:00Z".into(),
+        attributes: Vec::new(),
     }
 }
 
