@@ -78,7 +78,7 @@ fn study(size: Size, exact: bool) -> Outcome {
     let row = |quantity: &str, reference: f64, value: fn(&Collision) -> f64| {
         let values = meshes.iter().map(|(h, m)| (*h, value(m)));
         let study = Convergence::with_known_order(values, 2.0 / 3.0);
-        Row::converged(quantity, reference, &study, (strain, "and the strain v/c"), SOURCE)
+        Row::converged(quantity, reference, &study, (strain, "the strain v/c"), SOURCE)
     };
     let mut rows = vec![
         row("contact time (s), 2L/c", 2.0 * LENGTH / c, |m| m.duration),
