@@ -68,8 +68,16 @@ impl fmt::Display for Diagnosis {
         write!(
             f,
             ". Worst at node {} (reference position {x:.3}, {y:.3}, {z:.3} mm), {:.3e} m/s \
-             relative to its body; smallest det F {:.4} in element {}",
-            place.node, place.speed, place.jacobian, place.element
+             relative to its body; smallest det F {} in element {}",
+            place.node,
+            place.speed,
+            // what has blown up would fill the line with digits
+            if place.jacobian.abs() < 1e3 {
+                format!("{:.4}", place.jacobian)
+            } else {
+                format!("{:.3e}", place.jacobian)
+            },
+            place.element
         )
     }
 }
