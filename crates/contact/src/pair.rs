@@ -278,7 +278,8 @@ impl Pass<'_> {
         pair.mu = self.law.mu(pair.memory, speed, &place);
         let mut friction = axpy(start, -stiffness, delta);
         let (trial, cap) = (norm(friction), pair.mu * pair.normal_force);
-        if trial > cap {
+        // a coefficient that is no number must reach the guards
+        if cap.is_nan() || trial > cap {
             friction = scale(cap / trial, friction);
             pair.state = State::Slip;
             if stiffness > 0.0 {
