@@ -10,7 +10,7 @@ mod slip_weakening;
 mod steady;
 mod table;
 
-pub use expression::{Expression, ExpressionError};
+pub use expression::{Domain, Expression, ExpressionError};
 pub use memory::Memory;
 pub use node::{Implicit, Lagged, NodeFriction, Place, Remembering};
 pub use numbers::{Falling, Interface, falling, nucleation_length, spring_number};
