@@ -110,6 +110,7 @@ mod tests {
             distance: 1e-5,
             law: StateLaw::Ageing,
             initial: 10.0,
+            lagged: false,
         };
         let (state, at) = ([10.0, 0.0], Place::default());
         let curve = |s: f64| (law.mu(state, s, &at), law.slope(state, s, &at));

@@ -21,7 +21,8 @@ pub enum StateLaw {
 /// sliding `mu = f_0 + (a - b) ln(V/V_0)`, which falls with the speed where `b > a`.
 ///
 /// The state is `theta` (s), advanced by the exact solution for a slip speed that is constant over the
-/// step. It starts at `initial` wherever a node comes into contact.
+/// step. It starts at `initial` wherever a node comes into contact. The second number of the state is the
+/// slip speed of the step before, which the coefficient belongs to if `lagged`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateState {
     /// Coefficient `f_0` of steady sliding at `reference_speed`.
@@ -38,12 +39,14 @@ pub struct RateState {
     pub law: StateLaw,
     /// State of a node that comes into contact (s).
     pub initial: f64,
+    /// Takes the slip speed of the step before instead of that of the same instant.
+    pub lagged: bool,
 }
 
 impl RateState {
     /// Coefficient of steady sliding at `speed` (m/s): the state is `L/V`.
     pub fn steady(&self, speed: f64) -> f64 {
-        let state = [self.distance / speed, 0.0];
+        let state = [self.distance / speed, speed];
         self.mu(state, speed, &Place::default())
     }
 
@@ -75,15 +78,18 @@ impl NodeFriction for RateState {
             }
             StateLaw::Slip => theta,
         };
-        [theta, 0.0]
+        [theta, slip_speed]
     }
 
-    fn mu(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
-        let x = self.argument(theta, slip_speed);
+    fn mu(&self, [theta, before]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+        let x = self.argument(theta, if self.lagged { before } else { slip_speed });
         self.direct * if x > LARGE { x + LN_2 } else { x.exp().asinh() }
     }
 
     fn slope(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+        if self.lagged {
+            return 0.0;
+        }
         if slip_speed == 0.0 {
             // of a node at rest: the derivative of asinh is 1 there
             return self.direct * (self.argument(theta, 1.0)).exp();
@@ -94,7 +100,7 @@ impl NodeFriction for RateState {
     }
 
     fn is_implicit(&self) -> bool {
-        true
+        !self.lagged
     }
 
     /// The coefficient `f_0`: at rest itself there is none in this law.
@@ -116,6 +122,7 @@ mod tests {
         distance: 0.02,
         law: StateLaw::Ageing,
         initial: 2e4,
+        lagged: false,
     };
     const SLIP: RateState = RateState { law: StateLaw::Slip, ..LAW };
 
@@ -181,8 +188,17 @@ mod tests {
     #[test]
     fn at_rest_the_ageing_law_ages_and_the_slip_law_does_not() {
         let at = Place::default();
-        assert_eq!(LAW.advance([2.0, 0.0], 0.0, &at, 0.5), [2.5, 0.0]);
-        assert_eq!(SLIP.advance([2.0, 0.0], 0.0, &at, 0.5), [2.0, 0.0]);
+        assert_eq!(LAW.advance([2.0, 0.0], 0.0, &at, 0.5)[0], 2.5);
+        assert_eq!(SLIP.advance([2.0, 0.0], 0.0, &at, 0.5)[0], 2.0);
+    }
+
+    #[test]
+    fn lagged_it_is_the_coefficient_at_the_speed_before() {
+        let at = Place::default();
+        let lagged = RateState { lagged: true, ..LAW };
+        let state = lagged.advance([2.0, 0.0], 0.3, &at, 1e-7);
+        assert_eq!(lagged.mu(state, 5.0, &at), LAW.mu(state, 0.3, &at));
+        assert!(!lagged.is_implicit() && lagged.slope(state, 5.0, &at) == 0.0);
     }
 
     #[test]
