@@ -3,6 +3,7 @@
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
+use crate::friction::USES;
 use crate::keys::{self, Form, KEYS, Key, STIFFNESS, number};
 use crate::layers::{Layers, get, join, key_error_in};
 
@@ -107,10 +108,17 @@ fn check_needed(layers: &Layers, errors: &mut Vec<KeyError>) {
         };
         // A section that is no table has had its message.
         let no_section = get(&layers.table, section).is_some_and(|value| !value.is_table());
-        if !no_section && get(&layers.table, key.path).is_none() {
+        let spared = key.path == "friction.static" && !needs_static(layers);
+        if !no_section && !spared && get(&layers.table, key.path).is_none() {
             errors.push(missing(layers, section, name, key));
         }
     }
+}
+
+/// Whether the friction law has the coefficient `static`. One that there is not has had its message.
+fn needs_static(layers: &Layers) -> bool {
+    let law = get(&layers.table, "friction.law").and_then(Value::as_str);
+    USES.iter().find(|uses| Some(uses.word) == law).is_none_or(|uses| uses.has("static"))
 }
 
 fn missing(layers: &Layers, section: &str, name: &str, key: &Key) -> KeyError {
@@ -153,6 +161,13 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
                     && pair.iter().all(|x| float(x).is_some_and(|x| (-10.0..=10.0).contains(&x)))
             })
         }),
+        (Form::Curve, Value::Array(points)) => match crate::table::points(points) {
+            None => false,
+            Some(points) => match contact::Table::new(points) {
+                Ok(_) => true,
+                Err(error) => return Some(format!("{}: {error}", show(value))),
+            },
+        },
         _ => false,
     };
     if fine { None } else { not_allowed() }

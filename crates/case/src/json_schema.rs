@@ -3,6 +3,7 @@
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
+use crate::friction::USES;
 use crate::keys::{End, Form, KEYS, Key, Range};
 use crate::schema::Case;
 
@@ -83,6 +84,16 @@ fn allow_extending(schema: &mut Value) {
         if let Some(names) = section.get_mut("required").and_then(Value::as_array_mut) {
             names.push(json!(name));
         }
+    }
+    // a law may do without the coefficient at rest
+    if let Some(friction) = required.get_mut("friction") {
+        let without = USES.iter().filter(|uses| !uses.has("static")).map(|uses| uses.word);
+        let law = json!({ "enum": without.collect::<Vec<_>>() });
+        let then = std::mem::take(friction);
+        *friction = json!({
+            "if": { "not": { "required": ["law"], "properties": { "law": law } } },
+            "then": then
+        });
     }
     for section in required.keys() {
         if let Some(at) = locate(schema, section) {

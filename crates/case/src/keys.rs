@@ -73,6 +73,9 @@ pub enum Form {
     Stiffness,
     /// A list of pairs of numbers.
     Points,
+    /// A curve: pairs of numbers at least 0, the first of them rising from 0. In a file it may be the
+    /// path of another file.
+    Curve,
 }
 
 /// One key of a case file.
@@ -218,7 +221,20 @@ pub const KEYS: &[Key] = &[
     ),
     key("drive.torque", Number(within(-1e7, 1e7)), "N m", "give the torque in N m"),
     key("drive.ramp", Number(within(0.0, 1.0)), "s", "give a time in seconds: 0.74e-3"),
-    key("friction.law", Word(&["coulomb", "exponential"]), "", "choose one of the words"),
+    key(
+        "friction.law",
+        Word(&[
+            "coulomb",
+            "exponential",
+            "slip_weakening",
+            "rate_state",
+            "prakash_clifton",
+            "table",
+            "expression",
+        ]),
+        "",
+        "choose one of the words",
+    ),
     needed(
         "friction.static",
         Number(within(0.0, 5.0)),
@@ -227,6 +243,37 @@ pub const KEYS: &[Key] = &[
     ),
     key("friction.dynamic", Number(within(0.0, 5.0)), "-", "give a coefficient of friction: 0.32"),
     key("friction.decay", Number(within(0.0, 1e4)), "s/m", "give the decay in s/m: 6.0"),
+    key(
+        "friction.distance",
+        Number(over(0.0, 10.0)),
+        "m",
+        "give the slip over which friction changes, in metres: `distance = 10e-6`",
+    ),
+    key(
+        "friction.relaxation_speed",
+        Number(over(0.0, 1e3)),
+        "m/s",
+        "give V* of the law in m/s: 1.0",
+    ),
+    key("friction.reference", Number(over(0.0, 5.0)), "-", "give a coefficient of friction: 0.6"),
+    key("friction.reference_speed", Number(over(0.0, 100.0)), "m/s", "give V_0 in m/s: 1e-6"),
+    key("friction.direct", Number(within(1e-4, 1.0)), "-", "give the direct effect a: 0.008"),
+    key("friction.evolution", Number(within(0.0, 1.0)), "-", "give the effect b: 0.012"),
+    key("friction.state", Word(&["ageing", "slip"]), "", "choose one of the words"),
+    key("friction.age", Number(over(0.0, 1e12)), "s", "give the state theta in seconds: 10"),
+    key(
+        "friction.table",
+        Form::Curve,
+        "",
+        "give the path of a CSV file, relative to this one, or pairs of slip velocity (m/s), rising from 0, \
+         and coefficient: `table = [[0, 0.5], [1, 0.32]]`",
+    ),
+    key(
+        "friction.expression",
+        Text,
+        "",
+        "give a formula in s, p, t and x in quotes: `expression = \"0.32 + 0.18*exp(-6*s)\"`",
+    ),
     key("friction.mode", Word(&["lagged", "exact"]), "", "choose one of the words"),
     key(
         "friction.memory.distance",
@@ -329,6 +376,9 @@ impl Form {
                     "a number {}, {{ stiffness = ... }} {} N/m^3, or {{ stability = ... }} {}",
                     factor.1, areal.1, stability.1
                 )
+            }
+            Form::Curve => {
+                "the path of a CSV file or a list of pairs [slip velocity, coefficient]".into()
             }
             Points => format!("a list of pairs of numbers between -10 and 10{unit}"),
         }

@@ -15,6 +15,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
+use crate::friction::{self, USES};
 use crate::keys;
 
 /// A case file larger than this is taken for something else.
@@ -51,7 +52,8 @@ pub struct Layers {
 }
 
 /// Choosing the left (a key, and for some the word it is set to) takes the right back from the
-/// layers beneath: a file that extends a case with a creepage may set a torque instead.
+/// layers beneath: a file that extends a case with a creepage may set a torque instead. Choosing a
+/// friction law takes the keys back that it does not use.
 const TAKES_BACK: &[(&str, Option<&str>, &[&str])] = &[
     ("time.factor", None, &["time.step"]),
     ("time.step", None, &["time.factor"]),
@@ -61,7 +63,6 @@ const TAKES_BACK: &[(&str, Option<&str>, &[&str])] = &[
     ("drive.torque", None, &["drive.creepage"]),
     ("drive.mode", Some("creepage"), &["drive.torque"]),
     ("drive.mode", Some("torque"), &["drive.creepage"]),
-    ("friction.law", Some("coulomb"), &["friction.dynamic", "friction.decay"]),
 ];
 
 impl Layers {
@@ -218,6 +219,12 @@ impl Layers {
                 }
             }
         }
+        let law = get(&top, "friction.law").and_then(Value::as_str);
+        if let Some(chosen) = USES.iter().find(|uses| Some(uses.word) == law) {
+            friction::all_keys()
+                .filter(|key| !chosen.has(key))
+                .for_each(|key| self.drop_key(&friction::path(key)));
+        }
         merge(&mut self.table, top, "", &mut self.origins);
         self.origins.extend(origins);
     }
@@ -346,7 +353,7 @@ fn excerpt(text: &str, span: Range<usize>) -> Option<SourceSpan> {
 }
 
 /// Reads a file of at most [`LARGEST_FILE`] bytes as UTF-8.
-fn read_text(path: &Path) -> Result<String, CaseError> {
+pub fn read_text(path: &Path) -> Result<String, CaseError> {
     let refuse = |problem: String, remedy: &str| CaseError::File {
         path: path.to_path_buf(),
         problem,

@@ -10,6 +10,7 @@ mod check;
 pub mod error;
 pub mod folder;
 mod forms;
+mod friction;
 pub mod hertz;
 pub mod json_schema;
 pub mod keys;
@@ -32,6 +33,7 @@ mod sense;
 mod start;
 mod summary;
 pub mod sweep;
+mod table;
 #[cfg(test)]
 mod tests;
 

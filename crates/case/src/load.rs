@@ -8,8 +8,9 @@ use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::preload::store::hexadecimal;
-use crate::schema::{Case, ContactLayers, DriveMode, FrictionLaw, Time};
+use crate::schema::{Case, ContactLayers, DriveMode, Enforcement, Time};
 use crate::sense;
+use crate::table;
 
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
@@ -63,6 +64,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     for set in sets {
         layers.add_set(set)?;
     }
+    table::inline(&mut layers)?;
     check::keys(&layers)?;
     // Rendered and read again, the merged keys go through serde's own strictness as well.
     let merged = toml::to_string(&layers.table).unwrap_or_default();
@@ -88,10 +90,7 @@ fn choose(case: &mut Case, layers: &Layers) {
 }
 
 fn write_defaults(case: &mut Case) {
-    if case.friction.law == FrictionLaw::Exponential {
-        case.friction.dynamic.get_or_insert(sense::DYNAMIC);
-        case.friction.decay.get_or_insert(sense::DECAY);
-    }
+    case.friction.write_defaults(case.contact.enforcement == Enforcement::Exact);
     if case.element.contact_layers == ContactLayers::Full {
         case.element.layers.get_or_insert(sense::LAYERS);
         case.element.volumetric.get_or_insert_default();

@@ -1,11 +1,12 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
+use crate::friction;
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers, Ends, FrictionMode};
 use crate::sense::LAYERS;
 use contact::{
-    BodyMaterial, Coulomb, ExactContact, ExactSettings, Exponential, Implicit, Lagged, Memory,
-    NodeFriction, PenaltyContact, PenaltySettings, Remembering, StabilityScale,
+    BodyMaterial, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
+    StabilityScale,
 };
 use mesh::{Face, FineZone, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
@@ -136,11 +137,11 @@ impl Model {
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
         };
-        let law = match case.friction.mode {
+        let mut law = friction::law(case)?;
+        if case.friction.mode == Some(FrictionMode::Exact) {
             // no friction acts in the preload
-            Some(FrictionMode::Exact) => Box::new(Coulomb { mu: case.friction.static_ }),
-            _ => law(case),
-        };
+            law = Box::new(Coulomb { mu: law.mu_static() });
+        }
         Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
     }
 
@@ -148,7 +149,7 @@ impl Model {
     pub(crate) fn exact_contact(&self, case: &Case) -> Result<ExactContact, RunError> {
         let settings =
             ExactSettings { slave: Some(self.slave()), curvature: case.contact.curvature };
-        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, law(case))?)
+        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, friction::law(case)?)?)
     }
 
     /// The side whose nodes are slaves of exact contact: that of the finer zone, the disk's where both
@@ -194,23 +195,5 @@ pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {
         crate::schema::Stiffness::Factor(v) => contact::Stiffness::Scale(v),
         crate::schema::Stiffness::Areal(v) => contact::Stiffness::Areal(v),
         crate::schema::Stiffness::Stability(v) => contact::Stiffness::StabilityFraction(v),
-    }
-}
-
-fn law(case: &Case) -> Box<dyn NodeFriction> {
-    let friction = &case.friction;
-    let exponential = Exponential {
-        mu_static: friction.static_,
-        mu_dynamic: friction.dynamic.unwrap_or(friction.static_),
-        decay: friction.decay.unwrap_or(0.0),
-    };
-    match (friction.law, friction.memory, friction.mode.unwrap_or_default()) {
-        (crate::schema::FrictionLaw::Coulomb, ..) => Box::new(Coulomb { mu: friction.static_ }),
-        (_, Some(memory), _) => Box::new(Remembering {
-            steady: exponential,
-            memory: Memory { distance: memory.distance, floor: memory.floor },
-        }),
-        (_, None, FrictionMode::Lagged) => Box::new(Lagged(exponential)),
-        (_, None, FrictionMode::Exact) => Box::new(Implicit(exponential)),
     }
 }

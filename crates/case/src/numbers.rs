@@ -1,9 +1,10 @@
 //! The dimensionless numbers of a case, before it rolls: what to expect of its friction law.
 
+use crate::friction;
 use crate::hertz::hertz;
 use crate::model::{BAR, DISK, Model};
-use crate::schema::{Case, DriveMode, Enforcement, FrictionLaw};
-use contact::{Exponential, Falling, Interface, Stiffness};
+use crate::schema::{Case, DriveMode, Enforcement};
+use contact::{Falling, Interface, Stiffness};
 use serde_json::json;
 use solid::Material;
 
@@ -38,7 +39,7 @@ pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
         surface_mass: in_series(surface(disk), surface(bar)),
         dt,
     };
-    let falls = law(case).filter(|law| contact::falling(law, &at).is_some());
+    let falls = case.friction.exponential().filter(|law| contact::falling(law, &at).is_some());
     let memory = case.friction.memory.map(|memory| memory.distance);
     Numbers {
         n1: tangential(case, model, depth).map(|k| contact::spring_number(k, &at)),
@@ -47,15 +48,6 @@ pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
         slip_length: 2.0 * patch.a * slipping(case, patch.a),
         at,
     }
-}
-
-fn law(case: &Case) -> Option<Exponential> {
-    let friction = &case.friction;
-    (friction.law == FrictionLaw::Exponential).then(|| Exponential {
-        mu_static: friction.static_,
-        mu_dynamic: friction.dynamic.unwrap_or(friction.static_),
-        decay: friction.decay.unwrap_or(0.0),
-    })
 }
 
 /// Areal stiffness of the friction springs of both passes (N/m^3) between cubes of the size `depth`,
@@ -77,7 +69,7 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
 /// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
 /// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
 fn slipping(case: &Case, half_length: f64) -> f64 {
-    let mu = case.friction.static_;
+    let mu = friction::law(case).map_or(f64::NAN, |law| law.mu_static());
     let share = match case.drive.mode {
         DriveMode::Creepage => {
             case.drive.creepage.unwrap_or(0.0).abs() * case.disk.radius / (mu * half_length)

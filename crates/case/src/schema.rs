@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 pub use crate::bodies::{Bar, Disk, Ends, Material, MaterialOverride, Meshing, Zone};
 pub use crate::forms::{Crown, Stiffness};
+pub use crate::friction::{Friction, FrictionLaw, FrictionMemory, FrictionMode, StateLaw};
 
 /// A case: a disk pressed on a bar and rolled along it. SI units throughout.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -187,76 +188,6 @@ pub enum DriveMode {
     Creepage,
     /// The torque.
     Torque,
-}
-
-/// The friction law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Friction {
-    /// `"coulomb"` (one coefficient, `static`) or `"exponential"` (Eq 8 of the paper:
-    /// mu(s) = dynamic + (static - dynamic) exp(-decay |s|), s of the previous step).
-    /// Default `"coulomb"`.
-    #[serde(default)]
-    pub law: FrictionLaw,
-    /// Coefficient of friction at zero slip velocity (dimensionless). Required.
-    #[serde(rename = "static")]
-    pub static_: f64,
-    /// Coefficient at high slip velocity (dimensionless), at most `static`. Default 0.32 with
-    /// `law = "exponential"`, refused with `"coulomb"`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dynamic: Option<f64>,
-    /// Decay of the coefficient with slip velocity (s/m). Default 6 with
-    /// `law = "exponential"`, refused with `"coulomb"`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub decay: Option<f64>,
-    /// Which slip velocity the coefficient of `law = "exponential"` belongs to: `"lagged"`, that of the
-    /// step before, or `"exact"`, that of the same instant, which needs
-    /// `contact.enforcement = "exact"`. Default `"lagged"`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mode: Option<FrictionMode>,
-    /// Memory of the coefficient: it follows the law over a distance of slip. Only with
-    /// `law = "exponential"`; default none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub memory: Option<FrictionMemory>,
-}
-
-/// Which slip velocity the coefficient belongs to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum FrictionMode {
-    /// That of the step before.
-    #[default]
-    Lagged,
-    /// That of the same instant.
-    Exact,
-}
-
-/// Memory of friction: d(mu)/dt = -(max(|s|, floor)/distance) (mu - mu_law(|s|)), back at `static`
-/// out of contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct FrictionMemory {
-    /// Distance of slip over which the coefficient adapts (m). Default 1e-6, as in CONTACT.
-    pub distance: f64,
-    /// Slip speed below which it adapts in time instead (m/s). Default 10e-3, as in CONTACT.
-    pub floor: f64,
-}
-
-impl Default for FrictionMemory {
-    fn default() -> Self {
-        Self { distance: 1e-6, floor: 10e-3 }
-    }
-}
-
-/// The friction laws.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum FrictionLaw {
-    /// A constant coefficient.
-    #[default]
-    Coulomb,
-    /// A coefficient that falls exponentially with slip velocity.
-    Exponential,
 }
 
 /// Contact enforcement.

@@ -2,18 +2,15 @@
 
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
+use crate::friction::{self, DYNAMIC, USES, Uses};
 use crate::hertz::hertz;
-use crate::keys::number;
+use crate::keys::{self, number};
 use crate::layers::{Layers, Origin, key_error_in};
 use crate::schema::{
-    Case, ContactLayers, Crown, DriveMode, Enforcement, FrictionLaw, FrictionMode, LoadMode,
-    Material, PreloadMethod, Stiffness, Time,
+    Case, ContactLayers, Crown, DriveMode, Enforcement, Friction, FrictionMode, LoadMode, Material,
+    PreloadMethod, Stiffness, Time,
 };
-
-/// Coefficient at high slip velocity where an exponential law gives none.
-pub const DYNAMIC: f64 = 0.32;
-/// Decay (s/m) where an exponential law gives none.
-pub const DECAY: f64 = 6.0;
+use contact::Expression;
 
 /// Fully integrated layers where a case with them does not say how many.
 pub const LAYERS: u64 = 2;
@@ -74,6 +71,7 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
     // The path is judged only for a case whose shape makes sense.
     if found.errors.is_empty() {
         check_path(case, &mut found);
+        check_formula(case, &mut found);
         check_length(case, &mut found);
     }
     raise(found.errors)
@@ -143,39 +141,8 @@ fn check_choices(case: &Case, found: &mut Findings) {
             "leave it out, or set element.contact_layers = \"full\"",
         );
     }
+    check_friction(&case.friction, found);
     let friction = &case.friction;
-    match friction.law {
-        FrictionLaw::Coulomb => {
-            for (key, given) in [
-                ("friction.dynamic", friction.dynamic.is_some()),
-                ("friction.decay", friction.decay.is_some()),
-                ("friction.mode", friction.mode.is_some()),
-                ("friction.memory", friction.memory.is_some()),
-            ] {
-                found.require(
-                    !given,
-                    &[key],
-                    || format!("{key} is not used with friction.law = \"coulomb\""),
-                    "leave it out, or set friction.law = \"exponential\"",
-                );
-            }
-        }
-        FrictionLaw::Exponential => {
-            let dynamic = friction.dynamic.unwrap_or(DYNAMIC);
-            found.require(
-                dynamic <= friction.static_,
-                &["friction.dynamic", "friction.static"],
-                || {
-                    format!(
-                        "friction.dynamic = {} must be at most friction.static = {}",
-                        number(dynamic),
-                        number(friction.static_)
-                    )
-                },
-                "friction falls with slip velocity in this law: swap the two coefficients",
-            );
-        }
-    }
     let exact = case.contact.enforcement == Enforcement::Exact;
     if friction.mode == Some(FrictionMode::Exact) {
         found.require(
@@ -234,6 +201,68 @@ fn check_choices(case: &Case, found: &mut Findings) {
         &["load.mode"],
         || "load.mode = \"height\" holds the height of the preload, but there is none".into(),
         "set preload.method = \"static\", or load.mode = \"load\"",
+    );
+}
+
+/// The friction law has the keys that it uses, no others, and they agree.
+fn check_friction(friction: &Friction, found: &mut Findings) {
+    let uses = Uses::of(friction.law);
+    let law = format!("friction.law = \"{}\"", uses.word);
+    for key in friction.given().filter(|key| !uses.has(key)) {
+        let path = friction::path(key);
+        let others = USES.iter().filter(|other| other.has(key)).map(|other| other.word);
+        found.require(
+            false,
+            &[&path],
+            || format!("{path} is not used with {law}"),
+            &format!(
+                "leave it out, or set friction.law = {}",
+                others.map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+            ),
+        );
+    }
+    for key in uses.needs.iter().filter(|&&key| !friction.given().any(|given| given == key)) {
+        let path = friction::path(key);
+        let row = keys::find(&path);
+        let allowed = row.map_or(String::new(), |row| row.form.allowed(row.unit));
+        found.require(
+            false,
+            &["friction.law", "friction"],
+            || format!("{path} is missing: {law} needs it, {allowed}"),
+            &format!("in [friction] {}", row.map_or("give it", |row| row.remedy)),
+        );
+    }
+    if uses.has("dynamic") {
+        let (rest, dynamic) =
+            (friction.static_.unwrap_or(0.0), friction.dynamic.unwrap_or(DYNAMIC));
+        found.require(
+            dynamic <= rest,
+            &["friction.dynamic", "friction.static"],
+            || {
+                format!(
+                    "friction.dynamic = {} must be at most friction.static = {}",
+                    number(dynamic),
+                    number(rest)
+                )
+            },
+            "friction falls with slip velocity in this law: swap the two coefficients",
+        );
+    }
+}
+
+/// A formula gives a coefficient of friction all over the case.
+fn check_formula(case: &Case, found: &mut Findings) {
+    let Some(text) = &case.friction.expression else { return };
+    let wrong = Expression::over(text, &friction::domain(case)).err();
+    found.require(
+        wrong.is_none(),
+        &["friction.expression"],
+        || {
+            let problem = wrong.as_ref().map(ToString::to_string).unwrap_or_default();
+            format!("friction.expression: {problem}")
+        },
+        "write a formula that is a coefficient of friction everywhere: max(p, 1e3) keeps clear of a \
+         division by zero, max(0.1, ...) of a negative value",
     );
 }
 

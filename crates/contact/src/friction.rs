@@ -4,19 +4,26 @@ mod expression;
 mod memory;
 mod node;
 mod numbers;
+mod prakash_clifton;
+mod rate_state;
+mod slip_weakening;
 mod steady;
 mod table;
 
-pub use expression::{Expression, ExpressionError};
+pub use expression::{Domain, Expression, ExpressionError};
 pub use memory::Memory;
 pub use node::{Implicit, Lagged, NodeFriction, Place, Remembering};
 pub use numbers::{Falling, Interface, falling, nucleation_length, spring_number};
+pub use prakash_clifton::PrakashClifton;
+pub use rate_state::{RateState, StateLaw};
+pub use slip_weakening::SlipWeakening;
 pub use steady::{SteadyLaw, Strengthens};
 pub use table::{Table, TableError};
 
 use std::fmt::Debug;
 
-/// The coefficient of friction `mu(|s|)`: `|p_tau| <= mu p_n`.
+/// The coefficient of friction `mu(|s|)`: `|p_tau| <= mu p_n`. A law may also look at place, time and
+/// pressure: then [`mu_at`](Self::mu_at) is the law.
 pub trait FrictionLaw: Send + Sync + Debug {
     /// Coefficient of friction at the slip speed `slip_speed >= 0` (m/s).
     fn mu(&self, slip_speed: f64) -> f64;
@@ -27,6 +34,14 @@ pub trait FrictionLaw: Send + Sync + Debug {
         let step = 1e-6 * (1.0 + slip_speed);
         let low = (slip_speed - step).max(0.0);
         (self.mu(slip_speed + step) - self.mu(low)) / (slip_speed + step - low)
+    }
+    /// Coefficient of friction at the slip speed `slip_speed >= 0` (m/s) of a node.
+    fn mu_at(&self, slip_speed: f64, _at: &Place) -> f64 {
+        self.mu(slip_speed)
+    }
+    /// Slope of [`mu_at`](Self::mu_at) over the slip speed (s/m).
+    fn slope_at(&self, slip_speed: f64, _at: &Place) -> f64 {
+        self.slope(slip_speed)
     }
 }
 

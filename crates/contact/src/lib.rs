@@ -31,9 +31,10 @@ pub use enforcement::{Contact, Trial};
 pub use error::ContactError;
 pub use exact::{ExactContact, ExactSettings};
 pub use friction::{
-    Coulomb, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Implicit, Interface,
-    Lagged, Memory, NodeFriction, Place, Remembering, SteadyLaw, Strengthens, Table, TableError,
-    falling, nucleation_length, spring_number,
+    Coulomb, Domain, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Implicit,
+    Interface, Lagged, Memory, NodeFriction, Place, PrakashClifton, RateState, Remembering,
+    SlipWeakening, StateLaw, SteadyLaw, Strengthens, Table, TableError, falling, nucleation_length,
+    spring_number,
 };
 pub use gap::Gap;
 pub use nodal::NodalContact;

@@ -80,7 +80,12 @@ fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
             s = newton;
         } else {
             let inside = newton > below && newton < above;
-            let next = if inside { newton } else { 0.5 * (below + above) };
+            let next = match below {
+                _ if inside => newton,
+                // a law that rises with the logarithm of the speed: the root may have any size
+                0.0 => above / 1024.0,
+                _ => 0.5 * (below + above),
+            };
             if next == s || above - below <= f64::EPSILON * above {
                 return Some((s, value));
             }
@@ -93,6 +98,34 @@ fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{NodeFriction, Place, RateState, StateLaw};
+
+    #[test]
+    fn rate_and_state_creeps_at_the_speed_at_which_its_friction_carries_the_shear() {
+        let law = RateState {
+            reference: 0.6,
+            reference_speed: 1e-6,
+            direct: 0.008,
+            evolution: 0.012,
+            distance: 1e-5,
+            law: StateLaw::Ageing,
+            initial: 10.0,
+            lagged: false,
+        };
+        let (state, at) = ([10.0, 0.0], Place::default());
+        let curve = |s: f64| (law.mu(state, s, &at), law.slope(state, s, &at));
+        // far below the reference coefficient mu = a asinh(..) inverts to V in closed form
+        for share in [1e-3, 0.1, 0.3, 0.6, 0.65] {
+            let (speed, mu) = solve(share * C, C, false, &curve).unwrap();
+            let creep = 2e-6 * (-0.6f64 / 0.008).exp() * (mu / 0.008).sinh();
+            assert!((mu + speed / C - share).abs() < 1e-13, "{share}: {mu}");
+            assert!((speed / creep - 1.0).abs() < 1e-9, "{share}: {speed} {creep}");
+        }
+        // at high load it slides: Z s + mu(s) p = tau
+        let (speed, mu) = solve(0.9 * C, C, true, &curve).unwrap();
+        assert!(speed > 1.0 && (speed + C * mu - 0.9 * C).abs() < 1e-11 * C);
+        assert_eq!(solve(0.0, C, false, &curve), None);
+    }
 
     /// Eq. (8) with steel's impedance: T = Z/p at 1 GPa, R = 86.
     fn paper(s: f64) -> (f64, f64) {

@@ -190,6 +190,8 @@ impl Pass<'_> {
                 pair.friction = [0.0; 3];
                 pair.framed = [0.0; 2];
                 pair.mu = self.law.mu_static();
+                // the time loop goes on from here
+                pair.memory = self.law.begin(&self.place(pair, x, 0.0));
                 pair.slip_velocity = [0.0; 3];
                 pair.slip = [0.0; 3];
             }
@@ -262,7 +264,7 @@ impl Pass<'_> {
         if !before.is_closed() {
             let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
             pair.slip_velocity = tangential(velocity, pair.normal);
-            let (at, speed) = (self.place(pair, x, motion), norm(pair.slip_velocity));
+            let (at, speed) = (self.place(pair, x, motion.time), norm(pair.slip_velocity));
             pair.memory = self.law.begin(&at);
             let after = self.law.advance(pair.memory, speed, &at, motion.dt);
             pair.mu = self.law.mu(after, speed, &at);
@@ -273,12 +275,13 @@ impl Pass<'_> {
         let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
         let start = lay_into(turned, pair.normal);
         let stiffness = pair.stiffness[1];
-        let (place, speed) = (self.place(pair, x, motion), norm(before.slip_velocity));
+        let (place, speed) = (self.place(pair, x, motion.time), norm(before.slip_velocity));
         pair.memory = self.law.advance(before.memory, speed, &place, motion.dt);
         pair.mu = self.law.mu(pair.memory, speed, &place);
         let mut friction = axpy(start, -stiffness, delta);
         let (trial, cap) = (norm(friction), pair.mu * pair.normal_force);
-        if trial > cap {
+        // a coefficient that is no number must reach the guards
+        if cap.is_nan() || trial > cap {
             friction = scale(cap / trial, friction);
             pair.state = State::Slip;
             if stiffness > 0.0 {
@@ -293,9 +296,9 @@ impl Pass<'_> {
         pair.slip = axpy(before.slip, 1.0, delta);
     }
 
-    fn place(&self, pair: &Pair, position: Vec3, motion: &Motion<'_>) -> Place {
+    fn place(&self, pair: &Pair, position: Vec3, time: f64) -> Place {
         let pressure = pair.normal_force / self.slave.area[pair.slave as usize];
-        Place { position, time: motion.time, pressure }
+        Place { position, time, pressure }
     }
 }
 

@@ -210,3 +210,53 @@ fn a_run_folder_is_taken_only_when_free_or_forced() {
         Err(FolderError::NotWritable { .. })
     ));
 }
+
+#[test]
+fn a_law_needs_and_gets_only_its_own_keys() {
+    // what the layer beneath chose is taken back
+    let case = set(&["friction.law=rate_state", "friction.distance=1e-5"]).unwrap();
+    assert_eq!(case.friction.static_, None);
+    assert_eq!((case.friction.reference, case.friction.reference_speed), (Some(0.6), Some(1e-6)));
+    assert_eq!(case.friction.age, Some(1e-5 / 1e-6));
+    let sets =
+        ["friction.law=exponential", "friction.memory.distance=1e-5", "friction.law=coulomb"];
+    let case = set(&[&sets[..], &["friction.static=0.4"]].concat()).unwrap();
+    assert_eq!((case.friction.memory, case.friction.decay), (None, None));
+    let case =
+        set(&["contact.enforcement=exact", "friction.law=rate_state", "friction.distance=1"]);
+    assert_eq!(case.unwrap().friction.mode, Some(crate::schema::FrictionMode::Exact));
+}
+
+#[test]
+fn a_case_with_any_friction_law_loads_to_itself() {
+    for sets in [
+        &["friction.law=slip_weakening", "friction.distance=1e-5"][..],
+        &["friction.law=rate_state", "friction.distance=1e-5", "friction.state=slip"],
+        &["friction.law=prakash_clifton", "friction.distance=1e-5"],
+        &["friction.law=table", "friction.table=[[0, 0.5], [0.1, 0.30000000000000004]]"],
+        &["friction.law=expression", "friction.expression=\"0.3 + 0.1*exp(-s)*max(p, 1e3)/1e12\""],
+        &[
+            "friction.law=expression",
+            "friction.expression=\"0.3\"",
+            "friction.memory.distance=1e-6",
+        ],
+    ] {
+        let case = set(sets).unwrap();
+        let again = Case::from_text(&case.to_toml(), Path::new("other.toml"), &[]).unwrap();
+        assert_eq!(again, case);
+        assert_eq!(again.to_toml(), case.to_toml());
+    }
+}
+
+#[test]
+fn a_table_is_read_beside_the_file_that_names_it_and_kept_in_the_case() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("base")).unwrap();
+    fs::write(dir.path().join("base/mu.csv"), "slip velocity,mu\n0,0.5\n1,0.32\n").unwrap();
+    let rest = SHORT.replace("friction.static = 0.5\n", "");
+    let base = format!("{rest}[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n");
+    fs::write(dir.path().join("base/base.toml"), base).unwrap();
+    fs::write(dir.path().join("top.toml"), "extends = \"base/base.toml\"\n").unwrap();
+    let case = Case::load(&dir.path().join("top.toml"), &[]).unwrap();
+    assert_eq!(case.friction.table, Some(vec![[0.0, 0.5], [1.0, 0.32]]));
+}

@@ -224,3 +224,90 @@ fn all_mistakes_are_told_at_once() {
         assert!(keys.contains(&key), "{key} is not in {keys:?}");
     }
 }
+
+/// A case with this `[friction]`.
+fn rubbing(friction: &str) -> Result<Case, CaseError> {
+    let rest = SHORT.replace("friction.static = 0.5\n", "");
+    read(&format!("{rest}[friction]\n{friction}\n"))
+}
+
+#[test]
+fn wrong_friction_is_refused_with_its_key_and_line() {
+    for (friction, words) in [
+        ("law = \"magic\"", vec!["short.toml:5:", "friction.law = \"magic\"", "\"rate_state\""]),
+        (
+            "law = \"rate_state\"\nstatic = 0.5\ndistance = 1e-5",
+            vec!["friction.static", "not used"],
+        ),
+        (
+            "law = \"slip_weakening\"\nstatic = 0.5",
+            vec!["short.toml:5:", "friction.distance is missing", "slip_weakening"],
+        ),
+        (
+            "law = \"slip_weakening\"\nstatic = 0.5\ndistance = -1e-5",
+            vec!["short.toml:7:", "friction.distance = -1e-5", "greater than 0"],
+        ),
+        (
+            "law = \"slip_weakening\"\nstatic = 0.5\ndistance = 1e-5\ndynamic = 0.6",
+            vec!["short.toml:8:", "friction.dynamic = 0.6", "at most friction.static = 0.5"],
+        ),
+        (
+            "law = \"exponential\"\nstatic = 0.5\nmemory.distance = -1e-5",
+            vec!["friction.memory.distance = -1e-5", "greater than 0"],
+        ),
+        (
+            "law = \"prakash_clifton\"\nstatic = 0.5\ndistance = 1e-5\ndecay = 6",
+            vec!["short.toml:8:", "friction.decay", "not used", "\"exponential\""],
+        ),
+        ("law = \"rate_state\"\ndistance = 1e-5\nstate = \"old\"", vec!["\"ageing\" or \"slip\""]),
+        ("law = \"rate_state\"\ndistance = 1e-5\ndirect = 0", vec!["friction.direct = 0"]),
+        (
+            "law = \"rate_state\"\ndistance = 1e-5\nmode = \"exact\"",
+            vec!["friction.mode", "exact enforcement"],
+        ),
+        ("law = \"table\"", vec!["friction.table is missing"]),
+        (
+            "law = \"table\"\ntable = \"nowhere.csv\"",
+            vec!["short.toml:6:", "nowhere.csv", "no such"],
+        ),
+        (
+            "law = \"table\"\ntable = [[0, 0.5], [0, 0.4]]",
+            vec!["short.toml:6:", "point 2", "above"],
+        ),
+        ("law = \"table\"\ntable = [[0, 0.5], [1]]", vec!["friction.table", "list of pairs"]),
+        ("static = 0.5\ntable = [[0, 0.5]]", vec!["friction.table", "not used", "\"table\""]),
+        ("law = \"expression\"", vec!["friction.expression is missing"]),
+        (
+            "law = \"expression\"\nexpression = \"0.3 + speed\"",
+            vec!["short.toml:6:", "'speed' at position 7", "x, the position"],
+        ),
+        (
+            "law = \"expression\"\nexpression = \"0.3/s\"",
+            vec!["short.toml:6:", "mu = inf", "slip speed 0 m/s", "max(p, 1e3)"],
+        ),
+        (
+            "law = \"expression\"\nexpression = \"0.3 - t*1e3\"",
+            vec!["short.toml:6:", "mu = -0", "t = "],
+        ),
+        ("law = \"expression\"\nexpression = \"0.3 +\"", vec!["cannot read the formula"]),
+        (
+            "law = \"expression\"\nexpression = 0.3",
+            vec!["friction.expression = 0.3", "text in quotes"],
+        ),
+    ] {
+        let text = refusal(rubbing(friction));
+        for word in words {
+            assert!(text.contains(word), "{friction}: {word:?} is not in {text:?}");
+        }
+    }
+}
+
+#[test]
+fn a_wrong_friction_table_is_refused_at_its_own_line() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("mu.csv"), "s,mu\n0,0.5\n1,0.4\n0.5,0.3\n").unwrap();
+    let rest = SHORT.replace("friction.static = 0.5\n", "");
+    let case = dir.path().join("case.toml");
+    fs::write(&case, format!("{rest}[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n")).unwrap();
+    refused(Case::load(&case, &[]), &["mu.csv:4:", "0.5 m/s", "above", "rising from 0"]);
+}

@@ -30,8 +30,10 @@ const TWO: &str = "[[axis]]\nkey = \"friction.static\"\nvalues = [0.2, 0.3]\n\
 
 #[test]
 fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
-    let pairs: Vec<_> =
-        cases(TWO).iter().map(|c| (c.friction.static_, c.drive.creepage.unwrap())).collect();
+    let pairs: Vec<_> = cases(TWO)
+        .iter()
+        .map(|c| (c.friction.static_.unwrap(), c.drive.creepage.unwrap()))
+        .collect();
     let all = [(0.2, 1e-3), (0.2, 2e-3), (0.2, 4e-3), (0.3, 1e-3), (0.3, 2e-3), (0.3, 4e-3)];
     assert_eq!(pairs, all);
 }
@@ -39,8 +41,10 @@ fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
 #[test]
 fn a_zip_takes_the_values_together() {
     let zip = format!("mode = \"zip\"\n{}", TWO.replace(", 4e-3", ""));
-    let pairs: Vec<_> =
-        cases(&zip).iter().map(|c| (c.friction.static_, c.drive.creepage.unwrap())).collect();
+    let pairs: Vec<_> = cases(&zip)
+        .iter()
+        .map(|c| (c.friction.static_.unwrap(), c.drive.creepage.unwrap()))
+        .collect();
     assert_eq!(pairs, [(0.2, 1e-3), (0.3, 2e-3)]);
 }
 
@@ -48,7 +52,7 @@ fn a_zip_takes_the_values_together() {
 fn spans_hold_their_ends_to_the_bit_and_are_even_between() {
     let axis = |span: &str| {
         let text = format!("[[axis]]\nkey = \"friction.static\"\n{span}\n");
-        cases(&text).iter().map(|case| case.friction.static_).collect::<Vec<f64>>()
+        cases(&text).iter().map(|case| case.friction.static_.unwrap()).collect::<Vec<f64>>()
     };
     let log = axis("log = { from = 0.003, to = 3.0, n = 4 }");
     assert_eq!((log[0], log[3]), (0.003, 3.0));
@@ -74,7 +78,7 @@ fn springs_may_be_swept_in_any_form_and_keys_set_for_all() {
     let sweep = sweep.unwrap();
     assert_eq!(sweep.step, Some(StepRule::Fixed));
     let points = sweep.points().unwrap();
-    assert!(points.iter().all(|point| point.case.friction.static_ == 0.4));
+    assert!(points.iter().all(|point| point.case.friction.static_ == Some(0.4)));
     assert_eq!(points[1].parameters["contact.penalty.tangential"]["stiffness"], 1e13);
     assert_eq!(points[1].name, "001-tangential-stiffness-1e13");
 }

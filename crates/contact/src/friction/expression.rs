@@ -1,18 +1,70 @@
 //! Friction given by a formula.
 
-use super::FrictionLaw;
-use exmex::{Express, FlatEx};
+use super::{FrictionLaw, Place};
+use exmex::{Express, FlatEx, FloatOpsFactory, MatchLiteral};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// `mu` by a formula in the slip speed `s` (m/s), for example `0.32 + 0.18*exp(-6*s)`: the user's
-/// hook without writing Rust. Parsed once.
+/// The names of a formula: slip speed (m/s), contact pressure (Pa), time (s), position along `x` (m).
+const NAMES: [&str; 4] = ["s", "p", "t", "x"];
+
+/// Numbers as people write them, with a decimal exponent: `2`, `.5`, `1e-9`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Numeral;
+
+impl MatchLiteral for Numeral {
+    fn is_literal(text: &str) -> Option<&str> {
+        let digits = |from: usize| {
+            text.as_bytes()[from..].iter().take_while(|byte| byte.is_ascii_digit()).count()
+        };
+        let byte = |at: usize| text.as_bytes().get(at).copied();
+        let mut end = digits(0);
+        let mut mantissa = end;
+        if byte(end) == Some(b'.') {
+            let fraction = digits(end + 1);
+            mantissa += fraction;
+            end += 1 + fraction;
+        }
+        if mantissa == 0 {
+            return None;
+        }
+        if matches!(byte(end), Some(b'e' | b'E')) {
+            let sign = usize::from(matches!(byte(end + 1), Some(b'+' | b'-')));
+            let start = end + 1 + sign;
+            if byte(start).is_some_and(|byte| byte.is_ascii_digit()) {
+                end = start + digits(start);
+            }
+        }
+        Some(&text[..end])
+    }
+}
+
+type Formula = FlatEx<f64, FloatOpsFactory<f64>, Numeral>;
+
+/// `mu` by a formula, for example `0.32 + 0.18*exp(-6*s)`: the user's hook without writing Rust. Parsed
+/// once. It may use the slip speed `s` (m/s) and, of a node, the contact pressure `p` (Pa), the time `t`
+/// (s) and the position `x` (m).
+///
+/// Where its value is no coefficient of friction, not finite or negative, [`FrictionLaw::mu`] and
+/// [`FrictionLaw::mu_at`] return NaN, which stops a run at its guards.
 #[derive(Clone, Debug)]
 pub struct Expression {
     text: String,
-    formula: Arc<FlatEx<f64>>,
-    depends: bool,
+    formula: Arc<Formula>,
+    /// The places in [`NAMES`] of the formula's names, in the order in which it takes their values.
+    arguments: Vec<usize>,
     at_rest: f64,
+}
+
+/// Spans of pressure, time and position in which a formula must give a coefficient of friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Domain {
+    /// Largest contact pressure (Pa); the least is zero.
+    pub pressure: f64,
+    /// Duration (s), from zero.
+    pub duration: f64,
+    /// First and last position along x (m).
+    pub along: [f64; 2],
 }
 
 /// Why a text makes no friction law.
@@ -26,9 +78,9 @@ pub enum ExpressionError {
         /// What the parser says.
         reason: String,
     },
-    /// It has a name other than `s`.
+    /// It has a name that it may not use.
     #[error(
-        "the formula '{text}' has the unknown name '{name}' at position {position}; it may use s, the slip speed in m/s, numbers, + - * / ^ ( ), and functions such as exp, log, sqrt, abs, tanh, min, max"
+        "the formula '{text}' has the unknown name '{name}' at position {position}; it may use {names}, numbers, + - * / ^ ( ), and functions such as exp, ln, sqrt, abs, tanh, min, max"
     )]
     Name {
         /// The formula.
@@ -37,16 +89,20 @@ pub enum ExpressionError {
         name: String,
         /// Where it stands, in characters from 1.
         position: usize,
+        /// The names that it may use, with what they mean.
+        names: &'static str,
     },
     /// It gives no coefficient of friction.
     #[error(
-        "the formula '{text}' gives mu = {mu} at the slip speed {speed} m/s; it must be finite and at least 0"
+        "the formula '{text}' gives mu = {mu} at the slip speed {speed} m/s{place}; it must be finite and at least 0"
     )]
     Value {
         /// The formula.
         text: String,
         /// Slip speed (m/s).
         speed: f64,
+        /// Pressure, time and position, as far as the formula uses them.
+        place: String,
         /// What it gives.
         mu: f64,
     },
@@ -58,37 +114,93 @@ pub(super) fn trial_speeds() -> impl Iterator<Item = f64> {
 }
 
 impl Expression {
-    /// Parses a formula and tries it at rest and at slip speeds from 1e-9 to 1e3 m/s.
+    /// Parses a formula in `s` alone and tries it at rest and at slip speeds from 1e-9 to 1e3 m/s.
     ///
     /// # Errors
     /// A formula that does not parse, has names other than `s`, or gives a value that is no
     /// coefficient of friction.
     pub fn new(text: &str) -> Result<Self, ExpressionError> {
-        let formula = FlatEx::<f64>::parse(text).map_err(|error| ExpressionError::Syntax {
+        let law = Self::parse(text, &NAMES[..1], "s, the slip speed in m/s")?;
+        law.checked(&Domain { pressure: 0.0, duration: 0.0, along: [0.0; 2] })
+    }
+
+    /// Parses a formula in `s`, `p`, `t` and `x` and tries it over `domain` at those slip speeds: at nine
+    /// pressures (zero and seven decades up to the largest), times and positions each.
+    ///
+    /// # Errors
+    /// A formula that does not parse, has other names, or gives a value that is no coefficient of
+    /// friction somewhere in the domain.
+    pub fn over(text: &str, domain: &Domain) -> Result<Self, ExpressionError> {
+        let names = "s, the slip speed in m/s, p, the pressure in Pa, t, the time in s, x, the \
+                     position along the bar in m";
+        Self::parse(text, &NAMES, names)?.checked(domain)
+    }
+
+    fn parse(text: &str, allowed: &[&str], names: &'static str) -> Result<Self, ExpressionError> {
+        let formula = Formula::parse(text).map_err(|error| ExpressionError::Syntax {
             text: text.into(),
             reason: error.to_string(),
         })?;
-        if let Some(name) = formula.var_names().iter().find(|name| *name != "s") {
-            let at = position(text, name);
-            let (text, name) = (text.into(), name.clone());
-            return Err(ExpressionError::Name { text, name, position: at });
+        let mut arguments = Vec::new();
+        for name in formula.var_names() {
+            let Some(argument) = allowed.iter().position(|other| other == name) else {
+                let (position, name) = (position(text, name), name.clone());
+                return Err(ExpressionError::Name { text: text.into(), name, position, names });
+            };
+            arguments.push(argument);
         }
-        let depends = !formula.var_names().is_empty();
-        let mut law =
-            Self { text: text.into(), formula: Arc::new(formula), depends, at_rest: f64::NAN };
-        law.at_rest = law.mu(0.0);
-        for speed in trial_speeds() {
-            let mu = law.mu(speed);
-            if !(mu >= 0.0 && mu.is_finite()) {
-                return Err(ExpressionError::Value { text: text.into(), speed, mu });
+        Ok(Self { text: text.into(), formula: Arc::new(formula), arguments, at_rest: f64::NAN })
+    }
+
+    fn checked(mut self, domain: &Domain) -> Result<Self, ExpressionError> {
+        // only over what the formula uses
+        let steps = |name: usize, most: u32| if self.arguments.contains(&name) { most } else { 0 };
+        for i in 0..=steps(1, 8) {
+            let decades = f64::from(i) - 8.0;
+            let p = if i == 0 { 0.0 } else { domain.pressure * 10f64.powf(decades) };
+            for j in 0..=steps(2, 8) {
+                let t = domain.duration * f64::from(j) / 8.0;
+                for k in 0..=steps(3, 8) {
+                    let [first, last] = domain.along;
+                    let x = first + (last - first) * f64::from(k) / 8.0;
+                    for speed in trial_speeds() {
+                        let mu = self.raw([speed, p, t, x]);
+                        if !(mu >= 0.0 && mu.is_finite()) {
+                            let text = self.text.clone();
+                            let place = self.place([("p", p, "Pa"), ("t", t, "s"), ("x", x, "m")]);
+                            return Err(ExpressionError::Value { text, speed, place, mu });
+                        }
+                    }
+                }
             }
         }
-        Ok(law)
+        self.at_rest = self.value([0.0, domain.pressure, 0.0, 0.0]);
+        Ok(self)
+    }
+
+    /// What stands for the arguments beyond the slip speed in a message.
+    fn place(&self, values: [(&str, f64, &str); 3]) -> String {
+        let used = self.arguments.iter().filter_map(|&name| values.get(name.checked_sub(1)?));
+        used.map(|(name, value, unit)| format!(", {name} = {value} {unit}")).collect()
     }
 
     /// The formula as it was given.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    fn raw(&self, values: [f64; 4]) -> f64 {
+        let mut taken = [0.0; 4];
+        for (argument, &name) in taken.iter_mut().zip(&self.arguments) {
+            *argument = values[name];
+        }
+        // the number of arguments is right by construction
+        self.formula.eval(&taken[..self.arguments.len()]).unwrap_or(f64::NAN)
+    }
+
+    fn value(&self, values: [f64; 4]) -> f64 {
+        let mu = self.raw(values);
+        if mu >= 0.0 && mu.is_finite() { mu } else { f64::NAN }
     }
 }
 
@@ -105,13 +217,23 @@ fn position(text: &str, name: &str) -> usize {
 
 impl FrictionLaw for Expression {
     fn mu(&self, slip_speed: f64) -> f64 {
-        let arguments = [slip_speed];
-        // the number of arguments is right by construction; NaN would stop a run at its guards
-        self.formula.eval(&arguments[..usize::from(self.depends)]).unwrap_or(f64::NAN)
+        self.value([slip_speed, 0.0, 0.0, 0.0])
     }
 
+    /// At rest; of a formula that also depends on the place, there at the largest pressure of its domain,
+    /// at the start and at `x = 0`.
     fn mu_static(&self) -> f64 {
         self.at_rest
+    }
+
+    fn mu_at(&self, slip_speed: f64, at: &Place) -> f64 {
+        self.value([slip_speed, at.pressure, at.time, at.position[0]])
+    }
+
+    fn slope_at(&self, slip_speed: f64, at: &Place) -> f64 {
+        let step = 1e-6 * (1.0 + slip_speed);
+        let low = (slip_speed - step).max(0.0);
+        (self.mu_at(slip_speed + step, at) - self.mu_at(low, at)) / (slip_speed + step - low)
     }
 }
 
@@ -147,5 +269,71 @@ mod tests {
         assert!(matches!(negative, ExpressionError::Value { .. }), "{negative}");
         assert!(matches!(Expression::new("0.3 +"), Err(ExpressionError::Syntax { .. })));
         assert!(Expression::new("").is_err());
+    }
+
+    const DOMAIN: Domain = Domain { pressure: 2e9, duration: 1e-3, along: [-0.03, 0.05] };
+
+    #[test]
+    fn a_formula_of_place_time_and_pressure_takes_each_where_it_stands() {
+        let law = Expression::over("0.1 + x + 2*t + p*1e-10 + exp(-s)", &DOMAIN).unwrap();
+        let at = Place { position: [0.02, 7.0, 9.0], time: 5e-4, pressure: 3e8 };
+        let expected = 0.1 + 0.02 + 1e-3 + 0.03 + (-0.5f64).exp();
+        assert!((law.mu_at(0.5, &at) - expected).abs() < 1e-15);
+        assert!((law.slope_at(0.5, &at) + (-0.5f64).exp()).abs() < 1e-8);
+        let wave = Expression::over("0.3 + 0.05*sin(628*x)", &DOMAIN).unwrap();
+        let mu = wave.mu_at(1.0, &Place { position: [2.5e-3, 0.0, 0.0], ..at });
+        assert!((mu - (0.3 + 0.05 * 1.57f64.sin())).abs() < 1e-15);
+    }
+
+    #[test]
+    fn only_a_node_has_a_place() {
+        let error = Expression::new("0.3 + p").unwrap_err();
+        assert!(matches!(&error, ExpressionError::Name { name, position: 7, .. } if name == "p"));
+        let error = Expression::over("0.3 + y*s", &DOMAIN).unwrap_err().to_string();
+        for words in ["'y' at position 7", "p, the pressure in Pa", "x, the position"] {
+            assert!(error.contains(words), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_formula_must_hold_over_all_of_its_domain() {
+        for (text, words) in [
+            ("0.3*1e8/p", "p = 0 Pa"),
+            ("0.3 - 10*x", "x = 0.04"),
+            ("0.3 - 400*t", "t = 0.0008"),
+            ("0.3/(s - 1)", "s"),
+            ("0.01*ln(s)", "-inf"),
+        ] {
+            let error = Expression::over(text, &DOMAIN).unwrap_err();
+            assert!(error.to_string().contains(words), "{error}");
+        }
+        assert!(Expression::over("0.3*1e8/max(p, 1e8)", &DOMAIN).is_ok());
+    }
+
+    #[test]
+    fn outside_its_domain_a_bad_value_is_no_number() {
+        let law = Expression::over("0.5 - 9*x", &DOMAIN).unwrap();
+        let at = Place { position: [0.07, 0.0, 0.0], ..Place::default() };
+        assert!(law.mu_at(0.0, &at).is_nan());
+    }
+
+    #[test]
+    fn numbers_may_have_an_exponent() {
+        for (text, value) in
+            [("1e-1", 0.1), (".5", 0.5), ("2.", 2.0), ("2.5E+2", 250.0), ("3e2*1e-3", 0.3)]
+        {
+            assert_eq!(Expression::new(text).unwrap().mu(0.0), value, "{text}");
+        }
+        assert!(Expression::new("1.2.3").is_err());
+        assert!(Expression::new(".").is_err());
+    }
+
+    #[test]
+    fn texts_that_are_no_formulas_are_refused() {
+        for text in
+            ["", " ", "(", ")", "s s", "exp", "exp(", "s,", "µ + s", "0.3 + ü", "\u{1F980}", "+-*"]
+        {
+            assert!(Expression::new(text).is_err(), "{text}");
+        }
     }
 }

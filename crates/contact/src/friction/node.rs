@@ -78,8 +78,8 @@ impl<L: FrictionLaw> NodeFriction for Lagged<L> {
         [slip_speed, 0.0]
     }
 
-    fn mu(&self, state: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
-        self.0.mu(state[0])
+    fn mu(&self, state: [f64; 2], _slip_speed: f64, at: &Place) -> f64 {
+        self.0.mu_at(state[0], at)
     }
 
     fn mu_static(&self) -> f64 {
@@ -100,12 +100,12 @@ impl<L: FrictionLaw> NodeFriction for Implicit<L> {
         state
     }
 
-    fn mu(&self, _state: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
-        self.0.mu(slip_speed)
+    fn mu(&self, _state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+        self.0.mu_at(slip_speed, at)
     }
 
-    fn slope(&self, _state: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
-        self.0.slope(slip_speed)
+    fn slope(&self, _state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+        self.0.slope_at(slip_speed, at)
     }
 
     fn is_implicit(&self) -> bool {
@@ -128,12 +128,12 @@ pub struct Remembering<L> {
 }
 
 impl<L: FrictionLaw> NodeFriction for Remembering<L> {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
-        [self.steady.mu_static(), 0.0]
+    fn begin(&self, at: &Place) -> [f64; 2] {
+        [self.steady.mu_at(0.0, at), 0.0]
     }
 
-    fn advance(&self, [mu, _]: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
-        [self.memory.advance(mu, self.steady.mu(slip_speed), slip_speed, dt), 0.0]
+    fn advance(&self, [mu, _]: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+        [self.memory.advance(mu, self.steady.mu_at(slip_speed, at), slip_speed, dt), 0.0]
     }
 
     fn mu(&self, [mu, _]: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {

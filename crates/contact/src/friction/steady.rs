@@ -1,7 +1,7 @@
 //! The friction laws that a user can choose by name.
 
 use super::expression::{self, Expression};
-use super::{Coulomb, Exponential, FrictionLaw, Table};
+use super::{Coulomb, Exponential, FrictionLaw, Place, Table};
 use thiserror::Error;
 
 /// A friction law without memory, as plain data.
@@ -95,6 +95,29 @@ impl FrictionLaw for SteadyLaw {
             Self::Exponential(law) => law.mu_static(),
             Self::Table(law) => law.mu_static(),
             Self::Expression(law) => law.mu_static(),
+        }
+    }
+
+    fn slope(&self, slip_speed: f64) -> f64 {
+        match self {
+            Self::Coulomb(law) => law.slope(slip_speed),
+            Self::Exponential(law) => law.slope(slip_speed),
+            Self::Table(law) => law.slope(slip_speed),
+            Self::Expression(law) => law.slope(slip_speed),
+        }
+    }
+
+    fn mu_at(&self, slip_speed: f64, at: &Place) -> f64 {
+        match self {
+            Self::Expression(law) => law.mu_at(slip_speed, at),
+            _ => self.mu(slip_speed),
+        }
+    }
+
+    fn slope_at(&self, slip_speed: f64, at: &Place) -> f64 {
+        match self {
+            Self::Expression(law) => law.slope_at(slip_speed, at),
+            _ => self.slope(slip_speed),
         }
     }
 }

@@ -1,0 +1,134 @@
+//! A friction table in a file of its own, taken into the case.
+
+use std::path::Path;
+
+use contact::{Table, TableError};
+use toml::Value;
+
+use crate::error::CaseError;
+use crate::layers::{Layers, Source, get, key_error_in, read_text};
+
+const KEY: &str = "friction.table";
+const REMEDY: &str = "two columns: slip velocity (m/s), rising from 0, and coefficient, with a comma between; \
+                      a heading and lines that start with # are passed over";
+
+/// Puts the points of the file that `friction.table` names in its place. The path is taken relative to the
+/// case file that holds it; of an option, to the working directory.
+pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
+    let Some(file) = get(&layers.table, KEY).and_then(Value::as_str).map(str::to_owned) else {
+        return Ok(());
+    };
+    let origin = layers.origins.get(KEY);
+    let folder = origin.map(|origin| Path::new(&layers.sources[origin.source].name));
+    let path = folder.and_then(Path::parent).unwrap_or(Path::new("")).join(&file);
+    let text = read_text(&path).map_err(|error| match error {
+        CaseError::File { problem, .. } => layers.error(
+            origin,
+            KEY,
+            &format!("\"{file}\": {}: {problem}", path.display()),
+            "give the path of a CSV file, relative to this file",
+        ),
+        other => other,
+    })?;
+    let points = read(&text).map_err(|(line, problem)| {
+        let source = Source { name: path.display().to_string(), text: text.clone() };
+        let message = format!("{KEY}: {problem}");
+        CaseError::Key(Box::new(key_error_in(
+            source,
+            line_span(&text, line),
+            KEY,
+            &message,
+            REMEDY,
+        )))
+    })?;
+    let value = points.map(|point| Value::from(point.to_vec())).collect::<Vec<_>>();
+    if let Some(Value::Table(friction)) = layers.table.get_mut("friction") {
+        friction.insert("table".into(), Value::Array(value));
+    }
+    Ok(())
+}
+
+/// Pairs of numbers, if they are.
+pub fn points(values: &[Value]) -> Option<Vec<[f64; 2]>> {
+    let number = crate::check::float;
+    let pair = |value: &Value| match value.as_array()?.as_slice() {
+        [speed, mu] => Some([number(speed)?, number(mu)?]),
+        _ => None,
+    };
+    values.iter().map(pair).collect()
+}
+
+/// Bytes of a line, counted from 1.
+fn line_span(text: &str, line: usize) -> std::ops::Range<usize> {
+    let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum::<usize>();
+    let length = text[start..].lines().next().map_or(0, str::len);
+    start..start + length
+}
+
+/// The points of a CSV file, or the line of a mistake and the mistake.
+fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, (usize, String)> {
+    let mut points = Vec::new();
+    let mut lines = Vec::new();
+    let mut headed = false;
+    for (i, line) in text.lines().enumerate() {
+        // a mark of byte order is no part of the heading
+        let row = line.trim_start_matches('\u{feff}').trim();
+        if row.is_empty() || row.starts_with('#') {
+            continue;
+        }
+        let numbers: Vec<Option<f64>> =
+            row.split(',').map(|field| field.trim().parse().ok()).collect();
+        match numbers[..] {
+            [Some(speed), Some(mu)] => {
+                points.push([speed, mu]);
+                lines.push(i + 1);
+            }
+            [None, None] if points.is_empty() && !headed => headed = true,
+            _ => return Err((i + 1, format!("'{row}' is not a slip velocity and a coefficient"))),
+        }
+    }
+    let table = Table::new(points).map_err(|error| {
+        let number = match error {
+            TableError::Range { number, .. } | TableError::Order { number, .. } => number,
+            TableError::Start { .. } | TableError::Empty => 1,
+        };
+        (lines.get(number - 1).copied().unwrap_or(1), error.to_string())
+    })?;
+    Ok(table.points().to_vec().into_iter())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points_of(text: &str) -> Vec<[f64; 2]> {
+        read(text).map(Iterator::collect).unwrap()
+    }
+
+    fn mistake(text: &str) -> (usize, String) {
+        read(text).map(|_| ()).unwrap_err()
+    }
+
+    #[test]
+    fn headings_comments_and_blank_lines_are_passed_over() {
+        let expected = [[0.0, 0.5], [1.5, 0.4]];
+        assert_eq!(points_of("0,0.5\n1.5, 0.4\n"), expected);
+        assert_eq!(points_of("# measured\r\ns,mu\r\n\r\n0,0.5\r\n1.5,0.4"), expected);
+    }
+
+    #[test]
+    fn a_mistake_is_told_with_its_line() {
+        for (text, line, words) in [
+            ("s,mu\n0,0.5\n# down\n0,0.4\n", 4, "above that of the point before"),
+            ("0,0.5\n1,-0.1\n", 2, "at least 0"),
+            ("0,0.5\n1,x\n", 2, "'1,x'"),
+            ("0,0.5\n1\n", 2, "'1'"),
+            ("s,mu\nspeed,mu\n", 2, "'speed,mu'"),
+            ("\n\n1,0.5\n", 3, "starts at"),
+            ("", 1, "empty"),
+        ] {
+            let (at, problem) = mistake(text);
+            assert!(at == line && problem.contains(words), "{text}: {at} {problem}");
+        }
+    }
+}

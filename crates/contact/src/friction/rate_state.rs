@@ -1,0 +1,218 @@
+//! Friction of rate and state.
+
+use super::{NodeFriction, Place};
+use std::f64::consts::LN_2;
+
+/// How the state evolves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StateLaw {
+    /// `d theta/dt = 1 - V theta/L` (Dieterich 1979): contacts age at rest.
+    Ageing,
+    /// `d theta/dt = -(V theta/L) ln(V theta/L)` (Ruina 1983): the state changes in slip alone.
+    Slip,
+}
+
+/// Dieterich–Ruina friction, `mu = f_0 + a ln(V/V_0) + b ln(V_0 theta/L)`, regularised at zero velocity
+/// (Rice, Lapusta and Ranjith 2001, Eq. 15):
+/// `mu = a asinh( V/(2 V_0) exp( (f_0 + b ln(V_0 theta/L))/a ) )`.
+///
+/// The coefficient belongs to the slip speed `V` of the same instant, rises with it at a fixed state and
+/// vanishes with it: nothing sticks, what seems to creeps at less than `V_0 exp(-f_0/a)`. In steady
+/// sliding `mu = f_0 + (a - b) ln(V/V_0)`, which falls with the speed where `b > a`.
+///
+/// The state is `theta` (s), advanced by the exact solution for a slip speed that is constant over the
+/// step. It starts at `initial` wherever a node comes into contact. The second number of the state is the
+/// slip speed of the step before, which the coefficient belongs to if `lagged`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateState {
+    /// Coefficient `f_0` of steady sliding at `reference_speed`.
+    pub reference: f64,
+    /// Reference speed `V_0` (m/s).
+    pub reference_speed: f64,
+    /// Direct effect `a`.
+    pub direct: f64,
+    /// Effect of the state `b`.
+    pub evolution: f64,
+    /// Distance of slip `L` over which the state evolves (m).
+    pub distance: f64,
+    /// How it does.
+    pub law: StateLaw,
+    /// State of a node that comes into contact (s).
+    pub initial: f64,
+    /// Takes the slip speed of the step before instead of that of the same instant.
+    pub lagged: bool,
+}
+
+impl RateState {
+    /// Coefficient of steady sliding at `speed` (m/s): the state is `L/V`.
+    pub fn steady(&self, speed: f64) -> f64 {
+        let state = [self.distance / speed, speed];
+        self.mu(state, speed, &Place::default())
+    }
+
+    /// `ln( V/(2 V_0) exp(..) )`, the logarithm of the argument of `asinh`, which itself may overflow.
+    fn argument(&self, theta: f64, speed: f64) -> f64 {
+        let state = self.evolution * (self.reference_speed * theta / self.distance).ln();
+        (speed / (2.0 * self.reference_speed)).ln() + (self.reference + state) / self.direct
+    }
+}
+
+/// From here on `asinh(e^x) = x + ln 2` to all digits.
+const LARGE: f64 = 20.0;
+
+impl NodeFriction for RateState {
+    fn begin(&self, _at: &Place) -> [f64; 2] {
+        [self.initial, 0.0]
+    }
+
+    fn advance(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
+        let x = slip_speed * dt / self.distance;
+        // (1 - e^-x)/x and 1 - e^-x
+        let gone = -(-x).exp_m1();
+        let mean = if x > 0.0 { gone / x } else { 1.0 };
+        let theta = match self.law {
+            StateLaw::Ageing => theta * (-x).exp() + dt * mean,
+            // ln(V theta/L) decays as e^-x
+            StateLaw::Slip if slip_speed > 0.0 => {
+                theta * (-gone * (slip_speed * theta / self.distance).ln()).exp()
+            }
+            StateLaw::Slip => theta,
+        };
+        [theta, slip_speed]
+    }
+
+    fn mu(&self, [theta, before]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+        let x = self.argument(theta, if self.lagged { before } else { slip_speed });
+        self.direct * if x > LARGE { x + LN_2 } else { x.exp().asinh() }
+    }
+
+    fn slope(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+        if self.lagged {
+            return 0.0;
+        }
+        if slip_speed == 0.0 {
+            // of a node at rest: the derivative of asinh is 1 there
+            return self.direct * (self.argument(theta, 1.0)).exp();
+        }
+        let x = self.argument(theta, slip_speed);
+        let tanh = if x > LARGE { 1.0 } else { 1.0 / (1.0 + (-2.0 * x).exp()).sqrt() };
+        self.direct * tanh / slip_speed
+    }
+
+    fn is_implicit(&self) -> bool {
+        !self.lagged
+    }
+
+    /// The coefficient `f_0`: at rest itself there is none in this law.
+    fn mu_static(&self) -> f64 {
+        self.reference
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parameters of the benchmark TPV101 (Harris et al. 2009).
+    const LAW: RateState = RateState {
+        reference: 0.6,
+        reference_speed: 1e-6,
+        direct: 0.008,
+        evolution: 0.012,
+        distance: 0.02,
+        law: StateLaw::Ageing,
+        initial: 2e4,
+        lagged: false,
+    };
+    const SLIP: RateState = RateState { law: StateLaw::Slip, ..LAW };
+
+    #[test]
+    fn the_coefficient_is_the_regularised_formula() {
+        let at = Place::default();
+        for (theta, v) in [(2e4, 1e-9), (1.0, 1e-3), (1e-3, 0.1), (1e-8, 1e-12), (1e-30, 1e-6)] {
+            let psi = 0.6 + 0.012 * (1e-6 * theta / 0.02_f64).ln();
+            let direct = 0.008 * (v / 2e-6 * (psi / 0.008_f64).exp()).asinh();
+            let mu = LAW.mu([theta, 0.0], v, &at);
+            assert!((mu - direct).abs() <= 1e-13 * direct, "{theta} {v}: {mu} {direct}");
+        }
+        assert_eq!(LAW.mu([2e4, 0.0], 0.0, &at), 0.0);
+    }
+
+    #[test]
+    fn large_parameters_do_not_overflow() {
+        let sharp = RateState { direct: 1e-5, ..LAW };
+        let mu = sharp.mu([2e4, 0.0], 1e-6, &Place::default());
+        assert!((mu - 0.6).abs() < 1e-12, "{mu}");
+    }
+
+    #[test]
+    fn steady_sliding_weakens_with_the_logarithm_of_the_speed() {
+        for v in [1e-6, 1e-3, 1.0] {
+            let expected = 0.6 - 0.004 * (v / 1e-6_f64).ln();
+            assert!((LAW.steady(v) - expected).abs() < 1e-14, "{v}");
+        }
+    }
+
+    #[test]
+    fn a_jump_in_speed_has_the_direct_effect_at_once_and_the_steady_one_in_the_end() {
+        for law in [LAW, SLIP] {
+            let at = Place::default();
+            let mut state = [law.distance / 1e-3, 0.0];
+            let jump = law.mu(state, 1e-2, &at) - law.mu(state, 1e-3, &at);
+            assert!((jump - 0.008 * 10f64.ln()).abs() < 1e-14);
+            for _ in 0..2000 {
+                state = law.advance(state, 1e-2, &at, 0.04);
+            }
+            let settled = law.mu(state, 1e-2, &at) - law.steady(1e-3);
+            assert!((settled + 0.004 * 10f64.ln()).abs() < 1e-13, "{settled}");
+        }
+    }
+
+    #[test]
+    fn the_state_follows_the_closed_form_in_any_number_of_steps() {
+        // theta_ss + (theta - theta_ss) e^-x, and theta_ss (theta/theta_ss)^(e^-x)
+        let (v, time) = (0.5_f64, 0.03);
+        let (steady, decay) = (0.02 / v, (-v * time / 0.02_f64).exp());
+        for (law, expected) in
+            [(LAW, steady + (0.3 - steady) * decay), (SLIP, steady * (0.3 / steady).powf(decay))]
+        {
+            for steps in [1, 7, 1000] {
+                let dt = time / f64::from(steps);
+                let at = Place::default();
+                let end = (0..steps).fold([0.3, 0.0], |state, _| law.advance(state, v, &at, dt));
+                assert!((end[0] - expected).abs() < 1e-13 * expected * f64::from(steps), "{steps}");
+            }
+        }
+    }
+
+    #[test]
+    fn at_rest_the_ageing_law_ages_and_the_slip_law_does_not() {
+        let at = Place::default();
+        assert_eq!(LAW.advance([2.0, 0.0], 0.0, &at, 0.5)[0], 2.5);
+        assert_eq!(SLIP.advance([2.0, 0.0], 0.0, &at, 0.5)[0], 2.0);
+    }
+
+    #[test]
+    fn lagged_it_is_the_coefficient_at_the_speed_before() {
+        let at = Place::default();
+        let lagged = RateState { lagged: true, ..LAW };
+        let state = lagged.advance([2.0, 0.0], 0.3, &at, 1e-7);
+        assert_eq!(lagged.mu(state, 5.0, &at), LAW.mu(state, 0.3, &at));
+        assert!(!lagged.is_implicit() && lagged.slope(state, 5.0, &at) == 0.0);
+    }
+
+    #[test]
+    fn the_slope_is_the_derivative() {
+        let at = Place::default();
+        for (theta, v) in [(2e4, 1e-9), (1.0, 1e-3), (1e-30, 1e-6), (1e-32, 1e-6)] {
+            let state = [theta, 0.0];
+            let h = 1e-5 * v;
+            let by_difference = (LAW.mu(state, v + h, &at) - LAW.mu(state, v - h, &at)) / (2.0 * h);
+            let slope = LAW.slope(state, v, &at);
+            assert!((slope / by_difference - 1.0).abs() < 1e-6, "{theta} {slope} {by_difference}");
+        }
+        let state = [1e-40, 0.0];
+        let at_rest = LAW.mu(state, 1e-12, &at) / 1e-12;
+        assert!((LAW.slope(state, 0.0, &at) / at_rest - 1.0).abs() < 1e-6);
+    }
+}

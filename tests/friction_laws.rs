@@ -1,0 +1,55 @@
+//! Every friction law rolls, with springs and exactly: the energy balances, friction only dissipates, and
+//! the shear stays below the coefficient that the law gave.
+#![allow(clippy::unwrap_used)]
+
+use runs::{Results, small};
+
+const LAWS: [&[&str]; 7] = [
+    &["friction.law=slip_weakening", "friction.dynamic=0.2", "friction.distance=2e-6"],
+    &["friction.law=rate_state", "friction.distance=2e-6"],
+    &["friction.law=rate_state", "friction.distance=2e-6", "friction.state=slip"],
+    &["friction.law=prakash_clifton", "friction.distance=2e-6"],
+    &["friction.law=table", "friction.table=[[0, 0.3], [0.05, 0.25], [1, 0.2]]"],
+    &["friction.law=expression", "friction.expression=\"0.2 + 0.1*exp(-6*s)\""],
+    &["friction.law=expression", "friction.expression=\"0.3 + 0.05*sin(2000*x)\""],
+];
+
+fn rolled(law: &[&str], enforcement: &str) -> Results {
+    let enforcement = format!("contact.enforcement={enforcement}");
+    let run = small(&[&[enforcement.as_str(), "time.roll=0.004"], law].concat());
+    assert_eq!(run.summary["status"], "completed", "{law:?} {enforcement}: {:#}", run.summary);
+    println!(
+        "{law:?} {enforcement}: balance {:.2e}, dissipated {:.3e} J, T/N {:.4}",
+        run.number("/energy/balance_error"),
+        run.number("/energy/friction_dissipated"),
+        run.number("/contact/traction_coefficient"),
+    );
+    run
+}
+
+#[test]
+fn every_law_rolls_and_its_energy_balances() {
+    for law in LAWS {
+        for enforcement in ["penalty", "exact"] {
+            let run = rolled(law, enforcement);
+            assert!(run.number("/energy/balance_error") < 1e-2, "{law:?} {enforcement}");
+            assert!(run.number("/energy/friction_dissipated") >= 0.0, "{law:?} {enforcement}");
+            let worked = run.history("friction_dissipated");
+            let most = worked.last().unwrap();
+            // never handed back but for rounding
+            assert!(worked.windows(2).all(|w| w[1] >= w[0] - 1e-9 * most), "{law:?} {enforcement}");
+        }
+    }
+}
+
+#[test]
+fn a_formula_that_writes_a_known_law_rolls_as_that_law() {
+    // R < 1: where rounding does not grow
+    let law = ["friction.law=exponential", "friction.dynamic=0.2", "friction.decay=0.05"];
+    let same = ["friction.law=expression", "friction.expression=\"0.2 + 0.1*exp(-0.05*s)\""];
+    for enforcement in ["penalty", "exact"] {
+        let (a, b) = (rolled(&law, enforcement), rolled(&same, enforcement));
+        let [a, b] = [a, b].map(|run| run.number("/contact/traction_coefficient"));
+        assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+    }
+}
