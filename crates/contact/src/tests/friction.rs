@@ -1,7 +1,10 @@
 use super::{K, Rig, SETTINGS};
 use crate::touch::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::{Contact, Coulomb, Exponential, FrictionLaw, Lagged, PenaltySettings, Stiffness};
+use crate::{
+    Contact, Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeFriction, PenaltySettings,
+    Place, Remembering, Stiffness,
+};
 use mesh::Padded;
 
 const DEPTH: f64 = 3e-6;
@@ -262,4 +265,51 @@ fn bits_do_not_depend_on_the_number_of_threads() {
     assert!(one.1[19].closed > 2000, "{:?}", one.1[19]);
     assert_eq!(one, run(2));
     assert_eq!(one, run(3));
+}
+
+#[test]
+fn the_state_of_a_law_begins_with_the_preload() {
+    let steady = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+    let memory = Memory { distance: 1e-3, floor: 1e-2 };
+    let mut rig = Rig::plates(7, 5, Remembering { steady, memory });
+    rig.displacement[..rig.upper].fill(Padded::new([0.0, 0.0, -DEPTH]));
+    rig.contact.apply_frictionless(&rig.reference, &rig.displacement, &mut rig.force);
+    rig.apply();
+    let mut table = rig.contact.nodal_table(0);
+    rig.contact.nodal(&mut table);
+    let pressed = (0..table.nodes.len()).filter(|&i| table.pressure[i] > 0.0);
+    let used: Vec<f64> = pressed.map(|i| table.mu[i]).collect();
+    assert!(!used.is_empty() && used.iter().all(|mu| (mu - 0.5).abs() < 1e-3), "{used:?}");
+}
+
+#[test]
+fn a_coefficient_that_is_no_number_shows_in_the_forces() {
+    let mut rig = Rig::slider(Coulomb { mu: 0.5 }, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    assert!(rig.shift([6e-6, 0.0, -DEPTH]).force[0][0].is_finite());
+    let mut rig = Rig::slider(Lost, &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    assert!(rig.shift([6e-6, 0.0, -DEPTH]).force[0][0].is_nan());
+}
+
+/// A law that loses its value.
+#[derive(Debug)]
+struct Lost;
+
+impl NodeFriction for Lost {
+    fn begin(&self, _: &Place) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    fn advance(&self, state: [f64; 2], _: f64, _: &Place, _: f64) -> [f64; 2] {
+        state
+    }
+
+    fn mu(&self, _: [f64; 2], _: f64, _: &Place) -> f64 {
+        f64::NAN
+    }
+
+    fn mu_static(&self) -> f64 {
+        0.5
+    }
 }
