@@ -190,7 +190,9 @@ impl ExactContact {
         let (opening, slip) = self.rates(row, corners);
         let (pressed, rubbed) = (row.normal_force, row.friction);
         let free_gap = row.gap + motion.dt * (opening - row.mobility * pressed);
-        row.normal_force = (-free_gap / (motion.dt * row.mobility)).max(0.0);
+        let needed = -free_gap / (motion.dt * row.mobility);
+        // not `max`: what is no number must reach the guards
+        row.normal_force = if needed <= 0.0 { 0.0 } else { needed };
         let free = axpy(slip, -row.mobility, rubbed);
         (row.friction, row.state) = self.rub(row, free, positions, motion);
         let change = sub(row.friction, rubbed);
