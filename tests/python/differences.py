@@ -1,14 +1,14 @@
 """How far the slip and the shear of runs along the centre line differ, one run from the next.
 
-    python tests/python/differences.py RUN RUN ...
+    python tests/python/differences.py [--plot FILE.png] RUN RUN ...
 
 Takes the records of 1.40 to 1.45 ms (docs/verdict.md), the bar's nodes nearest y = 0 with y > 0, and a grid that
 moves with the disk (-7 to 7 mm). Prints per run the largest slip speed, its mean, and the mean over the grid of its
 standard deviation in time; then for successive runs the rms difference over the rms of the second: of the slip speed
-and the shear at the last record, and of their means in time.
+and the shear at the last record, and of their means in time. --plot draws the slip speed at the last record.
 """
 
-import sys
+import argparse
 import tomllib
 from pathlib import Path
 
@@ -50,11 +50,33 @@ def differs(a, b):
     return np.sqrt(((a - b) ** 2).mean() / (b**2).mean())
 
 
+def draw(path, runs, found):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(7, 3.2), layout="constrained")
+    colours = pyplot.get_cmap("viridis")(np.linspace(0, 0.85, len(runs)))
+    for run, (slip, _), colour in zip(runs, found, colours):
+        axes.plot(1e3 * GRID, slip[-1], color=colour, label=run.name)
+    axes.set(xlabel="x from the disk's axis (mm)", ylabel="slip speed (m/s)")
+    axes.set_yscale("symlog", linthresh=0.1)
+    axes.legend(frameon=False)
+    figure.savefig(path, dpi=150)
+
+
 def main():
-    runs = [Path(name) for name in sys.argv[1:]]
-    if not runs:
-        sys.exit(__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("runs", nargs="+", type=Path)
+    parser.add_argument("--plot", type=Path)
+    options = parser.parse_args()
+    runs = options.runs
     found = [profiles(run) for run in runs]
+    if options.plot:
+        draw(options.plot, runs, found)
     for run, (slip, _) in zip(runs, found):
         deviation = slip.std(axis=0).mean()
         print(f"{run.name}: |s| up to {slip.max():.3f}, mean {slip.mean():.4f}, sd in time {deviation:.4f} m/s")

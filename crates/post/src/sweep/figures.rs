@@ -50,8 +50,8 @@ fn stem(axis: &str) -> String {
 /// The label of an axis: its key with the unit.
 fn label(axis: &str) -> String {
     let unit = match axis {
-        "mesh.zone.size" | "time.roll" => "m",
-        "time.step" | "drive.ramp" | "time.duration" => "s",
+        "mesh.zone.size" | "time.roll" | "friction.distance" | "friction.memory.distance" => "m",
+        "time.step" | "drive.ramp" | "time.duration" | "damping.kelvin_voigt" => "s",
         "friction.decay" => "s/m",
         "drive.speed" => "m/s",
         "drive.torque" => "Nm",
@@ -232,7 +232,7 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
         }
         let log = spans_decades(found.iter().map(|f| f.1));
         let key = Key::Values {
-            label: measure.heading(),
+            label: String::new(), // the title has it: beside the colours long names find no room
             range: [rounded(least), rounded(most)],
             scale: if log { Scale::Log } else { Scale::Linear },
         };
@@ -243,7 +243,7 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
         });
         let cells = cells.collect();
         panels.push(Panel {
-            title: String::new(),
+            title: measure.heading(),
             x: axis_over(&label(axes[0]), &values[0]),
             y: axis_over(&label(axes[1]), &values[1]),
             fill: Some(Fill { cells, key }),
