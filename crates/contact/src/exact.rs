@@ -343,10 +343,12 @@ impl Contact for ExactContact {
             let work = |(opening, slip): (f64, Vec3)| {
                 0.5 * motion.dt * (row.normal_force * opening + dot(row.friction, slip))
             };
-            let heat = -motion.dt * dot(row.friction, slip);
-            sums.friction_ahead += heat.max(0.0);
+            // round-off of a node that sticks is no friction
+            let slips = row.state == State::Slip;
+            let heat = if slips { -motion.dt * dot(row.friction, slip) } else { 0.0 };
+            sums.friction_ahead += heat;
             sums.damping_work -= work(before);
-            sums.damping_ahead -= work((opening, slip)) + heat.max(0.0);
+            sums.damping_ahead -= work((opening, slip)) + heat;
 
             let on_slave = axpy(row.friction, row.normal_force, row.normal);
             add_to(&mut force[node as usize], on_slave);
