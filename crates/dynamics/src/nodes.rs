@@ -3,6 +3,7 @@
 use crate::dashpots::{Dashpots, RigidMotion};
 use mesh::Padded;
 use rayon::prelude::*;
+use solid::Level;
 use std::ops::Range;
 
 /// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads.
@@ -33,7 +34,8 @@ impl NodeSums {
 /// v^{n+1/2} = v^{n-1/2} + dt (f/m - alpha (v^{n-1/2} - v_rigid)) and
 /// u^{n+1} = u^n + dt v^{n+1/2}; clears `force`.
 ///
-/// Nodes of zero inverse mass keep their velocity. `partial` holds one entry per chunk.
+/// Nodes of zero inverse mass keep their velocity. `partial` holds one entry per chunk; `level` is that of
+/// the element kernels.
 pub(crate) fn advance(
     displacement: &mut [Padded],
     velocity: &mut [Padded],
@@ -43,6 +45,7 @@ pub(crate) fn advance(
     kinetic: bool,
     dashpots: Option<&Dashpots<'_>>,
     partial: &mut [NodeSums],
+    level: Level,
 ) -> NodeSums {
     displacement
         .par_chunks_mut(CHUNK)
@@ -52,15 +55,69 @@ pub(crate) fn advance(
         .enumerate()
         .for_each(|(chunk, (((u, v), (f, m)), sums))| {
             let first = chunk * CHUNK;
-            *sums = match (kinetic, dashpots) {
-                (false, None) => update::<false>(u, v, f, m, dt),
-                (true, None) => update::<true>(u, v, f, m, dt),
-                (kinetic, Some(d)) => damped(u, v, f, m, dt, kinetic, d, first..first + m.len()),
-            };
+            *sums = advance_chunk(level, u, v, f, m, dt, kinetic, dashpots, first);
         });
     let mut total = NodeSums::default();
     partial.iter().for_each(|p| total.add(p));
     total
+}
+
+/// The nodes of a chunk from node `first` on, with instructions of `level`: the same bits with all, since
+/// nothing is fused.
+fn advance_chunk(
+    level: Level,
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
+    inverse_mass: &[f64],
+    dt: f64,
+    kinetic: bool,
+    dashpots: Option<&Dashpots<'_>>,
+    first: usize,
+) -> NodeSums {
+    #[cfg(target_arch = "x86_64")]
+    if level != Level::Portable && level.available() {
+        // SAFETY: the machine has the instructions.
+        return unsafe { advance_chunk_wide(u, v, f, inverse_mass, dt, kinetic, dashpots, first) };
+    }
+    update_chunk(u, v, f, inverse_mass, dt, kinetic, dashpots, first)
+}
+
+/// # Safety
+/// The machine has AVX2.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+unsafe fn advance_chunk_wide(
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
+    inverse_mass: &[f64],
+    dt: f64,
+    kinetic: bool,
+    dashpots: Option<&Dashpots<'_>>,
+    first: usize,
+) -> NodeSums {
+    update_chunk(u, v, f, inverse_mass, dt, kinetic, dashpots, first)
+}
+
+#[inline(always)]
+fn update_chunk(
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
+    inverse_mass: &[f64],
+    dt: f64,
+    kinetic: bool,
+    dashpots: Option<&Dashpots<'_>>,
+    first: usize,
+) -> NodeSums {
+    let nodes = first..first + inverse_mass.len();
+    match (kinetic, dashpots) {
+        (false, None) => update::<false>(u, v, f, inverse_mass, dt),
+        (true, None) => update::<true>(u, v, f, inverse_mass, dt),
+        (false, Some(d)) => damped::<false>(u, v, f, inverse_mass, dt, d, nodes),
+        (true, Some(d)) => damped::<true>(u, v, f, inverse_mass, dt, d, nodes),
+    }
 }
 
 /// v^{n+1/2} of one node under `force`, as [`advance`] gives it up to round-off.
@@ -114,13 +171,13 @@ fn update<const KINETIC: bool>(
 
 /// The same with dashpots; `nodes` are the chunk's node numbers. The disk's nodes are contiguous,
 /// so that a chunk falls into at most three runs of one body.
-fn damped(
+#[inline(always)]
+fn damped<const KINETIC: bool>(
     u: &mut [Padded],
     v: &mut [Padded],
     f: &mut [Padded],
     inverse_mass: &[f64],
     dt: f64,
-    kinetic: bool,
     dashpots: &Dashpots<'_>,
     nodes: Range<usize>,
 ) -> NodeSums {
@@ -131,7 +188,7 @@ fn damped(
     for (run, on_disk) in runs {
         let local = run.start - nodes.start..run.end - nodes.start;
         let motion = if on_disk { dashpots.motion } else { None }.unwrap_or_default();
-        let run = if kinetic { damped_run::<true> } else { damped_run::<false> }(
+        let run = damped_run::<KINETIC>(
             &mut u[local.clone()],
             &mut v[local.clone()],
             &mut f[local.clone()],

@@ -195,6 +195,7 @@ impl Simulation {
             read,
             dashpots.as_ref(),
             &mut self.partial,
+            self.solid.level(),
         );
         let omega_before = self.hub.as_ref().map_or(0.0, |h| h.state.omega);
         let hub = match (&mut self.hub, load) {
