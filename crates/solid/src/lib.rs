@@ -6,6 +6,8 @@
 //! batches of eight elements; the vector width of the machine is chosen at run time.
 
 mod blocks;
+mod congruence;
+mod count;
 mod formulation;
 mod full;
 mod full_stiffness;
@@ -15,6 +17,7 @@ mod kernel;
 mod lanes;
 mod mass;
 mod material;
+mod peak;
 mod solid;
 mod stable;
 mod stiffness;
@@ -24,6 +27,7 @@ pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;
 pub use mass::lumped_mass;
 pub use material::{Material, MaterialError};
+pub use peak::multiply_additions;
 pub use solid::{Element, ForceSums, Solid, SolidError, Viscosity};
 pub use stable::{element_frequency_bound, largest_frequency, nodal_stiffness_bounds};
 pub use stiffness::element_stiffness;

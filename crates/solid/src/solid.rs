@@ -1,11 +1,12 @@
 //! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
-use crate::blocks::{Batch, Block, Blocks};
+use crate::blocks::{Batch, Block, Blocks, Kind, MOST_NODES};
+use crate::count::work;
 use crate::formulation::{Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
-use crate::kernel::{Arrays, Constants, Kernel, OnePoint, Sums, block_force};
+use crate::kernel::{Arrays, Congruent, Constants, Kernel, OnePoint, Shared, Sums, block_force};
 use crate::lanes::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
@@ -88,6 +89,14 @@ pub enum SolidError {
     /// The instruction set does not exist on this machine.
     #[error("this machine has no {0} instructions")]
     Level(&'static str),
+    /// More nodes than the kernels can address.
+    #[error("{nodes} nodes are more than the {most} of one assembly")]
+    Size {
+        /// Nodes of the mesh.
+        nodes: usize,
+        /// Nodes at most.
+        most: usize,
+    },
     /// Number of materials and of bodies differ.
     #[error("{bodies} bodies need as many materials, not {materials}")]
     Count {
@@ -98,7 +107,7 @@ pub enum SolidError {
     },
 }
 
-type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
+type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays, Shared) -> Sums;
 
 /// All elements of a mesh with their materials.
 pub struct Solid {
@@ -133,6 +142,9 @@ impl Solid {
                 bodies: mesh.bodies.len(),
                 materials: materials.len(),
             });
+        }
+        if mesh.nodes.len() > MOST_NODES {
+            return Err(SolidError::Size { nodes: mesh.nodes.len(), most: MOST_NODES });
         }
         if !level.available() {
             return Err(SolidError::Level(level.name()));
@@ -192,6 +204,21 @@ impl Solid {
         self.level
     }
 
+    /// One-point elements that share their reference gradients with congruent ones.
+    pub fn congruent(&self) -> usize {
+        self.blocks.congruent()
+    }
+
+    /// Floating-point operations of one evaluation of the internal force without energies; a
+    /// multiply-addition is two, a division one.
+    pub fn flops(&self) -> u64 {
+        let of = |block: &Block| {
+            let done = work(block.kind, self.volumetric, false, self.viscous);
+            u64::from(done.flops()) * block.elements as u64
+        };
+        self.blocks.blocks.iter().map(of).sum()
+    }
+
     /// Number of elements.
     pub fn elements(&self) -> usize {
         self.bodies.last().map_or(0, |(range, _)| range.end)
@@ -199,7 +226,7 @@ impl Solid {
 
     /// Bytes held for the time loop: connectivity in batches, reference positions.
     pub fn bytes(&self) -> usize {
-        self.blocks.batches.len() * size_of::<Batch>() + self.reference.len() * size_of::<Padded>()
+        self.blocks.bytes() + self.reference.len() * size_of::<Padded>()
     }
 
     /// `force -= f_int(u, v)` (N). Viscous stresses take `velocity` at the last half step (m/s).
@@ -251,29 +278,42 @@ impl Solid {
         let nodes = self.reference.len();
         assert!(displacement.len() >= nodes && force.len() >= nodes);
         assert!(!viscous || velocity.len() >= nodes);
-        let kernels = [None, Some(self.volumetric)]
-            .map(|full| block_force_of(self.level, full, energies, viscous));
-        let arrays = Shared(Arrays {
+        let kernel = |kind| block_force_of(self.level, kind, self.volumetric, energies, viscous);
+        let [one_point, congruent, turned, full] =
+            [Kind::OnePoint, Kind::Congruent, Kind::Turned, Kind::Full].map(kernel);
+        let arrays = ToThreads(Arrays {
             reference: self.reference.as_ptr(),
             displacement: displacement.as_ptr(),
             velocity: velocity.as_ptr(),
             force: force.as_mut_ptr(),
         });
         let sums = SharedSums(self.sums.as_mut_ptr());
-        let Blocks { batches, blocks, colours, .. } = &self.blocks;
+        let Blocks { batches, blocks, colours, shapes, shape_of, turns, .. } = &self.blocks;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
             let block: &Block = &blocks[b as usize];
-            // SAFETY: the level was checked in `new`; node indices were taken from the mesh whose
-            // node count the asserts above compare; blocks of one colour share no nodes, colours
+            let of_batch = shape_of[block.batches.start..].as_ptr();
+            let turns = turns[block.turns..].as_ptr();
+            let (kernel, shared) = match block.kind {
+                Kind::OnePoint => (one_point, Shared::NONE),
+                Kind::Congruent | Kind::Turned => (
+                    if block.kind == Kind::Turned { turned } else { congruent },
+                    Shared { shapes: shapes.as_ptr(), of_batch, turns },
+                ),
+                Kind::Full => (full, Shared::NONE),
+            };
+            // SAFETY: the level was checked in `new`; offsets were taken from the mesh whose
+            // node count the asserts above compare, each batch of a congruent block has its shape, and of a
+            // turned one its turn; blocks of one colour share no nodes, colours
             // run one after the other, and each block writes its own entry of `sums`.
             unsafe {
-                *sums.0.add(b as usize) = kernels[usize::from(block.full)](
+                *sums.0.add(b as usize) = kernel(
                     &batches[block.batches.clone()],
                     block.elements,
-                    &constants[block.body][usize::from(block.full)],
+                    &constants[block.body][usize::from(block.kind == Kind::Full)],
                     arrays.0,
+                    shared,
                 );
             }
         };
@@ -298,10 +338,10 @@ impl Solid {
     /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts: of a fully
     /// integrated element the mean over its deformed volume.
     pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
-        for (body, (range, material)) in self.bodies.iter().enumerate() {
+        for (range, material) in &self.bodies {
             stress[range.clone()].par_iter_mut().zip(range.clone()).for_each(|(out, element)| {
-                let (x, u) = self.corners(displacement, body, element);
-                *out = if self.blocks.is_full(body, element) {
+                let (x, u) = self.corners(displacement, element);
+                *out = if self.blocks.is_full(element) {
                     mean_cauchy(&x, &u, material, self.volumetric)
                 } else {
                     cauchy(&displacement_gradient(&x, &u).0, material)
@@ -310,9 +350,9 @@ impl Solid {
         }
     }
 
-    /// How an element of a body is integrated.
-    fn formulation(&self, body: usize, element: usize) -> Formulation {
-        if self.blocks.is_full(body, element) {
+    /// How an element is integrated.
+    fn formulation(&self, element: usize) -> Formulation {
+        if self.blocks.is_full(element) {
             Formulation::Full(self.volumetric)
         } else {
             Formulation::OnePoint(self.one_point)
@@ -320,13 +360,8 @@ impl Solid {
     }
 
     /// Corners of an element in the reference configuration and their displacements.
-    fn corners(
-        &self,
-        displacement: &[Padded],
-        body: usize,
-        element: usize,
-    ) -> ([[f64; 3]; 8], [[f64; 3]; 8]) {
-        let hex = self.blocks.hex(body, element);
+    fn corners(&self, displacement: &[Padded], element: usize) -> ([[f64; 3]; 8], [[f64; 3]; 8]) {
+        let hex = self.blocks.hex(element);
         let x = hex.map(|n| self.reference[n as usize].xyz());
         (x, hex.map(|n| displacement[n as usize].xyz()))
     }
@@ -337,8 +372,8 @@ impl Solid {
         let mut worst = (0, 0, f64::INFINITY);
         for (body, (range, _)) in self.bodies.iter().enumerate() {
             for element in range.clone() {
-                let (x, u) = self.corners(displacement, body, element);
-                let det = if self.blocks.is_full(body, element) {
+                let (x, u) = self.corners(displacement, element);
+                let det = if self.blocks.is_full(element) {
                     let points = gauss_points(&x);
                     let dets =
                         points.map(|p| determinant(&deformation(&p.displacement_gradient(&u))));
@@ -361,8 +396,7 @@ impl Solid {
     /// Centre of an element in the reference configuration (m).
     pub fn centre(&self, element: usize) -> [f64; 3] {
         let mut c = [0.0; 3];
-        let body = self.bodies.iter().position(|(range, _)| range.contains(&element));
-        for n in self.blocks.hex(body.unwrap_or(0), element) {
+        for n in self.blocks.hex(element) {
             for i in 0..3 {
                 c[i] += self.reference[n as usize].0[i] / 8.0;
             }
@@ -457,27 +491,30 @@ fn trace(e: &[[f64; 3]; 3]) -> f64 {
     e[0][0] + e[1][1] + e[2][2]
 }
 
-struct Shared(Arrays);
+struct ToThreads(Arrays);
 // SAFETY: threads write disjoint nodes (see `Solid::run`).
-unsafe impl Sync for Shared {}
+unsafe impl Sync for ToThreads {}
 struct SharedSums(*mut Sums);
 // SAFETY: threads write disjoint entries (see `Solid::run`).
 unsafe impl Sync for SharedSums {}
 
 macro_rules! level_kernels {
     ($name:ident, $lanes:ty $(, $features:literal)?) => {
-        /// The kernel for this level and these options; `full` of fully integrated elements.
-        fn $name(full: Option<Volumetric>, energies: bool, viscous: bool) -> BlockForce {
+        /// The kernel for this level and these options.
+        fn $name(kind: Kind, full: Volumetric, energies: bool, viscous: bool) -> BlockForce {
             $(#[target_feature(enable = $features)])?
             unsafe fn run<K: Kernel, const ENERGY: bool, const VISCOUS: bool>(
                 batches: &[Batch],
                 elements: usize,
                 constants: &Constants,
                 arrays: Arrays,
+                shared: Shared,
             ) -> Sums {
                 // SAFETY: the caller's contract is that of `block_force`.
                 unsafe {
-                    block_force::<K, $lanes, ENERGY, VISCOUS>(batches, elements, constants, arrays)
+                    block_force::<K, $lanes, ENERGY, VISCOUS>(
+                        batches, elements, constants, arrays, shared,
+                    )
                 }
             }
             fn choose<K: Kernel>(energies: bool, viscous: bool) -> BlockForce {
@@ -488,10 +525,16 @@ macro_rules! level_kernels {
                     (true, true) => run::<K, true, true>,
                 }
             }
-            match full {
-                None => choose::<OnePoint>(energies, viscous),
-                Some(Volumetric::Full) => choose::<FullyIntegrated<false>>(energies, viscous),
-                Some(Volumetric::Mean) => choose::<FullyIntegrated<true>>(energies, viscous),
+            match (kind, full) {
+                (Kind::OnePoint, _) => choose::<OnePoint>(energies, viscous),
+                (Kind::Congruent, _) => choose::<Congruent<false>>(energies, viscous),
+                (Kind::Turned, _) => choose::<Congruent<true>>(energies, viscous),
+                (Kind::Full, Volumetric::Full) => {
+                    choose::<FullyIntegrated<false>>(energies, viscous)
+                }
+                (Kind::Full, Volumetric::Mean) => {
+                    choose::<FullyIntegrated<true>>(energies, viscous)
+                }
             }
         }
     };
@@ -505,16 +548,17 @@ level_kernels!(portable, f64);
 
 fn block_force_of(
     level: Level,
-    full: Option<Volumetric>,
+    kind: Kind,
+    full: Volumetric,
     energies: bool,
     viscous: bool,
 ) -> BlockForce {
     match level {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512 => avx512(full, energies, viscous),
+        Level::Avx512 => avx512(kind, full, energies, viscous),
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2 => avx2(full, energies, viscous),
-        _ => portable(full, energies, viscous),
+        Level::Avx2 => avx2(kind, full, energies, viscous),
+        _ => portable(kind, full, energies, viscous),
     }
 }
 

@@ -1,0 +1,224 @@
+//! What an element costs: the kernel run on numbers that count their own operations.
+
+use crate::blocks::{BATCH, Batch, Kind};
+use crate::congruence::{Shape, Turn};
+use crate::formulation::Volumetric;
+use crate::full::FullyIntegrated;
+use crate::kernel::{Arrays, Congruent, Constants, Kernel, OnePoint, Shared};
+use crate::lanes::Lanes;
+use mesh::Padded;
+use std::cell::Cell;
+
+/// Operations of one element in one evaluation of its internal force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Work {
+    /// Additions and subtractions.
+    pub(crate) additions: u32,
+    /// Multiplications.
+    pub(crate) multiplications: u32,
+    /// Multiplications with an addition to the product, one instruction.
+    pub(crate) multiply_additions: u32,
+    /// Divisions and square roots.
+    pub(crate) divisions: u32,
+    /// Vectors of three read from nodes.
+    pub(crate) gathered: u32,
+    /// Vectors of three added to nodes, read and written.
+    pub(crate) scattered: u32,
+}
+
+impl Work {
+    /// Floating-point operations; a multiply-addition is two, a division one.
+    pub(crate) fn flops(&self) -> u32 {
+        let added = 3 * self.scattered;
+        self.additions + self.multiplications + 2 * self.multiply_additions + self.divisions + added
+    }
+}
+
+/// Counts the work of one element.
+pub(crate) fn work(kind: Kind, full: Volumetric, energies: bool, viscous: bool) -> Work {
+    match (kind, full) {
+        (Kind::OnePoint, _) => counted::<OnePoint>(energies, viscous),
+        (Kind::Congruent, _) => counted::<Congruent<false>>(energies, viscous),
+        (Kind::Turned, _) => counted::<Congruent<true>>(energies, viscous),
+        (Kind::Full, Volumetric::Full) => counted::<FullyIntegrated<false>>(energies, viscous),
+        (Kind::Full, Volumetric::Mean) => counted::<FullyIntegrated<true>>(energies, viscous),
+    }
+}
+
+fn counted<K: Kernel>(energies: bool, viscous: bool) -> Work {
+    const CORNERS: [[f64; 3]; 8] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [0.0, 1.0, 1.0],
+    ];
+    let reference = CORNERS.map(Padded::new);
+    let rest = [Padded::ZERO; 8];
+    let mut force = [Padded::ZERO; 8];
+    let mut batch = Batch { offsets: [[0; BATCH]; 8] };
+    for (corner, lanes) in batch.offsets.iter_mut().enumerate() {
+        lanes.fill((corner * size_of::<Padded>()) as u32);
+    }
+    let constants = Constants {
+        lambda: 1.0,
+        shear: 1.0,
+        hourglass: 1.0,
+        kelvin_voigt: 1.0,
+        bulk_linear: 1.0,
+        bulk_quadratic: 1.0,
+    };
+    let arrays = Arrays {
+        reference: reference.as_ptr(),
+        displacement: rest.as_ptr(),
+        velocity: rest.as_ptr(),
+        force: force.as_mut_ptr(),
+    };
+    let (shape, of_batch) = (Shape::UNIT, 0);
+    let turn = Turn { cos: [1.0; BATCH], sin: [0.0; BATCH] };
+    let shared =
+        Shared { shapes: &raw const shape, of_batch: &raw const of_batch, turns: &raw const turn };
+    let mut sums = [0.0; 3];
+    DONE.set(Work::default());
+    let sums = &mut sums;
+    // SAFETY: `Counted` needs no special instructions, the batch's offsets are those of the eight
+    // nodes of each array, and these, the shape and the turn are local.
+    unsafe {
+        match (energies, viscous) {
+            (false, false) => {
+                K::elements_force::<Counted, false, false>(
+                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
+                );
+            }
+            (false, true) => {
+                K::elements_force::<Counted, false, true>(
+                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
+                );
+            }
+            (true, false) => {
+                K::elements_force::<Counted, true, false>(
+                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
+                );
+            }
+            (true, true) => {
+                K::elements_force::<Counted, true, true>(
+                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
+                );
+            }
+        }
+    }
+    DONE.get()
+}
+
+thread_local! {
+    static DONE: Cell<Work> = const {
+        Cell::new(Work {
+            additions: 0,
+            multiplications: 0,
+            multiply_additions: 0,
+            divisions: 0,
+            gathered: 0,
+            scattered: 0,
+        })
+    };
+}
+
+fn count(of: fn(&mut Work)) {
+    let mut done = DONE.get();
+    of(&mut done);
+    DONE.set(done);
+}
+
+/// One lane whose operations are counted on the calling thread.
+#[derive(Clone, Copy)]
+struct Counted(f64);
+
+// The arithmetic is that of the portable lane, whose methods need no special instructions.
+impl Lanes for Counted {
+    const N: usize = 1;
+    unsafe fn splat(v: f64) -> Self {
+        Self(v)
+    }
+    unsafe fn load(from: *const f64) -> Self {
+        // SAFETY: the caller's contract is that of the trait.
+        Self(unsafe { *from })
+    }
+    unsafe fn add(self, o: Self) -> Self {
+        count(|done| done.additions += 1);
+        Self(self.0 + o.0)
+    }
+    unsafe fn sub(self, o: Self) -> Self {
+        count(|done| done.additions += 1);
+        Self(self.0 - o.0)
+    }
+    unsafe fn mul(self, o: Self) -> Self {
+        count(|done| done.multiplications += 1);
+        Self(self.0 * o.0)
+    }
+    unsafe fn div(self, o: Self) -> Self {
+        count(|done| done.divisions += 1);
+        Self(self.0 / o.0)
+    }
+    unsafe fn min(self, o: Self) -> Self {
+        count(|done| done.additions += 1);
+        Self(self.0.min(o.0))
+    }
+    unsafe fn sqrt(self) -> Self {
+        count(|done| done.divisions += 1);
+        Self(self.0.sqrt())
+    }
+    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
+        count(|done| done.multiply_additions += 1);
+        Self(self.0 * b.0 + c.0)
+    }
+    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        count(|done| done.multiply_additions += 1);
+        Self(c.0 - self.0 * b.0)
+    }
+    unsafe fn gather(base: *const Padded, offset: *const u32) -> [Self; 3] {
+        count(|done| done.gathered += 1);
+        // SAFETY: the caller's contract is that of the trait.
+        unsafe { f64::gather(base, offset) }.map(Self)
+    }
+    unsafe fn scatter_sub(base: *mut Padded, offset: *const u32, v: [Self; 3], lanes: usize) {
+        count(|done| done.scattered += 1);
+        // SAFETY: the caller's contract is that of the trait.
+        unsafe { f64::scatter_sub(base, offset, v.map(|lane| lane.0), lanes) }
+    }
+    unsafe fn sum(self, lanes: usize) -> f64 {
+        if lanes == 1 { self.0 } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The guard of the kernels' cost, the same on every machine: a change that makes an element
+    /// dearer fails here and says so.
+    #[test]
+    fn an_element_costs_no_more_operations_than_when_it_was_measured() {
+        for (kind, full, flops, gathered) in [
+            (Kind::OnePoint, Volumetric::Full, 922, 16),
+            (Kind::Congruent, Volumetric::Full, 630, 8),
+            (Kind::Turned, Volumetric::Full, 715, 8),
+            (Kind::Full, Volumetric::Full, 2613, 16),
+            (Kind::Full, Volumetric::Mean, 3208, 16),
+        ] {
+            let done = work(kind, full, false, false);
+            assert_eq!((done.flops(), done.gathered), (flops, gathered), "{kind:?}: {done:?}");
+        }
+    }
+
+    #[test]
+    fn energies_and_viscous_stresses_cost_extra() {
+        let one_point =
+            |energies, viscous| work(Kind::OnePoint, Volumetric::Full, energies, viscous);
+        let plain = one_point(false, false);
+        assert!(one_point(true, false).flops() > plain.flops());
+        assert_eq!(one_point(false, true).gathered, plain.gathered + 8);
+    }
+}

@@ -1,0 +1,71 @@
+//! The most multiply-additions that this machine's vector unit does, the other side of a roofline.
+
+use crate::lanes::{Lanes, Level};
+
+/// Independent chains: enough to hide the latency of the instruction on two units, few enough for
+/// sixteen registers.
+const CHAINS: usize = 12;
+
+/// Does at least `flops` floating-point operations as multiply-additions on the calling thread by the
+/// instructions of `level`; returns how many it did.
+///
+/// # Panics
+/// If the machine does not have the level.
+pub fn multiply_additions(level: Level, flops: usize) -> usize {
+    assert!(level.available());
+    let (lanes, chains): (usize, unsafe fn(usize, f64) -> f64) = match level {
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => (8, avx512),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => (4, avx2),
+        _ => (1, portable),
+    };
+    let rounds = flops.div_ceil(2 * CHAINS * lanes);
+    // SAFETY: the machine has the level's instructions.
+    std::hint::black_box(unsafe { chains(rounds, std::hint::black_box(1e-9)) });
+    rounds * 2 * CHAINS * lanes
+}
+
+#[inline(always)]
+unsafe fn run<L: Lanes>(rounds: usize, small: f64) -> f64 {
+    // SAFETY: as the caller's.
+    unsafe {
+        let (factor, term) = (L::splat(1.0 - small), L::splat(2.0 * small));
+        let mut chains = [L::splat(1.0); CHAINS];
+        let mut round = 0;
+        while round < rounds {
+            let mut i = 0;
+            while i < CHAINS {
+                chains[i] = chains[i].mul_add(factor, term);
+                i += 1;
+            }
+            round += 1;
+        }
+        let mut total = chains[0];
+        let mut i = 1;
+        while i < CHAINS {
+            total = total.add(chains[i]);
+            i += 1;
+        }
+        total.sum(L::N)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx2,fma")]
+unsafe fn avx512(rounds: usize, small: f64) -> f64 {
+    // SAFETY: the instructions are enabled here and available by the caller's contract.
+    unsafe { run::<crate::lanes::x86::F64x8>(rounds, small) }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+unsafe fn avx2(rounds: usize, small: f64) -> f64 {
+    // SAFETY: as above.
+    unsafe { run::<crate::lanes::x86::F64x4>(rounds, small) }
+}
+
+unsafe fn portable(rounds: usize, small: f64) -> f64 {
+    // SAFETY: plain Rust.
+    unsafe { run::<f64>(rounds, small) }
+}
