@@ -1,7 +1,13 @@
-//! Speed of the element kernel and of a whole step on this machine, against its bandwidth.
+//! Speed of the element kernel and of a whole step on this machine, against what its memory and its
+//! arithmetic allow.
+
+mod block;
+mod machine;
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
+
+pub use block::{BlockElement, bench_block};
 
 use crate::hertz::hertz;
 use crate::model::Model;
@@ -9,7 +15,6 @@ use crate::run_error::RunError;
 use crate::schema::{Case, PreloadMethod};
 use crate::start::start;
 use mesh::Padded;
-use rayon::prelude::*;
 use serde_json::json;
 use solid::Level;
 
@@ -30,23 +35,32 @@ static = 0.5
 method = \"none\"
 ";
 
-/// Measures kernel, whole step and memory bandwidth with the given number of threads, on the
-/// reference disk and bar at 1 mm, with the given kernels (by default the machine's best).
-pub fn bench(threads: usize, kernels: Option<Level>) -> Result<serde_json::Value, RunError> {
+/// Measures kernel, whole step and the machine with the given number of threads, on the reference
+/// disk and bar at 1 mm with keys of the case set as on the command line, with the given kernels (by
+/// default the machine's best).
+///
+/// # Errors
+/// Keys that make no case.
+pub fn bench(
+    threads: usize,
+    kernels: Option<Level>,
+    sets: &[String],
+) -> Result<serde_json::Value, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    pool.install(|| measure(threads, kernels.unwrap_or_else(Level::detect)))
+    pool.install(|| measure(threads, kernels.unwrap_or_else(Level::detect), sets))
 }
 
-fn measure(threads: usize, kernels: Level) -> Result<serde_json::Value, RunError> {
-    let mut case = Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), &[])?;
-    debug_assert_eq!(case.preload.method, PreloadMethod::None);
+fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<serde_json::Value, RunError> {
+    let mut case = Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), sets)?;
     // Pressed rigidly by Hertz's approach, contact is as busy as after a preload.
-    case.disk.lift = -hertz(&case).approach;
+    if case.preload.method == PreloadMethod::None {
+        case.disk.lift = -hertz(&case).approach;
+    }
     let mut model = Model::build(&case)?;
     model.kernels = kernels;
     let elements = model.mesh.hexes.len() as f64;
     let nodes = model.mesh.nodes.len();
-    let bandwidth = triad();
+    let (bandwidth, peak) = (machine::triad(), machine::peak(kernels, threads));
 
     let mut solid = model.solid(&case)?;
     let u = vec![Padded::ZERO; nodes];
@@ -59,30 +73,50 @@ fn measure(threads: usize, kernels: Level) -> Result<serde_json::Value, RunError
     let mut begun =
         start(&case, &model, None, &AtomicBool::new(false), &mut |_| {}, &mut |_| Ok(()))?;
     let simulation = &mut begun.simulation;
-    let mut contact = 0.0;
+    let mut stages = [0.0; 4];
     let step = median(|| {
-        let before = simulation.timers().contact;
+        let before = *simulation.timers();
         (0..REPEATS).for_each(|n| {
             simulation.step(n % 10 == 0);
         });
-        contact = (simulation.timers().contact - before).as_secs_f64() / REPEATS as f64;
+        let after = simulation.timers();
+        stages = [
+            after.internal_force - before.internal_force,
+            after.contact - before.contact,
+            after.boundary - before.boundary,
+            after.nodes - before.nodes,
+        ]
+        .map(|stage| stage.as_secs_f64());
     });
     // What a step must move at least once: connectivity and reference of the elements; of the
     // nodes displacement, velocity and force read and written, inverse mass read.
     let bytes =
         (solid.bytes() as f64 + nodes as f64 * (6.0 * size_of::<Padded>() as f64 + 8.0)) / elements;
+    // And compute: its elements, and of each node v += dt/m f, u += dt v.
+    let flops = (solid.flops() as f64 + 12.0 * nodes as f64) / elements;
     let per = |seconds: f64| seconds / REPEATS as f64 / elements * 1e9;
-    let roofline = bytes / bandwidth; // ns: bytes over GB/s
+    // ns: bytes over GB/s, flops over GFLOP/s
+    let roofline = (bytes / bandwidth).max(flops / peak);
+    let [internal, contact, boundary, moved] = stages;
+    let total = internal + contact + boundary + moved;
     Ok(json!({
         "threads": threads,
         "kernels": kernels.name(),
         "elements": elements as u64,
         "bandwidth_gb_s": bandwidth,
+        "peak_gflop_s": peak,
         "kernel_ns_per_element": per(kernel),
         "step_ns_per_element": per(step),
-        "contact_fraction": contact * REPEATS as f64 / step,
+        "internal_force_fraction": internal / total,
+        "contact_fraction": contact / total,
+        "boundary_fraction": boundary / total,
+        "nodes_fraction": moved / total,
         "bytes_per_element": bytes,
+        "flops_per_element": flops,
+        "congruent_fraction": solid.congruent() as f64 / elements,
+        "roofline_ns_per_element": roofline,
         "roofline_fraction": roofline / per(step),
+        "time_loop_bytes_per_element": simulation.bytes() as f64 / elements,
     }))
 }
 
@@ -97,22 +131,4 @@ fn median(mut work: impl FnMut()) -> f64 {
         .collect();
     times.sort_by(f64::total_cmp);
     times[SAMPLES / 2]
-}
-
-/// STREAM triad a = b + s c over arrays far larger than the caches (GB/s).
-fn triad() -> f64 {
-    const N: usize = 1 << 24;
-    const CHUNK: usize = 1 << 16;
-    let (b, c) = (vec![1.0f64; N], vec![2.0f64; N]);
-    let mut a = vec![0.0f64; N];
-    let seconds = median(|| {
-        a.par_chunks_mut(CHUNK).zip(b.par_chunks(CHUNK)).zip(c.par_chunks(CHUNK)).for_each(
-            |((a, b), c)| {
-                a.iter_mut().zip(b).zip(c).for_each(|((a, b), c)| *a = b + 0.5 * c);
-            },
-        );
-    });
-    // Three streams; the read for ownership of the written one is not counted, as is the custom.
-    assert!(a[N - 1] == 2.0);
-    24.0 * N as f64 / seconds / 1e9
 }

@@ -4,7 +4,7 @@
 //! ([`load`]), checked against the table of keys ([`keys`]) and against itself, and resolved so
 //! that every default is written out. [`mod@run`] then takes the resolved case to its results.
 
-pub mod bench;
+mod bench;
 mod bodies;
 mod check;
 pub mod error;
@@ -37,7 +37,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use bench::bench;
+pub use bench::{BlockElement, bench, bench_block};
 pub use error::{CaseError, KeyError};
 pub use json_schema::json_schema;
 pub use load::error_at_key;

@@ -9,7 +9,7 @@ use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
 use crate::sweep::SweepArgs;
 use crate::verify::VerifyArgs;
-use case::Level;
+use case::{BlockElement, Level};
 use clap::{ArgAction, Parser, Subcommand};
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
@@ -104,8 +104,13 @@ pub enum Command {
         creepage verify --quick --json > verify.json"
     )]
     Verify(VerifyArgs),
-    /// Measure the element kernel and whole step on this machine
-    #[command(after_help = "Example:\n  creepage bench --threads 2 --json")]
+    /// Measure the element kernel and whole step on this machine, beside what its memory and arithmetic
+    /// allow
+    #[command(
+        after_help = "Examples:\n  creepage bench --threads 2 --json\n  creepage bench --set \
+        mesh.zone.size=0.5e-3 --set contact.enforcement='\"exact\"'\n  creepage bench --block 48 \
+        --element full --threads 1"
+    )]
     Bench(BenchArgs),
 }
 
@@ -161,6 +166,30 @@ pub struct BenchArgs {
     /// Instruction set of the element kernels [default: the best of this machine]
     #[arg(long, value_name = "avx512|avx2|portable", value_parser = kernels)]
     pub kernels: Option<Level>,
+    /// Set a key of the reference case, for example mesh.zone.size=2e-3; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub sets: Vec<String>,
+    /// Instead of the reference case, a free block of N x N x N elements
+    #[arg(long, value_name = "N", value_parser = edge, conflicts_with = "sets")]
+    pub block: Option<usize>,
+    /// Elements of the block
+    #[arg(long, value_name = "one-point|full", value_parser = element, requires = "block",
+        default_value = "one-point")]
+    pub element: BlockElement,
+}
+
+fn edge(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=400) => Ok(n),
+        _ => Err("a whole number from 1 to 400 is needed".into()),
+    }
+}
+
+fn element(text: &str) -> Result<BlockElement, String> {
+    [BlockElement::OnePoint, BlockElement::Full]
+        .into_iter()
+        .find(|element| element.name() == text)
+        .ok_or_else(|| "one of one-point, full is needed".into())
 }
 
 fn kernels(text: &str) -> Result<Level, String> {

@@ -157,7 +157,12 @@ fn check_mesh_file(out: &Path) -> Result<(), Failure> {
 }
 
 fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
-    let found = case::bench(options.threads.unwrap_or_else(all_cores), options.kernels)?;
+    let threads = options.threads.unwrap_or_else(all_cores);
+    let found = match options.block {
+        Some(n) => case::bench_block(n, options.element, threads, options.kernels)?,
+        None => case::bench(threads, options.kernels, &options.sets)
+            .map_err(|error| placed(error, Path::new("reference.toml"), &options.sets))?,
+    };
     if args.json {
         report::print_json(&found);
     } else if !args.quiet {
