@@ -1,5 +1,6 @@
 //! Chores: `cargo xtask validate`.
 
+mod kernels;
 mod links;
 mod validate;
 
@@ -18,7 +19,7 @@ struct Args {
 #[derive(Debug, Subcommand)]
 enum Chore {
     /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
-    /// the case files, a smoke run with the checks of its files
+    /// the case files, the kernels' instructions, a smoke run with the checks of its files
     Validate,
 }
 

@@ -21,13 +21,14 @@ pub fn validate() -> ExitCode {
     // Asked at run time: clones that share a target folder share this program as well.
     let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
     let root = Path::new(&home).parent().unwrap_or(Path::new("."));
-    let steps: [(&str, Step); 9] = [
+    let steps: [(&str, Step); 10] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
         ("documentation", documentation),
         ("tests", tests),
         ("schema", schema),
+        ("kernels", kernels),
         ("smoke run", smoke_run),
         ("report page", report_page),
         ("sweep through Dask", dask),
@@ -113,6 +114,30 @@ fn schema(root: &Path) -> Outcome {
         return Outcome::Failed;
     }
     check_with_python(root, "check_schema.py", &[file, root.join("cases")])
+}
+
+/// The machine code of the element kernels has not grown.
+fn kernels(root: &Path) -> Outcome {
+    use crate::kernels::{Verdict, compare};
+    if !cfg!(target_arch = "x86_64") {
+        return Outcome::Skipped;
+    }
+    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    match compare(&binary, &root.join("benches/kernels.txt")) {
+        Ok(Verdict::Kept) => Outcome::Passed,
+        Ok(Verdict::NotCompared(why)) => {
+            eprintln!("warning: the kernels were not compared: {why}");
+            Outcome::Skipped
+        }
+        Ok(Verdict::Worse(what)) => {
+            what.iter().for_each(|line| eprintln!("error: {line} (benches/kernels.txt)"));
+            Outcome::Failed
+        }
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            Outcome::Failed
+        }
+    }
 }
 
 /// Runs the smallest case and has its files read by the libraries that users read them with.

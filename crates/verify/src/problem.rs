@@ -212,6 +212,12 @@ pub const PROBLEMS: &[Problem] = &[
         run: rolling_dynamic::run,
     },
     Problem {
+        name: "rolling-exact",
+        about: "Steady rolling by explicit dynamics with exact contact, as it is, beside CONTACT",
+        set: Set::Default,
+        run: rolling_dynamic::run_exact,
+    },
+    Problem {
         name: "slider-tables",
         about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
         set: Set::Default,
