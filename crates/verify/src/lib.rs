@@ -26,6 +26,7 @@ mod lysmer;
 mod patch;
 mod perturbation_growth;
 mod shear_column;
+mod shear_column_penalty;
 mod slider_tables;
 mod sliding;
 mod steady_rolling;

@@ -17,7 +17,7 @@
 //! sides is a soft hourglass mode of one-point elements; they are few enough heights wide that such slip stretches them;
 //! and Poisson's ratio is zero, or pressure would push the free sides apart. There is no damping.
 
-use crate::body::{STEEL, at_rest, contact_material};
+use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::{Convergence, Sample};
 use crate::dispersion::Sliding;
 use crate::problem::{Cause, Outcome, Size};
@@ -28,12 +28,9 @@ use contact::{
 use dynamics::{Fixed, Setup, Simulation};
 use mesh::Padded;
 use nalgebra::{Complex, Matrix2, Vector2};
-use solid::{Level, Material, Solid, Viscosity, Volumetric};
+use solid::{Level, Solid, Viscosity, Volumetric};
 use std::f64::consts::PI;
 
-/// Steel to motion out of the plane, which knows the shear modulus and the density only.
-const BODY: Material =
-    Material { young: STEEL.young / (1.0 + STEEL.poisson), poisson: 0.0, density: STEEL.density };
 /// Part of 1 GPa that presses the blocks; speeds and memory are this part too.
 const SCALE: f64 = 1e-6;
 const PRESSURE: f64 = 1e9 * SCALE;
@@ -110,8 +107,8 @@ struct Mode {
 impl Mode {
     fn new(speed: f64, distance: f64, wavelength: f64) -> Result<Self, Cause> {
         let sliding = Sliding {
-            wave_speed: BODY.c_s(),
-            impedance: 0.5 * BODY.density * BODY.c_s(),
+            wave_speed: SHEARED.c_s(),
+            impedance: 0.5 * SHEARED.density * SHEARED.c_s(),
             falling: -PRESSURE * LAW.slope(speed),
             delay: distance / speed,
         };
@@ -164,7 +161,7 @@ impl Mode {
             .zip(&table.area)
             .map(|(&n, area)| area * (self.wave_number * reference[n as usize][0]).cos())
             .collect();
-        let radians = LONGEST / (self.wave_number * BODY.c_s());
+        let radians = LONGEST / (self.wave_number * SHEARED.c_s());
         let end = radians.min(GROWN / self.growth.re);
         let mut history = Vec::with_capacity((end / simulation.dt()) as usize + 1);
         while simulation.time() < end {
@@ -197,14 +194,14 @@ impl Mode {
         // round-off there would be a gap, and its closing a blow
         lower.nodes.iter_mut().filter(|x| x[2].abs() < 0.5 * h).for_each(|x| x[2] = 0.0);
         let mesh = mesh::join(&[upper, lower]);
-        let mut setup = at_rest(&mesh, BODY, 0.67, None)?;
-        let bodies = [BODY; 2];
+        let mut setup = at_rest(&mesh, SHEARED, 0.67, None)?;
+        let bodies = [SHEARED; 2];
         let viscosity = Viscosity::default();
         setup.solid = Solid::new(&mesh, &bodies, Volumetric::Full, viscosity, Level::detect())?;
 
-        let shear = BODY.shear();
+        let shear = SHEARED.shear();
         let stress = LAW.mu(self.speed) * PRESSURE;
-        let approach = PRESSURE * h / BODY.young;
+        let approach = PRESSURE * h / SHEARED.young;
         let before = (-0.5 * setup.dt * self.growth).exp();
         for (body, side) in [(0, 1.0), (1, -1.0)] {
             for n in mesh.bodies[body].nodes.clone() {
@@ -240,7 +237,7 @@ impl Mode {
             }
         }
 
-        let material = contact_material(&BODY);
+        let material = contact_material(&SHEARED);
         let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
         let law = Begun {
             law: Remembering { steady: LAW, memory: self.memory },
