@@ -17,8 +17,8 @@
 //!
 //! - For T = 0 and R > 1, `q = 1/sqrt(R^2 - 1)`: growth with k without bound, the law alone is ill-posed. For
 //!   R < 1, `q = ±i/sqrt(1 - R^2)`: waves that neither grow nor decay, whatever they radiate.
-//! - With memory growth is bounded by that of the uniform disturbance, `(R - 1)/T`, and falls as
-//!   `R^2/T^3` where `T >> R`: short waves hardly grow.
+//! - With memory growth is bounded: that of long waves tends to `(R - 1)/T`, that of short ones, `T >> R`, falls as
+//!   `R^2/T^3`.
 //! - But *they never decay*. On the imaginary axis the root on the left is real for |q| < 1 and imaginary beyond
 //!   (with the sign of q, by radiation), and neither fits the right-hand side for any T > 0: no root crosses the axis.
 //!   As T goes to 0 there are two roots on the right of it, for R > 1 and for R < 1 (where the pair
@@ -30,8 +30,9 @@ use nalgebra::{Complex, Matrix4};
 /// What a disturbance of steady sliding feels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sliding {
-    /// Shear wave speed (m/s) and impedance `Z = rho c_s/2` of both bodies in series (Pa s/m).
+    /// Shear wave speed `c_s` (m/s).
     pub wave_speed: f64,
+    /// Impedance `Z = rho c_s/2` of both bodies in series (Pa s/m).
     pub impedance: f64,
     /// `-p mu'(V)`, what friction loses with slip speed (Pa s/m).
     pub falling: f64,

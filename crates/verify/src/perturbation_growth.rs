@@ -3,7 +3,7 @@
 //! The theory stands in [`crate::dispersion`]. Two blocks slide past one another across the plane of the
 //! mesh. A quarter of the wavelength is meshed: the end x = 0 is a mirror plane, on the other the mode is
 //! zero, and as on the far ends the nodes there move on at the steady speed. So the mode is the longest
-//! wave that fits; uniform sliding, which grows faster than any wave, does not. The start is the
+//! wave that fits; a change of uniform sliding, which would outgrow it for R > 1, does not. The start is the
 //! steady state and a hundred-thousandth of the mode that grows fastest by theory, in displacement, velocity and
 //! coefficient of friction. Measured is the part of the slip speed along cos(k x). A mode that were not
 //! the solver's own would change until it is; the first quarter of the run is left for that. A real root is the slope of
@@ -42,10 +42,10 @@ const CASES: [[f64; 3]; 10] = [
     [0.4, 2.0, 20.0],
     [0.4, 5.0, 20.0],
     [0.4, 10.0, 20.0],
-    [0.4, 1.0, 40.0],
-    [0.4, 2.0, 40.0],
-    [0.4, 5.0, 40.0],
-    [0.4, 10.0, 40.0],
+    [0.4, 1.0, 30.0],
+    [0.4, 2.0, 30.0],
+    [0.4, 5.0, 30.0],
+    [0.4, 10.0, 30.0],
     [0.8, 0.5, 40.0],
     [0.8, 2.0, 40.0],
 ];
