@@ -9,6 +9,10 @@ use solid::{Element, Level, Material, Solid, SolidError, Viscosity};
 /// The steel of the ladder.
 pub(crate) const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 
+/// Steel to shear, without lateral strain under pressure: that would push free sides apart.
+pub(crate) const SHEARED: Material =
+    Material { young: STEEL.young / (1.0 + STEEL.poisson), poisson: 0.0, density: STEEL.density };
+
 /// Lanczos steps for the largest frequency and the margin on it, as in rolling runs.
 const LANCZOS: usize = 40;
 const MARGIN: f64 = 1.01;

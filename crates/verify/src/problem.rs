@@ -2,8 +2,8 @@
 
 use crate::{
     Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker,
-    lamb, lysmer, patch, rolling_dynamic, shear_column, slider_tables, sliding, steady_rolling,
-    waves,
+    lamb, lysmer, patch, perturbation_growth, rolling_dynamic, shear_column, shear_column_penalty,
+    slider_tables, sliding, steady_rolling, waves,
 };
 use thiserror::Error;
 
@@ -126,6 +126,18 @@ pub const PROBLEMS: &[Problem] = &[
         about: "Falling friction between two half-spaces sheared in one dimension: both jumps",
         set: Set::Default,
         run: shear_column::run,
+    },
+    Problem {
+        name: "shear-column-penalty",
+        about: "The same by penalty and friction of the step before: what refinement at one k_t tends to",
+        set: Set::Default,
+        run: shear_column_penalty::run,
+    },
+    Problem {
+        name: "perturbation-growth",
+        about: "A disturbance of steady sliding under falling friction with memory: how fast it grows",
+        set: Set::Default,
+        run: perturbation_growth::run,
     },
     Problem {
         name: "interface-patch",

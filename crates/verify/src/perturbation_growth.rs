@@ -1,0 +1,330 @@
+//! Growth of a disturbance of steady sliding under falling friction with memory.
+//!
+//! The theory stands in [`crate::dispersion`]. Two blocks slide past one another across the plane of the
+//! mesh. A quarter of the wavelength is meshed: the end x = 0 is a mirror plane, on the other the mode is
+//! zero, and as on the far ends the nodes there move on at the steady speed. So the mode is the longest
+//! wave that fits; a change of uniform sliding, which would outgrow it for R > 1, does not. The start is the
+//! steady state and a hundred-thousandth of the mode that grows fastest by theory, in displacement, velocity and
+//! coefficient of friction. Measured is the part of the slip speed along cos(k x). A mode that were not
+//! the solver's own would change until it is; the first quarter of the run is left for that. A real root is the slope of
+//! the logarithm, a complex one follows from the recurrence that any `Re(A exp(q t))` obeys (Prony).
+//!
+//! Eq (8) as between steel bodies at 1 GPa with k = 6 s/m. The blocks bear a millionth of that with friction that falls
+//! as much faster over speeds and distances as much smaller: the same equation, with strains that stay linear. Numbers are
+//! given as at 1 GPa.
+//!
+//! What else could grow is kept out: elements are fully integrated, for a mode of opposite slip on the two free
+//! sides is a soft hourglass mode of one-point elements; they are few enough heights wide that such slip stretches them;
+//! and Poisson's ratio is zero, or pressure would push the free sides apart. There is no damping.
+
+use crate::body::{SHEARED, at_rest, contact_material};
+use crate::convergence::{Convergence, Sample};
+use crate::dispersion::Sliding;
+use crate::problem::{Cause, Outcome, Size};
+use crate::row::Row;
+use contact::{
+    ExactContact, ExactSettings, Exponential, FrictionLaw, Memory, NodeFriction, Place, Remembering,
+};
+use dynamics::{Fixed, Setup, Simulation};
+use mesh::Padded;
+use nalgebra::{Complex, Matrix2, Vector2};
+use solid::{Level, Solid, Viscosity, Volumetric};
+use std::f64::consts::PI;
+
+/// Part of 1 GPa that presses the blocks; speeds and memory are this part too.
+const SCALE: f64 = 1e-6;
+const PRESSURE: f64 = 1e9 * SCALE;
+const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 / SCALE };
+
+/// Sliding speed (m/s), memory (um) and wavelength (mm), as at 1 GPa. At 0.4 m/s R = 7.8, at 0.8 m/s R = 0.7.
+const CASES: [[f64; 3]; 10] = [
+    [0.4, 1.0, 20.0],
+    [0.4, 2.0, 20.0],
+    [0.4, 5.0, 20.0],
+    [0.4, 10.0, 20.0],
+    [0.4, 1.0, 30.0],
+    [0.4, 2.0, 30.0],
+    [0.4, 5.0, 30.0],
+    [0.4, 10.0, 30.0],
+    [0.8, 0.5, 40.0],
+    [0.8, 2.0, 40.0],
+];
+
+/// Slip of the disturbance over that of steady sliding.
+const SEED: f64 = 1e-5;
+/// Elements a wavelength and a length 1/a of decay, at refinement 1.
+const PER_WAVE: f64 = 40.0;
+const PER_DECAY: f64 = 5.0;
+/// Depth of the blocks: what the far ends send back is `exp(-DEPTH)` of the mode.
+const DEPTH: f64 = 16.0;
+/// Width of the elements over their height.
+const WIDE: f64 = 10.0;
+/// The run ends when the mode has grown by e to this power, or after so many radians of a shear wave
+/// along the interface.
+const GROWN: f64 = 4.0;
+const LONGEST: f64 = 300.0;
+
+const SOURCE: &str = "linear stability of sliding between half-spaces (dispersion.rs)";
+
+pub(crate) fn run(size: Size) -> Outcome {
+    let refinements: &[f64] = match size {
+        Size::Quick => &[1.0],
+        Size::Full => &[0.5, 1.0, 2.0],
+    };
+    let mut rows = Vec::new();
+    for [speed, memory, wavelength] in CASES {
+        let mode = Mode::new(speed * SCALE, memory * 1e-6 * SCALE, wavelength * 1e-3)?;
+        let mut found = Vec::new();
+        for &refinement in refinements {
+            found.push((mode.cell(refinement), mode.measure(refinement)?));
+        }
+        let case = format!("V {speed} m/s, d_c {memory} um, wavelength {wavelength} mm");
+        let mut row = |what: &str, exact: f64, of: fn(&Complex<f64>) -> f64| {
+            let study = Convergence::new(found.iter().map(|(h, q)| (*h, of(q))), 2.0);
+            let meshes: Vec<Sample> = study.samples().to_vec();
+            let row = Row::asked(format!("{case}: {what}"), [exact, study.finest()], 0.1, SOURCE);
+            rows.push(Row { meshes, order: study.order(), ..row });
+        };
+        row("growth rate (1/s)", mode.growth.re, |q| q.re);
+        // beside the point where two real roots meet, a mesh may still have the two
+        if mode.growth.im > 0.5 * mode.growth.re {
+            row("frequency (rad/s)", mode.growth.im, |q| q.im);
+        }
+    }
+    Ok(rows)
+}
+
+/// The fastest growing mode of a wave number; in displacement `±D/2 cos(k x) exp(q t - a |z|)`, whose slip
+/// speed at t = 0 is `SEED` V.
+struct Mode {
+    speed: f64,
+    memory: Memory,
+    wave_number: f64,
+    growth: Complex<f64>,
+    decay: Complex<f64>,
+}
+
+impl Mode {
+    fn new(speed: f64, distance: f64, wavelength: f64) -> Result<Self, Cause> {
+        let sliding = Sliding {
+            wave_speed: SHEARED.c_s(),
+            impedance: 0.5 * SHEARED.density * SHEARED.c_s(),
+            falling: -PRESSURE * LAW.slope(speed),
+            delay: distance / speed,
+        };
+        let wave_number = 2.0 * PI / wavelength;
+        let growth = sliding.growth(wave_number).ok_or("no mode grows")?;
+        let decay = sliding.decay(wave_number, growth);
+        // the floor is below any speed of the run
+        let memory = Memory { distance, floor: 0.5 * speed };
+        Ok(Self { speed, memory, wave_number, growth, decay })
+    }
+
+    /// A quarter of the wavelength (m).
+    fn width(&self) -> f64 {
+        0.5 * PI / self.wave_number
+    }
+
+    /// Elements along it.
+    fn cells(&self, refinement: f64) -> usize {
+        let decay = PER_DECAY * self.decay.re * self.width();
+        (refinement * decay.max(0.25 * PER_WAVE)).ceil() as usize
+    }
+
+    /// Edge of the elements (m).
+    fn cell(&self, refinement: f64) -> f64 {
+        self.width() / self.cells(refinement) as f64
+    }
+
+    /// The amplitude D of slip (m).
+    fn slip(&self) -> Complex<f64> {
+        SEED * self.speed / self.growth
+    }
+
+    /// The mode's coefficient of friction at x = 0 and t = 0.
+    fn friction(&self) -> f64 {
+        let delayed = 1.0 + self.growth * (self.memory.distance / self.speed);
+        (LAW.slope(self.speed) * SEED * self.speed / delayed).re
+    }
+
+    /// The root that a run shows.
+    fn measure(&self, refinement: f64) -> Result<Complex<f64>, Cause> {
+        let mut simulation = Simulation::new(self.sliding(refinement)?);
+        let mut table = match simulation.contact() {
+            Some(contact) => contact.nodal_table(0),
+            None => return Err("no contact".into()),
+        };
+        let reference = simulation.solid().reference();
+        let shape: Vec<f64> = table
+            .nodes
+            .iter()
+            .zip(&table.area)
+            .map(|(&n, area)| area * (self.wave_number * reference[n as usize][0]).cos())
+            .collect();
+        let radians = LONGEST / (self.wave_number * SHEARED.c_s());
+        let end = radians.min(GROWN / self.growth.re);
+        let mut history = Vec::with_capacity((end / simulation.dt()) as usize + 1);
+        while simulation.time() < end {
+            let report = simulation.step(false);
+            if let Some(contact) = simulation.contact() {
+                contact.nodal(&mut table);
+            }
+            if report.contact.sticking > 0 {
+                return Err(format!("nodes stick after {:e} s", report.time).into());
+            }
+            let beyond = table.slip_velocity.iter().map(|s| s[1] - self.speed);
+            let along: f64 = shape.iter().zip(beyond).map(|(w, s)| w * s).sum();
+            history.push(along);
+        }
+        let settled = &history[history.len() / 4..];
+        if self.growth.im == 0.0 {
+            return Ok(slope(settled, simulation.dt()).into());
+        }
+        Ok(prony(settled, self.growth, simulation.dt()))
+    }
+
+    /// Steady sliding with the mode.
+    fn sliding(&self, refinement: f64) -> Result<Setup, Cause> {
+        let (cells, h) = (self.cells(refinement), self.cell(refinement));
+        let deep = (0.5 * DEPTH / (self.decay.re * h)).ceil() as usize;
+        let size = [self.width(), WIDE * h, deep as f64 * h];
+        let upper = mesh::block([cells, 1, deep], size);
+        let mut lower = upper.clone();
+        lower.nodes.iter_mut().for_each(|x| x[2] -= size[2]);
+        // round-off there would be a gap, and its closing a blow
+        lower.nodes.iter_mut().filter(|x| x[2].abs() < 0.5 * h).for_each(|x| x[2] = 0.0);
+        let mesh = mesh::join(&[upper, lower]);
+        let mut setup = at_rest(&mesh, SHEARED, 0.67, None)?;
+        let bodies = [SHEARED; 2];
+        let viscosity = Viscosity::default();
+        setup.solid = Solid::new(&mesh, &bodies, Volumetric::Full, viscosity, Level::detect())?;
+
+        let shear = SHEARED.shear();
+        let stress = LAW.mu(self.speed) * PRESSURE;
+        let approach = PRESSURE * h / SHEARED.young;
+        let before = (-0.5 * setup.dt * self.growth).exp();
+        for (body, side) in [(0, 1.0), (1, -1.0)] {
+            for n in mesh.bodies[body].nodes.clone() {
+                let [x, _, z] = mesh.nodes[n];
+                let inside = z.abs() < 0.5 * h;
+                setup.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
+                let down = if inside { 0.0 } else { -side * approach };
+                let half = 0.5 * side * (self.wave_number * x).cos();
+                let mode = half * self.slip() * (-self.decay * z.abs()).exp();
+                setup.displacement[n] = Padded::new([0.0, stress / shear * z + mode.re, down]);
+                let speed = 0.5 * side * self.speed + (mode * self.growth * before).re;
+                setup.velocity[n] = Padded::new([0.0, speed, 0.0]);
+                if (size[0] - x).min(size[2] - z.abs()) < 0.5 * h {
+                    // no force changes the velocity of what drives the blocks
+                    setup.mass[n] = f64::INFINITY;
+                    setup.velocity[n] = Padded::new([0.0, 0.5 * side * self.speed, 0.0]);
+                    // and contact, which has no say there, is to leave it alone
+                    if inside {
+                        setup.displacement[n].0[2] = side * 1e-6 * approach;
+                    }
+                }
+            }
+        }
+        // The free sides would have to carry the complementary shear. What its couple does to the surfaces
+        // is taken away, or pressure would differ from one side to the other.
+        for hex in &mesh.hexes {
+            for &node in hex {
+                let [_, y, z] = mesh.nodes[node as usize];
+                if z.abs() < 0.5 * h {
+                    let out = if y > 0.0 { 1.0 } else { -1.0 };
+                    setup.load.forces.push((node, [0.0, 0.0, 0.25 * out * stress * h * h]));
+                }
+            }
+        }
+
+        let material = contact_material(&SHEARED);
+        let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
+        let law = Begun {
+            law: Remembering { steady: LAW, memory: self.memory },
+            steady: LAW.mu(self.speed),
+            mode: self.friction(),
+            wave_number: self.wave_number,
+        };
+        let settings = ExactSettings { slave: Some(0), curvature: false };
+        let surfaces = surfaces.map(|s| (s, material));
+        setup.contact =
+            Some(Box::new(ExactContact::new(&mesh, surfaces, &settings, Box::new(law))?));
+        Ok(setup)
+    }
+}
+
+/// Friction with memory that begins in the state of a mode instead of at rest.
+#[derive(Debug)]
+struct Begun {
+    law: Remembering<Exponential>,
+    /// Coefficient of steady sliding, and the mode's at x = 0.
+    steady: f64,
+    mode: f64,
+    wave_number: f64,
+}
+
+impl NodeFriction for Begun {
+    fn begin(&self, at: &Place) -> [f64; 2] {
+        [self.steady + self.mode * (self.wave_number * at.position[0]).cos(), 0.0]
+    }
+
+    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+        self.law.advance(state, slip_speed, at, dt)
+    }
+
+    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+        self.law.mu(state, slip_speed, at)
+    }
+
+    fn mu_static(&self) -> f64 {
+        self.law.mu_static()
+    }
+}
+
+/// Rate (1/s) of the exponential nearest to `values`, one every `dt`: the least-squares slope of the logarithm.
+fn slope(values: &[f64], dt: f64) -> f64 {
+    let middle = 0.5 * (values.len() as f64 - 1.0);
+    let (mut along, mut squares) = (0.0, 0.0);
+    for (i, value) in values.iter().enumerate() {
+        let t = i as f64 - middle;
+        along += t * value.abs().ln();
+        squares += t * t;
+    }
+    along / squares / dt
+}
+
+/// The q of `Re(A exp(q t))` nearest to `values`, one every `dt`: with `e = exp(q m dt)` three values m steps apart
+/// obey `A_2 - 2 Re(e) A_1 + |e|^2 A_0 = 0`, here in the sense of least squares; m is about a radian
+/// of `expected`.
+fn prony(values: &[f64], expected: Complex<f64>, dt: f64) -> Complex<f64> {
+    let m = (1.0 / (expected.norm() * dt)).ceil() as usize;
+    let mut normal = Matrix2::zeros();
+    let mut right = Vector2::zeros();
+    for i in 0..values.len().saturating_sub(2 * m) {
+        let row = Vector2::new(2.0 * values[i + m], -values[i]);
+        normal += row * row.transpose();
+        right += row * values[i + 2 * m];
+    }
+    let Some(found) = normal.lu().solve(&right) else { return Complex::new(f64::NAN, f64::NAN) };
+    let (real, square) = (found[0], found[1]);
+    let e = real + Complex::from(real * real - square).sqrt();
+    e.ln() / (m as f64 * dt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_of_a_history_is_found() {
+        let dt = 0.01;
+        for q in [Complex::new(0.05, 0.8), Complex::new(0.6, 0.08), Complex::new(-0.1, 1.0)] {
+            let values: Vec<f64> = (0..1500)
+                .map(|i| (Complex::new(0.3, 0.7) * (q * dt * f64::from(i)).exp()).re)
+                .collect();
+            assert!((prony(&values, 1.1 * q, dt) - q).norm() < 1e-6, "{q}");
+        }
+        let values: Vec<f64> = (0..300).map(|i| -0.2 * (3.0 * dt * f64::from(i)).exp()).collect();
+        assert!((slope(&values, dt) - 3.0).abs() < 1e-12);
+    }
+}

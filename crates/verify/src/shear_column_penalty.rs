@@ -1,0 +1,132 @@
+//! The shear column of [`crate::shear_column`] with penalty springs and friction of the step before, as the
+//! explicit codes have it: does it tend to Eq (8) as the mesh and the step are refined at one k_t?
+//!
+//! To one half of it. In slip the spring is of no matter, and the speed after the jump and the stress at which slip ends are
+//! those of the law. But a stuck interface gives, by the speed `s_e = (d tau/dt)/k_t` of its spring as the stress
+//! rises, and friction that looks at nodal velocities takes that for slip. The stress that the stuck interface
+//! could bear, of which `Z s_e` is not sent on, ends stick at
+//!
+//! `tau = mu(s_e) p + Z s_e`, not at mu_S p,
+//!
+//! whatever mesh and step; at mu_S p as k_t goes to infinity only.
+
+use crate::body::SHEARED;
+use crate::convergence::Convergence;
+use crate::problem::{Cause, Outcome, Size};
+use crate::row::Row;
+use crate::shear_column::{
+    HOLD, Interface, LAW, LENGTH, PEAK, PRESSURE, RISE, arriving, balance, columns, impedance,
+    least,
+};
+use contact::FrictionLaw;
+use dynamics::Simulation;
+
+/// LS-DYNA's default for steel elements of 1 mm (N/m^3, both passes), ten and a hundred times as much.
+const STIFFNESS: [f64; 3] = [3.5e13, 3.5e14, 3.5e15];
+/// Elements of the mesh on which time is refined, and by how much.
+const REFINED: (usize, f64) = (400, 16.0);
+const ASKED: (f64, &str) = (0.01, "as asked of exact contact: 1 %");
+const LAWS: &str = "tau - Z s = mu(s) p with perfect delay (Ionescu and Paumier 1994)";
+const SPRINGS: &str = "mu(s_e) p + Z s_e, s_e = (d tau/dt)/k_t: the spring's give counts as slip";
+const FACT: (f64, &str) = (0.0, "a fact, 1 for yes");
+
+/// What the interface does.
+#[derive(Clone, Copy)]
+struct Found {
+    /// Stress over p at the onset of slip and at its end, that of the stuck interface.
+    onset: f64,
+    end: f64,
+    /// Slip velocity over that of the balance while the stress holds, mean with the weight sin^2.
+    speed: f64,
+}
+
+pub(crate) fn run(size: Size) -> Outcome {
+    let meshes: &[usize] = match size {
+        Size::Quick => &[200, 400, 800],
+        Size::Full => &[200, 400, 800, 1600],
+    };
+    let [soft, middle, stiff] = STIFFNESS;
+    let found =
+        meshes.iter().map(|&n| shear(n, soft, 1.0)).collect::<Result<Vec<Found>, Cause>>()?;
+    let study = |of: fn(&Found) -> f64| {
+        let size = |&n: &usize| LENGTH / n as f64;
+        Convergence::with_known_order(meshes.iter().map(size).zip(found.iter().map(of)), 1.0)
+    };
+    let with_meshes =
+        |row: Row, study: &Convergence| Row { meshes: study.samples().to_vec(), ..row };
+
+    let (speed, onset) = (study(|f| 14.19 * f.speed), study(|f| f.onset));
+    let jump = "k_t 3.5e13: speed after the jump (m/s at 1 GPa and k = 6 s/m)";
+    let stick = |k: f64| format!("k_t {k:.1e}: stress over p at which stick ends, its own theory");
+    let own = |k: f64, found: f64| {
+        Row::new(stick(k), [spring_onset(k), found], spring_onset(k), ASKED, SPRINGS)
+    };
+    let reached = f64::from(u8::from((onset.finest() / LAW.mu_static - 1.0).abs() < 0.01));
+    let mut rows = vec![
+        with_meshes(Row::new(jump, [14.19, speed.finest()], 14.19, ASKED, LAWS), &speed),
+        Row::converged(
+            "k_t 3.5e13: stress over p at which slip ends",
+            least(),
+            &study(|f| f.end),
+            (0.0, ""),
+            LAWS,
+        ),
+        with_meshes(own(soft, onset.finest()), &onset),
+        Row::new("k_t 3.5e13: whether stick ends at mu_S p", [0.0, reached], 1.0, FACT, SPRINGS),
+    ];
+
+    let (cells, finer) = REFINED;
+    let found = shear(cells, soft, finer)?;
+    let values = [spring_onset(soft), found.onset];
+    let what =
+        "k_t 3.5e13, a sixteenth of the step: stress over p at which stick ends, its own theory";
+    rows.push(Row::new(what, values, values[0], ASKED, SPRINGS));
+
+    let finest = meshes[meshes.len() - 1];
+    for k in [middle, stiff] {
+        rows.push(own(k, shear(finest, k, 1.0)?.onset));
+    }
+    Ok(rows)
+}
+
+/// The stress over p at which a spring of stiffness `k` ends stick.
+fn spring_onset(k: f64) -> f64 {
+    let rise = PEAK * PRESSURE / (RISE * LENGTH / SHEARED.c_s());
+    let give = rise / k;
+    LAW.mu(give) + impedance() * give / PRESSURE
+}
+
+fn shear(cells: usize, k: f64, finer: f64) -> Result<Found, Cause> {
+    let c = SHEARED.c_s();
+    let mut simulation = Simulation::new(columns(cells, Interface::Penalty { k, finer })?);
+    let mut table = match simulation.contact() {
+        Some(contact) => contact.nodal_table(0),
+        None => return Err("no contact".into()),
+    };
+    let [mut weights, mut slip] = [0.0; 2];
+    let (mut onset, mut end) = (f64::NAN, f64::NAN);
+    while simulation.time() < 0.99 * LENGTH / c {
+        let report = simulation.step(false);
+        if let Some(contact) = simulation.contact() {
+            contact.nodal(&mut table);
+        }
+        let share = c * report.time / LENGTH;
+        let slips = table.state.contains(&2);
+        if slips && onset.is_nan() {
+            onset = arriving(share);
+        }
+        if !slips && share > HOLD {
+            end = arriving(share);
+            break;
+        }
+        let phase = (share - RISE) / (HOLD - RISE);
+        if (0.0..1.0).contains(&phase) {
+            let weight = (std::f64::consts::PI * phase).sin().powi(2);
+            let velocities = table.slip_velocity.iter().map(|s| s[1]);
+            slip += weight * velocities.sum::<f64>() / table.slip_velocity.len() as f64;
+            weights += weight;
+        }
+    }
+    let speed = slip.abs() / weights / balance(PEAK);
+    Ok(Found { onset, end, speed })
+}
