@@ -154,7 +154,7 @@ fn shear(cells: usize, z: f64) -> Result<Jumps, Cause> {
     }
     let material = contact_material(&STEEL);
     let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
-    let settings = ExactSettings { slave: Some(0), curvature: false };
+    let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
     let contact = ExactContact::new(
         &mesh,
         surfaces.map(|s| (s, material)),

@@ -259,7 +259,7 @@ fn damped(mesh: &Mesh, kelvin_voigt: f64) -> Result<Solid, Cause> {
 }
 
 fn exact(mesh: &Mesh) -> Result<ExactContact, Cause> {
-    let settings = ExactSettings { slave: Some(0), curvature: false };
+    let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
     let law = Box::new(Coulomb { mu: MU });
     Ok(ExactContact::new(mesh, surfaces(mesh), &settings, law)?)
 }
