@@ -250,6 +250,7 @@ impl Recorder {
             self.means.worst_mismatch = self.means.worst_mismatch.max(mismatch);
         }
         self.means.most_sweeps = self.means.most_sweeps.max(report.contact.sweeps);
+        self.means.integrated += report.contact.integrated as u64;
         self.means.manifold += report.contact.manifold as u64;
         let inside = report.time >= self.evaluate_from;
         if inside {

@@ -37,6 +37,9 @@ const SWEEPS: usize = 100;
 /// sweep found, not on that of the step before: near the end of a branch neighbours could else drive
 /// one another to and fro.
 const SETTLED: usize = 20;
+/// A mortar row far from closing may have moved so much further along the master before its integrals are
+/// taken anew.
+const FAR: f64 = 10.0;
 
 /// Settings of [`ExactContact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +70,8 @@ pub struct ExactContact {
     /// Rows that may carry force in this step, and their legs.
     active: Vec<u32>,
     legs: Vec<Leg>,
+    /// Mortar rows whose integrals were taken in this step.
+    integrated: usize,
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step.
     velocity: [Vec<Vec3>; 2],
     pace: [Vec<f64>; 2],
@@ -105,6 +110,7 @@ impl ExactContact {
             curvature: settings.curvature,
             active: Vec::new(),
             legs: Vec::new(),
+            integrated: 0,
             velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
             pace: [0, 1].map(|s| vec![0.0; zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
@@ -173,7 +179,7 @@ impl ExactContact {
     }
 
     /// The same over the mean of a mortar row, which is integrated where there is none yet or the slave has
-    /// moved along the master.
+    /// moved along the master. Far from closing an older mean serves: its gap is good enough to wait by.
     fn stand_on_mean(
         &mut self,
         row: &mut Row,
@@ -188,11 +194,13 @@ impl ExactContact {
         if !mean.shares.is_empty() {
             let now = mean.standing(sides[1], positions, x);
             old = Some(frame(now.footing.tangents[0], now.normal));
-            standing = (now.stale <= 1.0).then_some(now);
+            let near = row.is_closed() || now.gap < WATCHED * self.search.margin;
+            standing = (now.stale <= if near { 1.0 } else { FAR }).then_some(now);
         }
         let standing = match standing {
             Some(standing) => standing,
             None => {
+                self.integrated += 1;
                 let (face, on_master) =
                     mortar.integrate(sides, positions, row.slave, row.face, mean);
                 row.face = face;
@@ -319,6 +327,20 @@ impl ExactContact {
     }
 }
 
+#[cfg(test)]
+impl ExactContact {
+    /// Room of the lists that a step fills.
+    pub(crate) fn room(&self) -> [usize; 4] {
+        let (mortar, means) = match &self.mortar {
+            Some((mortar, means)) => {
+                (mortar.room(), means.iter().map(|m| m.shares.capacity()).sum())
+            }
+            None => (0, 0),
+        };
+        [self.legs.capacity(), self.active.capacity(), mortar, means]
+    }
+}
+
 impl Contact for ExactContact {
     fn apply(
         &mut self,
@@ -344,6 +366,7 @@ impl Contact for ExactContact {
         let mut active = std::mem::take(&mut self.active);
         active.clear();
         self.legs.clear();
+        self.integrated = 0;
         self.now += 1;
 
         // velocities without contact, rows that may close, the forces of the last step
@@ -372,6 +395,7 @@ impl Contact for ExactContact {
             };
             active.push(i as u32);
         }
+        sums.integrated = self.integrated;
         // Only now: all velocities are free ones.
         for &i in &active {
             let row = &rows[i as usize];

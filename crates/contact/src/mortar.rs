@@ -43,6 +43,9 @@ const LOST: f64 = 0.75;
 /// Segments below this part of the slave face are round-off.
 const SLIVER: f64 = 1e-12;
 
+/// Nodes of the master that a row meets where pitches are alike; room for more is made when needed.
+const NODES: usize = 16;
+
 /// What the integrals over the faces around a slave node gave, and the row follows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Mean {
@@ -178,6 +181,12 @@ impl Mortar {
         Self { curvature, start, around, samples: Vec::new(), met: Vec::new() }
     }
 
+    /// Room of the lists that an integration fills.
+    #[cfg(test)]
+    pub fn room(&self) -> usize {
+        self.samples.capacity() + self.met.capacity()
+    }
+
     fn around(&self, slave: u32) -> std::ops::Range<usize> {
         self.start[slave as usize] as usize..self.start[slave as usize + 1] as usize
     }
@@ -195,6 +204,7 @@ impl Mortar {
     ) -> (u32, bool) {
         let [own, master] = sides;
         mean.shares.clear();
+        mean.shares.reserve(NODES);
         let node = own.nodes[slave as usize];
         let x = positions.at(node);
         let foot = project(master, positions, self.curvature, x, near, 0.0, 0.0).foot;
@@ -394,5 +404,244 @@ fn gather(
             }
             None => shares.push(Share { node: corner.node, weight, gradient }),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::plates::{STEEL, plate, together, tread};
+    use crate::vector::tangential;
+    use mesh::{Mesh, Padded, Surface};
+
+    struct Rig {
+        sides: [ContactSurface; 2],
+        reference: Vec<Padded>,
+        displacement: Vec<Padded>,
+        upper: usize,
+    }
+
+    impl Rig {
+        /// Slaves above masters.
+        fn new(upper: (Mesh, Surface), lower: (Mesh, Surface)) -> Self {
+            let count = upper.0.nodes.len();
+            let (mesh, second) = together(upper.0, lower.0, lower.1);
+            let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+            Self {
+                sides: ContactSurface::both(&mesh, [(&upper.1, STEEL), (&second, STEEL)]).unwrap(),
+                displacement: vec![Padded::ZERO; reference.len()],
+                reference,
+                upper: count,
+            }
+        }
+
+        /// Plates of 8 mm with 5 cells on 4 an edge.
+        fn plates() -> Self {
+            Self::turned(0.0, 1.0, 4)
+        }
+
+        /// 5 cells on 8 mm, on a master turned by `angle`, larger by `factor` and with `cells` an edge.
+        fn turned(angle: f64, factor: f64, cells: usize) -> Self {
+            let low = [4e-3 - 4e-3 * factor; 2];
+            let high = [4e-3 + 4e-3 * factor; 2];
+            let mut rig = Self::new(
+                plate([0.0, 0.0], [8e-3, 8e-3], [5, 5], 0.0, 1e-3, false),
+                plate(low, high, [cells; 2], 0.0, 1e-3, true),
+            );
+            let (sin, cos) = angle.sin_cos();
+            for x in &mut rig.reference[rig.upper..] {
+                let [a, b, z] = x.xyz();
+                let (a, b) = (a - 4e-3, b - 4e-3);
+                *x = Padded::new([4e-3 + cos * a - sin * b, 4e-3 + sin * a + cos * b, z]);
+            }
+            rig
+        }
+
+        fn positions(&self) -> Positions<'_> {
+            Positions { reference: &self.reference, displacement: &self.displacement }
+        }
+
+        /// Moves a body by `to(x)`.
+        fn put(&mut self, body: usize, to: impl Fn(Vec3) -> Vec3) {
+            let range = if body == 0 { 0..self.upper } else { self.upper..self.reference.len() };
+            for i in range {
+                let x = self.reference[i].xyz();
+                self.displacement[i] = Padded::new(sub(to(x), x));
+            }
+        }
+
+        fn means(&self, curvature: bool) -> Vec<Option<Mean>> {
+            let sides = [&self.sides[0], &self.sides[1]];
+            let mut mortar = Mortar::new(sides[0], curvature);
+            let middle = sides[1].faces.len() as u32 / 2;
+            let integrate = |slave| {
+                let mut mean = Mean::default();
+                let (_, on) = mortar.integrate(sides, &self.positions(), slave, middle, &mut mean);
+                on.then_some(mean)
+            };
+            (0..sides[0].nodes.len() as u32).map(integrate).collect()
+        }
+
+        fn standing(&self, slave: usize, mean: &Mean) -> Standing {
+            let positions = self.positions();
+            let x = positions.at(self.sides[0].nodes[slave]);
+            mean.standing(&self.sides[1], &positions, x)
+        }
+    }
+
+    #[test]
+    fn a_uniform_pressure_reaches_the_nodes_of_a_mesh_that_does_not_match_as_one() {
+        let received = |rig: &Rig| {
+            let mut received = vec![0.0; rig.sides[1].nodes.len()];
+            for (mean, area) in rig.means(false).into_iter().zip(&rig.sides[0].area) {
+                for share in mean.unwrap().shares {
+                    received[share.node as usize] += area * share.weight;
+                }
+            }
+            received
+        };
+        let rig = Rig::plates();
+        for (r, area) in received(&rig).iter().zip(&rig.sides[1].area) {
+            assert!((r / area - 1.0).abs() < 1e-12, "{r:e} {area:e}");
+        }
+        // a master turned and larger: nodes of faces that lie wholly under the slaves
+        let rig = Rig::turned(0.3, 1.6, 7);
+        let under = |face: &crate::surface::MasterFace| {
+            let mut corners = face.nodes.iter().map(|&n| rig.reference[n as usize]);
+            corners.all(|x| (0..2).all(|i| x[i] > 0.0 && x[i] < 8e-3))
+        };
+        let found = received(&rig);
+        assert!((found.iter().sum::<f64>() / 64e-6 - 1.0).abs() < 1e-12);
+        let mut whole = 0;
+        for (node, r) in found.iter().enumerate() {
+            let faces = rig.sides[1].faces.iter();
+            let around: Vec<_> = faces.filter(|f| f.local.contains(&(node as u32))).collect();
+            if around.len() == 4 && around.into_iter().all(under) {
+                assert!((r / rig.sides[1].area[node] - 1.0).abs() < 1e-12, "{r:e}");
+                whole += 1;
+            }
+        }
+        assert!(whole >= 4, "{whole}");
+    }
+
+    #[test]
+    fn the_foot_lies_under_the_node_and_weights_add_up_to_one() {
+        let mut rig = Rig::new(
+            tread(0.5, 8e-3, 8e-3, [7, 5], 1e-3),
+            plate([-9e-3, -6e-3], [9e-3, 6e-3], [8, 6], 0.0, 1e-3, true),
+        );
+        rig.put(0, |x| [x[0] + 3e-4, x[1] - 2e-4, x[2] - 5e-6]);
+        for (slave, mean) in rig.means(true).into_iter().enumerate() {
+            let mean = mean.unwrap();
+            let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
+            assert!((sum - 1.0).abs() < 1e-13, "{sum}");
+            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let standing = rig.standing(slave, &mean);
+            let beside = tangential(sub(x, standing.footing.x), standing.normal);
+            assert!(norm(beside) < 1e-15, "{beside:?}");
+            assert!(standing.stale < 1e-9, "{}", standing.stale);
+        }
+    }
+
+    #[test]
+    fn on_a_flat_the_gap_of_a_tread_is_its_height_less_that_of_a_mean_parabola() {
+        // int psi s^2/(2R) over both cells of a node, less s^2/(2R) there, is -h^2/(12 R)
+        let (radius, h) = (0.5, 1e-3);
+        let rig = Rig::new(
+            tread(radius, 4e-3 / radius, 8e-3, [8, 8], 1e-3),
+            plate([-9e-3, -6e-3], [9e-3, 6e-3], [18, 12], 0.0, 1e-3, true),
+        );
+        for (slave, mean) in rig.means(true).into_iter().enumerate() {
+            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            if x[0].abs() > 3.5e-3 || (x[1].abs() - 4e-3).abs() < 1e-9 {
+                continue;
+            }
+            let gap = rig.standing(slave, &mean.unwrap()).gap;
+            let expected = x[2] - h * h / (12.0 * radius);
+            assert!(
+                (gap - expected).abs() < 2e-4 * h * h / (12.0 * radius),
+                "{gap:e} {expected:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_rotation_common_to_both_bodies_changes_neither_gap_nor_age() {
+        let mut rig = Rig::turned(0.3, 1.6, 7);
+        rig.put(0, |x| [x[0], x[1], x[2] + 1e-5]);
+        let means = rig.means(false);
+        let slaves: Vec<usize> = (0..means.len()).step_by(5).collect();
+        let (sin, cos) = 0.7_f64.sin_cos();
+        rig.put(1, |[x, y, z]| [cos * x + sin * z, y, cos * z - sin * x]);
+        rig.put(0, |[x, y, z]| [cos * x + sin * (z + 1e-5), y, cos * (z + 1e-5) - sin * x]);
+        for slave in slaves {
+            let standing = rig.standing(slave, means[slave].as_ref().unwrap());
+            assert!((standing.gap - 1e-5).abs() < 1e-16, "{:e}", standing.gap);
+            assert!(standing.stale < 1e-9 && (standing.normal[0] - sin).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn weights_age_with_motion_along_the_master_and_with_turning_on_it() {
+        let mut rig = Rig::turned(0.3, 1.6, 7);
+        let means = rig.means(false);
+        let slave = 2 * 6 + 2;
+        let mean = means[slave].as_ref().unwrap();
+        let stale = |rig: &Rig| rig.standing(slave, mean).stale;
+        // the smaller face is that of the slaves, 1.6 mm
+        rig.put(0, |x| [x[0] + 0.9 * STALE * 1.6e-3, x[1], x[2]]);
+        assert!((stale(&rig) - 0.9).abs() < 1e-6, "{}", stale(&rig));
+        let centre = rig.reference[rig.sides[0].nodes[slave] as usize].xyz();
+        rig.put(0, |x| axpy(x, 1.0, cross([0.0, 0.0, 0.02], sub(x, centre))));
+        assert!(stale(&rig) > 2.0, "{}", stale(&rig));
+        // away from the master is no motion along it
+        rig.put(0, |x| [x[0], x[1], x[2] + 1e-4]);
+        assert!(stale(&rig) < 1e-9);
+    }
+
+    #[test]
+    fn what_weights_moved_to_first_order_leave_out_is_of_second_order() {
+        let mut rig = Rig::turned(0.3, 1.6, 7);
+        let slave = 2 * 6 + 2;
+        let old = rig.means(false)[slave].clone().unwrap();
+        let mut differ = |shift: f64| {
+            rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
+            let new = rig.means(false)[slave].clone().unwrap();
+            let mut row = crate::touch::Listed::near(slave as u32, 0);
+            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let standing = rig.standing(slave, &old);
+            let mut legs = Vec::new();
+            crate::row::Row::place(
+                &mut row,
+                &old.shares,
+                &standing.footing,
+                standing.normal,
+                x,
+                &mut legs,
+            );
+            let weight =
+                |node| new.shares.iter().find(|s| s.node == node).map_or(0.0, |s| s.weight);
+            legs.iter().map(|l| (l.weight - weight(l.node)).abs()).fold(0.0, f64::max)
+        };
+        let [small, large] = [0.005, 0.01].map(|s| differ(s * 1.6e-3));
+        assert!(large < 2e-4, "{large:e}");
+        assert!((large / small - 4.0).abs() < 0.4, "{large:e} {small:e}");
+    }
+
+    #[test]
+    fn nodes_over_the_border_are_open_once_most_of_their_area_is_beside_the_master() {
+        let mut rig = Rig::plates();
+        rig.put(0, |x| [x[0] + 0.6e-3, x[1], x[2]]);
+        let last = |rig: &Rig| rig.means(false)[2 * 6 + 5].clone();
+        let mean = last(&rig).unwrap();
+        let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
+        assert!((sum - 1.0).abs() < 1e-13);
+        rig.put(0, |x| [x[0] + 1.2e-3, x[1], x[2]]);
+        assert!(last(&rig).is_none());
+        rig.put(0, |x| [x[0] + 20e-3, x[1], x[2]]);
+        assert!(rig.means(false).iter().all(Option::is_none));
+        rig.put(0, |x| [x[0] + f64::NAN, x[1], x[2]]);
+        assert!(rig.means(false).iter().all(Option::is_none));
     }
 }

@@ -257,3 +257,46 @@ fn falling_friction_of_the_same_instant_obeys_equation_8_and_counts_where_it_has
     }
     assert!(slips > 100 && manifold > 0, "{slips} {manifold}");
 }
+
+#[test]
+fn mortar_rows_slide_over_a_mesh_that_does_not_match_without_gap_moment_or_allocation() {
+    // at 300 m/s weights grow old every other step
+    let mut masses = Masses::new(
+        plate([-3e-3, -3e-3], [3e-3, 3e-3], [7, 7], 0.0, 1e-3, false),
+        plate([-9e-3, -6e-3], [9e-3, 6e-3], [17, 11], 0.0, 1e-3, true),
+        0,
+        Rows::Mortar,
+        Coulomb { mu: 0.3 },
+    );
+    // the lower plate is held and stays flat
+    masses.inverse_mass[masses.upper..].fill(0.0);
+    masses.velocity[..masses.upper].fill(Padded::new([300.0, 70.0, 0.0]));
+    let given = |body: usize, _: Vec3| if body == 0 { [0.0, 0.0, -200.0] } else { [0.0; 3] };
+    let (mut integrated, mut room) = (0, None);
+    for n in 0..60 {
+        let positions: Vec<Vec3> = masses
+            .reference
+            .iter()
+            .zip(&masses.displacement)
+            .map(|(x, u)| add(x.xyz(), u.xyz()))
+            .collect();
+        let sums = masses.step(given);
+        assert_eq!(sums.closed, 64);
+        assert!(sums.friction_ahead > 0.0);
+        assert!(sums.max_penetration < 1e-15, "{:e}", sums.max_penetration);
+        let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
+        for (i, x) in positions.iter().enumerate() {
+            let by_contact = sub(masses.force[i].xyz(), given(usize::from(i >= masses.upper), *x));
+            force = add(force, by_contact);
+            moment = add(moment, cross(*x, by_contact));
+        }
+        assert!(norm(force) <= 1e-12 * sums.normal_force, "{force:?}");
+        assert!(norm(moment) <= 1e-12 * sums.normal_force * 6e-3, "{moment:?}");
+        integrated += sums.integrated;
+        if n == 20 {
+            room = Some(masses.contact.room());
+        }
+    }
+    assert!(integrated > 20 * 64, "{integrated}");
+    assert_eq!(room, Some(masses.contact.room()));
+}
