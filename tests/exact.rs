@@ -4,6 +4,7 @@
 use runs::{Results, load, project, run, small};
 
 const EXACT: &str = "contact.enforcement='exact'";
+const MORTAR: &str = "contact.rows='mortar'";
 const EVERY: &str = "output.history_interval=1";
 
 /// Nodal vectors of a record's field, as lengths.
@@ -21,43 +22,52 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
         "friction.static=0.5",
         "friction.mode='exact'",
     ];
-    let case = load(&project("tests/small.toml"), &sets);
-    let [one, two, three] = [1, 2, 3].map(|threads| run(&case, threads));
-    assert!(one.number("/contact/tangential_force") > 0.0);
-    assert_eq!(one.differing(&two), Vec::<&str>::new());
-    assert_eq!(one.differing(&three), Vec::<&str>::new());
+    for sets in [&sets[..], &[&sets[..], &[MORTAR]].concat()] {
+        let case = load(&project("tests/small.toml"), sets);
+        let [one, two, three] = [1, 2, 3].map(|threads| run(&case, threads));
+        assert!(one.number("/contact/tangential_force") > 0.0);
+        assert_eq!(one.differing(&two), Vec::<&str>::new());
+        assert_eq!(one.differing(&three), Vec::<&str>::new());
+    }
 }
 
 #[test]
 fn energy_balances_and_friction_only_takes() {
-    let run = small(&[EXACT, EVERY]);
-    let error = run.number("/energy/balance_error");
-    assert!(error < 1e-4, "{error:e}");
-    let heat = run.history("friction_dissipated");
-    assert!(heat.windows(2).all(|w| w[1] >= w[0]));
-    assert!(heat.last().unwrap() > &0.0);
-    assert!(run.number("/checks/resultant_mismatch") < 1e-12);
-    assert!(run.number("/exact_contact/most_sweeps") < 40.0);
+    for sets in [&[EXACT, EVERY][..], &[EXACT, EVERY, MORTAR]] {
+        let run = small(sets);
+        let error = run.number("/energy/balance_error");
+        assert!(error < 1e-4, "{error:e}");
+        let heat = run.history("friction_dissipated");
+        assert!(heat.windows(2).all(|w| w[1] >= w[0]));
+        assert!(heat.last().unwrap() > &0.0);
+        assert!(run.number("/checks/resultant_mismatch") < 1e-12);
+        assert!(run.number("/exact_contact/most_sweeps") < 40.0);
+        let integrals = run.number("/exact_contact/mortar_integrals");
+        assert_eq!(integrals > 0.0, sets.contains(&MORTAR));
+    }
 }
 
 #[test]
 fn rolling_starts_from_the_static_preload_without_a_jump() {
     // Ten elements across the patch: with seven (0.5 mm) the force ripples by 0.65 % as nodes pass, with
     // ten by 0.2 %.
-    let run = small(&[
+    let sets = [
         EXACT,
         EVERY,
         "mesh.zone.size=0.35e-3",
         "friction.static=0",
         "drive.creepage=0",
         "evaluate.last=0.002",
-    ]);
-    let rest = run.number("/preload/normal_force");
-    let early = run.history("time").iter().zip(run.history("normal_force"));
-    let early: Vec<f64> = early.filter(|(t, _)| **t <= 0.2e-3).map(|(_, n)| *n).collect();
-    assert!((early[0] / rest - 1.0).abs() < 1e-3, "{}", early[0]);
-    let jump = early.iter().fold(0.0, |worst: f64, n| worst.max((n / rest - 1.0).abs()));
-    assert!(jump < 5e-3, "{jump}");
+    ];
+    for sets in [&sets[..], &[&sets[..], &[MORTAR]].concat()] {
+        let run = small(sets);
+        let rest = run.number("/preload/normal_force");
+        let early = run.history("time").iter().zip(run.history("normal_force"));
+        let early: Vec<f64> = early.filter(|(t, _)| **t <= 0.2e-3).map(|(_, n)| *n).collect();
+        assert!((early[0] / rest - 1.0).abs() < 1e-3, "{}", early[0]);
+        let jump = early.iter().fold(0.0, |worst: f64, n| worst.max((n / rest - 1.0).abs()));
+        assert!(jump < 5e-3, "{jump}");
+    }
 }
 
 #[test]

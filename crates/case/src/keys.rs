@@ -288,6 +288,7 @@ pub const KEYS: &[Key] = &[
         "give the slip speed below which friction adapts in time: 10e-3",
     ),
     key("contact.enforcement", Word(&["penalty", "exact"]), "", "choose one of the words"),
+    key("contact.rows", Word(&["node_to_face", "mortar"]), "", "choose one of the words"),
     key("contact.curvature", Flag, "", "give true or false, without quotes"),
     key("contact.penalty.normal", Stiffness, "-", STIFFNESS_REMEDY),
     key("contact.penalty.tangential", Stiffness, "-", STIFFNESS_REMEDY),

@@ -91,6 +91,9 @@ fn choose(case: &mut Case, layers: &Layers) {
 
 fn write_defaults(case: &mut Case) {
     case.friction.write_defaults(case.contact.enforcement == Enforcement::Exact);
+    if case.contact.enforcement == Enforcement::Exact {
+        case.contact.rows.get_or_insert_default();
+    }
     if case.element.contact_layers == ContactLayers::Full {
         case.element.layers.get_or_insert(sense::LAYERS);
         case.element.volumetric.get_or_insert_default();

@@ -53,4 +53,6 @@ pub(crate) struct Means {
     pub(crate) most_sweeps: usize,
     /// Nodes and steps in which the law of friction had more than one solution.
     pub(crate) manifold: u64,
+    /// Integrals of mortar rows, in all steps.
+    pub(crate) integrated: u64,
 }

@@ -147,8 +147,11 @@ impl Model {
 
     /// Exact contact of disk and bar.
     pub(crate) fn exact_contact(&self, case: &Case) -> Result<ExactContact, RunError> {
-        let settings =
-            ExactSettings { slave: Some(self.slave()), curvature: case.contact.curvature };
+        let settings = ExactSettings {
+            slave: Some(self.slave()),
+            curvature: case.contact.curvature,
+            rows: rows(case),
+        };
         Ok(ExactContact::new(&self.mesh, self.sides(), &settings, friction::law(case)?)?)
     }
 
@@ -188,6 +191,14 @@ fn fully_integrated(case: &Case, mesh: &Mesh) -> Vec<bool> {
 
 fn material(m: crate::schema::Material) -> Material {
     Material { young: m.young, poisson: m.poisson, density: m.density }
+}
+
+/// What the slaves of exact contact meet.
+pub(crate) fn rows(case: &Case) -> contact::Rows {
+    match case.contact.rows.unwrap_or_default() {
+        crate::schema::Rows::NodeToFace => contact::Rows::NodeToFace,
+        crate::schema::Rows::Mortar => contact::Rows::Mortar,
+    }
 }
 
 pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {

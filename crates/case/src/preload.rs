@@ -3,7 +3,7 @@
 pub(crate) mod store;
 
 use crate::hertz::hertz;
-use crate::model::{DISK, Model};
+use crate::model::{DISK, Model, rows};
 use crate::progress::{Progress, Stage};
 use crate::run_error::RunError;
 use crate::schema::{self, Case, PreloadMethod};
@@ -244,7 +244,9 @@ pub(crate) fn preload(
                 }),
                 enforcement: match case.contact.enforcement {
                     schema::Enforcement::Penalty => Enforcement::Penalty,
-                    schema::Enforcement::Exact => Enforcement::Exact { slave: model.slave() },
+                    schema::Enforcement::Exact => {
+                        Enforcement::Exact { slave: model.slave(), rows: rows(case) }
+                    }
                 },
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
@@ -312,8 +314,7 @@ fn loads_of_slaves(slave: usize, pressed: &[(Gap, f64)]) -> [Vec<(u32, f64)>; 2]
     let mut loads = [Vec::new(), Vec::new()];
     for (gap, force) in pressed {
         loads[slave].push((gap.node, *force));
-        let corners = gap.corners.iter().zip(gap.weights);
-        loads[1 - slave].extend(corners.map(|(&n, weight)| (n, weight * force)));
+        loads[1 - slave].extend(gap.foot.iter().map(|&(n, weight)| (n, weight * force)));
     }
     loads
 }

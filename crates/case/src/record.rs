@@ -1,7 +1,7 @@
 //! What a run writes while it rolls, and when.
 
 use crate::means::Means;
-use crate::model::{BAR, DISK, Model};
+use crate::model::{BAR, DISK, Model, rows};
 use crate::probes::Probes;
 use crate::run_error::RunError;
 use crate::schema::{Case, Window};
@@ -61,6 +61,8 @@ const HISTORY: [(&str, &str, &str); 38] = [
 /// step `before` or `after` it, and the body at whose nodes the conditions are enforced.
 const SLIP_PAIRING: &str = "slip_pairing";
 const ENFORCED_ON: &str = "enforced_on";
+/// Whether they are enforced at nodes against the face there or in means over the faces around them.
+const CONTACT_ROWS: &str = "contact_rows";
 
 /// Rows of the history gathered before they are handed to the writer.
 const HISTORY_BATCH: usize = 64;
@@ -100,6 +102,7 @@ struct Zones {
 pub(crate) struct Recorder {
     writer: BackgroundWriter,
     zones: Zones,
+    enforced_on: Option<usize>,
     fields: Schedule,
     contact_every: u64,
     windows: Vec<(u64, u64, u64)>,
@@ -146,7 +149,7 @@ impl Recorder {
         });
         let files = RunFiles {
             fields: create_fields(case, model, basis)?,
-            contact: create_contact(model, &tables, &points, contact.enforced_on(), basis)?,
+            contact: create_contact(case, model, &tables, &points, contact.enforced_on(), basis)?,
             history: History::create(
                 basis.folder.join("history.h5"),
                 &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
@@ -176,6 +179,7 @@ impl Recorder {
                 displacement: vec![[0.0; 3]; count],
                 velocity: vec![[0.0; 3]; count],
             },
+            enforced_on: contact.enforced_on(),
             fields: Schedule { interval: case.fields_interval(), next: 0.0 },
             contact_every: steps_in(case.output.contact_interval),
             windows: case.output.window.iter().map(window).collect(),
@@ -246,6 +250,7 @@ impl Recorder {
             self.means.worst_mismatch = self.means.worst_mismatch.max(mismatch);
         }
         self.means.most_sweeps = self.means.most_sweeps.max(report.contact.sweeps);
+        self.means.integrated += report.contact.integrated as u64;
         self.means.manifold += report.contact.manifold as u64;
         let inside = report.time >= self.evaluate_from;
         if inside {
@@ -404,14 +409,20 @@ impl Recorder {
         Ok(self.writer.append_contact(time, &values)?)
     }
 
-    /// Largest (|shear| - mu p) over the Hertz peak pressure, on both surfaces.
+    /// Largest (|shear| - mu p) over the Hertz peak pressure, on the surfaces at whose nodes friction is
+    /// enforced.
     fn cone_excess(&self) -> f64 {
         let excess = |t: &NodalContact| {
             (0..t.nodes.len())
                 .map(|i| (length(t.shear[i]) - t.mu[i] * t.pressure[i]) / self.hertz_pressure)
                 .fold(f64::NEG_INFINITY, f64::max)
         };
-        self.zones.tables.iter().map(excess).fold(f64::NEG_INFINITY, f64::max).max(0.0)
+        let sides =
+            [DISK, BAR].into_iter().filter(|side| self.enforced_on.is_none_or(|on| on == *side));
+        sides
+            .map(|side| excess(&self.zones.tables[side]))
+            .fold(f64::NEG_INFINITY, f64::max)
+            .max(0.0)
     }
 
     /// Rear end of the longest run of sticking nodes on the bar's centre line, half a spacing
@@ -461,6 +472,7 @@ fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<Transi
 }
 
 fn create_contact(
+    case: &Case,
     model: &Model,
     tables: &[NodalContact; 2],
     points: &[Vec<[f64; 3]>; 2],
@@ -471,6 +483,11 @@ fn create_contact(
     if let Some(side) = enforced_on {
         provenance.attributes.push((SLIP_PAIRING.into(), "after".into()));
         provenance.attributes.push((ENFORCED_ON.into(), ["disk", "bar"][side].into()));
+        let rows = match rows(case) {
+            contact::Rows::NodeToFace => "node_to_face",
+            contact::Rows::Mortar => "mortar",
+        };
+        provenance.attributes.push((CONTACT_ROWS.into(), rows.into()));
     }
     let mut quads = Vec::new();
     let mut offset = 0;

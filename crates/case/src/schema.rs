@@ -198,6 +198,11 @@ pub struct Contact {
     /// `"exact"`: no penetration and no slip in adhesion at the nodes of the finer surface.
     /// Default `"penalty"`.
     pub enforcement: Enforcement,
+    /// What the slave nodes of `enforcement = "exact"` meet: `"node_to_face"`, the face under each, or
+    /// `"mortar"`, the faces near it in the mean weighted with dual mortar functions, for meshes that do not
+    /// match. Default `"node_to_face"` with `"exact"`, refused with `"penalty"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows: Option<Rows>,
     /// Correct gap and normal with the exact cylinder and crown instead of the facets
     /// (true or false). Default true.
     pub curvature: bool,
@@ -207,7 +212,12 @@ pub struct Contact {
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { enforcement: Enforcement::Penalty, curvature: true, penalty: Penalty::default() }
+        Self {
+            enforcement: Enforcement::Penalty,
+            rows: None,
+            curvature: true,
+            penalty: Penalty::default(),
+        }
     }
 }
 
@@ -220,6 +230,17 @@ pub enum Enforcement {
     Penalty,
     /// Lagrange multipliers in one pass.
     Exact,
+}
+
+/// The rows of exact enforcement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Rows {
+    /// A slave node and the face under it.
+    #[default]
+    NodeToFace,
+    /// A slave node and the mean over the faces near it, by dual mortar functions.
+    Mortar,
 }
 
 /// The penalty springs.

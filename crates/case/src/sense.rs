@@ -163,6 +163,15 @@ fn check_choices(case: &Case, found: &mut Findings) {
         );
     }
     found.require(
+        exact || case.contact.rows.is_none(),
+        &["contact.rows", "contact.enforcement"],
+        || {
+            "contact.rows is not used with contact.enforcement = \"penalty\": its pairs are springs"
+                .into()
+        },
+        "set contact.enforcement = \"exact\", or leave contact.rows out",
+    );
+    found.require(
         !exact || case.preload.method != PreloadMethod::Relaxation,
         &["preload.method", "contact.enforcement"],
         || {

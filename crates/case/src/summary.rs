@@ -84,9 +84,10 @@ pub(crate) fn summary(
         "peak_pressure": hertz.p0, "approach": hertz.approach });
     let checks = json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch,
         "contact_damping": last.contact_damping });
-    let exact = (case.contact.enforcement == Enforcement::Exact).then(
-        || json!({ "most_sweeps": means.most_sweeps, "manifold_node_steps": means.manifold }),
-    );
+    let exact = (case.contact.enforcement == Enforcement::Exact).then(|| {
+        json!({ "most_sweeps": means.most_sweeps, "manifold_node_steps": means.manifold,
+            "mortar_integrals": means.integrated })
+    });
     let preload = facts.preload.map(|p| p.json());
     let sections = [
         ("kernels", json!(simulation.solid().level().name())),

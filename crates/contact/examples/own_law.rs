@@ -65,7 +65,7 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
     let surface = |nodes, hex| Surface { faces: vec![Face { nodes, hex }], smooth: None };
     let (under, top) = (surface([0, 3, 2, 1], 0), surface([12, 13, 14, 15], 1));
     let steel = BodyMaterial { bulk_modulus: 175e9, density: 7800.0 };
-    let settings = ExactSettings { slave: Some(0), curvature: false };
+    let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
     let mut contact =
         ExactContact::new(&mesh, [(&under, steel), (&top, steel)], &settings, Box::new(law))?;
 

@@ -7,23 +7,25 @@
 //! - the gap at the end of the step, `g + dt G_n v^{n+1/2} >= 0`, is complementary to `r_n >= 0`;
 //! - `|r_t| <= mu r_n`, with equality and against the slip velocity where that is not zero.
 //!
-//! Nodes of one side, the slaves, meet faces of the other. The system is solved by projected block
-//! Gauss–Seidel: a node's own block `W_ii = (1/m_s + sum phi_I^2/m_I) I` is isotropic for lumped masses,
-//! so that its normal problem, and then its tangential one (module `local`) are closed;
-//! blocks of neighbouring nodes couple little. The order is fixed, hence the bits are.
+//! Nodes of one side, the slaves, meet the other at one face, or in the mean over all faces near them
+//! ([`Rows`]). The system is solved by projected block Gauss–Seidel: a node's own block
+//! `W_ii = (1/m_s + sum w_J^2/m_J) I` is isotropic for lumped masses, so that its normal problem, and then
+//! its tangential one (module `local`) are closed; blocks of neighbouring nodes couple little. The order is
+//! fixed, hence the bits are.
 
 use crate::enforcement::{Contact, Trial};
 use crate::face::{Positions, project};
 use crate::friction::{NodeFriction, Place};
 use crate::local;
+use crate::mortar::{Mean, Mortar};
 use crate::nodal::NodalContact;
-use crate::pair::{frame, lay_into};
+use crate::pair::lay_into;
 use crate::penalty::{check_common, in_range};
-use crate::row::Row;
+use crate::row::{Footing, Leg, Row, Rows, face_shares, within};
 use crate::search::Search;
 use crate::surface::ContactSurface;
-use crate::touch::{Listed, State, WATCHED, finer, relative_velocity, sleep};
-use crate::vector::{Vec3, add, axpy, dot, norm, scale, sub};
+use crate::touch::{Listed, State, WATCHED, finer, sleep};
+use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
 use crate::{BodyMaterial, ContactError, ContactSums, Motion};
 use mesh::{Face, Mesh, Padded, Surface};
 
@@ -35,14 +37,19 @@ const SWEEPS: usize = 100;
 /// sweep found, not on that of the step before: near the end of a branch neighbours could else drive
 /// one another to and fro.
 const SETTLED: usize = 20;
+/// A mortar row far from closing may have moved so much further along the master before its integrals are
+/// taken anew.
+const FAR: f64 = 10.0;
 
 /// Settings of [`ExactContact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExactSettings {
     /// Side whose nodes are slaves; the finer one unless given.
     pub slave: Option<usize>,
-    /// Corrects gap and normal with the exact surface where the master has one.
+    /// Corrects gap and normal with the exact surface where a side has one.
     pub curvature: bool,
+    /// What the slaves meet.
+    pub rows: Rows,
 }
 
 /// Contact of two surfaces without penetration, and friction without elastic slip.
@@ -58,8 +65,13 @@ pub struct ExactContact {
     law: Box<dyn NodeFriction>,
     search: Search,
     curvature: bool,
-    /// Rows that may carry force in this step.
+    /// Integration of mortar rows, and the mean that each slave follows.
+    mortar: Option<(Mortar, Vec<Mean>)>,
+    /// Rows that may carry force in this step, and their legs.
     active: Vec<u32>,
+    legs: Vec<Leg>,
+    /// Mortar rows whose integrals were taken in this step.
+    integrated: usize,
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step.
     velocity: [Vec<Vec3>; 2],
     pace: [Vec<f64>; 2],
@@ -84,13 +96,21 @@ impl ExactContact {
         let slave = settings.slave.unwrap_or_else(|| finer(&sides));
         in_range("the side of the slaves", slave as f64, slave < 2, "0 or 1")?;
         let zeros = |side: usize| sides[side].nodes.len();
+        let mortar = || {
+            let own = &sides[slave];
+            let means = vec![Mean::default(); own.nodes.len()];
+            (Mortar::new(own, settings.curvature), means)
+        };
         Ok(Self {
+            mortar: (settings.rows == Rows::Mortar).then(mortar),
             search: Search::new(&sides),
             slave,
             rows: [Vec::new(), Vec::new()],
             law,
             curvature: settings.curvature,
             active: Vec::new(),
+            legs: Vec::new(),
+            integrated: 0,
             velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
             pace: [0, 1].map(|s| vec![0.0; zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
@@ -105,37 +125,94 @@ impl ExactContact {
     }
 
     /// Follows a row to the positions of the step. Returns whether it may close.
-    fn follow(&self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
+    fn follow(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
         row.slipped = row.state == State::Slip;
         if row.sleep > 0 {
             row.sleep -= 1;
             return false;
         }
-        let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
-        let node = own.nodes[row.slave as usize];
-        let x = positions.at(node);
-        let followed = project(master, positions, self.curvature, x, row.face, row.xi, row.eta);
-        let Some(foot) = followed.foot else {
+        let x = positions.at(self.sides[self.slave].nodes[row.slave as usize]);
+        let old = match &self.mortar {
+            None => self.stand_on_face(row, positions, x),
+            Some(_) => self.stand_on_mean(row, positions, x),
+        };
+        let Some(old) = old else {
             row.gap = f64::INFINITY;
             row.open();
             // Walk anew from the middle of the face.
             (row.xi, row.eta) = (0.0, 0.0);
             return false;
         };
-        (row.face, row.xi, row.eta, row.gap) = (foot.face, foot.xi, foot.eta, foot.gap);
-        let face = &master.faces[foot.face as usize];
-        row.place(&foot, face, positions, x);
-        row.frame = frame(&foot.point);
         if row.is_closed() {
-            // the force of the last step turns with the face and is laid into the new plane
-            let [e1, e2] = frame(&followed.old);
-            let turned = axpy(scale(row.framed[0], e1), row.framed[1], e2);
+            // the force of the last step turns with the master and is laid into the new plane
+            let turned = axpy(scale(row.framed[0], old[0]), row.framed[1], old[1]);
             row.friction = lay_into(turned, row.normal);
             return true;
         }
-        let speed = norm(relative_velocity(motion.velocity, node, face.nodes, &row.weights));
+        let (opening, slip) = self.rates_of(row, motion);
+        let speed = opening.hypot(norm(slip));
         row.sleep = sleep(row.gap, speed, self.search.margin, motion.dt);
-        row.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed
+        let may_close = row.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed;
+        if !may_close {
+            row.withdraw(&mut self.legs);
+        }
+        may_close
+    }
+
+    /// Sets up a row over the face under it. Returns where its frame of the last step is now, or nothing
+    /// where the node lies beside the master.
+    fn stand_on_face(
+        &mut self,
+        row: &mut Row,
+        positions: &Positions<'_>,
+        x: Vec3,
+    ) -> Option<[Vec3; 2]> {
+        let master = &self.sides[1 - self.slave];
+        let followed = project(master, positions, self.curvature, x, row.face, row.xi, row.eta);
+        let foot = followed.foot?;
+        (row.face, row.xi, row.eta, row.gap) = (foot.face, foot.xi, foot.eta, foot.gap);
+        let [xi, eta] = within(&foot);
+        let shares = face_shares(&master.faces[foot.face as usize], xi, eta);
+        let footing = Footing::new(&shares, master, positions);
+        row.place(&shares, &footing, foot.point.normal, x, &mut self.legs);
+        Some(frame(followed.old.tangent, followed.old.normal))
+    }
+
+    /// The same over the mean of a mortar row, which is integrated where there is none yet or the slave has
+    /// moved along the master. Far from closing an older mean serves: its gap is good enough to wait by.
+    fn stand_on_mean(
+        &mut self,
+        row: &mut Row,
+        positions: &Positions<'_>,
+        x: Vec3,
+    ) -> Option<[Vec3; 2]> {
+        let (mortar, means) = self.mortar.as_mut()?;
+        let sides = [&self.sides[self.slave], &self.sides[1 - self.slave]];
+        let mean = &mut means[row.slave as usize];
+        let mut old = None;
+        let mut standing = None;
+        if !mean.shares.is_empty() {
+            let now = mean.standing(sides[1], positions, x);
+            old = Some(frame(now.footing.tangents[0], now.normal));
+            let near = row.is_closed() || now.gap < WATCHED * self.search.margin;
+            standing = (now.stale <= if near { 1.0 } else { FAR }).then_some(now);
+        }
+        let standing = match standing {
+            Some(standing) => standing,
+            None => {
+                self.integrated += 1;
+                let (face, on_master) =
+                    mortar.integrate(sides, positions, row.slave, row.face, mean);
+                row.face = face;
+                if !on_master {
+                    return None;
+                }
+                mean.standing(sides[1], positions, x)
+            }
+        };
+        row.gap = standing.gap;
+        row.place(&mean.shares, &standing.footing, standing.normal, x, &mut self.legs);
+        Some(old.unwrap_or(row.frame))
     }
 
     /// Takes the velocity without contact of a node of `side`.
@@ -150,29 +227,31 @@ impl ExactContact {
         self.pace[side][i] = dt * trial.inverse_mass[node as usize];
     }
 
-    fn rates(&self, row: &Row, corners: [u32; 4]) -> (f64, Vec3) {
+    /// Rates at the velocities that the forces found so far give.
+    fn rates(&self, row: &Row) -> (f64, Vec3) {
         let master = &self.velocity[1 - self.slave];
-        let mut moving = [[0.0; 3]; 4];
-        for (v, &corner) in moving.iter_mut().zip(&corners) {
-            *v = master[corner as usize];
-        }
-        row.rates(self.velocity[self.slave][row.slave as usize], moving)
+        let slave = self.velocity[self.slave][row.slave as usize];
+        row.rates(slave, &self.legs[row.legs()], |node| master[node as usize])
+    }
+
+    /// Rates at the velocities of a motion.
+    fn rates_of(&self, row: &Row, motion: &Motion<'_>) -> (f64, Vec3) {
+        let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
+        let at = |node: u32| motion.velocity[node as usize].xyz();
+        let slave = at(own.nodes[row.slave as usize]);
+        row.rates(slave, &self.legs[row.legs()], |node| at(master.nodes[node as usize]))
     }
 
     /// Adds what the forces of a row change in the velocities.
-    fn push(&mut self, row: &Row, corners: [u32; 4], normal: f64, friction: Vec3) {
+    fn push(&mut self, row: &Row, normal: f64, friction: Vec3) {
         let (i, own) = (row.slave as usize, self.slave);
         let on_slave = axpy(friction, normal, row.normal);
         self.velocity[own][i] = axpy(self.velocity[own][i], self.pace[own][i], on_slave);
-        for (c, &corner) in corners.iter().enumerate() {
-            let (c_force, corner) = (row.reaction(c, normal, friction), corner as usize);
-            let (v, pace) = (&mut self.velocity[1 - own][corner], self.pace[1 - own][corner]);
-            *v = axpy(*v, pace, c_force);
+        let (velocity, pace) = (&mut self.velocity[1 - own], &self.pace[1 - own]);
+        for leg in &self.legs[row.legs()] {
+            let node = leg.node as usize;
+            velocity[node] = axpy(velocity[node], pace[node], row.reaction(leg, normal, friction));
         }
-    }
-
-    fn corners(&self, row: &Row) -> [u32; 4] {
-        self.sides[1 - self.slave].faces[row.face as usize].local
     }
 
     fn at(&self, row: &Row, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
@@ -186,8 +265,7 @@ impl ExactContact {
 
     /// One visit of Gauss–Seidel; returns the change of the force and its size (N).
     fn visit(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> [f64; 2] {
-        let corners = self.corners(row);
-        let (opening, slip) = self.rates(row, corners);
+        let (opening, slip) = self.rates(row);
         let (pressed, rubbed) = (row.normal_force, row.friction);
         let free_gap = row.gap + motion.dt * (opening - row.mobility * pressed);
         let needed = -free_gap / (motion.dt * row.mobility);
@@ -196,7 +274,7 @@ impl ExactContact {
         let free = axpy(slip, -row.mobility, rubbed);
         (row.friction, row.state) = self.rub(row, free, positions, motion);
         let change = sub(row.friction, rubbed);
-        self.push(row, corners, row.normal_force - pressed, change);
+        self.push(row, row.normal_force - pressed, change);
         [
             (row.normal_force - pressed).abs() + norm(change),
             row.normal_force.max(norm(row.friction)),
@@ -242,10 +320,24 @@ impl ExactContact {
             return false;
         }
         let at = self.at(row, positions, motion);
-        let (_, slip) = self.rates(row, self.corners(row));
+        let (_, slip) = self.rates(row);
         let free = norm(axpy(slip, -row.mobility, row.friction));
         let curve = |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
         local::is_manifold(free, row.mobility * row.normal_force, &curve)
+    }
+}
+
+#[cfg(test)]
+impl ExactContact {
+    /// Room of the lists that a step fills.
+    pub(crate) fn room(&self) -> [usize; 4] {
+        let (mortar, means) = match &self.mortar {
+            Some((mortar, means)) => {
+                (mortar.room(), means.iter().map(|m| m.shares.capacity()).sum())
+            }
+            None => (0, 0),
+        };
+        [self.legs.capacity(), self.active.capacity(), mortar, means]
     }
 }
 
@@ -268,10 +360,13 @@ impl Contact for ExactContact {
             self.rows[1 - own].clear();
             let most = self.rows[own].len();
             self.active.reserve(most.saturating_sub(self.active.len()));
+            self.legs.reserve((4 * most).saturating_sub(self.legs.len()));
         }
         let mut rows = std::mem::take(&mut self.rows[own]);
         let mut active = std::mem::take(&mut self.active);
         active.clear();
+        self.legs.clear();
+        self.integrated = 0;
         self.now += 1;
 
         // velocities without contact, rows that may close, the forces of the last step
@@ -280,12 +375,12 @@ impl Contact for ExactContact {
             if !self.follow(row, &positions, motion) {
                 continue;
             }
-            let corners = self.corners(row);
             self.release(own, row.slave, trial, force, motion.dt);
-            corners.iter().for_each(|&c| self.release(1 - own, c, trial, force, motion.dt));
             row.mobility = self.pace[own][row.slave as usize];
-            for (weight, &corner) in row.weights.iter().zip(&corners) {
-                row.mobility += weight * weight * self.pace[1 - own][corner as usize];
+            for k in row.legs() {
+                let Leg { node, weight, .. } = self.legs[k];
+                self.release(1 - own, node, trial, force, motion.dt);
+                row.mobility += weight * weight * self.pace[1 - own][node as usize];
             }
             // both ends held: nothing to enforce
             if row.mobility == 0.0 {
@@ -300,11 +395,12 @@ impl Contact for ExactContact {
             };
             active.push(i as u32);
         }
+        sums.integrated = self.integrated;
         // Only now: all velocities are free ones.
         for &i in &active {
             let row = &rows[i as usize];
             if row.is_closed() {
-                self.push(row, self.corners(row), row.normal_force, row.friction);
+                self.push(row, row.normal_force, row.friction);
             }
         }
 
@@ -334,11 +430,8 @@ impl Contact for ExactContact {
                 row.open();
                 continue;
             }
-            let (opening, slip) = self.rates(row, self.corners(row));
-            let node = self.sides[own].nodes[row.slave as usize];
-            let corners = self.sides[1 - own].faces[row.face as usize].nodes;
-            let moved = corners.map(|c| motion.velocity[c as usize].xyz());
-            let before = row.rates(motion.velocity[node as usize].xyz(), moved);
+            let (opening, slip) = self.rates(row);
+            let before = self.rates_of(row, motion);
             // the trapezoidal work of the force, in halves around t^n
             let work = |(opening, slip): (f64, Vec3)| {
                 0.5 * motion.dt * (row.normal_force * opening + dot(row.friction, slip))
@@ -351,12 +444,14 @@ impl Contact for ExactContact {
             sums.damping_ahead -= work((opening, slip)) + heat;
 
             let on_slave = axpy(row.friction, row.normal_force, row.normal);
+            let node = self.sides[own].nodes[row.slave as usize];
             add_to(&mut force[node as usize], on_slave);
             on_slaves = add(on_slaves, on_slave);
-            for (c, corner) in corners.into_iter().enumerate() {
-                let on_corner = row.reaction(c, row.normal_force, row.friction);
-                add_to(&mut force[corner as usize], on_corner);
-                on_masters = add(on_masters, on_corner);
+            for leg in &self.legs[row.legs()] {
+                let on_leg = row.reaction(leg, row.normal_force, row.friction);
+                let node = self.sides[1 - own].nodes[leg.node as usize];
+                add_to(&mut force[node as usize], on_leg);
+                on_masters = add(on_masters, on_leg);
             }
             row.framed = row.frame.map(|e| dot(row.friction, e));
             row.slip_velocity = slip;
@@ -384,13 +479,16 @@ impl Contact for ExactContact {
     }
 
     fn nodal(&self, table: &mut NodalContact) {
-        let rows = |wanted: bool| {
-            let list: &[Row] = if wanted { &self.rows[self.slave] } else { &[] };
-            list.iter().map(Row::touch)
-        };
         let is_slave = table.side() == self.slave;
+        let rows = &self.rows[self.slave][..];
+        let (own, others) = if is_slave { (rows, &[][..]) } else { (&[][..], rows) };
+        let own = own.iter().map(Row::touch);
+        let others = others.iter().filter(|row| row.is_closed()).flat_map(|row| {
+            let touch = row.touch();
+            self.legs[row.legs()].iter().map(move |leg| (touch, leg.node, leg.weight))
+        });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
-        table.fill(&self.sides, rows(is_slave), rows(!is_slave), margin, mu, is_slave);
+        table.fill(&self.sides, own, others, margin, mu, is_slave);
     }
 
     fn enforced_on(&self) -> Option<usize> {

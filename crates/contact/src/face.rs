@@ -124,14 +124,14 @@ pub(crate) struct Foot {
 /// `lambda = n_f.(x_s - x_m)`, that is `a_b.(x_s - x_m) = (lambda/nu) N_s.A_b`, and the gap is
 /// `n.(x_s - x_m) - c`. Neighbouring facets then meet without a kink: gap, normal and foot are
 /// those of the smooth surface.
-struct FaceGeometry<'a> {
+pub(crate) struct FaceGeometry<'a> {
     current: Bilinear,
     exact: Option<(&'a Bilinear, &'a SmoothSurface)>,
 }
 
 impl<'a> FaceGeometry<'a> {
     #[inline(always)]
-    fn new(
+    pub fn new(
         surface: &'a ContactSurface,
         face: u32,
         positions: &Positions<'_>,
@@ -148,6 +148,11 @@ impl<'a> FaceGeometry<'a> {
             *x = positions.at(node);
         }
         Self { current: Bilinear::through(x), exact }
+    }
+
+    /// The surface at `(xi, eta)`.
+    pub fn at(&self, xi: f64, eta: f64) -> SurfacePoint {
+        self.evaluate(self.current.point(xi, eta), xi, eta).0
     }
 
     /// The surface at `(xi, eta)` and Newton's correction towards the foot of `node`.
@@ -199,8 +204,7 @@ pub(crate) fn corner_normals(
     let mut normals = [[0.0; 3]; 4];
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     for (normal, [xi, eta]) in normals.iter_mut().zip(corners) {
-        let x = geometry.current.point(xi, eta);
-        *normal = geometry.evaluate(x, xi, eta).0.normal;
+        *normal = geometry.at(xi, eta).normal;
     }
     normals
 }

@@ -2,26 +2,27 @@
 
 use crate::PenaltyContact;
 use crate::face::{Positions, corner_normals, project, shape};
+use crate::mortar::{Mean, Mortar};
 use crate::pair::Pair;
+use crate::row::{Rows, within};
 use crate::touch::Listed;
 use crate::vector::{add, axpy, norm, scale};
 use mesh::Padded;
 
 /// A slave node over its foot on the master surface.
 ///
-/// To first order its gap changes by `n . (u_s - sum phi_I u_I)`, with the corners `I` of the
-/// master face.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// To first order its gap changes by `n . (u_s - sum w_J u_J)`, with the nodes `J` of the master that its
+/// foot is a mean of.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
     /// The slave (mesh index).
     pub node: u32,
-    /// Corner nodes of the master face (mesh indices).
-    pub corners: [u32; 4],
-    /// Shape functions `phi_I` of the corners at the foot.
-    pub weights: [f64; 4],
+    /// The nodes of the master (mesh indices) and their weights `w_J`, which add up to one: the corners of
+    /// the face under the slave, or the nodes that its mortar function meets.
+    pub foot: Vec<(u32, f64)>,
     /// Unit normal of the master surface at the foot, out of the master body. From
     /// [`PenaltyContact::gaps`] it is continuous over the surface: the mean of the facets' normals at
-    /// each corner, interpolated; from [`PenaltyContact::springs`] it is the facet's.
+    /// each corner, interpolated, or the mortar function's mean; from [`PenaltyContact::springs`] it is the facet's.
     pub normal: [f64; 3],
     /// Gap (m), negative where the slave has penetrated.
     pub gap: f64,
@@ -31,14 +32,15 @@ pub struct Gap {
 
 impl PenaltyContact {
     /// The gaps of the pass in which the nodes of side `slave` meet the faces of the other side,
-    /// at the positions `X + u`: all nodes nearer than the search margin, ascending by node,
-    /// written to `gaps`. No forces, and the state of the springs stays as it is.
+    /// at the positions `X + u`, as `rows` measure them: all nodes nearer than the search margin, ascending
+    /// by node, written to `gaps`. No forces, and the state of the springs stays as it is.
     ///
     /// # Panics
     /// If `slave` is not 0 or 1, or a slice has fewer entries than the mesh has nodes.
     pub fn gaps(
         &mut self,
         slave: usize,
+        rows: Rows,
         reference: &[Padded],
         displacement: &[Padded],
         gaps: &mut Vec<Gap>,
@@ -46,6 +48,10 @@ impl PenaltyContact {
         let positions = Positions { reference, displacement };
         self.search.refresh(&self.sides, &positions, &mut self.pairs);
         gaps.clear();
+        if rows == Rows::Mortar {
+            self.mortar_gaps(slave, &positions, gaps);
+            return;
+        }
         let mut feet = Vec::new();
         let mut pairs = std::mem::take(&mut self.pairs[slave]);
         for pair in &mut pairs {
@@ -58,10 +64,11 @@ impl PenaltyContact {
                     (pair.face, pair.xi, pair.eta) = (foot.face, foot.xi, foot.eta);
                 }
                 feet.push(foot.face);
+                let [xi, eta] = within(&foot);
+                let corners = master.faces[foot.face as usize].nodes;
                 gaps.push(Gap {
                     node: own.nodes[pair.slave as usize],
-                    corners: master.faces[foot.face as usize].nodes,
-                    weights: shape(foot.xi.clamp(-1.0, 1.0), foot.eta.clamp(-1.0, 1.0)),
+                    foot: corners.into_iter().zip(shape(xi, eta)).collect(),
                     normal: foot.point.normal,
                     gap: foot.gap,
                     area: own.area[pair.slave as usize],
@@ -70,6 +77,32 @@ impl PenaltyContact {
         }
         self.pairs[slave] = pairs;
         self.smooth_normals(1 - slave, &positions, &feet, gaps);
+    }
+
+    fn mortar_gaps(&mut self, slave: usize, positions: &Positions<'_>, gaps: &mut Vec<Gap>) {
+        let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
+        let mut mortar = Mortar::new(own, self.settings.curvature);
+        let mut mean = Mean::default();
+        for pair in &mut self.pairs[slave] {
+            let (face, on_master) =
+                mortar.integrate([own, master], positions, pair.slave, pair.face, &mut mean);
+            if !on_master {
+                continue;
+            }
+            if !pair.is_closed() {
+                pair.face = face;
+            }
+            let node = own.nodes[pair.slave as usize];
+            let standing = mean.standing(master, positions, positions.at(node));
+            let foot = mean.shares.iter().map(|s| (master.nodes[s.node as usize], s.weight));
+            gaps.push(Gap {
+                node,
+                foot: foot.collect(),
+                normal: standing.normal,
+                gap: standing.gap,
+                area: own.area[pair.slave as usize],
+            });
+        }
     }
 
     /// Replaces the normals of `gaps`, whose feet lie on the faces `feet` of side `master`, by ones
@@ -99,7 +132,7 @@ impl PenaltyContact {
         }
         for (gap, &face) in gaps.iter_mut().zip(feet) {
             let mut normal = [0.0; 3];
-            for (weight, &n) in gap.weights.iter().zip(&surface.faces[face as usize].local) {
+            for ((_, weight), &n) in gap.foot.iter().zip(&surface.faces[face as usize].local) {
                 let sum = sums[n as usize];
                 normal = axpy(normal, weight / norm(sum), sum);
             }
@@ -120,8 +153,7 @@ impl PenaltyContact {
         let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
         Gap {
             node: own.nodes[pair.slave as usize],
-            corners: master.faces[pair.face as usize].nodes,
-            weights: pair.weights,
+            foot: master.faces[pair.face as usize].nodes.into_iter().zip(pair.weights).collect(),
             normal: pair.normal,
             gap: pair.gap,
             area: own.area[pair.slave as usize],

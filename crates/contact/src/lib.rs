@@ -12,6 +12,7 @@ mod face;
 mod friction;
 mod gap;
 mod local;
+mod mortar;
 mod nodal;
 mod pair;
 pub mod patch;
@@ -20,6 +21,7 @@ mod penalty;
 mod plates;
 mod row;
 mod search;
+mod segment;
 mod stiffness;
 mod surface;
 #[cfg(test)]
@@ -39,4 +41,5 @@ pub use friction::{
 pub use gap::Gap;
 pub use nodal::NodalContact;
 pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
+pub use row::Rows;
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};

@@ -40,10 +40,10 @@ pub struct NodalContact {
     side: usize,
     /// Row of each node of the surface; `NONE` if it has none.
     rows: Vec<u32>,
-    /// Normal force of the slipping pairs of the other pass (N).
+    /// Size of the normal forces of the slipping pairs of the other pass (N).
     slipping: Vec<f64>,
-    /// Normal force of all pairs of the other pass (N).
-    from_others: Vec<f64>,
+    /// Size of the normal forces of all pairs (N).
+    carried: Vec<f64>,
 }
 
 impl NodalContact {
@@ -63,7 +63,7 @@ impl NodalContact {
         table.state = vec![State::Open as u8; n];
         table.gap = vec![0.0; n];
         table.slipping = vec![0.0; n];
-        table.from_others = vec![0.0; n];
+        table.carried = vec![0.0; n];
         table
     }
 
@@ -76,7 +76,7 @@ impl NodalContact {
         self.state.fill(State::Open as u8);
         self.gap.fill(margin);
         self.slipping.fill(0.0);
-        self.from_others.fill(0.0);
+        self.carried.fill(0.0);
     }
 }
 
@@ -100,13 +100,14 @@ impl NodalContact {
     }
 
     /// Fills the table from the pairs in which nodes of its side are slaves (`own`) and those in
-    /// which they are corners of masters (`others`). `followed` says whether nodes of its side are
+    /// which they bear slaves (`others`), with the node and its weight, which may be negative: means over
+    /// slaves then count the size of their force. `followed` says whether nodes of its side are
     /// slaves at all: the gap of those that are not is the mean of the gaps of the pairs that load them.
     pub(crate) fn fill(
         &mut self,
         sides: &[ContactSurface; 2],
         own: impl Iterator<Item = Touch>,
-        others: impl Iterator<Item = Touch>,
+        others: impl Iterator<Item = (Touch, u32, f64)>,
         margin: f64,
         mu_static: f64,
         followed: bool,
@@ -114,37 +115,35 @@ impl NodalContact {
         let table = self;
         table.clear(margin);
         let side = table.side;
-        let Some(surface) = sides.get(side).filter(|s| s.nodes.len() == table.rows.len()) else {
+        if sides.get(side).is_none_or(|s| s.nodes.len() != table.rows.len()) {
             return;
-        };
+        }
         if !followed {
             table.gap.fill(0.0);
         }
         // The other pass: what the faces of this side take as masters. Forces and slip of its
         // slaves are those of the other side, hence the signs.
-        for touch in others.filter(Touch::is_closed) {
-            let corners = surface.faces[touch.face as usize].local;
-            for (&weight, corner) in touch.weights.iter().zip(corners) {
-                let Some(row) = table.row(corner) else {
-                    continue;
-                };
-                let normal = weight * touch.normal_force;
-                table.pressure[row] += normal;
-                table.from_others[row] += normal;
-                table.mu[row] += touch.mu * normal;
-                table.shear[row] = axpy(table.shear[row], -weight, touch.friction);
-                let slip = &mut table.slip_velocity[row];
-                *slip = axpy(*slip, -normal, touch.slip_velocity);
-                if touch.state == State::Slip {
-                    table.slipping[row] += normal;
-                }
-                if !followed {
-                    table.gap[row] += normal * touch.gap;
-                }
+        for (touch, node, weight) in others.filter(|(touch, ..)| touch.is_closed()) {
+            let Some(row) = table.row(node) else {
+                continue;
+            };
+            let normal = weight * touch.normal_force;
+            let size = normal.abs();
+            table.pressure[row] += normal;
+            table.carried[row] += size;
+            table.mu[row] += touch.mu * size;
+            table.shear[row] = axpy(table.shear[row], -weight, touch.friction);
+            let slip = &mut table.slip_velocity[row];
+            *slip = axpy(*slip, -size, touch.slip_velocity);
+            if touch.state == State::Slip {
+                table.slipping[row] += size;
+            }
+            if !followed {
+                table.gap[row] += size * touch.gap;
             }
         }
         for row in 0..table.nodes.len() {
-            let total = table.from_others[row];
+            let total = table.carried[row];
             if total > 0.0 {
                 table.slip_velocity[row] = scale(1.0 / total, table.slip_velocity[row]);
                 let slips = 2.0 * table.slipping[row] > total;
@@ -163,6 +162,7 @@ impl NodalContact {
             table.gap[row] = touch.gap.min(margin);
             if touch.is_closed() {
                 table.pressure[row] += touch.normal_force;
+                table.carried[row] += touch.normal_force;
                 table.mu[row] += touch.mu * touch.normal_force;
                 table.shear[row] = axpy(table.shear[row], 1.0, touch.friction);
                 table.slip_velocity[row] = touch.slip_velocity;
@@ -171,8 +171,8 @@ impl NodalContact {
             }
         }
         for row in 0..table.nodes.len() {
-            let normal = table.pressure[row];
-            table.mu[row] = if normal > 0.0 { table.mu[row] / normal } else { mu_static };
+            let (normal, size) = (table.pressure[row], table.carried[row]);
+            table.mu[row] = if size > 0.0 { table.mu[row] / size } else { mu_static };
             table.pressure[row] = normal / table.area[row];
             table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
         }
@@ -188,7 +188,14 @@ impl PenaltyContact {
     /// Fills a `table` of this contact with the values of the last call.
     pub fn nodal(&self, table: &mut NodalContact) {
         let Some([own, others]) = passes(&self.pairs, table.side) else { return };
-        let (own, others) = (own.iter().map(Pair::touch), others.iter().map(Pair::touch));
+        let masters = &self.sides[table.side].faces;
+        let corners = |p: &Pair| {
+            let touch = p.touch();
+            let corners = masters.get(p.face as usize).map(|f| f.local);
+            let corners = corners.into_iter().flatten();
+            corners.zip(p.weights).map(move |(node, weight)| (touch, node, weight))
+        };
+        let (own, others) = (own.iter().map(Pair::touch), others.iter().flat_map(corners));
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, true);
     }

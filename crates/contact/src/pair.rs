@@ -6,7 +6,7 @@ use crate::penalty::Motion;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::touch::{Listed, State, Touch, relative_velocity, sleep};
-use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub, tangential};
+use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use mesh::Padded;
 
 /// A slave node near the master surface.
@@ -82,8 +82,6 @@ impl Pair {
     pub fn touch(&self) -> Touch {
         Touch {
             slave: self.slave,
-            face: self.face,
-            weights: self.weights,
             state: self.state,
             gap: self.gap,
             normal_force: self.normal_force,
@@ -271,7 +269,7 @@ impl Pass<'_> {
             return;
         }
         let delta = tangential(sub(x, old.x), pair.normal);
-        let [e1, e2] = frame(old);
+        let [e1, e2] = frame(old.tangent, old.normal);
         let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
         let start = lay_into(turned, pair.normal);
         let stiffness = pair.stiffness[1];
@@ -289,7 +287,7 @@ impl Pass<'_> {
                 pair.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
             }
         }
-        let [e1, e2] = frame(new);
+        let [e1, e2] = frame(new.tangent, new.normal);
         pair.framed = [dot(friction, e1), dot(friction, e2)];
         pair.friction = friction;
         pair.slip_velocity = scale(1.0 / motion.dt, delta);
@@ -300,13 +298,6 @@ impl Pass<'_> {
         let pressure = pair.normal_force / self.slave.area[pair.slave as usize];
         Place { position, time, pressure }
     }
-}
-
-/// Orthonormal vectors in the tangent plane that turn with the face.
-pub(crate) fn frame(at: &SurfacePoint) -> [Vec3; 2] {
-    let e = tangential(at.tangent, at.normal);
-    let e1 = scale(1.0 / norm(e), e);
-    [e1, cross(at.normal, e1)]
 }
 
 /// `f` laid into the plane with unit normal `n`, its length kept.

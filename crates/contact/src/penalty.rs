@@ -71,6 +71,8 @@ pub struct ContactSums {
     pub sweeps: usize,
     /// Slave nodes at which the law of friction had more than one solution.
     pub manifold: usize,
+    /// Mortar rows whose integrals were taken in this step.
+    pub integrated: usize,
     /// Pairs in contact.
     pub closed: usize,
     /// Pairs that stick.

@@ -1,20 +1,89 @@
 //! A slave node and its foot as three rows of constraints: the normal one and two tangential ones.
 //!
 //! The rows give the rate at which the gap opens, `n . w`, and the slip velocity, and their transpose
-//! the forces. The slip velocity is measured against the point of the master that the node touches,
-//! carried along with the face at the distance `d = n . (x_s - x_m)` of the exact surface beyond the
-//! facet:
+//! the forces. The foot is a weighted mean `sum w_J x_J` of nodes of the master: of the corners of one
+//! face by their shape functions, or of all nodes that a dual mortar function meets (module `mortar`).
+//! The slip velocity is measured against the point of the master that the node touches, carried along
+//! with the master at the distance `d = n . (x_s - sum w_J x_J)` of the exact surface beyond the facet:
 //!
-//! `s = P (v_s - sum phi_I v_I - d n')`, `n' = -sum b_I (n . v_I)`, `P = I - n n`,
+//! `s = P (v_s - sum w_J v_J - d n')`, `n' = -sum b_J (n . v_J)`, `P = I - n n`,
 //!
-//! with `b_I` the surface gradients of the shape functions. A rotation common to both bodies then
-//! gives no slip; and since the transposed rows are the forces, the forces on slave and face have no
+//! with `b_J` the surface gradients of the weights. The weights are moved by these gradients until the
+//! foot lies under the node, `x_s - sum w_J x_J = d n`. A rotation common to both bodies then gives neither
+//! opening nor slip; and since the transposed rows are the forces, the forces on slave and master have no
 //! resultant moment.
 
 use crate::face::{Foot, Positions, shape, shape_gradients};
-use crate::surface::MasterFace;
+use crate::surface::{ContactSurface, MasterFace};
 use crate::touch::{Listed, State, Touch};
-use crate::vector::{Vec3, axpy, cross, dot, scale, sub, tangential};
+use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
+use std::ops::Range;
+
+/// What the nodes of the slaves' side meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rows {
+    /// One face, at the point under the node.
+    #[default]
+    NodeToFace,
+    /// The faces under the slave faces around the node, in the mean weighted with a dual mortar function
+    /// (Wohlmuth 2000, Puso and Laursen 2004): a uniform pressure passes between meshes that do not match.
+    Mortar,
+}
+
+/// The part of a node of the master in a foot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Share {
+    /// The node, in its surface.
+    pub node: u32,
+    pub weight: f64,
+    /// Derivatives of the weight along two directions of the surface.
+    pub gradient: [f64; 2],
+}
+
+/// The shares of the corners of a face at a point.
+pub(crate) fn face_shares(face: &MasterFace, xi: f64, eta: f64) -> [Share; 4] {
+    let (weights, gradients) = (shape(xi, eta), shape_gradients(xi, eta));
+    [0, 1, 2, 3].map(|c| Share { node: face.local[c], weight: weights[c], gradient: gradients[c] })
+}
+
+/// The foot of shares in the present configuration, and the tangents along their two directions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Footing {
+    pub x: Vec3,
+    pub tangents: [Vec3; 2],
+}
+
+impl Footing {
+    #[inline]
+    pub fn new(shares: &[Share], master: &ContactSurface, positions: &Positions<'_>) -> Self {
+        let (mut x, mut a1, mut a2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        for share in shares {
+            let node = positions.at(master.nodes[share.node as usize]);
+            x = axpy(x, share.weight, node);
+            a1 = axpy(a1, share.gradient[0], node);
+            a2 = axpy(a2, share.gradient[1], node);
+        }
+        Self { x, tangents: [a1, a2] }
+    }
+
+    /// The duals of the tangents in the plane with unit normal `n`.
+    #[inline]
+    pub fn duals(&self, n: Vec3) -> [Vec3; 2] {
+        let [a1, a2] = self.tangents.map(|a| tangential(a, n));
+        let per_area = 1.0 / dot(n, cross(a1, a2));
+        [scale(per_area, cross(a2, n)), scale(per_area, cross(n, a1))]
+    }
+}
+
+/// A node of the master in the rows of one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leg {
+    /// The node, in its surface.
+    pub node: u32,
+    pub weight: f64,
+    /// `d b_J`.
+    pub lever: Vec3,
+}
 
 /// A slave node near the master surface.
 #[derive(Clone, Copy, Debug)]
@@ -22,21 +91,20 @@ pub(crate) struct Row {
     pub slave: u32,
     pub state: State,
     pub sleep: u32,
-    /// Where the foot is.
+    /// Where the foot is, or was sought last.
     pub face: u32,
     pub xi: f64,
     pub eta: f64,
     pub gap: f64,
     pub normal: Vec3,
-    pub weights: [f64; 4],
-    /// `d b_I`.
-    pub levers: [Vec3; 4],
-    /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and face makes in the step.
+    /// Its legs in the list of the step: the first, and how many.
+    legs: [u32; 2],
+    /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
     pub mobility: f64,
     pub normal_force: f64,
     /// On the slave (N).
     pub friction: Vec3,
-    /// Tangential frame that turns with the face, and `friction` in it.
+    /// Tangential frame that turns with the master, and `friction` in it.
     pub frame: [Vec3; 2],
     pub framed: [f64; 2],
     pub mu: f64,
@@ -59,8 +127,7 @@ impl Listed for Row {
             eta: 0.0,
             gap: f64::INFINITY,
             normal: [0.0; 3],
-            weights: [0.0; 4],
-            levers: [[0.0; 3]; 4],
+            legs: [0; 2],
             mobility: 0.0,
             normal_force: 0.0,
             friction: [0.0; 3],
@@ -87,8 +154,6 @@ impl Row {
     pub fn touch(&self) -> Touch {
         Touch {
             slave: self.slave,
-            face: self.face,
-            weights: self.weights,
             state: self.state,
             gap: self.gap,
             normal_force: self.normal_force,
@@ -105,47 +170,71 @@ impl Row {
             Self { gap: self.gap, xi: self.xi, eta: self.eta, ..Self::near(self.slave, self.face) };
     }
 
-    /// Sets up the rows of a node at `x` over its foot.
-    pub fn place(&mut self, foot: &Foot, face: &MasterFace, positions: &Positions<'_>, x: Vec3) {
-        let (xi, eta) = (foot.xi.clamp(-1.0, 1.0), foot.eta.clamp(-1.0, 1.0));
-        let n = foot.point.normal;
-        self.normal = n;
-        self.weights = shape(xi, eta);
-        let gradients = shape_gradients(xi, eta);
-        let (mut foot, mut a1, mut a2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        for ((&node, weight), [d1, d2]) in face.nodes.iter().zip(self.weights).zip(gradients) {
-            let corner = positions.at(node);
-            foot = axpy(foot, weight, corner);
-            a1 = axpy(a1, d1, corner);
-            a2 = axpy(a2, d2, corner);
-        }
-        let distance = dot(n, sub(x, foot));
-        // tangents in the plane of the rows, and their duals
-        let (a1, a2) = (tangential(a1, n), tangential(a2, n));
-        let area = dot(n, cross(a1, a2));
-        let (g1, g2) = (scale(1.0 / area, cross(a2, n)), scale(1.0 / area, cross(n, a1)));
-        for (lever, [d1, d2]) in self.levers.iter_mut().zip(gradients) {
-            *lever = axpy(scale(distance * d1, g1), distance * d2, g2);
-        }
+    /// Its legs in the list of the step.
+    #[inline]
+    pub fn legs(&self) -> Range<usize> {
+        self.legs[0] as usize..(self.legs[0] + self.legs[1]) as usize
     }
 
-    /// Rate of the gap (m/s) and slip velocity (m/s) from the velocities of slave and corners.
+    /// Sets up the rows of a node at `x` over a foot with unit normal `n` and adds their legs to the list
+    /// of the step.
     #[inline]
-    pub fn rates(&self, slave: Vec3, corners: [Vec3; 4]) -> (f64, Vec3) {
+    pub fn place(
+        &mut self,
+        shares: &[Share],
+        footing: &Footing,
+        n: Vec3,
+        x: Vec3,
+        legs: &mut Vec<Leg>,
+    ) {
+        self.normal = n;
+        self.frame = frame(footing.tangents[0], n);
+        self.legs = [legs.len() as u32, shares.len() as u32];
+        let [g1, g2] = footing.duals(n);
+        let to_node = sub(x, footing.x);
+        let beside = [dot(g1, to_node), dot(g2, to_node)];
+        let [a1, a2] = footing.tangents;
+        let under = axpy(scale(beside[0], a1), beside[1], a2);
+        let distance = dot(n, sub(to_node, under));
+        legs.extend(shares.iter().map(|share| {
+            let [d1, d2] = share.gradient;
+            Leg {
+                node: share.node,
+                weight: share.weight + d1 * beside[0] + d2 * beside[1],
+                lever: axpy(scale(distance * d1, g1), distance * d2, g2),
+            }
+        }));
+    }
+
+    /// Takes the legs, the last in the list, from it again.
+    pub fn withdraw(&mut self, legs: &mut Vec<Leg>) {
+        legs.truncate(self.legs[0] as usize);
+        self.legs = [0; 2];
+    }
+
+    /// Rate of the gap (m/s) and slip velocity (m/s) from the velocities of slave and master.
+    #[inline]
+    pub fn rates(&self, slave: Vec3, legs: &[Leg], velocity: impl Fn(u32) -> Vec3) -> (f64, Vec3) {
         let mut w = slave;
         let mut turn = [0.0; 3];
-        for i in 0..4 {
-            w = axpy(w, -self.weights[i], corners[i]);
-            turn = axpy(turn, dot(self.normal, corners[i]), self.levers[i]);
+        for leg in legs {
+            let v = velocity(leg.node);
+            w = axpy(w, -leg.weight, v);
+            turn = axpy(turn, dot(self.normal, v), leg.lever);
         }
         let opening = dot(self.normal, w);
-        (opening, axpy(axpy(w, -opening, self.normal), 1.0, turn))
+        (opening, add(axpy(w, -opening, self.normal), turn))
     }
 
-    /// Force on corner `i` where `normal` and `friction` act on the slave (N).
+    /// Force on the node of a leg where `normal` and `friction` act on the slave (N).
     #[inline]
-    pub fn reaction(&self, i: usize, normal: f64, friction: Vec3) -> Vec3 {
-        let along = dot(self.levers[i], friction) - self.weights[i] * normal;
-        axpy(scale(-self.weights[i], friction), along, self.normal)
+    pub fn reaction(&self, leg: &Leg, normal: f64, friction: Vec3) -> Vec3 {
+        let along = dot(leg.lever, friction) - leg.weight * normal;
+        axpy(scale(-leg.weight, friction), along, self.normal)
     }
+}
+
+/// Where a foot on a face may be placed: not beyond its edges.
+pub(crate) fn within(foot: &Foot) -> [f64; 2] {
+    [foot.xi.clamp(-1.0, 1.0), foot.eta.clamp(-1.0, 1.0)]
 }

@@ -34,9 +34,6 @@ pub(crate) trait Listed: Copy {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touch {
     pub slave: u32,
-    pub face: u32,
-    /// Weights with which the corners of the face take the reaction.
-    pub weights: [f64; 4],
     pub state: State,
     pub gap: f64,
     /// Normal force (N) and tangential force on the slave (N).

@@ -43,3 +43,10 @@ pub(crate) fn norm(a: Vec3) -> f64 {
 pub(crate) fn tangential(a: Vec3, n: Vec3) -> Vec3 {
     axpy(a, -dot(a, n), n)
 }
+
+/// Orthonormal vectors in the plane with unit normal `n`, the first along `tangent`.
+pub(crate) fn frame(tangent: Vec3, n: Vec3) -> [Vec3; 2] {
+    let e = tangential(tangent, n);
+    let e1 = scale(1.0 / norm(e), e);
+    [e1, cross(n, e1)]
+}

@@ -38,6 +38,10 @@ pub const PAIRING_ATTRIBUTE: &str = "slip_pairing";
 /// method enforces the conditions of contact; the other body's nodes receive what its faces bear.
 pub const ENFORCED_ATTRIBUTE: &str = "enforced_on";
 
+/// Root attribute of a contact history whose method enforces the conditions in means over the faces
+/// around a node (`mortar`), not at the nodes themselves (`node_to_face`, as without it).
+pub const ROWS_ATTRIBUTE: &str = "contact_rows";
+
 /// One record.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
@@ -73,6 +77,8 @@ pub struct ContactHistory {
     pub pairing: (Pairing, bool),
     /// The body at whose nodes the method enforces the conditions, if the file names one.
     pub enforced_on: Option<u8>,
+    /// Whether it enforces them in means over the faces around each node.
+    pub in_means: bool,
     has: Optional,
 }
 
@@ -147,10 +153,11 @@ impl ContactHistory {
             Ok("bar") => Some(1),
             _ => None,
         };
+        let in_means = file.provenance(ROWS_ATTRIBUTE).is_ok_and(|rows| rows == "mortar");
         let has =
             Optional { gap: found[3], mu: found[4], state: found[5], motion: found[6] && found[7] };
         let surface = Surface::read(&file, path)?;
-        Ok(Self { path: path.into(), surface, times, pairing, enforced_on, has })
+        Ok(Self { path: path.into(), surface, times, pairing, enforced_on, in_means, has })
     }
 
     /// The file.

@@ -7,7 +7,7 @@
 //! scale factor of the penalty.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Rows, Stiffness};
 use mesh::{Bar, Disk, FineZone, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{Axis, Enforcement, Problem, Supports, Tied};
@@ -48,7 +48,7 @@ fn main() {
     for word in arguments {
         let factor: f64 = word.parse().unwrap_or(1.0);
         let enforcement = match word.as_str() {
-            "exact" => Enforcement::Exact { slave: 0 },
+            "exact" => Enforcement::Exact { slave: 0, rows: Rows::NodeToFace },
             _ => Enforcement::Penalty,
         };
         let mut solid =

@@ -187,7 +187,7 @@ impl Coarse {
         let mut matrix = self.elastic.clone();
         for (link, k) in springs {
             let mut row = BTreeMap::<u32, [f64; MODES]>::new();
-            let foot = link.corners.iter().zip(link.weights).map(|(&n, w)| (n, -w));
+            let foot = link.foot.iter().map(|&(n, w)| (n, -w));
             for (node, weight) in [(link.slave, 1.0)].into_iter().chain(foot) {
                 let c = self.cluster[node];
                 if c != NONE {

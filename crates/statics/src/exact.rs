@@ -10,7 +10,7 @@ use crate::link::Link;
 use crate::newton::forcing;
 use crate::problem::{Ending, Equilibrium, Iteration, Report};
 use crate::system::{System, moved};
-use contact::Gap;
+use contact::{Gap, Rows};
 use mesh::Padded;
 use std::collections::{BTreeSet, HashSet};
 
@@ -30,6 +30,7 @@ const ROUND_OFF: f64 = 1e-7;
 pub(crate) fn solve(
     system: &mut System<'_>,
     slave: usize,
+    rows: Rows,
     mut u: Vec<Padded>,
     observe: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Equilibrium, StaticsError> {
@@ -48,7 +49,7 @@ pub(crate) fn solve(
     let mut before = f64::INFINITY;
     let mut energy = system.force(&u, &mut force, true);
     loop {
-        system.gaps(slave, &u, &mut gaps);
+        system.gaps(slave, rows, &u, &mut gaps);
         let changes = changes(&gaps, &force, &active, TENSION * system.scale(&force));
         let changed = !changes.is_empty();
         apply(changes, one_by_one, &mut active);
@@ -61,8 +62,11 @@ pub(crate) fn solve(
             return Err(StaticsError::HeldSlave { node: gap.node as usize });
         }
         let links: Vec<Link> = closed.iter().map(|g| Link::new(g)).collect();
-        let pressed: Vec<(Gap, f64)> =
-            closed.iter().zip(&links).map(|(g, l)| (**g, -l.slave_normal(&force))).collect();
+        let pressed: Vec<(Gap, f64)> = closed
+            .iter()
+            .zip(&links)
+            .map(|(g, l)| ((*g).clone(), -l.slave_normal(&force)))
+            .collect();
         let widest = closed.iter().fold(0.0, |w: f64, g| w.max(g.gap.abs()));
         at.closed = pressed.len();
         at.normal_force = pressed.iter().map(|p| p.1).sum();
@@ -91,7 +95,7 @@ pub(crate) fn solve(
         at.iteration += 1;
         if let Some(drift) = drift {
             let closed = |system: &mut System<'_>, u: &[Padded]| {
-                system.gaps(slave, u, &mut gaps);
+                system.gaps(slave, rows, u, &mut gaps);
                 gaps.iter().filter(|g| g.gap < 0.0).map(Link::new).collect()
             };
             system.close(&drift, &mut u, &force, closed)?;

@@ -3,12 +3,12 @@
 use contact::Gap;
 use mesh::Padded;
 
-/// The row of the gap's derivative: `w -> n . (w_s - sum phi_I w_I)`.
-#[derive(Clone, Copy, Debug)]
+/// The row of the gap's derivative: `u -> n . (u_s - sum w_J u_J)`.
+#[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub(crate) slave: usize,
-    pub(crate) corners: [usize; 4],
-    pub(crate) weights: [f64; 4],
+    /// Nodes of the master and their weights.
+    pub(crate) foot: Vec<(usize, f64)>,
     pub(crate) normal: [f64; 3],
 }
 
@@ -16,8 +16,7 @@ impl Link {
     pub(crate) fn new(gap: &Gap) -> Self {
         Self {
             slave: gap.node as usize,
-            corners: gap.corners.map(|n| n as usize),
-            weights: gap.weights,
+            foot: gap.foot.iter().map(|&(n, weight)| (n as usize, weight)).collect(),
             normal: gap.normal,
         }
     }
@@ -30,8 +29,8 @@ impl Link {
     /// Normal component of the motion `w` of the foot.
     pub(crate) fn foot_normal(&self, w: &[Padded]) -> f64 {
         let mut sum = 0.0;
-        for (weight, corner) in self.weights.iter().zip(self.corners) {
-            sum += weight * dot(self.normal, w[corner]);
+        for &(node, weight) in &self.foot {
+            sum += weight * dot(self.normal, w[node]);
         }
         sum
     }
@@ -44,8 +43,8 @@ impl Link {
     /// Adds the force `f` along the normal to the slave and its reaction to the face.
     pub(crate) fn push(&self, f: f64, force: &mut [Padded]) {
         self.add(self.slave, f, force);
-        for (weight, corner) in self.weights.iter().zip(self.corners) {
-            self.add(corner, -weight * f, force);
+        for &(node, weight) in &self.foot {
+            self.add(node, -weight * f, force);
         }
     }
 

@@ -60,7 +60,7 @@ pub(crate) fn solve(
         let stalled = at.residual > STALLED * before;
         let found = at.residual <= system.problem.tolerance;
         system.set_springs(&u);
-        let links: Vec<Link> = system.springs.iter().map(|(link, _)| *link).collect();
+        let links: Vec<Link> = system.springs.iter().map(|(link, _)| link.clone()).collect();
         let drift = system.unresisted(&links);
         if (found || stalled && at.residual < ROUND_OFF) && drift.is_none() {
             system.is_pressed(&at, &force)?;
@@ -88,7 +88,7 @@ pub(crate) fn solve(
             let closed = |system: &mut System<'_>, u: &[Padded]| {
                 system.add_springs(u, &mut r);
                 system.set_springs(u);
-                system.springs.iter().map(|(link, _)| *link).collect()
+                system.springs.iter().map(|(link, _)| link.clone()).collect()
             };
             system.close(&drift, &mut u, &force, closed)?;
             (at.cg_iterations, at.step) = (0, 0.0);

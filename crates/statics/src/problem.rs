@@ -18,6 +18,8 @@ pub enum Enforcement {
     Exact {
         /// 0 or 1; the finer surface serves better.
         slave: usize,
+        /// What the slaves meet.
+        rows: contact::Rows,
     },
 }
 
@@ -140,6 +142,8 @@ pub fn solve(
     let start = system.admissible(start)?;
     match problem.enforcement {
         Enforcement::Penalty => newton::solve(&mut system, start, &mut observe),
-        Enforcement::Exact { slave } => exact::solve(&mut system, slave, start, &mut observe),
+        Enforcement::Exact { slave, rows } => {
+            exact::solve(&mut system, slave, rows, start, &mut observe)
+        }
     }
 }

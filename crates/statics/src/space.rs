@@ -113,8 +113,8 @@ impl Space {
         let mut blocks = Blocks::new(self);
         for (link, k) in springs {
             blocks.add(link.slave, *k, link.normal);
-            for (weight, corner) in link.weights.iter().zip(link.corners) {
-                blocks.add(corner, k * weight * weight, link.normal);
+            for &(node, weight) in &link.foot {
+                blocks.add(node, k * weight * weight, link.normal);
             }
         }
         blocks.finish();
@@ -129,8 +129,8 @@ impl Space {
             links.iter().map(|l| along(&self.diagonal[l.slave], l.normal)).collect();
         let mut blocks = Blocks::new(self);
         for (link, k) in links.iter().zip(&stiffness) {
-            for (weight, corner) in link.weights.iter().zip(link.corners) {
-                blocks.add(corner, k * weight * weight, link.normal);
+            for &(node, weight) in &link.foot {
+                blocks.add(node, k * weight * weight, link.normal);
             }
         }
         blocks.finish();

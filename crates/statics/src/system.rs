@@ -171,7 +171,7 @@ impl<'a> System<'a> {
             (Some(held), _) => {
                 let gap = |link: &Link, gap: &f64| gap + link.opening(u) - link.opening(&held.at);
                 let all = held.springs.iter().zip(&held.gaps);
-                all.filter(|((link, _), g)| gap(link, g) < 0.0).map(|(s, _)| *s).collect()
+                all.filter(|((link, _), g)| gap(link, g) < 0.0).map(|(s, _)| s.clone()).collect()
             }
             (None, Some(contact)) => {
                 contact.springs().map(|(gap, k)| (Link::new(&gap), k)).collect()
@@ -232,9 +232,15 @@ impl<'a> System<'a> {
     }
 
     /// Gaps of a pass at `u`.
-    pub(crate) fn gaps(&mut self, slave: usize, u: &[Padded], gaps: &mut Vec<contact::Gap>) {
+    pub(crate) fn gaps(
+        &mut self,
+        slave: usize,
+        rows: contact::Rows,
+        u: &[Padded],
+        gaps: &mut Vec<contact::Gap>,
+    ) {
         if let Some(contact) = &mut self.contact {
-            contact.gaps(slave, &self.reference, u, gaps);
+            contact.gaps(slave, rows, &self.reference, u, gaps);
         }
     }
 
@@ -266,7 +272,7 @@ impl<'a> System<'a> {
         const UPRIGHT: f64 = 1e-9;
         let inside = |n: usize| f64::from(u8::from(self.parts.contains(drift, n)));
         links.iter().any(|link| {
-            let foot: f64 = link.weights.iter().zip(link.corners).map(|(w, n)| w * inside(n)).sum();
+            let foot: f64 = link.foot.iter().map(|&(n, w)| w * inside(n)).sum();
             link.normal[drift.axis].abs() * (inside(link.slave) - foot).abs() > UPRIGHT
         })
     }

@@ -1,7 +1,7 @@
 //! Blocks in compression: closed forms, both enforcements, convergence, bits, failures.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Rows, Stiffness};
 use mesh::{Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{
@@ -13,7 +13,7 @@ const SIDE: f64 = 10e-3;
 /// Without lateral contraction a block between rigid plates is in uniaxial stress.
 const CORK: Material = Material { young: YOUNG, poisson: 0.0, density: 7800.0 };
 const STEEL: Material = Material { young: YOUNG, poisson: 0.3, density: 7800.0 };
-const EXACT: Enforcement = Enforcement::Exact { slave: 0 };
+const EXACT: Enforcement = Enforcement::Exact { slave: 0, rows: Rows::NodeToFace };
 
 /// Force on a bar of unit area that is shortened by the engineering strain `e`
 /// (St. Venant–Kirchhoff): (1 - e) E (e - e^2/2).
@@ -257,7 +257,7 @@ fn a_dome_presses_where_it_touches_and_nowhere_else() {
         assert!(found.pressed.iter().all(|(_, force)| *force >= 0.0));
         let mut gaps = Vec::new();
         let reference: Vec<Padded> = rig.mesh.nodes.iter().map(|x| Padded::new(*x)).collect();
-        rig.contact.gaps(0, &reference, &found.displacement, &mut gaps);
+        rig.contact.gaps(0, Rows::NodeToFace, &reference, &found.displacement, &mut gaps);
         let pressed: Vec<u32> = found.pressed.iter().map(|(gap, _)| gap.node).collect();
         for gap in &gaps {
             let touches = pressed.contains(&gap.node);

@@ -133,7 +133,7 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
     setup.velocity[first.clone()].fill(Padded::new([SPEED, 0.0, 0.0]));
     setup.velocity[second].fill(Padded::new([-SPEED, 0.0, 0.0]));
     setup.contact = Some(if exact {
-        let settings = ExactSettings { slave: Some(0), curvature: false };
+        let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let law = Box::new(Coulomb { mu: 0.0 });
         Box::new(ExactContact::new(&mesh, surfaces.map(|s| (s, material)), &settings, law)?)
     } else {

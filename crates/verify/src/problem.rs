@@ -116,6 +116,18 @@ pub const PROBLEMS: &[Problem] = &[
         run: sliding::incline_exact,
     },
     Problem {
+        name: "block-slide-mortar",
+        about: "The sliding block with mortar rows on a plane of another pitch",
+        set: Set::Default,
+        run: sliding::stop_mortar,
+    },
+    Problem {
+        name: "incline-mortar",
+        about: "The block on an incline with mortar rows on a plane of another pitch",
+        set: Set::Default,
+        run: sliding::incline_mortar,
+    },
+    Problem {
         name: "colliding-bars-exact",
         about: "The colliding bars with exact contact",
         set: Set::Default,

@@ -15,7 +15,8 @@
 //! - a block that starts to slide: while its springs load it gains at most the speed
 //!   v_1 = sqrt(2 g sin(alpha) d), the load's work over d, and runs ahead by v_1 t.
 //!
-//! Exact contact has no springs: d is then what the block itself gives, mu rho g H^2/(2G).
+//! Exact contact has no springs: d is then what the block itself gives, mu rho g H^2/(2G). With mortar
+//! rows the plane has another pitch than the block, 0.8 of it.
 //!
 //! The block first settles under its weight, with critically damped contact springs, or on exact
 //! contact with damping in proportion to mass. Where the springs' dampers are missing the elements have
@@ -27,7 +28,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
     BodyMaterial, Contact, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
-    Stiffness,
+    Rows, Stiffness,
 };
 use dynamics::{Load, Setup, Simulation};
 use mesh::{Mesh, Padded, Surface};
@@ -53,7 +54,7 @@ const SUDDEN: f64 = 4.0;
 #[derive(Clone, Copy, PartialEq)]
 enum Method {
     Penalty,
-    Exact,
+    Exact(Rows),
 }
 
 const FROM: &str = "elastic give d of friction springs and block, loaded at once (module text)";
@@ -63,7 +64,11 @@ pub(crate) fn stop(size: Size) -> Outcome {
 }
 
 pub(crate) fn stop_exact(size: Size) -> Outcome {
-    stops(size, Method::Exact)
+    stops(size, Method::Exact(Rows::NodeToFace))
+}
+
+pub(crate) fn stop_mortar(size: Size) -> Outcome {
+    stops(size, Method::Exact(Rows::Mortar))
 }
 
 fn stops(size: Size, method: Method) -> Outcome {
@@ -104,7 +109,11 @@ pub(crate) fn incline(size: Size) -> Outcome {
 }
 
 pub(crate) fn incline_exact(size: Size) -> Outcome {
-    inclines(size, Method::Exact)
+    inclines(size, Method::Exact(Rows::NodeToFace))
+}
+
+pub(crate) fn incline_mortar(size: Size) -> Outcome {
+    inclines(size, Method::Exact(Rows::Mortar))
 }
 
 fn inclines(size: Size, method: Method) -> Outcome {
@@ -154,7 +163,7 @@ fn give(method: Method) -> f64 {
     let pressure = MATERIAL.density * GRAVITY * BLOCK[2];
     let spring = match method {
         Method::Penalty => MU * pressure / SPRING,
-        Method::Exact => 0.0,
+        Method::Exact(_) => 0.0,
     };
     spring + MU * pressure * BLOCK[2] / (2.0 * MATERIAL.shear())
 }
@@ -174,7 +183,10 @@ impl Block {
         };
         let block = mesh::block(cells, BLOCK);
         let h = BLOCK[0] / cells[0] as f64;
-        let plane_cells = [(PLANE / h).round() as usize, cells[1], 1];
+        // mortar rows are for meshes that do not match
+        let pitch = if method == Method::Exact(Rows::Mortar) { 0.8 } else { 1.0 };
+        let cells_along = |length: f64| (length / (pitch * h)).round() as usize;
+        let plane_cells = [cells_along(PLANE), cells_along(BLOCK[1]), 1];
         let mut plane = mesh::block(plane_cells, [PLANE, BLOCK[1], h]);
         plane.nodes.iter_mut().for_each(|x| *x = [x[0] - BLOCK[0], x[1], x[2] - h]);
         let mesh = mesh::join(&[block, plane]);
@@ -183,7 +195,7 @@ impl Block {
         let (mut settling, contact) = setup(&mesh, down, 1.0)?;
         settling.contact = Some(match method {
             Method::Penalty => Box::new(contact),
-            Method::Exact => Box::new(exact(&mesh)?),
+            Method::Exact(rows) => Box::new(exact(&mesh, rows)?),
         });
         let pressure = -down[2] * MATERIAL.density * BLOCK[2];
         let body = mesh.bodies[0].nodes.clone();
@@ -193,7 +205,7 @@ impl Block {
                 settling.displacement[body.clone()].fill(pressed);
             }
             // critical for the column: omega = pi c/(2 H)
-            Method::Exact => {
+            Method::Exact(_) => {
                 let c = (MATERIAL.young / MATERIAL.density).sqrt();
                 settling.mass_damping = std::f64::consts::PI * c / BLOCK[2];
             }
@@ -220,9 +232,9 @@ impl Block {
         }
         let contact: Box<dyn Contact> = match method {
             Method::Penalty => Box::new(contact),
-            Method::Exact => {
+            Method::Exact(rows) => {
                 setup.solid = damped(&mesh, 0.3 * setup.dt)?;
-                Box::new(exact(&mesh)?)
+                Box::new(exact(&mesh, rows)?)
             }
         };
         setup.contact = Some(contact);
@@ -258,8 +270,8 @@ fn damped(mesh: &Mesh, kelvin_voigt: f64) -> Result<Solid, Cause> {
     Ok(Solid::new(mesh, &[MATERIAL; 2], element, viscosity, Level::detect())?)
 }
 
-fn exact(mesh: &Mesh) -> Result<ExactContact, Cause> {
-    let settings = ExactSettings { slave: Some(0), curvature: false };
+fn exact(mesh: &Mesh, rows: Rows) -> Result<ExactContact, Cause> {
+    let settings = ExactSettings { slave: Some(0), curvature: false, rows };
     let law = Box::new(Coulomb { mu: MU });
     Ok(ExactContact::new(mesh, surfaces(mesh), &settings, law)?)
 }

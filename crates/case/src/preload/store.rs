@@ -64,6 +64,7 @@ pub(crate) fn key(case: &Case, kernels: &str) -> String {
         // the centrifugal force
         "speed": case.drive.speed,
         "enforcement": case.contact.enforcement,
+        "rows": case.contact.rows,
         "curvature": case.contact.curvature,
         "normal": penalty.normal,
         "preload": case.preload,

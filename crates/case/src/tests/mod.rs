@@ -224,7 +224,9 @@ fn a_law_needs_and_gets_only_its_own_keys() {
     assert_eq!((case.friction.memory, case.friction.decay), (None, None));
     let case =
         set(&["contact.enforcement=exact", "friction.law=rate_state", "friction.distance=1"]);
-    assert_eq!(case.unwrap().friction.mode, Some(crate::schema::FrictionMode::Exact));
+    let case = case.unwrap();
+    assert_eq!(case.friction.mode, Some(crate::schema::FrictionMode::Exact));
+    assert_eq!(case.contact.rows, Some(crate::schema::Rows::NodeToFace));
 }
 
 #[test]

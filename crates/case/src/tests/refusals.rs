@@ -183,6 +183,8 @@ fn wrong_values_are_refused_with_key_value_and_range() {
             vec!["friction.mode", "friction.memory", "both given"],
         ),
         (vec!["contact.enforcement=mortar"], vec!["contact.enforcement = \"mortar\"", "\"exact\""]),
+        (vec!["contact.rows=mortar"], vec!["contact.rows", "contact.enforcement", "\"penalty\""]),
+        (vec![EXACT, "contact.rows=dual"], vec!["contact.rows = \"dual\"", "\"node_to_face\""]),
         (vec![EXACT, "preload.method=relaxation"], vec!["preload.method", "exact"]),
     ] {
         let text = refusal(set(&sets));

@@ -1,6 +1,6 @@
 //! What a pass over the records found, as the contract's document.
 
-use super::pass::Pass;
+use super::pass::{Pass, View};
 use super::{CheckOptions, Report};
 use crate::basis::{Basis, Bound, SCALES};
 use crate::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
@@ -113,6 +113,14 @@ impl Pass<'_> {
                  chatter of two steps can hide (record every step in an [[output.window]])"
             ));
         }
+        if let Some(body) = self.history.enforced_on.filter(|_| self.history.in_means) {
+            notes.push(format!(
+                "mortar rows: the conditions hold in means over the faces around the nodes of the {0}, as \
+                 slip_velocity there is; the pair, which takes single points, and the {1} are not judged",
+                body_name(body),
+                body_name(1 - body)
+            ));
+        }
         if self.without_foot > 0 {
             notes.push(format!(
                 "{} node-times in contact project on no face of the other side and are left out \
@@ -155,10 +163,14 @@ impl Pass<'_> {
             "roughness_ratio" => value.ln().abs(),
             _ => value,
         };
-        // What the faces hand on to the nodes of the other body obeys the law only on the mean.
+        // What the faces hand on to the nodes of the other body obeys the law only on the mean; conditions
+        // in means say nothing of single points, nor of the sign of single forces handed on.
+        let in_means = self.history.in_means;
         let judged = |view: &str, pairing: Option<Pairing>| {
             let receives = |body: u8| view == body_name(1 - body);
-            pairing.is_none() || !self.history.enforced_on.is_some_and(receives)
+            let received = self.history.enforced_on.is_some_and(receives);
+            let pointwise = in_means && view == View::Pair.name();
+            !pointwise && !(received && (pairing.is_some() || in_means))
         };
         let candidates =
             all.iter().filter(|(view, pairing, _)| counts(*pairing) && judged(view, *pairing));

@@ -1,0 +1,647 @@
+//! Dual mortar rows: the gap of a slave node is the mean over the slave faces around it, weighted with a
+//! function that meets no other slave node.
+//!
+//! On every slave face the dual functions are `psi_a = sum_b q_ab N_b` with `q = D M^-1`,
+//! `M_ab = int N_a N_b`, `D_a = int N_a`: then `int psi_a N_b = D_a delta_ab` (Wohlmuth 2000). For the node
+//! `i`, with the sums over the faces around it,
+//!
+//! - `A_i = sum int psi_i = sum int N_i`, its tributary area;
+//! - `w_J = (1/A_i) sum int psi_i N_J`, the weights of the master's nodes; they add up to one;
+//! - `g_i = (1/A_i) sum int psi_i g`, the gap.
+//!
+//! Since the `psi_i` add up to one on a face, a uniform pressure `p` on the slaves, `r_i = p A_i`, reaches the
+//! master as `sum_i w_J r_i = p int N_J`, what a uniform pressure on its own faces would be: the patch test of
+//! the interface.
+//!
+//! The integrals are taken over segments, the parts that slave and master faces have in common in the
+//! plane of the slave face (Puso and Laursen 2004; module `segment`). The gap at a point is that of node to
+//! face: from the exact surface of the slave, where it has one, to that of the master (module `face`).
+//!
+//! # Between integrations
+//! A row keeps its weights, their gradients `(1/A_i) sum int psi_i grad N_J` and the distance of the surfaces from
+//! their facets, and follows the nodes: `g = n . (x_i - sum w_J x_J) - c`, with a normal `n` that turns with the
+//! master. Weights move with the slave to first order (module `row`). Integrals are taken anew once the slave has
+//! moved along the master, or turned or stretched on it, by [`STALE`] of the smaller face; what this leaves out is of
+//! second order in it. In rolling, where contact sticks or creeps, that is rare.
+//!
+//! # Borders
+//! On a slave face that lies partly beside the master, `psi_a` is `N_a` over the part in common, and the
+//! gradients move the weights on to the node. A node that has lost more than [`LOST`] of its area is open.
+
+use crate::face::{FaceGeometry, Foot, Positions, project, shape};
+use crate::row::{Footing, Share, face_shares, within};
+use crate::segment::{Point, Polygon, coordinates};
+use crate::surface::{ContactSurface, NONE};
+use crate::vector::{Vec3, add, axpy, cross, dot, frame, norm, scale, sub};
+
+/// Motion along the master, over the size of the smaller face, after which integrals are taken anew.
+const STALE: f64 = 0.01;
+/// Part of a slave face that must lie on the master for dual functions.
+const WHOLE: f64 = 0.99;
+/// Part of its area that a node may have lost over the border of the master.
+const LOST: f64 = 0.75;
+/// Segments below this part of the slave face are round-off.
+const SLIVER: f64 = 1e-12;
+
+/// Nodes of the master that a row meets where pitches are alike; room for more is made when needed.
+const NODES: usize = 16;
+
+/// What the integrals over the faces around a slave node gave, and the row follows.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Mean {
+    /// Empty before the first integration.
+    pub shares: Vec<Share>,
+    /// The master's normal, along that of the tangents of the shares and covariant along them.
+    normal: [f64; 3],
+    /// Distance of the surfaces from their facets (m).
+    beyond: f64,
+    /// The far corner of a slave face (mesh index), and where it was in the frame of the master (m).
+    far: u32,
+    seen: [f64; 2],
+    /// Motion along the master (m) after which integrals are taken anew.
+    reach: f64,
+}
+
+/// A mean in the present configuration.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    pub footing: Footing,
+    pub normal: Vec3,
+    pub gap: f64,
+    /// How far the slave has moved along the master since the integration, over what is allowed.
+    pub stale: f64,
+}
+
+impl Mean {
+    /// Follows the nodes of the mean; the slave is at `x`.
+    pub fn standing(
+        &self,
+        master: &ContactSurface,
+        positions: &Positions<'_>,
+        x: Vec3,
+    ) -> Standing {
+        let footing = Footing::new(&self.shares, master, positions);
+        let normal = self.turned(&footing);
+        let to_node = sub(x, footing.x);
+        let distance = dot(normal, to_node);
+        let moved = norm(axpy(to_node, -distance, normal));
+        let seen = seen(&footing, normal, sub(positions.at(self.far), x));
+        let turned = (seen[0] - self.seen[0]).hypot(seen[1] - self.seen[1]);
+        let stale = (moved + turned) / self.reach;
+        Standing { footing, normal, gap: distance - self.beyond, stale }
+    }
+
+    /// The normal, turned with the tangents: as the exact surface's over a facet in `FaceGeometry`.
+    fn turned(&self, footing: &Footing) -> Vec3 {
+        let [a1, a2] = footing.tangents;
+        let facet = cross(a1, a2);
+        let n_f = scale(1.0 / norm(facet), facet);
+        let [g1, g2] = footing.duals(n_f);
+        let [nu, t1, t2] = self.normal;
+        let n = axpy(axpy(scale(nu, n_f), t1, g1), t2, g2);
+        scale(1.0 / norm(n), n)
+    }
+}
+
+fn seen(footing: &Footing, normal: Vec3, far: Vec3) -> [f64; 2] {
+    frame(footing.tangents[0], normal).map(|e| dot(far, e))
+}
+
+/// A point of integration on a slave face.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    /// Shape functions of the slave face.
+    shape: [f64; 4],
+    /// (m^2)
+    weight: f64,
+    foot: Foot,
+}
+
+/// Integration of the rows of one pass.
+#[derive(Clone, Debug)]
+pub(crate) struct Mortar {
+    curvature: bool,
+    /// The slave faces around each slave node and which of their corners it is: `around[start[i]..start[i+1]]`.
+    start: Vec<u32>,
+    around: Vec<(u32, u8)>,
+    /// Points of the slave face at hand.
+    samples: Vec<Sample>,
+    /// Master faces met from the slave face at hand.
+    met: Vec<u32>,
+}
+
+/// A slave face in its plane.
+struct Plane {
+    centre: Vec3,
+    /// Two directions in the plane and the outward normal.
+    axes: [Vec3; 3],
+    corners: [Point; 4],
+}
+
+impl Plane {
+    fn new(surface: &ContactSurface, face: u32, positions: &Positions<'_>) -> Self {
+        let x = surface.faces[face as usize].nodes.map(|n| positions.at(n));
+        let centre = scale(0.25, x.iter().fold([0.0; 3], |s, x| add(s, *x)));
+        let outward = cross(sub(x[2], x[0]), sub(x[3], x[1]));
+        let n = scale(1.0 / norm(outward), outward);
+        let [e1, e2] = frame(sub(x[1], x[0]), n);
+        let mut plane = Self { centre, axes: [e1, e2, n], corners: [[0.0; 2]; 4] };
+        plane.corners = x.map(|x| plane.put(x));
+        plane
+    }
+
+    /// A point along the normal into the plane.
+    fn put(&self, x: Vec3) -> Point {
+        let d = sub(x, self.centre);
+        [dot(d, self.axes[0]), dot(d, self.axes[1])]
+    }
+}
+
+impl Mortar {
+    /// For the nodes of `slaves`.
+    pub fn new(slaves: &ContactSurface, curvature: bool) -> Self {
+        let mut start = vec![0; slaves.nodes.len() + 1];
+        let corners = |visit: &mut dyn FnMut(usize, u32, u8)| {
+            for (f, face) in slaves.faces.iter().enumerate() {
+                for (c, node) in face.local.iter().enumerate() {
+                    visit(*node as usize, f as u32, c as u8);
+                }
+            }
+        };
+        corners(&mut |node, _, _| start[node + 1] += 1);
+        for i in 1..start.len() {
+            start[i] += start[i - 1];
+        }
+        let mut next = start.clone();
+        let mut around = vec![(NONE, 0); 4 * slaves.faces.len()];
+        corners(&mut |node, face, corner| {
+            around[next[node] as usize] = (face, corner);
+            next[node] += 1;
+        });
+        Self { curvature, start, around, samples: Vec::new(), met: Vec::new() }
+    }
+
+    /// Room of the lists that an integration fills.
+    #[cfg(test)]
+    pub fn room(&self) -> usize {
+        self.samples.capacity() + self.met.capacity()
+    }
+
+    fn around(&self, slave: u32) -> std::ops::Range<usize> {
+        self.start[slave as usize] as usize..self.start[slave as usize + 1] as usize
+    }
+
+    /// Integrates over the faces around the slave node `slave` into `mean`; `sides` are those of slaves and
+    /// masters, and the master lies near its face `near`. Returns the face under the node and whether the
+    /// node lies on the master; where not, `mean` is empty.
+    pub fn integrate(
+        &mut self,
+        sides: [&ContactSurface; 2],
+        positions: &Positions<'_>,
+        slave: u32,
+        near: u32,
+        mean: &mut Mean,
+    ) -> (u32, bool) {
+        let [own, master] = sides;
+        mean.shares.clear();
+        mean.shares.reserve(NODES);
+        let node = own.nodes[slave as usize];
+        let x = positions.at(node);
+        let foot = project(master, positions, self.curvature, x, near, 0.0, 0.0).foot;
+        let near = foot.map_or(near, |foot| foot.face);
+
+        // two directions for the gradients, whichever
+        let outward = self.around(slave).fold([0.0; 3], |sum, k| {
+            axpy(sum, -1.0, Plane::new(own, self.around[k].0, positions).axes[2])
+        });
+        let n = scale(1.0 / norm(outward), outward);
+        let along = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+        let directions = frame(along, n);
+
+        let (mut area, mut normal, mut gap) = (0.0, [0.0; 3], 0.0);
+        for k in self.around(slave) {
+            let (face, corner) = self.around[k];
+            let whole = self.sample(sides, positions, face, near);
+            let q = dual(&self.samples, corner as usize, whole);
+            for sample in &self.samples {
+                let psi: f64 = q.iter().zip(sample.shape).map(|(q, n)| q * n).sum();
+                let psi = psi * sample.weight;
+                area += psi;
+                normal = axpy(normal, psi, sample.foot.point.normal);
+                gap += psi * sample.foot.gap;
+                gather(&mut mean.shares, &sample.foot, master, positions, &directions, psi);
+            }
+        }
+        // what is no number is not on the master
+        let on_master = area > (1.0 - LOST) * own.area[slave as usize];
+        if !on_master {
+            mean.shares.clear();
+            return (near, false);
+        }
+        for share in &mut mean.shares {
+            share.weight /= area;
+            share.gradient = share.gradient.map(|g| g / area);
+        }
+        self.settle(mean, sides, positions, slave, scale(1.0 / norm(normal), normal), gap / area);
+        mean.reach = STALE * f64::min(area.sqrt(), master.faces[near as usize].size);
+        (near, true)
+    }
+
+    /// Moves the weights under the node and keeps what the row follows.
+    fn settle(
+        &self,
+        mean: &mut Mean,
+        [own, master]: [&ContactSurface; 2],
+        positions: &Positions<'_>,
+        slave: u32,
+        n: Vec3,
+        gap: f64,
+    ) {
+        let x = positions.at(own.nodes[slave as usize]);
+        let footing = Footing::new(&mean.shares, master, positions);
+        let [g1, g2] = footing.duals(n);
+        let to_node = sub(x, footing.x);
+        let beside = [dot(g1, to_node), dot(g2, to_node)];
+        for share in &mut mean.shares {
+            share.weight += share.gradient[0] * beside[0] + share.gradient[1] * beside[1];
+        }
+        let footing = Footing::new(&mean.shares, master, positions);
+        mean.beyond = dot(n, sub(x, footing.x)) - gap;
+        let [a1, a2] = footing.tangents;
+        let facet = cross(a1, a2);
+        mean.normal = [dot(n, facet) / norm(facet), dot(n, a1), dot(n, a2)];
+        let (face, corner) = self.around[self.around(slave).start];
+        mean.far = own.faces[face as usize].nodes[(corner as usize + 2) % 4];
+        mean.seen = seen(&footing, n, sub(positions.at(mean.far), x));
+    }
+
+    /// Points of integration on the slave face over the master. Returns whether all of it lies there.
+    fn sample(
+        &mut self,
+        [own, master]: [&ContactSurface; 2],
+        positions: &Positions<'_>,
+        face: u32,
+        near: u32,
+    ) -> bool {
+        let plane = Plane::new(own, face, positions);
+        let geometry = FaceGeometry::new(own, face, positions, self.curvature);
+        let whole = Polygon::quad(plane.corners).area();
+        self.samples.clear();
+        self.met.clear();
+        self.met.push(self.first(own, master, positions, face, near));
+        let mut covered = 0.0;
+        let mut next = 0;
+        while let Some(&other) = self.met.get(next) {
+            let x = master.faces[other as usize].nodes.map(|n| plane.put(positions.at(n)));
+            // seen from the slave, the master runs the other way round
+            let segment = Polygon::quad([x[3], x[2], x[1], x[0]]).clipped(&plane.corners);
+            let meets = segment.area() > SLIVER * whole;
+            if meets {
+                let (samples, curvature) = (&mut self.samples, self.curvature);
+                segment.integrate(|p, weight| {
+                    let [xi, eta] = coordinates(&plane.corners, p);
+                    let at = geometry.at(xi, eta);
+                    let exact = axpy(at.x, at.offset, at.normal);
+                    let start = coordinates(&x, p);
+                    let foot =
+                        project(master, positions, curvature, exact, other, start[0], start[1])
+                            .foot
+                            .filter(|foot| dot(foot.point.normal, plane.axes[2]) < 0.0);
+                    if let Some(foot) = foot {
+                        covered += weight;
+                        samples.push(Sample { shape: shape(xi, eta), weight, foot });
+                    }
+                });
+            }
+            if meets || next == 0 {
+                for (neighbour, _) in master.faces[other as usize].neighbours {
+                    if neighbour != NONE && !self.met.contains(&neighbour) {
+                        self.met.push(neighbour);
+                    }
+                }
+            }
+            next += 1;
+        }
+        covered >= WHOLE * whole
+    }
+
+    /// A master face under the slave face, or else `near`.
+    fn first(
+        &self,
+        own: &ContactSurface,
+        master: &ContactSurface,
+        positions: &Positions<'_>,
+        face: u32,
+        near: u32,
+    ) -> u32 {
+        let corners = own.faces[face as usize].nodes.map(|n| positions.at(n));
+        let centre = scale(0.25, corners.iter().fold([0.0; 3], |s, x| add(s, *x)));
+        [centre]
+            .into_iter()
+            .chain(corners)
+            .find_map(|x| project(master, positions, self.curvature, x, near, 0.0, 0.0).foot)
+            .map_or(near, |foot| foot.face)
+    }
+}
+
+/// Coefficients `q_b` of the function `psi = sum q_b N_b` of a corner: dual on a `whole` face, else `N`.
+fn dual(samples: &[Sample], corner: usize, whole: bool) -> [f64; 4] {
+    let mut q = [0.0; 4];
+    if !whole {
+        q[corner] = 1.0;
+        return q;
+    }
+    let mut m = [[0.0; 4]; 4];
+    for s in samples {
+        q[corner] += s.weight * s.shape[corner];
+        for (row, n) in m.iter_mut().zip(s.shape) {
+            for (entry, other) in row.iter_mut().zip(s.shape) {
+                *entry += s.weight * n * other;
+            }
+        }
+    }
+    // M q = D e_corner; M is positive definite
+    for i in 0..4 {
+        for j in i + 1..4 {
+            let factor = m[j][i] / m[i][i];
+            for k in i..4 {
+                m[j][k] -= factor * m[i][k];
+            }
+            q[j] -= factor * q[i];
+        }
+    }
+    for i in (0..4).rev() {
+        for k in i + 1..4 {
+            q[i] -= m[i][k] * q[k];
+        }
+        q[i] /= m[i][i];
+    }
+    q
+}
+
+/// Adds `psi` times the shape functions at a foot, and their gradients along two directions.
+fn gather(
+    shares: &mut Vec<Share>,
+    foot: &Foot,
+    master: &ContactSurface,
+    positions: &Positions<'_>,
+    directions: &[Vec3; 2],
+    psi: f64,
+) {
+    let [xi, eta] = within(foot);
+    let corners = face_shares(&master.faces[foot.face as usize], xi, eta);
+    let duals = Footing::new(&corners, master, positions).duals(foot.point.normal);
+    let along = directions.map(|e| duals.map(|g| dot(e, g)));
+    for corner in corners {
+        let [d1, d2] = corner.gradient;
+        let gradient = along.map(|[g1, g2]| psi * (d1 * g1 + d2 * g2));
+        let weight = psi * corner.weight;
+        match shares.iter_mut().find(|share| share.node == corner.node) {
+            Some(share) => {
+                share.weight += weight;
+                share.gradient[0] += gradient[0];
+                share.gradient[1] += gradient[1];
+            }
+            None => shares.push(Share { node: corner.node, weight, gradient }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::plates::{STEEL, plate, together, tread};
+    use crate::vector::tangential;
+    use mesh::{Mesh, Padded, Surface};
+
+    struct Rig {
+        sides: [ContactSurface; 2],
+        reference: Vec<Padded>,
+        displacement: Vec<Padded>,
+        upper: usize,
+    }
+
+    impl Rig {
+        /// Slaves above masters.
+        fn new(upper: (Mesh, Surface), lower: (Mesh, Surface)) -> Self {
+            let count = upper.0.nodes.len();
+            let (mesh, second) = together(upper.0, lower.0, lower.1);
+            let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+            Self {
+                sides: ContactSurface::both(&mesh, [(&upper.1, STEEL), (&second, STEEL)]).unwrap(),
+                displacement: vec![Padded::ZERO; reference.len()],
+                reference,
+                upper: count,
+            }
+        }
+
+        /// Plates of 8 mm with 5 cells on 4 an edge.
+        fn plates() -> Self {
+            Self::turned(0.0, 1.0, 4)
+        }
+
+        /// 5 cells on 8 mm, on a master turned by `angle`, larger by `factor` and with `cells` an edge.
+        fn turned(angle: f64, factor: f64, cells: usize) -> Self {
+            let low = [4e-3 - 4e-3 * factor; 2];
+            let high = [4e-3 + 4e-3 * factor; 2];
+            let mut rig = Self::new(
+                plate([0.0, 0.0], [8e-3, 8e-3], [5, 5], 0.0, 1e-3, false),
+                plate(low, high, [cells; 2], 0.0, 1e-3, true),
+            );
+            let (sin, cos) = angle.sin_cos();
+            for x in &mut rig.reference[rig.upper..] {
+                let [a, b, z] = x.xyz();
+                let (a, b) = (a - 4e-3, b - 4e-3);
+                *x = Padded::new([4e-3 + cos * a - sin * b, 4e-3 + sin * a + cos * b, z]);
+            }
+            rig
+        }
+
+        fn positions(&self) -> Positions<'_> {
+            Positions { reference: &self.reference, displacement: &self.displacement }
+        }
+
+        /// Moves a body by `to(x)`.
+        fn put(&mut self, body: usize, to: impl Fn(Vec3) -> Vec3) {
+            let range = if body == 0 { 0..self.upper } else { self.upper..self.reference.len() };
+            for i in range {
+                let x = self.reference[i].xyz();
+                self.displacement[i] = Padded::new(sub(to(x), x));
+            }
+        }
+
+        fn means(&self, curvature: bool) -> Vec<Option<Mean>> {
+            let sides = [&self.sides[0], &self.sides[1]];
+            let mut mortar = Mortar::new(sides[0], curvature);
+            let middle = sides[1].faces.len() as u32 / 2;
+            let integrate = |slave| {
+                let mut mean = Mean::default();
+                let (_, on) = mortar.integrate(sides, &self.positions(), slave, middle, &mut mean);
+                on.then_some(mean)
+            };
+            (0..sides[0].nodes.len() as u32).map(integrate).collect()
+        }
+
+        fn standing(&self, slave: usize, mean: &Mean) -> Standing {
+            let positions = self.positions();
+            let x = positions.at(self.sides[0].nodes[slave]);
+            mean.standing(&self.sides[1], &positions, x)
+        }
+    }
+
+    #[test]
+    fn a_uniform_pressure_reaches_the_nodes_of_a_mesh_that_does_not_match_as_one() {
+        let received = |rig: &Rig| {
+            let mut received = vec![0.0; rig.sides[1].nodes.len()];
+            for (mean, area) in rig.means(false).into_iter().zip(&rig.sides[0].area) {
+                for share in mean.unwrap().shares {
+                    received[share.node as usize] += area * share.weight;
+                }
+            }
+            received
+        };
+        let rig = Rig::plates();
+        for (r, area) in received(&rig).iter().zip(&rig.sides[1].area) {
+            assert!((r / area - 1.0).abs() < 1e-12, "{r:e} {area:e}");
+        }
+        // a master turned and larger: nodes of faces that lie wholly under the slaves
+        let rig = Rig::turned(0.3, 1.6, 7);
+        let under = |face: &crate::surface::MasterFace| {
+            let mut corners = face.nodes.iter().map(|&n| rig.reference[n as usize]);
+            corners.all(|x| (0..2).all(|i| x[i] > 0.0 && x[i] < 8e-3))
+        };
+        let found = received(&rig);
+        assert!((found.iter().sum::<f64>() / 64e-6 - 1.0).abs() < 1e-12);
+        let mut whole = 0;
+        for (node, r) in found.iter().enumerate() {
+            let faces = rig.sides[1].faces.iter();
+            let around: Vec<_> = faces.filter(|f| f.local.contains(&(node as u32))).collect();
+            if around.len() == 4 && around.into_iter().all(under) {
+                assert!((r / rig.sides[1].area[node] - 1.0).abs() < 1e-12, "{r:e}");
+                whole += 1;
+            }
+        }
+        assert!(whole >= 4, "{whole}");
+    }
+
+    #[test]
+    fn the_foot_lies_under_the_node_and_weights_add_up_to_one() {
+        let mut rig = Rig::new(
+            tread(0.5, 8e-3, 8e-3, [7, 5], 1e-3),
+            plate([-9e-3, -6e-3], [9e-3, 6e-3], [8, 6], 0.0, 1e-3, true),
+        );
+        rig.put(0, |x| [x[0] + 3e-4, x[1] - 2e-4, x[2] - 5e-6]);
+        for (slave, mean) in rig.means(true).into_iter().enumerate() {
+            let mean = mean.unwrap();
+            let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
+            assert!((sum - 1.0).abs() < 1e-13, "{sum}");
+            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let standing = rig.standing(slave, &mean);
+            let beside = tangential(sub(x, standing.footing.x), standing.normal);
+            assert!(norm(beside) < 1e-15, "{beside:?}");
+            assert!(standing.stale < 1e-9, "{}", standing.stale);
+        }
+    }
+
+    #[test]
+    fn on_a_flat_the_gap_of_a_tread_is_its_height_less_that_of_a_mean_parabola() {
+        // int psi s^2/(2R) over both cells of a node, less s^2/(2R) there, is -h^2/(12 R)
+        let (radius, h) = (0.5, 1e-3);
+        let rig = Rig::new(
+            tread(radius, 4e-3 / radius, 8e-3, [8, 8], 1e-3),
+            plate([-9e-3, -6e-3], [9e-3, 6e-3], [18, 12], 0.0, 1e-3, true),
+        );
+        for (slave, mean) in rig.means(true).into_iter().enumerate() {
+            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            if x[0].abs() > 3.5e-3 || (x[1].abs() - 4e-3).abs() < 1e-9 {
+                continue;
+            }
+            let gap = rig.standing(slave, &mean.unwrap()).gap;
+            let expected = x[2] - h * h / (12.0 * radius);
+            assert!(
+                (gap - expected).abs() < 2e-4 * h * h / (12.0 * radius),
+                "{gap:e} {expected:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_rotation_common_to_both_bodies_changes_neither_gap_nor_age() {
+        let mut rig = Rig::turned(0.3, 1.6, 7);
+        rig.put(0, |x| [x[0], x[1], x[2] + 1e-5]);
+        let means = rig.means(false);
+        let slaves: Vec<usize> = (0..means.len()).step_by(5).collect();
+        let (sin, cos) = 0.7_f64.sin_cos();
+        rig.put(1, |[x, y, z]| [cos * x + sin * z, y, cos * z - sin * x]);
+        rig.put(0, |[x, y, z]| [cos * x + sin * (z + 1e-5), y, cos * (z + 1e-5) - sin * x]);
+        for slave in slaves {
+            let standing = rig.standing(slave, means[slave].as_ref().unwrap());
+            assert!((standing.gap - 1e-5).abs() < 1e-16, "{:e}", standing.gap);
+            assert!(standing.stale < 1e-9 && (standing.normal[0] - sin).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn weights_age_with_motion_along_the_master_and_with_turning_on_it() {
+        let mut rig = Rig::turned(0.3, 1.6, 7);
+        let means = rig.means(false);
+        let slave = 2 * 6 + 2;
+        let mean = means[slave].as_ref().unwrap();
+        let stale = |rig: &Rig| rig.standing(slave, mean).stale;
+        // the smaller face is that of the slaves, 1.6 mm
+        rig.put(0, |x| [x[0] + 0.9 * STALE * 1.6e-3, x[1], x[2]]);
+        assert!((stale(&rig) - 0.9).abs() < 1e-6, "{}", stale(&rig));
+        let centre = rig.reference[rig.sides[0].nodes[slave] as usize].xyz();
+        rig.put(0, |x| axpy(x, 1.0, cross([0.0, 0.0, 0.02], sub(x, centre))));
+        assert!(stale(&rig) > 2.0, "{}", stale(&rig));
+        // away from the master is no motion along it
+        rig.put(0, |x| [x[0], x[1], x[2] + 1e-4]);
+        assert!(stale(&rig) < 1e-9);
+    }
+
+    #[test]
+    fn what_weights_moved_to_first_order_leave_out_is_of_second_order() {
+        let mut rig = Rig::turned(0.3, 1.6, 7);
+        let slave = 2 * 6 + 2;
+        let old = rig.means(false)[slave].clone().unwrap();
+        let mut differ = |shift: f64| {
+            rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
+            let new = rig.means(false)[slave].clone().unwrap();
+            let mut row = crate::touch::Listed::near(slave as u32, 0);
+            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let standing = rig.standing(slave, &old);
+            let mut legs = Vec::new();
+            crate::row::Row::place(
+                &mut row,
+                &old.shares,
+                &standing.footing,
+                standing.normal,
+                x,
+                &mut legs,
+            );
+            let weight =
+                |node| new.shares.iter().find(|s| s.node == node).map_or(0.0, |s| s.weight);
+            legs.iter().map(|l| (l.weight - weight(l.node)).abs()).fold(0.0, f64::max)
+        };
+        let [small, large] = [0.005, 0.01].map(|s| differ(s * 1.6e-3));
+        assert!(large < 2e-4, "{large:e}");
+        assert!((large / small - 4.0).abs() < 0.4, "{large:e} {small:e}");
+    }
+
+    #[test]
+    fn nodes_over_the_border_are_open_once_most_of_their_area_is_beside_the_master() {
+        let mut rig = Rig::plates();
+        rig.put(0, |x| [x[0] + 0.6e-3, x[1], x[2]]);
+        let last = |rig: &Rig| rig.means(false)[2 * 6 + 5].clone();
+        let mean = last(&rig).unwrap();
+        let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
+        assert!((sum - 1.0).abs() < 1e-13);
+        rig.put(0, |x| [x[0] + 1.2e-3, x[1], x[2]]);
+        assert!(last(&rig).is_none());
+        rig.put(0, |x| [x[0] + 20e-3, x[1], x[2]]);
+        assert!(rig.means(false).iter().all(Option::is_none));
+        rig.put(0, |x| [x[0] + f64::NAN, x[1], x[2]]);
+        assert!(rig.means(false).iter().all(Option::is_none));
+    }
+}
