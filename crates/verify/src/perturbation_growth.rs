@@ -245,7 +245,7 @@ impl Mode {
             mode: self.friction(),
             wave_number: self.wave_number,
         };
-        let settings = ExactSettings { slave: Some(0), curvature: false };
+        let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let surfaces = surfaces.map(|s| (s, material));
         setup.contact =
             Some(Box::new(ExactContact::new(&mesh, surfaces, &settings, Box::new(law))?));

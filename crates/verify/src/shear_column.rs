@@ -147,7 +147,7 @@ pub(crate) fn columns(cells: usize, interface: Interface) -> Result<Setup, Cause
 
     let (mut setup, penetration) = match interface {
         Interface::Exact => {
-            let settings = ExactSettings { slave: Some(0), curvature: false };
+            let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
             let contact = ExactContact::new(&mesh, surfaces, &settings, Box::new(Implicit(LAW)))?;
             let setup = at_rest(&mesh, SHEARED, 0.67, None)?;
             (Setup { contact: Some(Box::new(contact)), ..setup }, 0.0)
