@@ -23,6 +23,7 @@ mod kalker;
 mod lamb;
 mod lysmer;
 mod patch;
+mod rupture;
 mod shear_column;
 mod slider_tables;
 mod sliding;
@@ -31,4 +32,4 @@ mod waves;
 
 pub use convergence::{Convergence, Sample};
 pub use problem::{Cause, PROBLEMS, Problem, Set, Size, VerifyError, find};
-pub use row::Row;
+pub use row::{Field, Row};

@@ -2,8 +2,8 @@
 
 use crate::{
     Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker,
-    lamb, lysmer, patch, rolling_dynamic, shear_column, slider_tables, sliding, steady_rolling,
-    waves,
+    lamb, lysmer, patch, rolling_dynamic, rupture, shear_column, slider_tables, sliding,
+    steady_rolling, waves,
 };
 use thiserror::Error;
 
@@ -126,6 +126,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "Falling friction between two half-spaces sheared in one dimension: both jumps",
         set: Set::Default,
         run: shear_column::run,
+    },
+    Problem {
+        name: "rupture",
+        about: "A fault that ruptures by itself, TPV3: rupture times of the boundary integral solution",
+        set: Set::Default,
+        run: rupture::run,
     },
     Problem {
         name: "interface-patch",

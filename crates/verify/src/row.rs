@@ -29,6 +29,44 @@ pub struct Row {
     pub meshes: Vec<Sample>,
     /// Observed order of convergence, if three meshes show one.
     pub order: Option<f64>,
+    /// The fields that the quantity was read from, coarse to fine, for a figure; empty for most.
+    #[serde(skip)]
+    pub fields: Vec<Field>,
+}
+
+/// Values at the points of a rectangular grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// What it was found with.
+    pub name: String,
+    /// Mesh size (m).
+    pub size: f64,
+    /// Grid lines along x (m).
+    pub x: Vec<f64>,
+    /// Grid lines along y (m).
+    pub y: Vec<f64>,
+    /// The values, x fastest; infinite where there is none.
+    pub values: Vec<f64>,
+}
+
+impl Field {
+    /// The value at a point inside the grid, bilinear in its cell.
+    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let place = |line: &[f64], x: f64| {
+            let last = line.len().saturating_sub(2);
+            let cell = line.partition_point(|p| *p <= x).saturating_sub(1).min(last);
+            (cell, (x - line[cell]) / (line[cell + 1] - line[cell]))
+        };
+        let ((i, a), (j, b)) = (place(&self.x, x), place(&self.y, y));
+        let value = |i: usize, j: usize| self.values[i + self.x.len() * j];
+        // a weight of zero must hide an infinite value
+        let mix = |low: f64, high: f64, share: f64| match share {
+            0.0 => low,
+            _ => (1.0 - share) * low + share * high,
+        };
+        let line = |j: usize| mix(value(i, j), value(i + 1, j), a);
+        if b == 0.0 { line(j) } else { mix(line(j), line(j + 1), b) }
+    }
 }
 
 impl Row {
@@ -55,6 +93,7 @@ impl Row {
             limit_from: limit_from.into(),
             meshes: Vec::new(),
             order: None,
+            fields: Vec::new(),
         }
     }
 
