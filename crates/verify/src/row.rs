@@ -62,10 +62,11 @@ impl Field {
         // a weight of zero must hide an infinite value
         let mix = |low: f64, high: f64, share: f64| match share {
             0.0 => low,
+            1.0 => high,
             _ => (1.0 - share) * low + share * high,
         };
         let line = |j: usize| mix(value(i, j), value(i + 1, j), a);
-        if b == 0.0 { line(j) } else { mix(line(j), line(j + 1), b) }
+        mix(line(j), line(j + 1), b)
     }
 }
 
@@ -145,5 +146,30 @@ impl Row {
     /// A quantity with the largest error that the specification of this program asks for.
     pub fn asked(quantity: impl Into<String>, values: [f64; 2], limit: f64, source: &str) -> Self {
         Self::new(quantity, values, values[0], (limit, "asked of this problem"), source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_is_bilinear_between_its_points_and_hides_what_has_no_weight() {
+        let (x, y) = (vec![0.0, 1.0, 3.0], vec![0.0, 2.0]);
+        let values = y.iter().flat_map(|y| x.iter().map(move |x| 1.0 + x + 10.0 * y + x * y));
+        let mut field = Field {
+            name: String::new(),
+            size: 1.0,
+            values: values.collect(),
+            x: x.clone(),
+            y: y.clone(),
+        };
+        for [a, b] in [[0.0, 0.0], [0.5, 0.5], [2.5, 1.7], [3.0, 2.0]] {
+            assert!((field.at([a, b]) - (1.0 + a + 10.0 * b + a * b)).abs() < 1e-12);
+        }
+        field.values[2] = f64::INFINITY;
+        assert_eq!(field.at([1.0, 0.0]), 2.0);
+        assert_eq!(field.at([1.5, 0.0]), f64::INFINITY);
+        assert!(field.at([3.0, 2.0]).is_finite());
     }
 }
