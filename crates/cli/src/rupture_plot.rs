@@ -31,7 +31,7 @@ fn whole(field: &Field) -> Panel {
     let latest = latest(field);
     let key = Key::Values {
         label: format!("rupture time (s), {}", field.name),
-        range: [0.0, latest],
+        range: [0.0, (latest / EVERY).ceil() * EVERY],
         scale: Scale::Linear,
     };
     let km = |line: &[f64], i: usize| 1e-3 * line[i];

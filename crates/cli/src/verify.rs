@@ -141,7 +141,7 @@ fn page(problem: &Problem, rows: &[Row], seconds: f64) -> String {
             let _ = writeln!(
                 page,
                 "  {:<width$}  {:>12} {:>12}",
-                format!("    h = {:.4} mm", 1e3 * sample.size),
+                format!("    h = {}", length(sample.size)),
                 "",
                 number(sample.value)
             );
@@ -157,6 +157,11 @@ fn page(problem: &Problem, rows: &[Row], seconds: f64) -> String {
     }
     page.push('\n');
     page
+}
+
+/// A mesh size (m).
+fn length(size: f64) -> String {
+    if size < 1.0 { format!("{:.4} mm", 1e3 * size) } else { format!("{size} m") }
 }
 
 fn number(value: f64) -> String {
