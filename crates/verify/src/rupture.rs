@@ -378,7 +378,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     };
     let mut rows = vec![across(&runs)];
     for (axis, name, places) in
-        [(0, "strike", [3, 6, 9, 12].as_slice()), (1, "dip", [2, 4, 6].as_slice())]
+        [(0, "strike", [3, 6, 9, 12].as_slice()), (1, "dip", [2, 3, 4, 5, 6].as_slice())]
     {
         for &km in places {
             let [i, j] = if axis == 0 { [km, 0] } else { [0, km] };
