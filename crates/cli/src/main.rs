@@ -9,6 +9,7 @@ mod plot;
 mod progress;
 mod report;
 mod report_page;
+mod rupture_plot;
 mod slider;
 mod sweep;
 mod sweep_folder;

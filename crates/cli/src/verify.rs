@@ -11,7 +11,7 @@ use verify::{PROBLEMS, Problem, Row, Set, Size, VerifyError};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure, STOPPED_BY_GUARD};
-use crate::{convergence_plot, report};
+use crate::{convergence_plot, report, rupture_plot};
 
 /// Exit code: a row beyond its limit.
 const FAILED: u8 = 1;
@@ -31,7 +31,7 @@ pub struct VerifyArgs {
     /// The long problems as well
     #[arg(long, conflicts_with = "names")]
     long: bool,
-    /// Draw error over mesh size as convergence.svg and convergence.png in this folder
+    /// Draw error over mesh size (convergence.svg, .png) and rupture times (rupture.svg, .png) in this folder
     #[arg(long, value_name = "FOLDER")]
     plot: Option<PathBuf>,
 }
@@ -57,12 +57,20 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
         }
         rows.extend(found);
     }
-    if let (Some(folder), Some(figure)) = (&options.plot, convergence_plot::figure(&rows)) {
+    if let Some(folder) = &options.plot {
         let failed = |error| Failure {
             report: miette!(help = "give a folder that you may write to", "--plot: {error}"),
             code: BAD_INPUT,
         };
-        figure.write(folder, "convergence").map_err(failed)?;
+        let figures = [
+            ("convergence", convergence_plot::figure(&rows)),
+            ("rupture", rupture_plot::figure(&rows)),
+        ];
+        for (name, figure) in figures {
+            if let Some(figure) = figure {
+                figure.write(folder, name).map_err(failed)?;
+            }
+        }
     }
     let pass = rows.iter().all(|row| row.pass);
     if args.json {
@@ -133,7 +141,7 @@ fn page(problem: &Problem, rows: &[Row], seconds: f64) -> String {
             let _ = writeln!(
                 page,
                 "  {:<width$}  {:>12} {:>12}",
-                format!("    h = {:.4} mm", 1e3 * sample.size),
+                format!("    h = {}", length(sample.size)),
                 "",
                 number(sample.value)
             );
@@ -149,6 +157,11 @@ fn page(problem: &Problem, rows: &[Row], seconds: f64) -> String {
     }
     page.push('\n');
     page
+}
+
+/// A mesh size (m).
+fn length(size: f64) -> String {
+    if size < 1.0 { format!("{:.4} mm", 1e3 * size) } else { format!("{size} m") }
 }
 
 fn number(value: f64) -> String {

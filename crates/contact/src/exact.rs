@@ -55,7 +55,8 @@ pub struct ExactSettings {
 /// Contact of two surfaces without penetration, and friction without elastic slip.
 ///
 /// A direction in which a contact node is fixed (not held altogether) must be one in which contact
-/// does not push it, as the direction across a plane motion: a node's own block counts its whole mass.
+/// does not push it, as the direction across a plane motion, or only balances given loads: a node's own block
+/// counts its whole mass.
 #[derive(Debug)]
 pub struct ExactContact {
     sides: [ContactSurface; 2],

@@ -40,6 +40,9 @@ impl Load {
 }
 
 /// Directions in which a node does not move; its support does no work.
+///
+/// The support bears the forces of the elements; a [`Load`] in such a direction still reaches contact, as
+/// on a plane of antisymmetry that meets a contact under initial stress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fixed {
     /// The node.

@@ -146,8 +146,9 @@ impl Simulation {
         let internal = Instant::now();
 
         // boundary forces
-        self.load.apply(time, &mut self.force);
+        // a support bears the body's own force; a given one reaches contact first
         Fixed::clear(&self.fixed, &mut self.force);
+        self.load.apply(time, &mut self.force);
         let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
         let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
         let bounded = Instant::now();

@@ -6,6 +6,7 @@
 //! it can cover nothing.
 
 mod axis;
+mod contour;
 mod draw;
 mod fill;
 mod font;
@@ -13,6 +14,7 @@ mod thin;
 mod write;
 
 pub use axis::{Axis, Scale};
+pub use contour::contour;
 pub use fill::{Cell, Fill, Key, viridis};
 pub use font::font_face;
 pub use thin::thin;

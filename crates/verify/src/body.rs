@@ -4,7 +4,7 @@
 use contact::BodyMaterial;
 use dynamics::{Fixed, Load, QuietEnd, Setup};
 use mesh::{Mesh, Padded};
-use solid::{Element, Level, Material, Solid, SolidError, Viscosity};
+use solid::{Element, Elements, Level, Material, Solid, SolidError, Viscosity};
 
 /// The steel of the ladder.
 pub(crate) const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
@@ -12,6 +12,9 @@ pub(crate) const STEEL: Material = Material { young: 210e9, poisson: 0.3, densit
 /// Steel to shear, without lateral strain under pressure: that would push free sides apart.
 pub(crate) const SHEARED: Material =
     Material { young: STEEL.young / (1.0 + STEEL.poisson), poisson: 0.0, density: STEEL.density };
+
+/// The elements of most problems.
+pub(crate) const ONE_POINT: Element = Element { hourglass: 0.05 };
 
 /// Lanczos steps for the largest frequency and the margin on it, as in rolling runs.
 const LANCZOS: usize = 40;
@@ -27,9 +30,19 @@ pub(crate) fn at_rest(
     factor: f64,
     contact: Option<&contact::PenaltyContact>,
 ) -> Result<Setup, SolidError> {
+    at_rest_with(mesh, material, ONE_POINT, factor, contact)
+}
+
+/// [`at_rest`] with other elements than [`ONE_POINT`].
+pub(crate) fn at_rest_with<'a>(
+    mesh: &Mesh,
+    material: Material,
+    elements: impl Into<Elements<'a>>,
+    factor: f64,
+    contact: Option<&contact::PenaltyContact>,
+) -> Result<Setup, SolidError> {
     let materials = vec![material; mesh.bodies.len()];
-    let element = Element { hourglass: 0.05 };
-    let mut solid = Solid::new(mesh, &materials, element, Viscosity::default(), Level::detect())?;
+    let mut solid = Solid::new(mesh, &materials, elements, Viscosity::default(), Level::detect())?;
     let mass = solid::lumped_mass(mesh, &vec![material.density; materials.len()]);
     let inverse: Vec<f64> = mass.iter().map(|m| 1.0 / m).collect();
     let elastic = MARGIN

@@ -25,6 +25,7 @@ mod lamb;
 mod lysmer;
 mod patch;
 mod perturbation_growth;
+mod rupture;
 mod shear_column;
 mod shear_column_penalty;
 mod slider_tables;
@@ -34,4 +35,4 @@ mod waves;
 
 pub use convergence::{Convergence, Sample};
 pub use problem::{Cause, PROBLEMS, Problem, Set, Size, VerifyError, find};
-pub use row::Row;
+pub use row::{Field, Row};

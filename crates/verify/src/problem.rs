@@ -2,8 +2,8 @@
 
 use crate::{
     Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker,
-    lamb, lysmer, patch, perturbation_growth, rolling_dynamic, shear_column, shear_column_penalty,
-    slider_tables, sliding, steady_rolling, waves,
+    lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
+    shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
 use thiserror::Error;
 
@@ -150,6 +150,12 @@ pub const PROBLEMS: &[Problem] = &[
         about: "A disturbance of steady sliding under falling friction with memory: how fast it grows",
         set: Set::Default,
         run: perturbation_growth::run,
+    },
+    Problem {
+        name: "rupture",
+        about: "A fault that ruptures by itself, TPV3: rupture times of the boundary integral solution",
+        set: Set::Default,
+        run: rupture::run,
     },
     Problem {
         name: "interface-patch",

@@ -29,6 +29,45 @@ pub struct Row {
     pub meshes: Vec<Sample>,
     /// Observed order of convergence, if three meshes show one.
     pub order: Option<f64>,
+    /// The fields that the quantity was read from, coarse to fine, for a figure; empty for most.
+    #[serde(skip)]
+    pub fields: Vec<Field>,
+}
+
+/// Values at the points of a rectangular grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// What it was found with.
+    pub name: String,
+    /// Mesh size (m).
+    pub size: f64,
+    /// Grid lines along x (m).
+    pub x: Vec<f64>,
+    /// Grid lines along y (m).
+    pub y: Vec<f64>,
+    /// The values, x fastest; infinite where there is none.
+    pub values: Vec<f64>,
+}
+
+impl Field {
+    /// The value at a point inside the grid, bilinear in its cell.
+    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let place = |line: &[f64], x: f64| {
+            let last = line.len().saturating_sub(2);
+            let cell = line.partition_point(|p| *p <= x).saturating_sub(1).min(last);
+            (cell, (x - line[cell]) / (line[cell + 1] - line[cell]))
+        };
+        let ((i, a), (j, b)) = (place(&self.x, x), place(&self.y, y));
+        let value = |i: usize, j: usize| self.values[i + self.x.len() * j];
+        // a weight of zero must hide an infinite value
+        let mix = |low: f64, high: f64, share: f64| match share {
+            0.0 => low,
+            1.0 => high,
+            _ => (1.0 - share) * low + share * high,
+        };
+        let line = |j: usize| mix(value(i, j), value(i + 1, j), a);
+        mix(line(j), line(j + 1), b)
+    }
 }
 
 impl Row {
@@ -55,6 +94,7 @@ impl Row {
             limit_from: limit_from.into(),
             meshes: Vec::new(),
             order: None,
+            fields: Vec::new(),
         }
     }
 
@@ -106,5 +146,30 @@ impl Row {
     /// A quantity with the largest error that the specification of this program asks for.
     pub fn asked(quantity: impl Into<String>, values: [f64; 2], limit: f64, source: &str) -> Self {
         Self::new(quantity, values, values[0], (limit, "asked of this problem"), source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_is_bilinear_between_its_points_and_hides_what_has_no_weight() {
+        let (x, y) = (vec![0.0, 1.0, 3.0], vec![0.0, 2.0]);
+        let values = y.iter().flat_map(|y| x.iter().map(move |x| 1.0 + x + 10.0 * y + x * y));
+        let mut field = Field {
+            name: String::new(),
+            size: 1.0,
+            values: values.collect(),
+            x: x.clone(),
+            y: y.clone(),
+        };
+        for [a, b] in [[0.0, 0.0], [0.5, 0.5], [2.5, 1.7], [3.0, 2.0]] {
+            assert!((field.at([a, b]) - (1.0 + a + 10.0 * b + a * b)).abs() < 1e-12);
+        }
+        field.values[2] = f64::INFINITY;
+        assert_eq!(field.at([1.0, 0.0]), 2.0);
+        assert_eq!(field.at([1.5, 0.0]), f64::INFINITY);
+        assert!(field.at([3.0, 2.0]).is_finite());
     }
 }
