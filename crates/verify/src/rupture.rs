@@ -230,7 +230,7 @@ fn model(h: f64) -> Result<(Setup, NodalContact, Watch), Cause> {
     let contact = ExactContact::new(
         &mesh,
         surfaces.map(|s| (s, material)),
-        &ExactSettings { slave: Some(0), curvature: false },
+        &ExactSettings { slave: Some(0), ..ExactSettings::default() },
         Box::new(OnFault(LAW)),
     )?;
     let table = contact.nodal_table(0);
