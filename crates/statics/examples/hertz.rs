@@ -1,10 +1,11 @@
 //! Hertz's contact of a wheel on a crown (R 0.46 m on 0.30 m, 100 kN, steel) with finite bodies:
 //! penalty against exact enforcement.
 //!
-//!     cargo run --release -p creepage-statics --example hertz -- 1e-3 exact 1.0 0.3 0.1
+//!     cargo run --release -p creepage-statics --example hertz -- 1e-3 exact mortar 1.0 0.3 0.1
 //!
-//! The first argument is the element size (m); the others are enforcements, a number being the
-//! scale factor of the penalty.
+//! The first argument is the element size (m), or two of them, `1e-3:1.2e-3`, of disk and bar; the others
+//! are enforcements: exact with rows from node to face or with mortar rows, a number being the scale factor
+//! of the penalty.
 #![allow(clippy::unwrap_used)]
 
 use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Rows, Stiffness};
@@ -19,9 +20,10 @@ const APPROACH: f64 = 104.1e-6;
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let size: f64 = arguments.next().map_or(2e-3, |s| s.parse().unwrap());
-    let zone = FineZone {
-        size,
+    let sizes = arguments.next().unwrap_or("2e-3".into());
+    let (size, of_bar) = sizes.split_once(':').unwrap_or((&sizes, &sizes));
+    let zone = |size: &str| FineZone {
+        size: size.parse().unwrap(),
         length: 0.08,
         width: 0.02,
         depth: 0.008,
@@ -31,7 +33,10 @@ fn main() {
     };
     let disk = Disk { radius: RADIUS, hub_radius: 0.10, width: 0.06, crown: None };
     let bar = Bar { length: 0.24, width: 0.06, height: 0.07, crown: Some(0.30), start: -0.09 };
-    let mesh = mesh::join(&[mesh::disk(&disk, &zone).unwrap(), mesh::bar(&bar, &zone).unwrap()]);
+    let mesh = mesh::join(&[
+        mesh::disk(&disk, &zone(size)).unwrap(),
+        mesh::bar(&bar, &zone(of_bar)).unwrap(),
+    ]);
     let steel = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
     let element = Element { hourglass: 0.05 };
     let set = |body: usize, name: &str| mesh.bodies[body].node_sets[name].clone();
@@ -49,6 +54,7 @@ fn main() {
         let factor: f64 = word.parse().unwrap_or(1.0);
         let enforcement = match word.as_str() {
             "exact" => Enforcement::Exact { slave: 0, rows: Rows::NodeToFace },
+            "mortar" => Enforcement::Exact { slave: 0, rows: Rows::Mortar },
             _ => Enforcement::Penalty,
         };
         let mut solid =
