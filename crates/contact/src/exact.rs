@@ -21,10 +21,11 @@ use crate::pair::{frame, lay_into};
 use crate::penalty::{check_common, in_range};
 use crate::row::Row;
 use crate::search::Search;
+use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
 use crate::surface::ContactSurface;
 use crate::touch::{Listed, State, WATCHED, finer, relative_velocity, sleep};
 use crate::vector::{Vec3, add, axpy, dot, norm, scale, sub};
-use crate::{BodyMaterial, ContactError, ContactSums, Motion};
+use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError};
 use mesh::{Face, Mesh, Padded, Surface};
 
 /// Sweeps end when no force changes by more than this part of the largest.
@@ -35,6 +36,8 @@ const SWEEPS: usize = 100;
 /// sweep found, not on that of the step before: near the end of a branch neighbours could else drive
 /// one another to and fro.
 const SETTLED: usize = 20;
+/// Table of the rows in a state.
+const ROWS: &str = "rows";
 
 /// Settings of [`ExactContact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -395,6 +398,21 @@ impl Contact for ExactContact {
 
     fn enforced_on(&self) -> Option<usize> {
         Some(self.slave)
+    }
+
+    fn snapshot(&self) -> ContactState {
+        let mut state = ContactState::default();
+        save_rows(ROWS, &self.rows[self.slave], &mut state);
+        save_search(&self.search, &mut state);
+        state
+    }
+
+    fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
+        let own = self.slave;
+        let rows = restore_rows(ROWS, state, &self.sides[own], &self.sides[1 - own])?;
+        self.active.reserve(rows.len());
+        self.rows[own] = rows;
+        restore_search(&mut self.search, state, &self.sides)
     }
 }
 

@@ -20,6 +20,7 @@ mod penalty;
 mod plates;
 mod row;
 mod search;
+mod snapshot;
 mod stiffness;
 mod surface;
 #[cfg(test)]
@@ -39,4 +40,5 @@ pub use friction::{
 pub use gap::Gap;
 pub use nodal::NodalContact;
 pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
+pub use snapshot::{Column, ContactState, Numbers, StateError};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
