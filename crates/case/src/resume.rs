@@ -61,8 +61,8 @@ pub(crate) struct Point {
     pub(crate) checkpoint: Checkpoint,
     pub(crate) state: State,
     pub(crate) kernels: Level,
-    /// What is wrong with newer ones.
-    pub(crate) damaged: Vec<String>,
+    /// Newer ones, and what is wrong with them.
+    pub(crate) damaged: Vec<(&'static str, String)>,
 }
 
 /// Where the run of `case` in `folder` goes on.
@@ -92,13 +92,15 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
                 let point = Point { checkpoint, state, kernels, damaged };
                 return Ok(Origin::Checkpoint(Box::new(point)));
             }
-            Err(reason) => damaged.push(format!("{name}: {reason}")),
+            Err(reason) => damaged.push((name, reason)),
         }
     }
     if damaged.is_empty() {
         return Ok(Origin::Beginning("the run has no checkpoint yet".into()));
     }
-    Err(ResumeError::Unusable { folder: path(), reasons: damaged.join("; ") })
+    let reasons: Vec<_> =
+        damaged.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();
+    Err(ResumeError::Unusable { folder: path(), reasons: reasons.join("; ") })
 }
 
 /// What differs between `case` and that of the run in `folder`.

@@ -110,8 +110,10 @@ fn run_in_pool(
     let mut resumed = None;
     let begun = match origin {
         Some(Point { checkpoint, state, damaged, .. }) => {
-            for damage in damaged {
-                log.warn(&format!("not used, {damage}; the one before is"))?;
+            for (name, damage) in damaged {
+                log.warn(&format!("not used, {name}: {damage}; the one before is"))?;
+                // it must not push a good one out
+                remove(&options.out.join(name))?;
             }
             log.say(&format!("resumed from the checkpoint of step {}", checkpoint.step))?;
             let begun = restart(case, &model, state.found.clone(), &state.simulation)?;
