@@ -2,8 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use case::Case;
-use runs::{Results, load, project, run};
-use serde_json::Value;
+use runs::{Results, load, project, run, timeless};
 
 /// The smoke case with every kind of output: a window of every step, and probes.
 fn smoke() -> Case {
@@ -15,16 +14,6 @@ fn smoke() -> Case {
             "output.probes.disk=[[0.001, 0.0]]",
         ],
     )
-}
-
-/// The summary without what the clock, the memory and the number of threads put in.
-fn timeless(summary: &Value) -> Value {
-    let mut summary = summary.clone();
-    let map = summary.as_object_mut().unwrap();
-    for key in ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads"] {
-        assert!(map.remove(key).is_some(), "{key}");
-    }
-    summary
 }
 
 #[track_caller]

@@ -1,6 +1,8 @@
 //! Runs a case in a folder of its own and reads back every number it left, for the tests.
 #![allow(clippy::unwrap_used)]
 
+pub mod kill;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -45,17 +47,34 @@ pub fn run(case: &Case, threads: usize) -> Results {
 pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, String) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
-    let options = RunOptions {
-        out: out.clone(),
+    let options =
+        RunOptions { preload_cache: cache.map(Path::to_path_buf), ..options(&out, threads) };
+    let returned = case::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    let results = results(&out);
+    assert_eq!(results.summary, returned, "summary.json holds what the run returns");
+    (results, log(&out))
+}
+
+/// A run in `out` that neither replaces nor resumes one.
+pub fn options(out: &Path, threads: usize) -> RunOptions {
+    RunOptions {
+        out: out.to_path_buf(),
         threads,
         force: false,
-        preload_cache: cache.map(Path::to_path_buf),
+        resume: false,
+        preload_cache: None,
         source: PathBuf::from("test"),
-    };
-    let returned = case::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    }
+}
+
+/// What the run in `out` said.
+pub fn log(out: &Path) -> String {
+    std::fs::read_to_string(out.join("run.log")).unwrap()
+}
+
+/// What the run in `out` left.
+pub fn results(out: &Path) -> Results {
     let summary = std::fs::read(out.join("summary.json")).unwrap();
-    let summary: Value = serde_json::from_slice(&summary).unwrap();
-    assert_eq!(summary, returned, "summary.json holds what the run returns");
     let mut data = BTreeMap::new();
     for grid in ["fields", "contact"] {
         read_grid(&out.join(format!("{grid}.vtkhdf")), grid, &mut data);
@@ -67,8 +86,7 @@ pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, 
         }
     }
     let resolved = std::fs::read_to_string(out.join("case.toml")).unwrap();
-    let log = std::fs::read_to_string(out.join("run.log")).unwrap();
-    (Results { data, summary, resolved }, log)
+    Results { data, summary: serde_json::from_slice(&summary).unwrap(), resolved }
 }
 
 fn read_grid(path: &Path, name: &str, data: &mut BTreeMap<String, Vec<f64>>) {
@@ -121,4 +139,14 @@ impl Results {
         let theirs = other.data.iter().filter(|(name, _)| !self.data.contains_key(*name));
         mine.chain(theirs).map(|(name, _)| name.as_str()).collect()
     }
+}
+
+/// A summary without what the clock, the memory and the number of threads put in.
+pub fn timeless(summary: &Value) -> Value {
+    let mut summary = summary.clone();
+    let map = summary.as_object_mut().unwrap();
+    for key in ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads"] {
+        assert!(map.remove(key).is_some(), "{key}");
+    }
+    summary
 }

@@ -1,6 +1,7 @@
-//! Chores: `cargo xtask validate`.
+//! Chores: `cargo xtask validate`, `cargo xtask kill-loop`.
 
 mod kernels;
+mod kill_loop;
 mod links;
 mod validate;
 
@@ -21,10 +22,18 @@ enum Chore {
     /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
     /// the case files, the kernels' instructions, a smoke run with the checks of its files
     Validate,
+    /// Kill runs at random moments, resume them, and compare every bit: `--help` after it for more
+    #[command(disable_help_flag = true)]
+    KillLoop {
+        /// Options of the loop
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        options: Vec<String>,
+    },
 }
 
 fn main() -> ExitCode {
     match Args::parse().chore {
         Chore::Validate => validate::validate(),
+        Chore::KillLoop { options } => kill_loop::kill_loop(&options),
     }
 }

@@ -8,17 +8,22 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::schema::Case;
+use output::CHECKPOINTS;
+
+/// The resolved case of a run.
+pub const CASE_FILE: &str = "case.toml";
 
 /// The files that a run writes; `--force` removes these and nothing else.
-pub const RUN_FILES: [&str; 8] = [
-    "case.toml",
+pub const RUN_FILES: [&str; 9] = [
+    CASE_FILE,
     "fields.vtkhdf",
     "contact.vtkhdf",
     "history.h5",
     "probes.h5",
     "summary.json",
     "run.log",
-    "checkpoint.h5",
+    CHECKPOINTS[0],
+    CHECKPOINTS[1],
 ];
 
 /// Why a run folder cannot be used.
@@ -84,7 +89,10 @@ pub fn prepare(folder: &Path, force: bool) -> Result<(), FolderError> {
     check(folder, force)?;
     fs::create_dir_all(folder).map_err(unwritable)?;
     prove_writable(folder).map_err(unwritable)?;
-    for file in RUN_FILES {
+    // with what a kill left half-written; the case itself is replaced at once, so that at any kill
+    // there is one that says what the folder is of
+    let files = RUN_FILES.iter().flat_map(|file| [(*file).to_owned(), format!("{file}.partial")]);
+    for file in files.filter(|file| file != CASE_FILE) {
         match fs::remove_file(folder.join(file)) {
             Err(cause) if cause.kind() != io::ErrorKind::NotFound => return Err(unwritable(cause)),
             _ => {}

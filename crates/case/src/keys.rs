@@ -339,6 +339,9 @@ pub const KEYS: &[Key] = &[
     needed("output.window[].from", Number(within(0.0, 10.0)), "s", "give the start in seconds"),
     needed("output.window[].to", Number(over(0.0, 10.0)), "s", "give the end in seconds"),
     key("output.window[].every", Count(1, 1_000_000), "steps", "give a whole number: 1"),
+    key("checkpoint.steps", Count(1, 1_000_000_000), "steps", "give a whole number: 100000"),
+    key("checkpoint.time", Number(over(0.0, 10.0)), "s", INTERVAL),
+    key("checkpoint.wall_minutes", Number(within(0.0, 1e5)), "min", "give minutes, 0 for none: 5"),
 ];
 
 const STIFFNESS_REMEDY: &str = "give a scale factor (0.1), an areal stiffness \

@@ -7,6 +7,7 @@
 mod bench;
 mod bodies;
 mod check;
+mod checkpoint;
 pub mod error;
 pub mod folder;
 mod forms;
@@ -26,6 +27,7 @@ pub mod preload;
 mod probes;
 pub mod progress;
 mod record;
+pub mod resume;
 pub mod run;
 mod run_error;
 pub mod schema;

@@ -8,7 +8,7 @@ use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::preload::store::hexadecimal;
-use crate::schema::{Case, ContactLayers, DriveMode, Enforcement, Time};
+use crate::schema::{Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Time};
 use crate::sense;
 use crate::table;
 
@@ -30,9 +30,15 @@ impl Case {
         toml::to_string(self).unwrap_or_default()
     }
 
-    /// SHA-256 of [`Case::to_toml`], in hexadecimal.
+    /// SHA-256, in hexadecimal, of [`Case::to_toml`] with the default section `checkpoint`, on which
+    /// no result depends.
     pub fn hash(&self) -> String {
-        hexadecimal(&Sha256::digest(self.to_toml()))
+        hexadecimal(&Sha256::digest(self.results_toml()))
+    }
+
+    /// The case file with the default `checkpoint`: everything that results depend on.
+    pub(crate) fn results_toml(&self) -> String {
+        Self { checkpoint: Checkpoint::default(), ..self.clone() }.to_toml()
     }
 
     /// What is allowed but deserves a warning, one sentence each.

@@ -20,6 +20,14 @@ impl Log {
         }
     }
 
+    /// Goes on with the log of a run.
+    pub(crate) fn append(path: PathBuf) -> Result<Self, RunError> {
+        match File::options().append(true).create(true).open(&path) {
+            Ok(file) => Ok(Self { path, file }),
+            Err(cause) => Err(RunError::Text { path, cause }),
+        }
+    }
+
     pub(crate) fn say(&mut self, line: &str) -> Result<(), RunError> {
         tracing::info!("{line}");
         self.write(line)

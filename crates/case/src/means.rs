@@ -56,3 +56,52 @@ pub(crate) struct Means {
     /// Integrals of mortar rows, in all steps.
     pub(crate) integrated: u64,
 }
+
+impl Means {
+    /// Numbers that they are made of.
+    pub(crate) const NUMBERS: usize = 3 * 16 + 4;
+
+    fn each(&mut self) -> [&mut Mean; 16] {
+        let [tangential, lateral, normal] = &mut self.force;
+        [
+            tangential,
+            lateral,
+            normal,
+            &mut self.traction,
+            &mut self.creepage,
+            &mut self.torque,
+            &mut self.half_length,
+            &mut self.half_width,
+            &mut self.peak_pressure,
+            &mut self.peak_shear,
+            &mut self.area,
+            &mut self.stick,
+            &mut self.slip,
+            &mut self.stick_border,
+            &mut self.penetration,
+            &mut self.hourglass_share,
+        ]
+    }
+
+    /// As numbers, for a checkpoint; counts are exact below 2^53.
+    pub(crate) fn numbers(&self) -> Vec<f64> {
+        let mut copy = self.clone();
+        let means = copy.each().into_iter().flat_map(|m| [m.count, m.mean, m.squares]);
+        let rest =
+            [self.worst_cone, self.worst_mismatch, self.most_sweeps as f64, self.manifold as f64];
+        means.chain(rest).collect()
+    }
+
+    /// The reverse of [`Self::numbers`].
+    pub(crate) fn from_numbers(numbers: &[f64; Self::NUMBERS]) -> Self {
+        let mut means = Self::default();
+        let [samples @ .., cone, mismatch, sweeps, manifold] = *numbers;
+        for (mean, &[count, value, squares]) in means.each().into_iter().zip(samples.as_chunks().0)
+        {
+            *mean = Mean { count, mean: value, squares };
+        }
+        (means.worst_cone, means.worst_mismatch) = (cone, mismatch);
+        (means.most_sweeps, means.manifold) = (sweeps as usize, manifold as u64);
+        means
+    }
+}

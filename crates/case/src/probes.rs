@@ -90,7 +90,7 @@ impl Probes {
                 columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
             }
         }
-        let history = History::create(basis.folder.join("probes.h5"), &columns, &basis.provenance)?;
+        let history = basis.history("probes.h5", &columns, |lengths| lengths.probes)?;
         Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
     }
 
@@ -112,6 +112,11 @@ impl Probes {
             self.flush()?;
         }
         Ok(())
+    }
+
+    /// The file, which holds all but what is held back.
+    pub(crate) fn file(&self) -> &History {
+        &self.history
     }
 
     pub(crate) fn flush(&mut self) -> Result<(), RunError> {

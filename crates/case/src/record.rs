@@ -9,8 +9,8 @@ use contact::{NodalContact, patch};
 use dynamics::{Simulation, StepReport};
 use mesh::Face;
 use output::{
-    BackgroundWriter, Cells, Column, FieldSpec, GridSpec, History, Provenance, RunFiles,
-    StaticField, TransientGrid, Values,
+    BackgroundWriter, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Lengths, Provenance,
+    RunFiles, StaticField, TransientGrid, Values,
 };
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -133,6 +133,48 @@ pub(crate) struct Basis<'a> {
     pub(crate) provenance: Provenance,
     pub(crate) effective_radius: f64,
     pub(crate) hertz_pressure: f64,
+    /// Where the run goes on with files that are there: what of them it keeps.
+    pub(crate) keeps: Option<Lengths>,
+}
+
+impl Basis<'_> {
+    fn grid(
+        &self,
+        name: &str,
+        grid: &GridSpec<'_>,
+        fields: &[FieldSpec],
+        provenance: &Provenance,
+        length: fn(&Lengths) -> u64,
+    ) -> Result<TransientGrid, RunError> {
+        let path = self.folder.join(name);
+        Ok(match &self.keeps {
+            Some(kept) => TransientGrid::reopen(path, grid, fields, length(kept) as usize)?,
+            None => TransientGrid::create(path, grid, fields, provenance)?,
+        })
+    }
+
+    pub(crate) fn history(
+        &self,
+        name: &str,
+        columns: &[Column],
+        length: fn(&Lengths) -> u64,
+    ) -> Result<History, RunError> {
+        let path = self.folder.join(name);
+        Ok(match &self.keeps {
+            Some(kept) => History::reopen(path, columns, length(kept) as usize)?,
+            None => History::create(path, columns, &self.provenance)?,
+        })
+    }
+}
+
+/// What the recorder carries from step to step, with nothing held back.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RecorderState {
+    /// When the next snapshot of the fields is due (s).
+    pub(crate) next_fields: f64,
+    pub(crate) means: Means,
+    /// Wall time so far.
+    pub(crate) wall: Duration,
 }
 
 impl Recorder {
@@ -150,10 +192,10 @@ impl Recorder {
         let files = RunFiles {
             fields: create_fields(case, model, basis)?,
             contact: create_contact(case, model, &tables, &points, contact.enforced_on(), basis)?,
-            history: History::create(
-                basis.folder.join("history.h5"),
+            history: basis.history(
+                "history.h5",
                 &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
-                &basis.provenance,
+                |lengths| lengths.history,
             )?,
         };
         let count = tables[DISK].nodes.len() + tables[BAR].nodes.len();
@@ -195,6 +237,35 @@ impl Recorder {
             means: Means::default(),
             wall: Duration::ZERO,
         })
+    }
+
+    /// The state once everything held back is on its way to the files.
+    pub(crate) fn snapshot(&mut self) -> Result<RecorderState, RunError> {
+        self.flush_history()?;
+        if let Some(probes) = &mut self.probes {
+            probes.flush()?;
+        }
+        let (next_fields, means) = (self.fields.next, self.means.clone());
+        Ok(RecorderState { next_fields, means, wall: self.wall })
+    }
+
+    /// Takes over the state of the recorder whose files this one goes on with.
+    pub(crate) fn restore(&mut self, state: &RecorderState) {
+        self.fields.next = state.next_fields;
+        self.means = state.means.clone();
+        self.wall = state.wall;
+    }
+
+    /// Writes a checkpoint behind everything sent before.
+    pub(crate) fn keep(
+        &mut self,
+        mut checkpoint: Checkpoint,
+        folder: &Path,
+    ) -> Result<(), RunError> {
+        let probes = self.probes.as_ref().map(Probes::file);
+        checkpoint.lengths.probes = probes.map_or(0, |history| history.rows() as u64);
+        let beside = probes.map(|history| history.path().to_owned());
+        Ok(self.writer.keep(checkpoint, folder, beside)?)
     }
 
     /// Whether step `n` writes a row of the history, hence reads the energies.
@@ -468,7 +539,7 @@ fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<Transi
         cells: Cells::Hexahedra(&model.mesh.hexes),
         constant: &[body_field(&body)],
     };
-    Ok(TransientGrid::create(basis.folder.join("fields.vtkhdf"), &grid, &specs, &basis.provenance)?)
+    basis.grid("fields.vtkhdf", &grid, &specs, &basis.provenance, |lengths| lengths.fields)
 }
 
 fn create_contact(
@@ -515,12 +586,8 @@ fn create_contact(
             },
         ],
     };
-    Ok(TransientGrid::create(
-        basis.folder.join("contact.vtkhdf"),
-        &grid,
-        &contact_fields(enforced_on.is_some()),
-        &provenance,
-    )?)
+    let fields = contact_fields(enforced_on.is_some());
+    basis.grid("contact.vtkhdf", &grid, &fields, &provenance, |lengths| lengths.contact)
 }
 
 fn body_field(body: &[u8]) -> StaticField<'_> {

@@ -1,9 +1,10 @@
 //! From a resolved case to a finished run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
+use crate::checkpoint::{Clock, State};
 use crate::folder;
 use crate::hertz::hertz;
 use crate::log::Log;
@@ -11,13 +12,14 @@ use crate::memory::enough_memory;
 use crate::model::Model;
 use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
+use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;
-use crate::start::{Start, start};
+use crate::start::{Start, restart, start};
 use crate::summary::{Ending, summary, without_rolling};
 use dynamics::{Diagnosis, Energies};
-use output::Provenance;
 use output::summary::Status;
+use output::{CHECKPOINTS, Provenance};
 use serde_json::json;
 
 /// How the last line of the log begins where a run was refused after its mesh was made.
@@ -32,6 +34,9 @@ pub struct RunOptions {
     pub threads: usize,
     /// Replace the run that is already in `out`.
     pub force: bool,
+    /// Go on with the run in `out` from its last checkpoint; with `force`, begin anew where that is
+    /// not possible.
+    pub resume: bool,
     /// Folder in which preloads are kept for other runs with the same, and taken from.
     pub preload_cache: Option<PathBuf>,
     /// The case file, for the log.
@@ -60,19 +65,40 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
-    // A mesh that is refused must cost no earlier run its results.
-    folder::check(&options.out, options.force)?;
-    let model = Model::build(case)?;
+    let (origin, why) = match origin(case, options)? {
+        Some(Origin::Complete(summary)) => return Ok(complete(&options.out, summary)),
+        Some(Origin::Checkpoint(point)) => (Some(*point), None),
+        Some(Origin::Beginning(why)) => (None, Some(why)),
+        None => (None, None),
+    };
+    let replaces = options.force || why.is_some();
+    if origin.is_none() {
+        // A mesh that is refused must cost no earlier run its results.
+        folder::check(&options.out, replaces)?;
+    }
+    let mut model = Model::build(case)?;
+    if let Some(point) = &origin {
+        model.kernels = point.kernels;
+    }
     enough_memory(model.mesh.hexes.len())?;
-    folder::prepare(&options.out, options.force)?;
+    let log_file = options.out.join("run.log");
+    let mut log = match &origin {
+        None => {
+            folder::prepare(&options.out, replaces)?;
+            Log::new(log_file)?
+        }
+        Some(_) => Log::append(log_file)?,
+    };
     write_text(options.out.join("case.toml"), &case.to_toml())?;
-    let mut log = Log::new(options.out.join("run.log"))?;
     log.say(&format!(
         "creepage {}: {} from {}",
         env!("CARGO_PKG_VERSION"),
         case.name,
         options.source.display()
     ))?;
+    if let Some(why) = why {
+        log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
+    }
     case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
     let elements = model.mesh.hexes.len();
     log.say(&format!("mesh: {elements} elements, {} nodes", model.mesh.nodes.len()))?;
@@ -81,25 +107,39 @@ fn run_in_pool(
     }
     observe(&stage(case, Stage::Mesh));
 
-    let begun =
-        match start(case, &model, options.preload_cache.as_deref(), stop, observe, &mut |line| {
-            log.say(line)
-        }) {
-            Err(RunError::Preload(error)) => {
-                let summary = without_rolling(case, &model, options.threads, wall, &error);
-                output::write_json_atomically(options.out.join("summary.json"), &summary)?;
-                log.say(&format!("end: {:?} before rolling: {error}", summary.status))?;
-                return Ok(json!(summary));
+    let mut resumed = None;
+    let begun = match origin {
+        Some(Point { checkpoint, state, damaged, .. }) => {
+            for (name, damage) in damaged {
+                log.warn(&format!("not used, {name}: {damage}; the one before is"))?;
+                // it must not push a good one out
+                remove(&options.out.join(name))?;
             }
-            Err(error) => {
-                log.say(&format!("{REFUSED}{error}"))?;
-                return Err(error);
+            log.say(&format!("resumed from the checkpoint of step {}", checkpoint.step))?;
+            let begun = restart(case, &model, state.found.clone(), &state.simulation)?;
+            resumed = Some((checkpoint, state));
+            begun
+        }
+        None => {
+            let cache = options.preload_cache.as_deref();
+            match start(case, &model, cache, stop, observe, &mut |line| log.say(line)) {
+                Err(RunError::Preload(error)) => {
+                    let summary = without_rolling(case, &model, options.threads, wall, &error);
+                    output::write_json_atomically(options.out.join("summary.json"), &summary)?;
+                    log.say(&format!("end: {:?} before rolling: {error}", summary.status))?;
+                    return Ok(json!(summary));
+                }
+                Err(error) => {
+                    log.say(&format!("{REFUSED}{error}"))?;
+                    return Err(error);
+                }
+                Ok(begun) => begun,
             }
-            Ok(begun) => begun,
-        };
+        }
+    };
     let Start { mut simulation, facts } = begun;
     let (stability, steps) = (facts.stability, facts.steps);
-    if let Some(preload) = &facts.preload {
+    if let (Some(preload), None) = (&facts.preload, &resumed) {
         log.say(&preload.line())?;
     }
     log.say(&format!(
@@ -118,27 +158,54 @@ fn run_in_pool(
         log.warn(&line)?;
     }
     let hertz = hertz(case);
+    let created = match &resumed {
+        Some((checkpoint, _)) => checkpoint.provenance.created.clone(),
+        None => humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+    };
     let basis = Basis {
         folder: &options.out,
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),
-            created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            created,
             attributes: Vec::new(),
         },
         effective_radius: facts.radius.effective,
         hertz_pressure: hertz.p0,
+        keeps: resumed.as_ref().map(|(checkpoint, _)| checkpoint.lengths),
     };
     let mut recorder = Recorder::new(case, &model, &simulation, &basis)?;
     let nodes = model.mesh.nodes.len();
     drop(model); // the time loop has what it needs
 
-    let rolling = Instant::now();
     let mut last = Energies::default();
+    // wall time before this process: of everything, and of rolling
+    let mut before = [Duration::ZERO; 2];
+    if let Some((_, state)) = resumed {
+        recorder.restore(&state.recorder);
+        (last, before) = (state.energies, state.wall);
+        // the word of an interruption holds no longer
+        remove(&options.out.join("summary.json"))?;
+    }
+    let rolling = Instant::now();
+    let first = simulation.steps() as u64;
+    let mut clock = Clock::new(&case.checkpoint, simulation.dt(), first);
     let mut diagnosis: Option<Diagnosis> = None;
     let mut status = Status::Completed;
-    for n in 0..steps {
-        if stop.load(Ordering::Relaxed) {
+    for n in first..steps {
+        let stops = stop.load(Ordering::Relaxed);
+        if stops || clock.is_due(n) {
+            let state = State {
+                simulation: simulation.snapshot(),
+                recorder: recorder.snapshot()?,
+                energies: last,
+                found: facts.found(),
+                wall: [before[0] + wall.elapsed(), before[1] + rolling.elapsed()],
+            };
+            let kernels = simulation.solid().level().name();
+            recorder.keep(state.into_checkpoint(&basis.provenance, kernels), &options.out)?;
+        }
+        if stops {
             status = Status::Interrupted;
             break;
         }
@@ -155,6 +222,7 @@ fn run_in_pool(
         }
         recorder.after_step(&simulation, &report)?;
         if n % 64 == 0 {
+            let per_s = (n - first) as f64 / rolling.elapsed().as_secs_f64();
             observe(&Progress {
                 stage: Stage::Roll,
                 step: n,
@@ -163,11 +231,11 @@ fn run_in_pool(
                 end_time: case.duration(),
                 normal_force: report.contact.force[0][2],
                 tangential_force: report.contact.force[0][0],
-                element_steps_per_s: elements as f64 * n as f64 / rolling.elapsed().as_secs_f64(),
+                element_steps_per_s: elements as f64 * per_s,
             });
         }
     }
-    let rolling_wall = rolling.elapsed();
+    let rolling_wall = before[1] + rolling.elapsed();
     let (means, output_wall) = recorder.finish(&simulation)?;
     if let Some(d) = &diagnosis {
         log.say(&format!("{d}; remedy: {}", d.remedy()))?;
@@ -181,14 +249,51 @@ fn run_in_pool(
         elements,
         nodes,
         threads: options.threads,
-        wall: wall.elapsed(),
+        wall: before[0] + wall.elapsed(),
         rolling: rolling_wall,
         output: output_wall,
     };
     let summary = summary(case, &simulation, &facts, &hertz, &ending);
     output::write_json_atomically(options.out.join("summary.json"), &summary)?;
+    if status == Status::Completed {
+        remove_checkpoints(&options.out)?;
+    }
     log.say(&format!("end: {status:?} after {} steps, {:.1} s", summary.steps, summary.wall_s))?;
     Ok(json!(summary))
+}
+
+/// Where a run that is to be resumed goes on; none for one that begins.
+fn origin(case: &Case, options: &RunOptions) -> Result<Option<Origin>, RunError> {
+    if !options.resume {
+        return Ok(None);
+    }
+    match resume::origin(case, &options.out) {
+        Ok(origin) => Ok(Some(origin)),
+        Err(error) if options.force => Ok(Some(Origin::Beginning(error.to_string()))),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// A run with nothing left to do.
+fn complete(folder: &Path, summary: serde_json::Value) -> serde_json::Value {
+    tracing::warn!("the run in {} is complete: nothing to resume", folder.display());
+    // It may have been killed just before it took them away itself.
+    let _ = remove_checkpoints(folder);
+    summary
+}
+
+fn remove_checkpoints(folder: &Path) -> Result<(), RunError> {
+    CHECKPOINTS.iter().try_for_each(|name| remove(&folder.join(name)))
+}
+
+/// Removes a file if it is there.
+fn remove(path: &Path) -> Result<(), RunError> {
+    match std::fs::remove_file(path) {
+        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+            Err(RunError::Text { path: path.to_owned(), cause })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn stage(case: &Case, stage: Stage) -> Progress {
@@ -204,6 +309,10 @@ fn stage(case: &Case, stage: Stage) -> Progress {
     }
 }
 
+/// Under another name first: a kill leaves the old text or the new one.
 fn write_text(path: PathBuf, text: &str) -> Result<(), RunError> {
-    std::fs::write(&path, text).map_err(|cause| RunError::Text { path, cause })
+    let partial = path.with_extension("toml.partial");
+    std::fs::write(&partial, text)
+        .and_then(|()| std::fs::rename(&partial, &path))
+        .map_err(|cause| RunError::Text { path, cause })
 }

@@ -9,6 +9,14 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Folder(#[from] crate::folder::FolderError),
+    /// The run cannot be resumed.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Resume(#[from] crate::resume::ResumeError),
+    /// The state of a checkpoint is not of this model.
+    #[error("the checkpoint cannot be used: {0}")]
+    #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
+    Restore(#[from] dynamics::RestoreError),
     /// The mesh cannot be built.
     #[error(transparent)]
     #[diagnostic(help("change the keys of [disk], [bar] or [mesh] that it names"))]
@@ -98,7 +106,7 @@ impl RunError {
         match self {
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
             Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
-            Self::Step { .. } => 2,
+            Self::Step { .. } | Self::Resume(_) | Self::Restore(_) => 2,
             Self::Preload(error) if error.is_interruption() => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
         }

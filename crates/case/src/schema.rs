@@ -65,6 +65,9 @@ pub struct Case {
     /// What is written, and how often.
     #[serde(default)]
     pub output: Output,
+    /// How often the state is kept, for `--resume`. No result depends on it.
+    #[serde(default)]
+    pub checkpoint: Checkpoint,
 }
 
 /// The hexahedron.
@@ -395,6 +398,27 @@ impl Default for Output {
             probes: Probes::default(),
             window: Vec::new(),
         }
+    }
+}
+
+/// How often a run writes a checkpoint, from which `--resume` goes on with the same bits. Whichever
+/// interval ends first counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Checkpoint {
+    /// Interval in time steps (steps). Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// Interval in simulated time (s). Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// Interval in wall-clock time (min); 0 for none. Default 5.
+    pub wall_minutes: f64,
+}
+
+impl Default for Checkpoint {
+    fn default() -> Self {
+        Self { steps: None, time: None, wall_minutes: 5.0 }
     }
 }
 

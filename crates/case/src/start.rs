@@ -7,9 +7,11 @@ use crate::progress::Progress;
 use crate::run_error::RunError;
 use crate::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
 use contact::{Contact, PenaltyContact, StabilityScale};
-use dynamics::{Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
+use dynamics::{
+    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, Vertical,
+};
 use mesh::Padded;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use solid::Solid;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -20,7 +22,7 @@ const LANCZOS: usize = 40;
 const MARGIN: f64 = 1.01;
 
 /// What the stable step is made of.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Stability {
     /// Largest frequency of the bodies without contact, with margin (rad/s).
     pub(crate) omega_elastic: f64,
@@ -35,7 +37,7 @@ pub(crate) struct Stability {
 }
 
 /// Rolling radii.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct RollingRadius {
     /// Of the undeformed disk (m).
     pub(crate) nominal: f64,
@@ -54,6 +56,26 @@ pub(crate) struct Facts {
     pub(crate) preload_wall: f64,
     /// Dimensionless numbers of contact and friction.
     pub(crate) numbers: Numbers,
+    /// Time steps to take.
+    pub(crate) steps: u64,
+}
+
+impl Facts {
+    /// What a restart needs of them.
+    pub(crate) fn found(&self) -> Found {
+        let Self { stability, radius, preload, preload_wall, steps, .. } = *self;
+        Found { stability, radius, preload, preload_wall, steps }
+    }
+}
+
+/// What of the facts does not follow from the case without the preload.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Found {
+    pub(crate) stability: Stability,
+    pub(crate) radius: RollingRadius,
+    pub(crate) preload: Option<preload::Report>,
+    /// Wall time of the preload (s).
+    pub(crate) preload_wall: f64,
     /// Time steps to take.
     pub(crate) steps: u64,
 }
@@ -102,10 +124,9 @@ fn settle(
     let mut solid = model.solid(case)?;
     let inverse_mass = inverse_mass(model);
     let omega_elastic = elastic_frequency(model, &mut solid);
-    let scale = StabilityScale { omega_elastic, dt: case.step().under(2.0 / omega_elastic) };
+    let scale = scale(case, omega_elastic);
     let hub = hub(case, model, &solid);
-    let quiet: Vec<_> = model.quiet.iter().collect();
-    let quiet = QuietEnd::new(&model.mesh, &quiet, &model.materials[BAR], &model.clamped);
+    let quiet = quiet(model);
 
     let clock = Instant::now();
     let mut held = model.clamped.clone();
@@ -208,11 +229,6 @@ pub(crate) fn start(
         dynamics::rolling_field(&model.mesh, &displacement, &RollingField { omega: free, ..field });
 
     let mut hub = hub;
-    hub.spin = spin(case, free);
-    hub.vertical = match case.load.mode {
-        LoadMode::Load => Vertical::Load(case.load.normal),
-        LoadMode::Height => Vertical::Held,
-    };
     hub.state.z = preload.map_or(case.disk.lift, |p| p.hub());
     hub.state.vx = case.drive.speed;
     hub.state.omega = free;
@@ -224,6 +240,50 @@ pub(crate) fn start(
     }
     let contact: Box<dyn Contact> =
         if exact { Box::new(model.exact_contact(case)?) } else { Box::new(contact) };
+    let radius = RollingRadius { nominal, effective };
+    let found = Found { stability, radius, preload, preload_wall, steps: steps as u64 };
+    Ok(assemble(case, model, found, solid, contact, hub, quiet, displacement, velocity))
+}
+
+/// The simulation of which `state` was taken, with what was `found` when it began.
+pub(crate) fn restart(
+    case: &Case,
+    model: &Model,
+    found: Found,
+    state: &SimulationState,
+) -> Result<Start, RunError> {
+    let solid = model.solid(case)?;
+    let contact: Box<dyn Contact> = if case.contact.enforcement == Enforcement::Exact {
+        Box::new(model.exact_contact(case)?)
+    } else {
+        Box::new(model.contact(case, scale(case, found.stability.omega_elastic))?)
+    };
+    let (hub, quiet) = (hub(case, model, &solid), quiet(model));
+    let rest = vec![Padded::ZERO; model.mass.len()];
+    let mut start = assemble(case, model, found, solid, contact, hub, quiet, rest.clone(), rest);
+    start.simulation.restore(state)?;
+    Ok(start)
+}
+
+/// Everything that rolls, set up for the time loop.
+fn assemble(
+    case: &Case,
+    model: &Model,
+    found: Found,
+    solid: Solid,
+    contact: Box<dyn Contact>,
+    mut hub: Hub,
+    quiet: QuietEnd,
+    displacement: Vec<Padded>,
+    velocity: Vec<Padded>,
+) -> Start {
+    let Found { stability, radius, preload, preload_wall, steps } = found;
+    let dt = case.duration() / steps as f64;
+    hub.spin = spin(case, case.drive.speed / radius.effective);
+    hub.vertical = match case.load.mode {
+        LoadMode::Load => Vertical::Load(case.load.normal),
+        LoadMode::Height => Vertical::Held,
+    };
     let simulation = Simulation::new(Setup {
         solid,
         contact: Some(contact),
@@ -237,13 +297,21 @@ pub(crate) fn start(
         displacement,
         velocity,
         dt,
-        omega_max: 2.0 / limit,
+        omega_max: 2.0 / stability.dt_limit,
         mass_damping: case.damping.mass,
     });
-    let radius = RollingRadius { nominal, effective };
     let numbers = numbers(case, model, dt);
-    let facts = Facts { stability, radius, preload, preload_wall, numbers, steps: steps as u64 };
-    Ok(Start { simulation, facts })
+    Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }
+}
+
+/// What penalty springs that are a fraction of the stability limit are a fraction of.
+fn scale(case: &Case, omega_elastic: f64) -> StabilityScale {
+    StabilityScale { omega_elastic, dt: case.step().under(2.0 / omega_elastic) }
+}
+
+fn quiet(model: &Model) -> QuietEnd {
+    let ends: Vec<_> = model.quiet.iter().collect();
+    QuietEnd::new(&model.mesh, &ends, &model.materials[BAR], &model.clamped)
 }
 
 /// No node moves in y.

@@ -44,8 +44,11 @@ pub enum Command {
     /// Run a case
     #[command(after_help = "Examples:\n  creepage run cases/quick.toml\n  creepage run \
         cases/quick.toml --set friction.static=0.3 --out runs/slippery\n  creepage run \
-        cases/zhao-li/b-falling.toml --set mesh.zone.size=2e-3 --threads 2\n\nCtrl-C ends the \
-        run in order: what was computed so far is written and readable.")]
+        cases/zhao-li/b-falling.toml --set mesh.zone.size=2e-3 --threads 2\n  creepage run \
+        cases/quick.toml --resume\n\nCtrl-C and SIGTERM end the run in order: a checkpoint is written and \
+        what was computed so far is readable. --resume goes on from the last checkpoint (one every five \
+        minutes, and on Ctrl-C) and leaves the same bits as a run that was not interrupted; on any \
+        number of threads, also after kill -9. In a batch script, --resume --force begins the run or goes on with it.")]
     Run(RunArgs),
     /// Build the mesh of a case: counts, quality, stable step, memory and run-time estimate
     #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
@@ -129,7 +132,8 @@ pub struct RunArgs {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<usize>,
-    /// Go on from the last checkpoint (not in this version: runs write none yet)
+    /// Go on with the run in the folder from its last checkpoint, to the same bits; with --force,
+    /// begin anew where there is none of this case
     #[arg(long)]
     pub resume: bool,
     /// Replace the run that is already in the folder

@@ -82,21 +82,13 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
 }
 
 fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
-    if options.resume {
-        return Err(Failure {
-            report: miette!(
-                help = "run the case again from its start: leave out --resume",
-                "--resume is not in this version: runs do not write checkpoints yet"
-            ),
-            code: BAD_INPUT,
-        });
-    }
     let case = load(args, &options.case, &options.sets)?;
     let out = options.out.clone().unwrap_or_else(|| case::folder::default_folder(&case));
     let run_options = RunOptions {
         out: out.clone(),
         threads: options.threads.unwrap_or_else(all_cores),
         force: options.force,
+        resume: options.resume,
         preload_cache: options.preload_cache.clone(),
         source: options.case.clone(),
     };
@@ -117,6 +109,9 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     let diagnosis = summary.get("diagnosis").and_then(Value::as_str);
     if let Some(diagnosis) = diagnosis {
         let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
+    }
+    if status == Some("interrupted") && !args.quiet {
+        let _ = writeln!(std::io::stderr(), "interrupted: --resume goes on");
     }
     Ok(match status {
         Some("interrupted") => INTERRUPTED,

@@ -1,6 +1,7 @@
 //! What a time loop asks of a method of contact.
 
-use crate::{ContactSums, Motion, NodalContact, PenaltyContact};
+use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
+use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
 
@@ -39,7 +40,20 @@ pub trait Contact: Send + Debug {
     /// The side at whose nodes the conditions of contact hold, with the slip velocity of the step that
     /// leaves `x^n`; none for a method that violates them everywhere.
     fn enforced_on(&self) -> Option<usize>;
+
+    /// Everything that goes on from step to step.
+    fn snapshot(&self) -> ContactState;
+
+    /// Takes over the state of a contact of the same surfaces, method and settings: the next steps
+    /// have the same bits as those of the contact that it was taken from.
+    ///
+    /// # Errors
+    /// A state of another contact. This one is then in no state to go on.
+    fn restore(&mut self, state: &ContactState) -> Result<(), StateError>;
 }
+
+/// Tables of the pairs of each pass in a state.
+const PASSES: [&str; 2] = ["pass_0", "pass_1"];
 
 impl Contact for PenaltyContact {
     fn apply(&mut self, motion: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
@@ -60,5 +74,22 @@ impl Contact for PenaltyContact {
 
     fn enforced_on(&self) -> Option<usize> {
         None
+    }
+
+    fn snapshot(&self) -> ContactState {
+        let mut state = ContactState::default();
+        for (table, pairs) in PASSES.iter().zip(&self.pairs) {
+            save_rows(table, pairs, &mut state);
+        }
+        save_search(&self.search, &mut state);
+        state
+    }
+
+    fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
+        for (slave, table) in PASSES.iter().enumerate() {
+            let (own, masters) = (&self.sides[slave], &self.sides[1 - slave]);
+            self.pairs[slave] = restore_rows(table, state, own, masters)?;
+        }
+        restore_search(&mut self.search, state, &self.sides)
     }
 }

@@ -17,16 +17,17 @@ use crate::enforcement::{Contact, Trial};
 use crate::face::{Positions, project};
 use crate::friction::{NodeFriction, Place};
 use crate::local;
-use crate::mortar::{Mean, Mortar};
+use crate::mortar::{Mean, Mortar, restore_means, save_means};
 use crate::nodal::NodalContact;
 use crate::pair::lay_into;
 use crate::penalty::{check_common, in_range};
 use crate::row::{Footing, Leg, Row, Rows, face_shares, within};
 use crate::search::Search;
+use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
 use crate::surface::ContactSurface;
 use crate::touch::{Listed, State, WATCHED, finer, sleep};
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
-use crate::{BodyMaterial, ContactError, ContactSums, Motion};
+use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError};
 use mesh::{Face, Mesh, Padded, Surface};
 
 /// Sweeps end when no force changes by more than this part of the largest.
@@ -40,6 +41,8 @@ const SETTLED: usize = 20;
 /// A mortar row far from closing may have moved so much further along the master before its integrals are
 /// taken anew.
 const FAR: f64 = 10.0;
+/// Table of the rows in a state.
+const ROWS: &str = "rows";
 
 /// Settings of [`ExactContact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -494,6 +497,30 @@ impl Contact for ExactContact {
 
     fn enforced_on(&self) -> Option<usize> {
         Some(self.slave)
+    }
+
+    fn snapshot(&self) -> ContactState {
+        let mut state = ContactState::default();
+        save_rows(ROWS, &self.rows[self.slave], &mut state);
+        if let Some((_, means)) = &self.mortar {
+            save_means(means, &mut state);
+        }
+        save_search(&self.search, &mut state);
+        state
+    }
+
+    fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
+        let own = self.slave;
+        let rows = restore_rows(ROWS, state, &self.sides[own], &self.sides[1 - own])?;
+        if let Some((_, means)) = &mut self.mortar {
+            let nodes = [own, 1 - own].map(|side| self.sides[side].nodes.len());
+            let all = self.sides[own].nodes.iter().max().map_or(0, |&n| n as usize + 1);
+            *means = restore_means(state, nodes, all)?;
+        }
+        self.active.reserve(rows.len());
+        self.legs.reserve(4 * rows.len());
+        self.rows[own] = rows;
+        restore_search(&mut self.search, state, &self.sides)
     }
 }
 

@@ -22,6 +22,7 @@ mod plates;
 mod row;
 mod search;
 mod segment;
+mod snapshot;
 mod stiffness;
 mod surface;
 #[cfg(test)]
@@ -42,4 +43,5 @@ pub use gap::Gap;
 pub use nodal::NodalContact;
 pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
 pub use row::Rows;
+pub use snapshot::{Column, ContactState, Numbers, StateError};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};

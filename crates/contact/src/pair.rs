@@ -3,6 +3,7 @@
 use crate::face::{Positions, SurfacePoint, project, shape};
 use crate::friction::{NodeFriction, Place};
 use crate::penalty::Motion;
+use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::touch::{Listed, State, Touch, relative_velocity, sleep};
@@ -73,8 +74,33 @@ impl Listed for Pair {
         self.slave
     }
 
+    fn face(&self) -> u32 {
+        self.face
+    }
+
     fn is_closed(&self) -> bool {
         self.state != State::Open
+    }
+
+    fn fields(&mut self, visit: &mut impl Fields) {
+        visit.whole("slave", &mut self.slave);
+        visit.state(&mut self.state);
+        visit.whole("sleep", &mut self.sleep);
+        visit.whole("face", &mut self.face);
+        visit.number("xi", "1", &mut self.xi);
+        visit.number("eta", "1", &mut self.eta);
+        visit.number("gap", "m", &mut self.gap);
+        visit.real("weights", "1", &mut self.weights);
+        visit.real("normal", "1", &mut self.normal);
+        visit.number("normal_force", "N", &mut self.normal_force);
+        visit.real("friction", "N", &mut self.friction);
+        visit.real("framed_friction", "N", &mut self.framed);
+        visit.number("mu", "1", &mut self.mu);
+        visit.real("memory", "as of the law", &mut self.memory);
+        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
+        visit.real("slip", "m", &mut self.slip);
+        visit.real("stiffness", "N/m", &mut self.stiffness);
+        visit.number("damper_force", "N", &mut self.damper_force);
     }
 }
 

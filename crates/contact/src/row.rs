@@ -14,6 +14,7 @@
 //! resultant moment.
 
 use crate::face::{Foot, Positions, shape, shape_gradients};
+use crate::snapshot::Fields;
 use crate::surface::{ContactSurface, MasterFace};
 use crate::touch::{Listed, State, Touch};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
@@ -145,8 +146,32 @@ impl Listed for Row {
         self.slave
     }
 
+    fn face(&self) -> u32 {
+        self.face
+    }
+
     fn is_closed(&self) -> bool {
         self.state != State::Open
+    }
+
+    fn fields(&mut self, visit: &mut impl Fields) {
+        visit.whole("slave", &mut self.slave);
+        visit.state(&mut self.state);
+        visit.whole("sleep", &mut self.sleep);
+        visit.whole("face", &mut self.face);
+        visit.number("xi", "1", &mut self.xi);
+        visit.number("eta", "1", &mut self.eta);
+        visit.number("gap", "m", &mut self.gap);
+        visit.real("normal", "1", &mut self.normal);
+        visit.number("normal_force", "N", &mut self.normal_force);
+        visit.real("friction", "N", &mut self.friction);
+        visit.real("frame", "1", self.frame.as_flattened_mut());
+        visit.real("framed_friction", "N", &mut self.framed);
+        visit.number("mu", "1", &mut self.mu);
+        visit.real("memory", "as of the law", &mut self.memory);
+        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
+        visit.real("slip", "m", &mut self.slip);
+        visit.flag("slipped", &mut self.slipped);
     }
 }
 

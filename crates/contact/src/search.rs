@@ -49,13 +49,13 @@ const NOTHING: Span = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
 pub(crate) struct Search {
     pub margin: f64,
     /// Positions of the surface nodes at the last search.
-    at: [Vec<Vec3>; 2],
+    pub at: [Vec<Vec3>; 2],
     /// One over the square of the motion allowed to each surface node (1/m^2).
-    allowance: [Vec<f64>; 2],
+    pub allowance: [Vec<f64>; 2],
     /// Motion of the surface nodes since the last search, at the last look (m).
-    moved: [Vec<Vec3>; 2],
-    steps_to_check: u32,
-    steps_since_check: u32,
+    pub moved: [Vec<Vec3>; 2],
+    pub steps_to_check: u32,
+    pub steps_since_check: u32,
     /// Nearest master face of each node in the search under way.
     nearest: [Vec<(f64, u32)>; 2],
     spans: [Vec<Span>; 2],

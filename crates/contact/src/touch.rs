@@ -1,6 +1,7 @@
 //! What every enforcement knows of a slave node and its foot: the state, what the search lists, and
 //! what the tables of nodes show.
 
+use crate::snapshot::Fields;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy};
 use mesh::Padded;
@@ -26,8 +27,12 @@ pub(crate) trait Listed: Copy {
     fn near(slave: u32, face: u32) -> Self;
     /// The node, in its surface.
     fn slave(&self) -> u32;
+    /// Where its foot is.
+    fn face(&self) -> u32;
     /// Closed nodes stay listed.
     fn is_closed(&self) -> bool;
+    /// Visits everything that a later step or a table of nodes reads.
+    fn fields(&mut self, visit: &mut impl Fields);
 }
 
 /// A slave node and its foot, as the tables of nodes show them.

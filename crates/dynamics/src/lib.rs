@@ -15,15 +15,17 @@ mod quiet;
 mod relax;
 mod rolling;
 mod simulation;
+mod state;
 
 pub use guard::{Cause, Diagnosis, Place};
 pub use hub::{Hub, HubState, Spin, Vertical, smoothstep};
-pub use ledger::{Energies, Ledger};
+pub use ledger::{Energies, LEDGER_NUMBERS, Ledger};
 pub use load::{Fixed, Load};
 pub use quiet::QuietEnd;
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
 pub use rolling::{RollingField, rolling_field};
 pub use simulation::{Setup, Simulation, StepReport, Timers};
+pub use state::{RestoreError, SimulationState};
 
 #[cfg(test)]
 mod tests;

@@ -66,6 +66,16 @@ impl QuietEnd {
         }
     }
 
+    /// The forces (N) that balance the preload, node after node.
+    pub(crate) fn reactions(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        self.nodes.iter().map(|n| n.reaction)
+    }
+
+    /// Takes over what [`Self::reactions`] gave.
+    pub(crate) fn set_reactions(&mut self, reactions: &[[f64; 3]]) {
+        self.nodes.iter_mut().zip(reactions).for_each(|(n, r)| n.reaction = *r);
+    }
+
     /// Leaves fixed directions to their supports.
     pub(crate) fn release(&mut self, fixed: &[Fixed]) {
         for f in fixed {

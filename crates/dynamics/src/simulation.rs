@@ -78,23 +78,23 @@ pub struct StepReport {
 /// Central difference over the whole model.
 pub struct Simulation {
     solid: Solid,
-    contact: Option<Box<dyn Contact>>,
-    hub: Option<Hub>,
-    quiet: QuietEnd,
+    pub(crate) contact: Option<Box<dyn Contact>>,
+    pub(crate) hub: Option<Hub>,
+    pub(crate) quiet: QuietEnd,
     fixed: Vec<Fixed>,
     load: Load,
     disk: std::ops::Range<usize>,
     inverse_mass: Vec<f64>,
-    displacement: Vec<Padded>,
-    velocity: Vec<Padded>,
-    force: Vec<Padded>,
+    pub(crate) displacement: Vec<Padded>,
+    pub(crate) velocity: Vec<Padded>,
+    pub(crate) force: Vec<Padded>,
     partial: Vec<NodeSums>,
     dt: f64,
     omega_max: f64,
     mass_damping: f64,
-    step: usize,
-    ledger: Ledger,
-    timers: Timers,
+    pub(crate) step: usize,
+    pub(crate) ledger: Ledger,
+    pub(crate) timers: Timers,
 }
 
 impl Simulation {

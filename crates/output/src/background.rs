@@ -1,6 +1,8 @@
 //! Writing beside the time loop, which then need not wait for compression.
 
-use crate::{History, OutputError, TransientGrid, Values};
+use crate::checkpoint::sync_file;
+use crate::{Checkpoint, History, OutputError, TransientGrid, Values};
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
@@ -26,6 +28,8 @@ pub struct BackgroundWriter {
     sender: Sender<Message>,
     spare: [Receiver<Buffer>; 3],
     made: [usize; 3],
+    /// Checkpoints under way, one at most, and those that are written.
+    kept: (usize, Receiver<()>),
     thread: Option<JoinHandle<Result<RunFiles, OutputError>>>,
 }
 
@@ -37,10 +41,18 @@ enum Target {
     History,
 }
 
-struct Message {
-    target: Target,
-    time: f64,
-    buffer: Buffer,
+enum Message {
+    Append {
+        target: Target,
+        time: f64,
+        buffer: Buffer,
+    },
+    /// A checkpoint for a folder, and a result file beside those of this thread.
+    Keep {
+        checkpoint: Box<Checkpoint>,
+        folder: PathBuf,
+        beside: Option<PathBuf>,
+    },
 }
 
 /// Flat copies of the values of one snapshot, or of history rows.
@@ -67,8 +79,10 @@ impl BackgroundWriter {
         let (sender, inbox) = channel();
         let pools = [(); 3].map(|()| channel());
         let outbox = pools.each_ref().map(|(give, _)| give.clone());
-        let thread = std::thread::spawn(move || write_all(files, &inbox, &outbox));
-        Self { sender, spare: pools.map(|(_, take)| take), made: [0; 3], thread: Some(thread) }
+        let (done, kept) = channel();
+        let thread = std::thread::spawn(move || write_all(files, &inbox, &outbox, &done));
+        let spare = pools.map(|(_, take)| take);
+        Self { sender, spare, made: [0; 3], kept: (0, kept), thread: Some(thread) }
     }
 
     /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].
@@ -94,6 +108,37 @@ impl BackgroundWriter {
     /// Sends rows for `history.h5`; see [`History::append`].
     pub fn append_history(&mut self, rows: &[f64]) -> Result<(), OutputError> {
         self.send(Target::History, 0.0, |buffer| buffer.numbers.extend_from_slice(rows))
+    }
+
+    /// Sends a checkpoint for `folder`. It is written once everything sent before is in the files and
+    /// on the disk, `beside` with them, and takes their lengths from them. Waits only for a
+    /// checkpoint before that is not yet written.
+    pub fn keep(
+        &mut self,
+        checkpoint: Checkpoint,
+        folder: &Path,
+        beside: Option<PathBuf>,
+    ) -> Result<(), OutputError> {
+        if self.kept.0 > 0 {
+            self.wait_for_checkpoint()?;
+        }
+        let checkpoint = Box::new(checkpoint);
+        let message = Message::Keep { checkpoint, folder: folder.to_owned(), beside };
+        if self.sender.send(message).is_err() {
+            return join(self.thread.take()).and(Err(OutputError::Stopped));
+        }
+        self.kept.0 += 1;
+        Ok(())
+    }
+
+    fn wait_for_checkpoint(&mut self) -> Result<(), OutputError> {
+        match self.kept.1.recv() {
+            Ok(()) => {
+                self.kept.0 -= 1;
+                Ok(())
+            }
+            Err(_) => join(self.thread.take()).and(Err(OutputError::Stopped)),
+        }
     }
 
     /// Waits until everything is written and returns the files.
@@ -123,7 +168,7 @@ impl BackgroundWriter {
         };
         buffer.clear();
         fill(&mut buffer);
-        match self.sender.send(Message { target, time, buffer }) {
+        match self.sender.send(Message::Append { target, time, buffer }) {
             Ok(()) => Ok(()),
             Err(_) => join(self.thread.take()).and(Err(OutputError::Stopped)),
         }
@@ -208,17 +253,41 @@ fn write_all(
     mut files: RunFiles,
     inbox: &Receiver<Message>,
     outbox: &[Sender<Buffer>; 3],
+    done: &Sender<()>,
 ) -> Result<RunFiles, OutputError> {
-    for Message { target, time, buffer } in inbox {
-        match target {
-            Target::Fields => files.fields.append(time, &buffer.values())?,
-            Target::Contact => files.contact.append(time, &buffer.values())?,
-            Target::History => files.history.append(&buffer.numbers)?,
+    for message in inbox {
+        match message {
+            Message::Append { target, time, buffer } => {
+                match target {
+                    Target::Fields => files.fields.append(time, &buffer.values())?,
+                    Target::Contact => files.contact.append(time, &buffer.values())?,
+                    Target::History => files.history.append(&buffer.numbers)?,
+                }
+                // A sender that has finished takes no buffers back.
+                let _ = outbox[target as usize].send(buffer);
+            }
+            Message::Keep { checkpoint, folder, beside } => {
+                keep(&files, *checkpoint, &folder, beside.as_deref())?;
+                let _ = done.send(());
+            }
         }
-        // A sender that has finished takes no buffers back.
-        let _ = outbox[target as usize].send(buffer);
     }
     Ok(files)
+}
+
+/// Results first: a checkpoint must not speak of what a power cut can still take away.
+fn keep(
+    files: &RunFiles,
+    mut checkpoint: Checkpoint,
+    folder: &Path,
+    beside: Option<&Path>,
+) -> Result<(), OutputError> {
+    let own = [files.fields.path(), files.contact.path(), files.history.path()];
+    own.into_iter().chain(beside).try_for_each(sync_file)?;
+    checkpoint.lengths.fields = files.fields.steps() as u64;
+    checkpoint.lengths.contact = files.contact.steps() as u64;
+    checkpoint.lengths.history = files.history.rows() as u64;
+    checkpoint.write(folder)
 }
 
 fn join(

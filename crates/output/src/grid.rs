@@ -1,6 +1,6 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
-use crate::hdf5::{Appender, Creator, LayOut};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle};
 use crate::{OutputError, Provenance};
 use std::path::{Path, PathBuf};
 
@@ -164,25 +164,63 @@ impl TransientGrid {
         fields: &[FieldSpec],
         provenance: &Provenance,
     ) -> Result<Self, OutputError> {
-        let writer = Self {
-            path: path.as_ref().to_owned(),
-            fields: fields.to_vec(),
-            constant_names: grid
-                .constant
-                .iter()
-                .map(|field| (field.spec.name.clone(), field.spec.on_cells))
-                .collect(),
-            points: grid.points.len(),
-            cells: grid.cells.count(),
-            steps: 0,
-        };
+        let writer = Self::at(path.as_ref(), grid, fields);
         writer.check_grid(grid)?;
         let mut file = Creator::new(&writer.path, provenance)?;
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
-        file.close()?;
+        file.close_settled(|path| settle(path, &writer.growing(), &STEPS, COUNT))?;
         Ok(writer)
+    }
+
+    /// Goes on with a file at `path` that was created with the same grid and fields, cut off behind
+    /// its first `steps` snapshots.
+    pub fn reopen(
+        path: impl AsRef<Path>,
+        grid: &GridSpec<'_>,
+        fields: &[FieldSpec],
+        steps: usize,
+    ) -> Result<Self, OutputError> {
+        let writer = Self { steps, ..Self::at(path.as_ref(), grid, fields) };
+        writer.check_grid(grid)?;
+        cut(&writer.path, &writer.growing(), &STEPS, COUNT, steps)?;
+        Ok(writer)
+    }
+
+    /// The datasets to which a snapshot appends.
+    fn growing(&self) -> Vec<Growing> {
+        let one = |name: String, kind| Growing { name, kind, components: 1, rows: 1 };
+        let mut all = Vec::new();
+        for spec in &self.fields {
+            all.push(Growing {
+                name: data_path(&spec.name, spec.on_cells),
+                kind: if spec.integer { Kind::Byte } else { Kind::Real },
+                components: spec.components,
+                rows: self.count(spec.on_cells),
+            });
+            all.push(one(offset_path(&spec.name, spec.on_cells), Kind::Whole));
+        }
+        for (name, on_cells) in &self.constant_names {
+            all.push(one(offset_path(name, *on_cells), Kind::Whole));
+        }
+        all.push(one("VTKHDF/Steps/Values".into(), Kind::Real));
+        for name in ["NumberOfParts"].iter().chain(&MESH_OFFSETS) {
+            all.push(one(format!("VTKHDF/Steps/{name}"), Kind::Whole));
+        }
+        all
+    }
+
+    fn at(path: &Path, grid: &GridSpec<'_>, fields: &[FieldSpec]) -> Self {
+        let name = |field: &StaticField<'_>| (field.spec.name.clone(), field.spec.on_cells);
+        Self {
+            path: path.to_owned(),
+            fields: fields.to_vec(),
+            constant_names: grid.constant.iter().map(name).collect(),
+            points: grid.points.len(),
+            cells: grid.cells.count(),
+            steps: 0,
+        }
     }
 
     /// Appends one snapshot: `values` in the order of the fields given to [`Self::create`].
@@ -210,7 +248,7 @@ impl TransientGrid {
         for name in MESH_OFFSETS {
             file.append(&format!("VTKHDF/Steps/{name}"), &[0i64])?;
         }
-        file.close_with_count(&["VTKHDF", "Steps"], "NSteps", step + 1)?;
+        file.close_with_count(&STEPS, COUNT, step + 1)?;
         self.steps += 1;
         Ok(())
     }
@@ -365,7 +403,7 @@ impl TransientGrid {
     }
 
     fn lay_out_steps(&self, file: &mut Creator) -> Result<(), OutputError> {
-        let steps = ["VTKHDF", "Steps"];
+        let steps = STEPS;
         file.group(&steps)?;
         let at = |name, units, description| LayOut {
             group: &steps,
@@ -396,9 +434,13 @@ impl TransientGrid {
                 description: "first row of each step in the array of this name",
             })?;
         }
-        file.count(&steps, "NSteps", 0)
+        file.count(&steps, COUNT, 0)
     }
 }
+
+/// Group of what belongs to the steps, and its attribute that counts them.
+const STEPS: [&str; 2] = ["VTKHDF", "Steps"];
+const COUNT: &str = "NSteps";
 
 /// Offsets into the mesh at each step, all zero since the mesh is stored once.
 const MESH_OFFSETS: [&str; 4] =

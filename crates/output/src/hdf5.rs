@@ -4,6 +4,7 @@
 //! compression that VTK's build reads; no locks because a viewer holding the file must not make an
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
+use crate::checkpoint::Numbers;
 use crate::room::Room;
 use crate::{OutputError, Provenance};
 use rust_hdf5::{DatatypeMessage, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound};
@@ -150,13 +151,105 @@ impl Creator {
         self.check(written)
     }
 
-    pub fn close(self) -> Result<(), OutputError> {
-        let placed = self.file.close().and_then(|()| {
-            std::fs::rename(&self.partial, &self.path)?;
-            Ok(())
-        });
+    /// A dataset written once, in one piece and not compressed.
+    pub fn plain<T: H5Type>(&mut self, at: &LayOut<'_>, data: &[T]) -> Result<(), OutputError> {
+        let write = || -> H5Result<()> {
+            let dataset = descend(&self.file, at.group)?
+                .new_dataset::<T>()
+                .shape(shape(data.len() / at.components, at.components))
+                .create(at.name)?;
+            if !data.is_empty() {
+                dataset.write_raw(data)?;
+            }
+            describe(&dataset, at)
+        };
+        self.check(write())
+    }
+
+    /// Closes the file and gives it its name once `settle` has had it. The first closings of a file to
+    /// which something was appended move headers and link tables about, and a kill between two of
+    /// their writes would leave neither the old file nor the new one: they must be over before anybody
+    /// looks for the file.
+    pub fn close_settled(
+        self,
+        settle: impl FnOnce(&Path) -> Result<(), OutputError>,
+    ) -> Result<(), OutputError> {
+        let (path, partial) = (self.path.clone(), self.partial.clone());
+        self.close_by(|_| Ok(()))?;
+        settle(&partial)?;
+        std::fs::rename(&partial, &path).map_err(|error| create_error(&path, error.into()))
+    }
+
+    /// Closes the file, brings it to the disk and lets `place` put it where it belongs.
+    pub fn close_by(
+        self,
+        place: impl FnOnce(&Path) -> std::io::Result<()>,
+    ) -> Result<(), OutputError> {
+        let placed = self.file.close().and_then(|()| Ok(place(&self.partial)?));
+        if placed.is_err() {
+            // Of no use half-written; the error that matters is the first.
+            let _ = std::fs::remove_file(&self.partial);
+        }
         placed.map_err(|error| create_error(&self.path, error))
     }
+}
+
+/// A dataset to which rows are appended.
+pub(crate) struct Growing {
+    pub name: String,
+    pub kind: Kind,
+    pub components: usize,
+    /// Rows per snapshot.
+    pub rows: usize,
+}
+
+/// Number type of a dataset.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Real,
+    Whole,
+    Byte,
+}
+
+/// Closings after which the closings of a file leave headers where they are. Measured: 4 for a grid of
+/// ten fields, 2 for a history.
+const SETTLED: usize = 6;
+
+/// Appends a row to every dataset and takes it away again, until closings move nothing.
+pub(crate) fn settle(
+    path: &Path,
+    datasets: &[Growing],
+    group: &[&str],
+    count: &str,
+) -> Result<(), OutputError> {
+    for _ in 0..SETTLED {
+        let mut file = Appender::open(path)?;
+        for dataset in datasets {
+            match dataset.kind {
+                Kind::Real => file.append(&dataset.name, &vec![0.0; dataset.components])?,
+                Kind::Whole => file.append(&dataset.name, &vec![0_i64; dataset.components])?,
+                Kind::Byte => file.append(&dataset.name, &vec![0_u8; dataset.components])?,
+            }
+        }
+        file.close_with_count(group, count, 0)?;
+        cut(path, datasets, group, count, 0)?;
+    }
+    Ok(())
+}
+
+/// Cuts a file off behind its first snapshots.
+pub(crate) fn cut(
+    path: &Path,
+    datasets: &[Growing],
+    group: &[&str],
+    count: &str,
+    snapshots: usize,
+) -> Result<(), OutputError> {
+    let mut file = Appender::open(path)?;
+    for dataset in datasets {
+        file.cut(&dataset.name, snapshots * dataset.rows)?;
+    }
+    file.close_with_count(group, count, snapshots as i64)
 }
 
 /// A file being extended.
@@ -194,6 +287,26 @@ impl Appender {
             room.map_or(Ok(()), |room| Ok(room.announce()?))
         };
         write(self.room.take()).map_err(|error| append_error(&self.path, error))
+    }
+
+    /// Cuts a dataset off behind its first `rows` rows.
+    fn cut(&mut self, name: &str, rows: usize) -> Result<(), OutputError> {
+        let mut found = 0;
+        let mut write = || -> H5Result<()> {
+            let dataset = self.file.dataset_writer(name)?;
+            let mut shape = dataset.shape();
+            if let Some(length) = shape.first_mut() {
+                found = *length;
+                *length = rows;
+            }
+            if found > rows { dataset.set_extent(&shape) } else { Ok(()) }
+        };
+        write().map_err(|error| append_error(&self.path, error))?;
+        if found < rows {
+            let reason = format!("`{name}` has {found} rows, fewer than the {rows} that it must");
+            return Err(read_error(&self.path, reason));
+        }
+        Ok(())
     }
 
     /// Closing writes the dataset headers first and the group that carries the count after them.
@@ -234,6 +347,34 @@ impl Source {
 
     pub fn root_text(&self, name: &str) -> Result<String, OutputError> {
         self.check(self.file.attr_string(name))
+    }
+
+    /// Names of the root attributes.
+    pub fn root_names(&self) -> Result<Vec<String>, OutputError> {
+        self.check(self.file.attr_names())
+    }
+
+    /// Names of all datasets with the groups that they are in.
+    pub fn all_names(&self) -> Vec<String> {
+        self.file.dataset_names()
+    }
+
+    /// All numbers of a dataset of [`Creator::plain`].
+    pub fn plain(&self, dataset: &str) -> Result<Numbers, OutputError> {
+        let read = || -> H5Result<Numbers> {
+            let dataset = self.file.dataset(dataset)?;
+            if dataset.shape().contains(&0) {
+                return Ok(match dataset.datatype()? {
+                    DatatypeMessage::FloatingPoint { .. } => Numbers::Real(Vec::new()),
+                    _ => Numbers::Whole(Vec::new()),
+                });
+            }
+            match dataset.datatype()? {
+                DatatypeMessage::FloatingPoint { .. } => Ok(Numbers::Real(dataset.read_raw()?)),
+                _ => Ok(Numbers::Whole(dataset.read_raw()?)),
+            }
+        };
+        self.check(read())
     }
 
     /// Names of the datasets directly in a group, sorted.

@@ -1,6 +1,6 @@
 //! Rows of scalars over time: one extendable 1-D dataset per column.
 
-use crate::hdf5::{Appender, Creator, LayOut};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle};
 use crate::{OutputError, Provenance};
 use std::path::{Path, PathBuf};
 
@@ -20,6 +20,20 @@ impl Column {
     pub fn new(name: &str, units: &str, description: &str) -> Self {
         Self { name: name.into(), units: units.into(), description: description.into() }
     }
+}
+
+/// Root attribute that counts the rows.
+const COUNT: &str = "rows";
+
+/// The datasets of the columns.
+fn growing(columns: &[Column]) -> Vec<Growing> {
+    let dataset = |column: &Column| Growing {
+        name: column.name.clone(),
+        kind: Kind::Real,
+        components: 1,
+        rows: 1,
+    };
+    columns.iter().map(dataset).collect()
 }
 
 /// Writer of `history.h5`.
@@ -59,9 +73,21 @@ impl History {
                 description: &column.description,
             })?;
         }
-        file.count(&[], "rows", 0)?;
-        file.close()?;
+        file.count(&[], COUNT, 0)?;
+        file.close_settled(|path| settle(path, &growing(columns), &[], COUNT))?;
         Ok(Self { path, columns: columns.to_vec(), rows: 0, scratch: Vec::new() })
+    }
+
+    /// Goes on with a history at `path` that was created with the same columns, cut off behind its
+    /// first `rows` rows.
+    pub fn reopen(
+        path: impl AsRef<Path>,
+        columns: &[Column],
+        rows: usize,
+    ) -> Result<Self, OutputError> {
+        let path = path.as_ref().to_owned();
+        cut(&path, &growing(columns), &[], COUNT, rows)?;
+        Ok(Self { path, columns: columns.to_vec(), rows, scratch: Vec::new() })
     }
 
     /// Appends any number of rows, row after row (length: rows times columns).
@@ -80,12 +106,13 @@ impl History {
         }
         let count = rows.len() / width;
         let mut file = Appender::open(&self.path)?;
+        file.make_room(size_of_val(rows))?;
         for (index, column) in self.columns.iter().enumerate() {
             self.scratch.clear();
             self.scratch.extend(rows.iter().skip(index).step_by(width));
             file.append(&column.name, &self.scratch)?;
         }
-        file.close_with_count(&[], "rows", (self.rows + count) as i64)?;
+        file.close_with_count(&[], COUNT, (self.rows + count) as i64)?;
         self.rows += count;
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `fields.vtkhdf`, `contact.vtkhdf` | [`TransientGrid`] |
 //! | `history.h5` | [`History`] |
+//! | `checkpoint.h5` | [`Checkpoint`] |
 //! | `summary.json` | [`write_json_atomically`] of a [`summary::Summary`] |
 //!
 //! Every HDF5 file is created with its mesh and metadata and closed; each snapshot then opens it,
@@ -23,6 +24,7 @@
 //! same bits.
 
 mod background;
+mod checkpoint;
 mod error;
 mod grid;
 mod hdf5;
@@ -34,6 +36,7 @@ pub mod summary;
 mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
+pub use checkpoint::{Array, CHECKPOINTS, Checkpoint, Lengths, Numbers};
 pub use error::OutputError;
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
 pub use history::{Column, History};

@@ -167,6 +167,7 @@ fn rolled(reference: &Reference, h: f64, more: &[String]) -> Result<Rolled, crat
         out: folder.path().join("run"),
         threads: std::thread::available_parallelism().map_or(1, |n| n.get()),
         force: false,
+        resume: false,
         source: "a-coulomb.toml".into(),
     };
     let summary = case::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;

@@ -399,6 +399,8 @@ pub fn arguments(folder: &Path, name: &str, threads: usize) -> [Vec<String>; 2] 
             &threads.to_string(),
             "--preload-cache",
             &text(preloads(folder)),
+            // goes on from a checkpoint, or else replaces what is there
+            "--resume",
             "--force",
         ]),
         words(&["check", &text(run), "--json"]),

@@ -1,0 +1,189 @@
+//! Whether and from where `--resume` can go on.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::checkpoint::{KERNELS, State};
+use crate::folder::RUN_FILES;
+use crate::schema::Case;
+use miette::Diagnostic;
+use output::summary::Status;
+use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile, OutputError};
+use serde_json::Value;
+use solid::Level;
+use thiserror::Error;
+
+/// Why a run cannot be resumed.
+#[derive(Debug, Error, Diagnostic)]
+pub enum ResumeError {
+    /// Nothing has run in the folder.
+    #[error("there is no run to resume in {}", folder.display())]
+    #[diagnostic(help("leave out --resume to begin it, or name its folder with --out DIR"))]
+    NoRun {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run in the folder is of another case.
+    #[error("{} holds the run of another case: {difference}", folder.display())]
+    #[diagnostic(help(
+        "resume it with its own case (--set too), choose another folder with --out DIR, or replace \
+         it with --force"
+    ))]
+    AnotherCase {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs.
+        difference: String,
+    },
+    /// There are checkpoints, but none to go on from.
+    #[error("no checkpoint in {} can be used: {reasons}", folder.display())]
+    #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
+    Unusable {
+        /// The folder.
+        folder: PathBuf,
+        /// What is wrong with each.
+        reasons: String,
+    },
+}
+
+/// Where a run goes on.
+pub(crate) enum Origin {
+    /// It is complete; its summary.
+    Complete(Value),
+    /// From its beginning; why.
+    Beginning(String),
+    /// From a checkpoint.
+    Checkpoint(Box<Point>),
+}
+
+/// A checkpoint to go on from.
+pub(crate) struct Point {
+    pub(crate) checkpoint: Checkpoint,
+    pub(crate) state: State,
+    pub(crate) kernels: Level,
+    /// Newer ones, and what is wrong with them.
+    pub(crate) damaged: Vec<(&'static str, String)>,
+}
+
+/// Where the run of `case` in `folder` goes on.
+pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> {
+    let path = || folder.to_path_buf();
+    if !RUN_FILES.iter().any(|file| folder.join(file).exists()) {
+        return Err(ResumeError::NoRun { folder: path() });
+    }
+    if let Some(difference) = difference(case, folder) {
+        return Err(ResumeError::AnotherCase { folder: path(), difference });
+    }
+    let summary = fs::read(folder.join("summary.json")).ok();
+    let summary = summary.and_then(|text| serde_json::from_slice::<Value>(&text).ok());
+    let complete = serde_json::to_value(Status::Completed).ok();
+    if let Some(summary) = summary
+        && summary.get("status") == complete.as_ref()
+    {
+        return Ok(Origin::Complete(summary));
+    }
+    let mut damaged = Vec::new();
+    for name in CHECKPOINTS {
+        if !folder.join(name).exists() {
+            continue;
+        }
+        match usable(case, folder, name) {
+            Ok((checkpoint, state, kernels)) => {
+                let point = Point { checkpoint, state, kernels, damaged };
+                return Ok(Origin::Checkpoint(Box::new(point)));
+            }
+            Err(reason) => damaged.push((name, reason)),
+        }
+    }
+    if damaged.is_empty() {
+        return Ok(Origin::Beginning("the run has no checkpoint yet".into()));
+    }
+    let reasons: Vec<_> =
+        damaged.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();
+    Err(ResumeError::Unusable { folder: path(), reasons: reasons.join("; ") })
+}
+
+/// What differs between `case` and that of the run in `folder`.
+fn difference(case: &Case, folder: &Path) -> Option<String> {
+    let path = folder.join("case.toml");
+    let theirs = match Case::load(&path, &[]) {
+        Ok(theirs) => theirs,
+        Err(error) => return Some(format!("its case.toml cannot be read: {error}")),
+    };
+    let ours = toml::Table::try_from(case).unwrap_or_default();
+    let theirs = toml::Table::try_from(&theirs).unwrap_or_default();
+    let mut keys = Vec::new();
+    differing(&ours, &theirs, "", &mut keys);
+    // intervals may change
+    keys.retain(|key| !key.starts_with("checkpoint"));
+    match &keys[..] {
+        [] => None,
+        [some @ .., last] if some.len() < 4 => {
+            let all = [some, std::slice::from_ref(last)].concat().join(", ");
+            Some(format!("{all} differ{}", if keys.len() == 1 { "s" } else { "" }))
+        }
+        keys => {
+            Some(format!("{} and {} further keys differ", keys[..3].join(", "), keys.len() - 3))
+        }
+    }
+}
+
+fn differing(ours: &toml::Table, theirs: &toml::Table, prefix: &str, keys: &mut Vec<String>) {
+    let others = theirs.keys().filter(|key| !ours.contains_key(*key));
+    for key in ours.keys().chain(others) {
+        let name = format!("{prefix}{key}");
+        match (ours.get(key), theirs.get(key)) {
+            (Some(toml::Value::Table(a)), Some(toml::Value::Table(b))) => {
+                differing(a, b, &format!("{name}."), keys);
+            }
+            (a, b) if a == b => {}
+            _ => keys.push(name),
+        }
+    }
+}
+
+/// The checkpoint if the run can go on from it, or else why not.
+fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, Level), String> {
+    let checkpoint = Checkpoint::read(&folder.join(name)).map_err(|error| match error {
+        OutputError::Read { reason, .. } => format!("it is damaged: {reason}"),
+        error => error.to_string(),
+    })?;
+    let version = &checkpoint.provenance.creepage_version;
+    if version != env!("CARGO_PKG_VERSION") {
+        return Err(format!(
+            "it is of version {version} of creepage, this is {}",
+            env!("CARGO_PKG_VERSION")
+        ));
+    }
+    if checkpoint.provenance.case_hash != case.hash() {
+        return Err("it is of another case".into());
+    }
+    let kernels = checkpoint.text(KERNELS).unwrap_or_default();
+    let level = [Level::Avx512, Level::Avx2, Level::Portable]
+        .into_iter()
+        .find(|level| level.name() == kernels && level.available())
+        .ok_or_else(|| {
+            format!("it was computed with {kernels} kernels, which this machine cannot run")
+        })?;
+    let state = State::from_checkpoint(&checkpoint)?;
+    results_reach(&checkpoint, folder)?;
+    Ok((checkpoint, state, level))
+}
+
+/// Whether the result files hold all that belongs to the checkpoint.
+fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
+    let lengths = checkpoint.lengths;
+    let check = |name: &str, found: Result<usize, OutputError>, wanted: u64| match found {
+        Ok(found) if found as u64 >= wanted => Ok(()),
+        Ok(found) => Err(format!("{name} holds {found} of the {wanted} records before it")),
+        Err(error) => Err(error.to_string()),
+    };
+    for (name, wanted) in [("fields.vtkhdf", lengths.fields), ("contact.vtkhdf", lengths.contact)] {
+        check(name, GridFile::open(folder.join(name)).map(|file| file.steps()), wanted)?;
+    }
+    let tables = [("history.h5", lengths.history), ("probes.h5", lengths.probes)];
+    for (name, wanted) in tables.into_iter().filter(|(_, wanted)| *wanted > 0) {
+        check(name, HistoryFile::open(folder.join(name)).map(|file| file.rows()), wanted)?;
+    }
+    Ok(())
+}

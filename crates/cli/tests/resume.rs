@@ -1,0 +1,114 @@
+//! Runs that are ended by signals or killed go on from their checkpoints.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use output::{CHECKPOINTS, Checkpoint, HistoryFile};
+use runs::kill::{BUSY, EXACT_WITH_MEMORY, KillLoop, python};
+use runs::{results, timeless};
+
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
+
+fn creepage(out: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    command.args(["run", CASE, "--threads", "2", "--out"]).arg(out).args(more);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn done(out: &Path, more: &[&str]) -> Output {
+    let output = creepage(out, more).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    output
+}
+
+/// Ends a run by a signal once it rolls.
+fn signalled(out: &Path, signal: &str, more: &[&str]) -> Output {
+    let mut run = creepage(out, more).spawn().unwrap();
+    let clock = Instant::now();
+    while HistoryFile::open(out.join("history.h5")).map_or(0, |h| h.rows()) == 0 {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended before it was stopped");
+        assert!(clock.elapsed() < Duration::from_secs(120), "no rows");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let pid = run.id().to_string();
+    assert!(Command::new("kill").args([signal, &pid]).status().unwrap().success());
+    run.wait_with_output().unwrap()
+}
+
+#[test]
+fn sigterm_and_ctrl_c_write_a_checkpoint_and_the_resumed_run_has_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("run"));
+    done(&whole, &[]);
+    for (signal, more) in [("-TERM", &[][..]), ("-INT", &["--resume"])] {
+        let output = signalled(&out, signal, more);
+        assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+        assert!(said(&output).contains("--resume goes on"), "{}", said(&output));
+        let kept = Checkpoint::read(&out.join(CHECKPOINTS[0])).unwrap();
+        assert_eq!(results(&out).number("/steps"), kept.step as f64);
+    }
+    done(&out, &["--resume"]);
+    let (whole, found) = (results(&whole), results(&out));
+    assert_eq!(whole.differing(&found), Vec::<&str>::new());
+    assert_eq!(timeless(&whole.summary), timeless(&found.summary));
+
+    let again = done(&out, &["--resume"]);
+    assert!(said(&again).contains("is complete: nothing to resume"), "{}", said(&again));
+}
+
+#[test]
+fn what_cannot_be_resumed_ends_with_code_2_and_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    signalled(&out, "-TERM", &[]);
+    let refused = |more: &[&str], words: &[&str]| {
+        let output = creepage(&out, &[&["--resume"], more].concat()).output().unwrap();
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        words.iter().for_each(|word| assert!(said.contains(word), "{word} is not in {said}"));
+    };
+    refused(&["--set", "friction.static=0.2"], &["another case", "friction.static", "--force"]);
+    for name in CHECKPOINTS {
+        if out.join(name).exists() {
+            fs::write(out.join(name), b"HDF").unwrap();
+        }
+    }
+    refused(&[], &["no checkpoint", "checkpoint.h5: it is damaged", "begin the run anew"]);
+    done(&out, &["--resume", "--force", "--set", "time.roll=0.001"]);
+}
+
+/// The short form of `cargo xtask kill-loop`.
+#[track_caller]
+fn survives_kills(method: &[&str], seed: u64) {
+    let sets = [&BUSY[..], method, &["time.roll=0.003"]].concat();
+    let kill_loop = KillLoop {
+        program: env!("CARGO_BIN_EXE_creepage").into(),
+        case: CASE.into(),
+        sets: sets.into_iter().map(str::to_owned).collect(),
+        kills: 3,
+        seed,
+        python: python(),
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = kill_loop.run(folder.path(), &mut |_| {}).unwrap();
+    assert!(outcome.kills >= 3 && outcome.runs >= 1, "{outcome:?}");
+}
+
+#[test]
+fn a_penalty_run_killed_again_and_again_leaves_the_same_bits() {
+    survives_kills(&[], 1);
+}
+
+#[test]
+fn an_exact_run_with_memory_killed_again_and_again_leaves_the_same_bits() {
+    survives_kills(&EXACT_WITH_MEMORY, 2);
+}

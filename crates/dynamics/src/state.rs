@@ -1,0 +1,98 @@
+//! The state between two steps, as plain data: enough to go on with the same bits.
+
+use crate::hub::HubState;
+use crate::ledger::Ledger;
+use crate::simulation::{Simulation, Timers};
+use contact::{ContactState, StateError};
+use mesh::Padded;
+
+/// State of a simulation at a full step, with velocities at the half step before. What follows from
+/// the setup (masses, elements, boundary conditions, loads) is not part of it.
+#[derive(Clone, Debug)]
+pub struct SimulationState {
+    /// Steps done.
+    pub step: usize,
+    /// Displacements (m).
+    pub displacement: Vec<[f64; 3]>,
+    /// Velocities (m/s).
+    pub velocity: Vec<[f64; 3]>,
+    /// Motion of the hub and the last reaction of its drive (N, N, N m), if there is a hub.
+    pub hub: Option<(HubState, [f64; 3])>,
+    /// Forces (N) on the nodes of the quiet ends that balance the preload.
+    pub reactions: Vec<[f64; 3]>,
+    /// Accumulated works and the balance.
+    pub ledger: Ledger,
+    /// Contact, if there is any.
+    pub contact: Option<ContactState>,
+    /// Wall time per stage so far.
+    pub timers: Timers,
+}
+
+/// Why a simulation cannot go on from a state.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RestoreError {
+    /// The state is of another model.
+    #[error("the state has {found} {what}, the model {wanted}")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// As many as the model has.
+        wanted: usize,
+        /// As many as the state has.
+        found: usize,
+    },
+    /// The state of contact is of another model.
+    #[error(transparent)]
+    Contact(#[from] StateError),
+}
+
+impl Simulation {
+    /// The state now.
+    pub fn snapshot(&self) -> SimulationState {
+        let vectors = |field: &[Padded]| field.iter().map(|v| v.xyz()).collect();
+        SimulationState {
+            step: self.step,
+            displacement: vectors(&self.displacement),
+            velocity: vectors(&self.velocity),
+            hub: self.hub.as_ref().map(|hub| (hub.state, hub.reaction)),
+            reactions: self.quiet.reactions().collect(),
+            ledger: self.ledger,
+            contact: self.contact.as_ref().map(|contact| contact.snapshot()),
+            timers: self.timers,
+        }
+    }
+
+    /// Takes over the state of a simulation of the same setup: the next steps have the same bits as
+    /// those of the simulation that it was taken from, on any number of threads.
+    ///
+    /// # Errors
+    /// A state of another model. This simulation is then in no state to go on.
+    pub fn restore(&mut self, state: &SimulationState) -> Result<(), RestoreError> {
+        let count = |what, wanted, found| {
+            let error = RestoreError::Count { what, wanted, found };
+            if wanted == found { Ok(()) } else { Err(error) }
+        };
+        let nodes = self.displacement.len();
+        count("displacements", nodes, state.displacement.len())?;
+        count("velocities", nodes, state.velocity.len())?;
+        count("hubs", usize::from(self.hub.is_some()), usize::from(state.hub.is_some()))?;
+        let contacts = usize::from(self.contact.is_some());
+        count("contacts", contacts, usize::from(state.contact.is_some()))?;
+        count("quiet nodes", self.quiet.nodes().count(), state.reactions.len())?;
+        let padded = |field: &mut [Padded], from: &[[f64; 3]]| {
+            field.iter_mut().zip(from).for_each(|(v, x)| *v = Padded::new(*x));
+        };
+        padded(&mut self.displacement, &state.displacement);
+        padded(&mut self.velocity, &state.velocity);
+        self.force.fill(Padded::ZERO);
+        if let (Some(hub), Some((motion, reaction))) = (&mut self.hub, state.hub) {
+            (hub.state, hub.reaction) = (motion, reaction);
+        }
+        self.quiet.set_reactions(&state.reactions);
+        if let (Some(contact), Some(state)) = (&mut self.contact, &state.contact) {
+            contact.restore(state)?;
+        }
+        (self.step, self.ledger, self.timers) = (state.step, state.ledger, state.timers);
+        Ok(())
+    }
+}

@@ -1,0 +1,231 @@
+//! Checkpoints: the whole state of a run at a step, from which it goes on with the same bits.
+//!
+//! `checkpoint.h5` holds named arrays with units, and the lengths of the run's result files at that
+//! step. It is written under another name, synced and renamed, and the one before stays as
+//! `checkpoint-1.h5`; the root attribute `sha256`, over all names and numbers, proves it whole.
+
+use crate::hdf5::{Creator, LayOut, Source, read_error};
+use crate::{OutputError, Provenance};
+use sha2::{Digest, Sha256};
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+
+/// Names of the checkpoints of a run, the newest first.
+pub const CHECKPOINTS: [&str; 2] = ["checkpoint.h5", "checkpoint-1.h5"];
+
+/// Root attribute with the SHA-256 of everything else, in hexadecimal.
+const CHECKSUM: &str = "sha256";
+/// Root attribute with the step, for people; the program takes it from [`LENGTHS`].
+const STEP: &str = "step";
+/// Root attributes that are not further ones of the provenance.
+const OWN: [&str; 5] = ["creepage_version", "case_hash", "created", STEP, CHECKSUM];
+/// Dataset of the step and of [`Lengths`].
+const LENGTHS: &str = "results/lengths";
+
+/// An array of a checkpoint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Name, with `/` between groups and dataset.
+    pub name: String,
+    /// SI units, `"1"` for a pure number.
+    pub units: String,
+    /// Numbers per row.
+    pub components: usize,
+    /// What it is, in a phrase.
+    pub description: String,
+    /// The numbers, row after row.
+    pub values: Numbers,
+}
+
+/// The numbers of an [`Array`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Numbers {
+    /// Quantities.
+    Real(Vec<f64>),
+    /// Indices, counters and labels.
+    Whole(Vec<u64>),
+}
+
+/// How much of each result file belongs to a checkpoint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lengths {
+    /// Snapshots in `fields.vtkhdf`.
+    pub fields: u64,
+    /// Snapshots in `contact.vtkhdf`.
+    pub contact: u64,
+    /// Rows in `history.h5`.
+    pub history: u64,
+    /// Rows in `probes.h5`; zero where the run has none.
+    pub probes: u64,
+}
+
+/// A checkpoint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// Where it comes from; its further attributes are kept too.
+    pub provenance: Provenance,
+    /// Steps done.
+    pub step: u64,
+    /// What of the result files belongs to it.
+    pub lengths: Lengths,
+    /// The state.
+    pub arrays: Vec<Array>,
+}
+
+impl Checkpoint {
+    /// Writes it as the newest of `folder`; the newest so far becomes the one before.
+    pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
+        let [newest, before] = CHECKPOINTS.map(|name| folder.join(name));
+        let mut provenance = self.provenance.clone();
+        provenance.attributes.push((CHECKSUM.into(), self.checksum()));
+        let mut file = Creator::new(&newest, &provenance)?;
+        file.count(&[], STEP, self.step as i64)?;
+        let lengths = self.lengths_array();
+        let mut groups = std::collections::BTreeSet::new();
+        for array in self.arrays.iter().chain([&lengths]) {
+            let parts: Vec<&str> = array.name.split('/').collect();
+            let Some((name, group)) = parts.split_last() else { continue };
+            for depth in 1..=group.len() {
+                if groups.insert(group[..depth].join("/")) {
+                    file.group(&group[..depth])?;
+                }
+            }
+            let place = LayOut {
+                group,
+                name,
+                units: &array.units,
+                components: array.components,
+                description: &array.description,
+            };
+            match &array.values {
+                Numbers::Real(values) => file.plain(&place, values)?,
+                Numbers::Whole(values) => file.plain(&place, values)?,
+            }
+        }
+        file.close_by(|partial| {
+            match fs::rename(&newest, &before) {
+                Err(cause) if cause.kind() != io::ErrorKind::NotFound => return Err(cause),
+                _ => fs::rename(partial, &newest)?,
+            }
+            sync_folder(folder)
+        })
+    }
+
+    /// Reads one and proves it whole.
+    pub fn read(path: &Path) -> Result<Self, OutputError> {
+        let file = Source::open(path)?;
+        let refuse = |reason: &str| read_error(path, reason.to_owned());
+        let mut provenance = Provenance {
+            creepage_version: file.root_text("creepage_version")?,
+            case_hash: file.root_text("case_hash")?,
+            created: file.root_text("created")?,
+            attributes: Vec::new(),
+        };
+        for name in file.root_names()?.into_iter().filter(|name| !OWN.contains(&name.as_str())) {
+            let text = file.root_text(&name)?;
+            provenance.attributes.push((name, text));
+        }
+        let mut arrays = Vec::new();
+        let (mut step, mut lengths) = (None, Lengths::default());
+        for name in file.all_names() {
+            let array = Array {
+                units: file.text(&name, "units")?,
+                components: file.shape(&name)?.get(1).copied().unwrap_or(1),
+                description: file.text(&name, "description")?,
+                values: file.plain(&name)?,
+                name,
+            };
+            match (array.name.as_str(), &array.values) {
+                (LENGTHS, Numbers::Whole(values)) => {
+                    let [at, fields, contact, history, probes] = values[..] else {
+                        return Err(refuse("its list of lengths has another length"));
+                    };
+                    step = Some(at);
+                    lengths = Lengths { fields, contact, history, probes };
+                }
+                _ => arrays.push(array),
+            }
+        }
+        let step = step.ok_or_else(|| refuse("it has no list of lengths"))?;
+        let found = Self { provenance, step, lengths, arrays };
+        if found.checksum() != file.root_text(CHECKSUM)? {
+            return Err(refuse("its checksum does not match"));
+        }
+        Ok(found)
+    }
+
+    /// A further attribute of the provenance.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        let attributes = &self.provenance.attributes;
+        attributes.iter().find(|(n, _)| n == name).map(|(_, text)| text.as_str())
+    }
+
+    fn lengths_array(&self) -> Array {
+        let Lengths { fields, contact, history, probes } = self.lengths;
+        Array {
+            name: LENGTHS.into(),
+            units: "1".into(),
+            components: 1,
+            description: "steps done; snapshots in fields.vtkhdf and contact.vtkhdf; rows in \
+                          history.h5 and probes.h5"
+                .into(),
+            values: Numbers::Whole(vec![self.step, fields, contact, history, probes]),
+        }
+    }
+
+    /// SHA-256 over everything, in an order that does not depend on that of arrays or attributes.
+    fn checksum(&self) -> String {
+        let mut sum = Sha256::new();
+        let Provenance { creepage_version, case_hash, created, attributes } = &self.provenance;
+        let mut attributes: Vec<_> = attributes.iter().collect();
+        attributes.sort();
+        let attributes = attributes.into_iter().flat_map(|(name, value)| [name, value]);
+        for text in [creepage_version, case_hash, created].into_iter().chain(attributes) {
+            text_into(&mut sum, text);
+        }
+        let lengths = self.lengths_array();
+        let mut arrays: Vec<&Array> = self.arrays.iter().chain([&lengths]).collect();
+        arrays.sort_by(|a, b| a.name.cmp(&b.name));
+        for array in arrays {
+            for text in [&array.name, &array.units, &array.description] {
+                text_into(&mut sum, text);
+            }
+            sum.update((array.components as u64).to_le_bytes());
+            match &array.values {
+                Numbers::Real(values) => bytes(&mut sum, b'r', values, |x| x.to_le_bytes()),
+                Numbers::Whole(values) => bytes(&mut sum, b'w', values, |x| x.to_le_bytes()),
+            }
+        }
+        sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+fn text_into(sum: &mut Sha256, text: &str) {
+    sum.update((text.len() as u64).to_le_bytes());
+    sum.update(text);
+}
+
+/// Takes numbers into the sum, many at a time: one by one takes ten times as long.
+fn bytes<T: Copy>(sum: &mut Sha256, kind: u8, values: &[T], of: impl Fn(T) -> [u8; 8]) {
+    sum.update([kind]);
+    sum.update((values.len() as u64).to_le_bytes());
+    let mut block = Vec::with_capacity(8 * 1024);
+    for part in values.chunks(1024) {
+        block.clear();
+        part.iter().for_each(|x| block.extend(of(*x)));
+        sum.update(&block);
+    }
+}
+
+/// Brings the content of a result file to the disk.
+pub(crate) fn sync_file(path: &Path) -> Result<(), OutputError> {
+    File::open(path)
+        .and_then(|file| file.sync_all())
+        .map_err(|cause| OutputError::Append { path: path.to_owned(), reason: cause.to_string() })
+}
+
+/// Brings renamings to the disk, where the system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
+}

@@ -1,0 +1,198 @@
+//! Checkpoints are whole or refused, and result files go on from them.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use output::{
+    Array, CHECKPOINTS, Cells, Checkpoint, Column, FieldSpec, GridFile, GridSpec, History,
+    HistoryFile, Lengths, Numbers, OutputError, Provenance, StaticField, TransientGrid, Values,
+};
+use std::path::Path;
+
+fn provenance() -> Provenance {
+    Provenance {
+        creepage_version: "0".into(),
+        case_hash: "none".into(),
+        created: "2026-01-01T00:00:00Z".into(),
+        attributes: vec![("facts".into(), "{\"dt\":1e-7}".into())],
+    }
+}
+
+fn checkpoint(step: u64) -> Checkpoint {
+    let array = |name: &str, components, values| Array {
+        name: name.into(),
+        units: "m".into(),
+        components,
+        description: "a number".into(),
+        values,
+    };
+    Checkpoint {
+        provenance: provenance(),
+        step,
+        lengths: Lengths { fields: 1, contact: 2, history: 3, probes: 4 },
+        arrays: vec![
+            array(
+                "nodes/displacement",
+                3,
+                Numbers::Real(vec![0.1, -0.0, f64::NAN, 5e-324, 1e300, step as f64]),
+            ),
+            array("contact/rows/slave", 1, Numbers::Whole(vec![0, 7, u64::MAX])),
+            array("contact/rows/gap", 1, Numbers::Real(Vec::new())),
+            array("step", 1, Numbers::Whole(vec![step])),
+        ],
+    }
+}
+
+/// NaN is not equal to itself; the bits of its array are.
+fn bits(checkpoint: &Checkpoint) -> String {
+    let mut sorted = checkpoint.clone();
+    sorted.arrays.sort_by(|a, b| a.name.cmp(&b.name));
+    let numbers: Vec<Vec<u64>> = sorted
+        .arrays
+        .iter()
+        .map(|array| match &array.values {
+            Numbers::Real(values) => values.iter().map(|x| x.to_bits()).collect(),
+            Numbers::Whole(values) => values.clone(),
+        })
+        .collect();
+    format!("{sorted:?} {numbers:?}")
+}
+
+#[test]
+fn a_checkpoint_reads_back_to_the_bit_and_the_one_before_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    for step in [10, 20, 30] {
+        checkpoint(step).write(folder.path()).unwrap();
+    }
+    for (name, step) in CHECKPOINTS.iter().zip([30, 20]) {
+        let found = Checkpoint::read(&folder.path().join(name)).unwrap();
+        assert_eq!(bits(&found), bits(&checkpoint(step)), "{name}");
+        assert_eq!(found.text("facts"), Some("{\"dt\":1e-7}"));
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "partial files are left");
+}
+
+#[test]
+fn no_byte_of_the_state_can_be_changed_and_no_end_cut_off_unnoticed() {
+    let folder = tempfile::tempdir().unwrap();
+    checkpoint(10).write(folder.path()).unwrap();
+    let path = folder.path().join(CHECKPOINTS[0]);
+    let whole = std::fs::read(&path).unwrap();
+    let expected = bits(&checkpoint(10));
+    let mut refused = 0;
+    for at in (0..whole.len()).step_by(7) {
+        let mut damaged = whole.clone();
+        damaged[at] ^= 0x10;
+        std::fs::write(&path, &damaged).unwrap();
+        match Checkpoint::read(&path) {
+            Ok(found) => assert_eq!(bits(&found), expected, "byte {at} was changed unnoticed"),
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(refused > whole.len() / 70, "only {refused} changes of {} bytes noticed", whole.len());
+    for length in (0..whole.len()).step_by(101) {
+        std::fs::write(&path, &whole[..length]).unwrap();
+        let Ok(found) = Checkpoint::read(&path) else { continue };
+        assert_eq!(bits(&found), expected, "cut off at {length} unnoticed");
+    }
+}
+
+const POINTS: [[f64; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+fn with_grid<T>(then: impl FnOnce(&GridSpec<'_>, &[FieldSpec]) -> T) -> T {
+    let grid = GridSpec {
+        points: &POINTS,
+        cells: Cells::Quads(&[[0, 1, 2, 3]]),
+        constant: &[StaticField {
+            spec: FieldSpec::at_points("body", "1", 1, "label").integer().on_cells(),
+            values: Values::Integer(&[1]),
+        }],
+    };
+    let fields = [
+        FieldSpec::at_points("pressure", "Pa", 1, "pressure"),
+        FieldSpec::at_points("shear", "Pa", 3, "shear"),
+        FieldSpec::at_points("stress", "Pa", 6, "stress").on_cells(),
+        FieldSpec::at_points("state", "1", 1, "state").integer(),
+    ];
+    then(&grid, &fields)
+}
+
+fn append(grid: &mut TransientGrid, steps: std::ops::Range<usize>) {
+    for step in steps {
+        let s = step as f64;
+        grid.append(
+            s,
+            &[
+                Values::Scalar(&[s, s + 0.25, s + 0.5, s + 0.75]),
+                Values::Vector(&[[s, -s, 0.5]; 4]),
+                Values::Tensor(&[[s; 6]]),
+                Values::Integer(&[step as u8; 4]),
+            ],
+        )
+        .unwrap();
+    }
+}
+
+/// Every number of a grid file.
+fn numbers(path: &Path) -> Vec<Vec<f64>> {
+    let file = GridFile::open(path).unwrap();
+    let mut all = vec![file.times().unwrap()];
+    for field in file.fields() {
+        let steps = if field.constant { 0..1 } else { 0..file.steps() };
+        all.push(file.read_steps(&field.name, field.on_cells, steps).unwrap());
+    }
+    all
+}
+
+#[test]
+fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
+    with_grid(|grid, fields| {
+        let folder = tempfile::tempdir().unwrap();
+        let at_once = folder.path().join("at-once.vtkhdf");
+        append(&mut TransientGrid::create(&at_once, grid, fields, &provenance()).unwrap(), 0..600);
+        // to nothing, within a chunk of rows, at its border, and with nothing to cut off
+        for kept in [0, 1, 255, 256, 257, 599] {
+            let path = folder.path().join("continued.vtkhdf");
+            let mut writer = TransientGrid::create(&path, grid, fields, &provenance()).unwrap();
+            append(&mut writer, 0..600);
+            let mut writer = TransientGrid::reopen(&path, grid, fields, kept).unwrap();
+            assert_eq!(GridFile::open(&path).unwrap().steps(), kept);
+            assert_eq!(writer.steps(), kept);
+            append(&mut writer, kept..600);
+            assert_eq!(numbers(&path), numbers(&at_once), "cut off at {kept}");
+        }
+    });
+}
+
+#[test]
+fn a_history_cut_off_and_continued_holds_what_one_written_at_once_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let columns = ["time", "force"].map(|name| Column::new(name, "1", "a number"));
+    let path = folder.path().join("history.h5");
+    let rows = |range: std::ops::Range<usize>| -> Vec<f64> {
+        range.flat_map(|row| [row as f64, 1.0 / (row as f64 + 1.0)]).collect()
+    };
+    for kept in [0, 3, 256, 300, 700] {
+        let mut history = History::create(&path, &columns, &provenance()).unwrap();
+        history.append(&rows(0..700)).unwrap();
+        let mut history = History::reopen(&path, &columns, kept).unwrap();
+        assert_eq!(HistoryFile::open(&path).unwrap().rows(), kept);
+        history.append(&rows(kept..710)).unwrap();
+        let file = HistoryFile::open(&path).unwrap();
+        let both = [file.read("time").unwrap(), file.read("force").unwrap()];
+        let column = |c| rows(0..710).into_iter().skip(c).step_by(2).collect::<Vec<f64>>();
+        let expected = [0, 1].map(column);
+        assert_eq!(both, expected, "cut off at {kept}");
+    }
+}
+
+#[test]
+fn a_file_shorter_than_its_checkpoint_says_is_refused() {
+    with_grid(|grid, fields| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("short.vtkhdf");
+        append(&mut TransientGrid::create(&path, grid, fields, &provenance()).unwrap(), 0..3);
+        let error = TransientGrid::reopen(&path, grid, fields, 4).unwrap_err();
+        assert!(matches!(error, OutputError::Read { .. }), "{error}");
+        assert!(error.to_string().contains("fewer than"), "{error}");
+    });
+}
