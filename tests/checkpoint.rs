@@ -85,6 +85,12 @@ fn an_exact_run_interrupted_and_resumed_leaves_the_bits_of_an_undisturbed_one() 
 }
 
 #[test]
+fn mortar_rows_go_on_with_the_integrals_that_they_follow() {
+    let mortar = ["contact.enforcement=exact", "contact.rows=mortar", "time.roll=0.006"];
+    interrupted_is_uninterrupted(&mortar, &["contact/slip/0001", "history/sweeps"]);
+}
+
+#[test]
 fn friction_with_memory_goes_on_where_it_was() {
     let law = [
         "friction.law=exponential",

@@ -59,7 +59,7 @@ pub(crate) struct Means {
 
 impl Means {
     /// Numbers that they are made of.
-    pub(crate) const NUMBERS: usize = 3 * 16 + 4;
+    pub(crate) const NUMBERS: usize = 3 * 16 + 5;
 
     fn each(&mut self) -> [&mut Mean; 16] {
         let [tangential, lateral, normal] = &mut self.force;
@@ -87,21 +87,22 @@ impl Means {
     pub(crate) fn numbers(&self) -> Vec<f64> {
         let mut copy = self.clone();
         let means = copy.each().into_iter().flat_map(|m| [m.count, m.mean, m.squares]);
-        let rest =
-            [self.worst_cone, self.worst_mismatch, self.most_sweeps as f64, self.manifold as f64];
+        let counts = [self.most_sweeps as f64, self.manifold as f64, self.integrated as f64];
+        let rest = [self.worst_cone, self.worst_mismatch].into_iter().chain(counts);
         means.chain(rest).collect()
     }
 
     /// The reverse of [`Self::numbers`].
     pub(crate) fn from_numbers(numbers: &[f64; Self::NUMBERS]) -> Self {
         let mut means = Self::default();
-        let [samples @ .., cone, mismatch, sweeps, manifold] = *numbers;
+        let [samples @ .., cone, mismatch, sweeps, manifold, integrated] = *numbers;
         for (mean, &[count, value, squares]) in means.each().into_iter().zip(samples.as_chunks().0)
         {
             *mean = Mean { count, mean: value, squares };
         }
         (means.worst_cone, means.worst_mismatch) = (cone, mismatch);
         (means.most_sweeps, means.manifold) = (sweeps as usize, manifold as u64);
+        means.integrated = integrated as u64;
         means
     }
 }
