@@ -26,7 +26,7 @@ def events(log, name):
     position = {}
     with open(log, errors="replace") as lines:
         for line in lines:
-            match = re.match(r"^\d+ (\w+)\((.*)$", line)
+            match = re.match(r"^\d+ +(\w+)\((.*)$", line)
             if code not in line or not match:
                 continue
             call, rest = match.groups()

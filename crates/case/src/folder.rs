@@ -82,7 +82,7 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
 /// Makes `folder` ready for a run: it exists, is writable and holds no run.
 ///
 /// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] are
-/// removed, so that notes and figures beside a run survive.
+/// removed, so that notes and figures beside a run survive; [`CASE_FILE`] is the run's to replace.
 pub fn prepare(folder: &Path, force: bool) -> Result<(), FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };

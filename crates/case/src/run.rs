@@ -190,11 +190,13 @@ fn run_in_pool(
     let rolling = Instant::now();
     let first = simulation.steps() as u64;
     let mut clock = Clock::new(&case.checkpoint, simulation.dt(), first);
+    let mut keeping = Duration::ZERO;
     let mut diagnosis: Option<Diagnosis> = None;
     let mut status = Status::Completed;
     for n in first..steps {
         let stops = stop.load(Ordering::Relaxed);
         if stops || clock.is_due(n) {
+            let begun = Instant::now();
             let state = State {
                 simulation: simulation.snapshot(),
                 recorder: recorder.snapshot()?,
@@ -204,6 +206,7 @@ fn run_in_pool(
             };
             let kernels = simulation.solid().level().name();
             recorder.keep(state.into_checkpoint(&basis.provenance, kernels), &options.out)?;
+            keeping += begun.elapsed();
         }
         if stops {
             status = Status::Interrupted;
@@ -252,6 +255,7 @@ fn run_in_pool(
         wall: before[0] + wall.elapsed(),
         rolling: rolling_wall,
         output: output_wall,
+        keeping,
     };
     let summary = summary(case, &simulation, &facts, &hertz, &ending);
     output::write_json_atomically(options.out.join("summary.json"), &summary)?;

@@ -27,6 +27,8 @@ pub(crate) struct Ending {
     pub(crate) wall: Duration,
     pub(crate) rolling: Duration,
     pub(crate) output: Duration,
+    /// Wall time of checkpoints on the time loop's side, since the run was last resumed.
+    pub(crate) keeping: Duration,
 }
 
 /// The summary of a run that rolled.
@@ -74,6 +76,7 @@ pub(crate) fn summary(
             ("boundary", seconds(timers.boundary)),
             ("nodes", seconds(timers.nodes)),
             ("output", seconds(ending.output)),
+            ("checkpoints", seconds(ending.keeping)),
         ]
         .map(|(k, v)| (k.to_owned(), v))
         .into(),

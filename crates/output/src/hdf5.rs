@@ -7,7 +7,9 @@
 use crate::checkpoint::Numbers;
 use crate::room::Room;
 use crate::{OutputError, Provenance};
-use rust_hdf5::{DatatypeMessage, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound};
+use rust_hdf5::{
+    DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,
+};
 use std::path::{Path, PathBuf};
 
 /// Measured on fields of elastic waves with shuffled bytes: level 2 takes three times as long as
@@ -17,6 +19,10 @@ const DEFLATE_LEVEL: u32 = 1;
 const ROWS_PER_CHUNK: usize = 256;
 /// Wanted rows per chunk of snapshots.
 const CHUNK_ROWS: std::ops::RangeInclusive<usize> = 2_048..=32_768;
+
+/// Nothing smaller than this crosses a multiple of it: headers and index blocks, which carry checksums,
+/// so lie within a page of memory, and a kill within the call that rewrites them leaves each old or new.
+pub(crate) const PAGE: u64 = 512;
 
 type H5Result<T> = Result<T, Hdf5Error>;
 
@@ -43,7 +49,12 @@ impl Creator {
         partial.push(".partial");
         let partial = PathBuf::from(partial);
         let open = || -> H5Result<H5File> {
-            let file = H5File::options().no_locking().libver(LibverBound::V110).create(&partial)?;
+            let file = H5File::options()
+                .no_locking()
+                .libver(LibverBound::V110)
+                .file_space(FileSpaceStrategy::Page, false, 1)
+                .file_space_page_size(PAGE)
+                .create(&partial)?;
             file.set_attr_string("creepage_version", &provenance.creepage_version)?;
             file.set_attr_string("case_hash", &provenance.case_hash)?;
             file.set_attr_string("created", &provenance.created)?;
@@ -273,8 +284,8 @@ impl Appender {
     /// reader is left that saw the short file and has yet to read the superblock, early enough that
     /// at the closing none is left that read the old superblock and has yet to read the count.
     ///
-    /// Only for snapshots, which take milliseconds to compress. Rows are written in so short a time
-    /// that readers would meet the first case more often than, without room, the second.
+    /// Rows need it as well, for a kill between the headers and the superblock: it would leave a file
+    /// whose headers point behind its end.
     pub fn make_room(&mut self, bytes: usize) -> Result<(), OutputError> {
         let room = Room::behind(&self.path, bytes);
         self.room = Some(room.map_err(|error| append_error(&self.path, error.into()))?);

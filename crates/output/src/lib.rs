@@ -9,8 +9,9 @@
 //!
 //! Every HDF5 file is created with its mesh and metadata and closed; each snapshot then opens it,
 //! appends and closes. Between snapshots the file is complete, so any reader can open it while the
-//! run goes on, and a killed process loses at most the snapshot that it was writing, unless
-//! the kill falls into the half millisecond in which a closing rewrites headers: it can tear one. The counts
+//! run goes on, and a killed process loses at most the snapshot that it was writing: headers are
+//! rewritten in place, each within a page of memory, and a file gets its name only once its closings
+//! no longer move them. The counts
 //! `NSteps` (grids) and `rows` (history) are written after the data that they count and are the
 //! truth about how much is valid. A snapshot announces the new end of the file before anything refers
 //! to it (module `room`). What remains is an opening that meets a header while it is rewritten, or

@@ -7,6 +7,7 @@
 //! closing cuts the file to what was used. The order of the first two matters as well: libhdf5
 //! refuses a file that is shorter than its superblock says.
 
+use crate::hdf5::PAGE;
 use rust_hdf5::format::superblock::SuperblockV2V3;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, Write};
@@ -31,7 +32,8 @@ impl Room {
         file.read_exact(&mut image)?;
         let mut superblock = SuperblockV2V3::decode(&image).map_err(io::Error::other)?;
         let room = SLACK + bytes as u64 + bytes as u64 / 64;
-        superblock.end_of_file_address = file.metadata()?.len() + room;
+        // the end of a file stays on a page of its own
+        superblock.end_of_file_address = (file.metadata()?.len() + room).next_multiple_of(PAGE);
         file.set_len(superblock.end_of_file_address)?;
         Ok(Self { file, superblock })
     }
@@ -67,10 +69,11 @@ mod tests {
 
         let open = H5File::options().no_locking().open_rw(&path).unwrap();
         let room = Room::behind(&path, 6_400).unwrap();
-        assert_eq!(length(), before + SLACK + 6_500);
+        let lengthened = (before + SLACK + 6_500).next_multiple_of(PAGE);
+        assert_eq!(length(), lengthened);
         assert_eq!(end(&path), before, "announced before there was room");
         room.announce().unwrap();
-        assert_eq!(end(&path), before + SLACK + 6_500);
+        assert_eq!(end(&path), lengthened);
         let reader = H5File::options().no_locking().open(&path);
         assert!(reader.is_ok(), "not readable while there is room");
 

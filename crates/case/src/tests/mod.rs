@@ -196,11 +196,18 @@ fn a_run_folder_is_taken_only_when_free_or_forced() {
     folder::prepare(&out, false).unwrap();
     folder::prepare(&out, false).unwrap();
     fs::write(out.join("case.toml"), "x").unwrap();
+    fs::write(out.join("history.h5"), "x").unwrap();
+    fs::write(out.join("history.h5.partial"), "x").unwrap();
     fs::write(out.join("notes.txt"), "mine").unwrap();
     assert!(matches!(folder::prepare(&out, false), Err(FolderError::Taken { run: true, .. })));
     folder::prepare(&out, true).unwrap();
-    assert!(!out.join("case.toml").exists());
+    assert!(!out.join("history.h5").exists() && !out.join("history.h5.partial").exists());
+    assert!(
+        out.join("case.toml").exists(),
+        "a kill now would leave nothing that says of what it is"
+    );
     assert!(out.join("notes.txt").exists());
+    fs::remove_file(out.join("case.toml")).unwrap();
     assert!(matches!(folder::prepare(&out, false), Err(FolderError::Taken { run: false, .. })));
     let file = dir.path().join("file");
     fs::write(&file, "x").unwrap();
