@@ -35,15 +35,12 @@ type Modes = [[f64; 3]; 7];
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Shape {
-    /// b_k and b_k/W
-    pub(crate) b: [[f64; 3]; 3],
+    /// b_k/W
     pub(crate) b_per_w: [[f64; 3]; 3],
-    /// c_a and c_a/W
-    pub(crate) c: [[f64; 3]; 3],
+    /// c_a/W
     pub(crate) c_per_w: [[f64; 3]; 3],
-    /// G_a and G_a/W
+    /// G_a
     pub(crate) g: [[f64; 3]; 4],
-    pub(crate) g_per_w: [[f64; 3]; 4],
     /// W = 64 V
     pub(crate) w: f64,
     /// 512 B_iI B_iI
@@ -55,12 +52,9 @@ pub(crate) struct Shape {
 impl Shape {
     /// Of no element, to count with.
     pub(crate) const UNIT: Self = Self {
-        b: [[1.0; 3]; 3],
         b_per_w: [[1.0; 3]; 3],
-        c: [[1.0; 3]; 3],
         c_per_w: [[1.0; 3]; 3],
         g: [[1.0; 3]; 4],
-        g_per_w: [[1.0; 3]; 4],
         w: 1.0,
         squares: 1.0,
         squares_per_w: 1.0,
@@ -212,14 +206,10 @@ fn shape(modes: &Modes) -> Shape {
     }
     let w = dot(a[0], b[0]) + dot(g[0], c[0]);
     let squares = b.iter().chain(&c).map(|v| dot(*v, *v)).sum::<f64>();
-    let g = [g1, g2, g3, g4];
     Shape {
-        b,
         b_per_w: b.map(|v| v.map(|x| x / w)),
-        c,
         c_per_w: c.map(|v| v.map(|x| x / w)),
-        g,
-        g_per_w: g.map(|v| v.map(|x| x / w)),
+        g: [g1, g2, g3, g4],
         w,
         squares,
         squares_per_w: squares / w,

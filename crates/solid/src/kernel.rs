@@ -196,8 +196,11 @@ trait Geometry<L: Lanes> {
     unsafe fn gradient(&self, u: &Modes<L>) -> Matrix<L>;
     /// v - G_a . h
     unsafe fn less_affine(&self, a: usize, h: Vector<L>, v: L) -> L;
-    /// p - q/W G_a
+    /// P, or P W where gradients are held over W.
+    unsafe fn scaled(&self, p: Matrix<L>) -> Matrix<L>;
+    /// p - q/W G_a, p scaled.
     unsafe fn less_outer(&self, a: usize, q: L, p: Vector<L>) -> Vector<L>;
+    /// b_m and c_m for a scaled p.
     unsafe fn b(&self, m: usize) -> Vector<L>;
     unsafe fn c(&self, m: usize) -> Vector<L>;
     unsafe fn w(&self) -> L;
@@ -251,6 +254,10 @@ impl<L: Lanes> Geometry<L> for Own<L> {
             let g = &self.g[a];
             h[2].neg_mul_add(g[2], h[1].neg_mul_add(g[1], h[0].neg_mul_add(g[0], v)))
         }
+    }
+    #[inline(always)]
+    unsafe fn scaled(&self, p: Matrix<L>) -> Matrix<L> {
+        p
     }
     #[inline(always)]
     unsafe fn less_outer(&self, a: usize, q: L, p: Vector<L>) -> Vector<L> {
@@ -352,19 +359,26 @@ impl<L: Lanes, const TURNED: bool> Geometry<L> for Alike<'_, L, TURNED> {
         }
     }
     #[inline(always)]
+    unsafe fn scaled(&self, p: Matrix<L>) -> Matrix<L> {
+        unsafe {
+            let w = L::splat(self.shape.w);
+            [scale(p[0], w), scale(p[1], w), scale(p[2], w)]
+        }
+    }
+    #[inline(always)]
     unsafe fn less_outer(&self, a: usize, q: L, p: Vector<L>) -> Vector<L> {
         unsafe {
-            let g = splat::<L>(&self.shape.g_per_w[a]);
+            let g = splat::<L>(&self.shape.g[a]);
             [q.neg_mul_add(g[0], p[0]), q.neg_mul_add(g[1], p[1]), q.neg_mul_add(g[2], p[2])]
         }
     }
     #[inline(always)]
     unsafe fn b(&self, m: usize) -> Vector<L> {
-        unsafe { splat(&self.shape.b[m]) }
+        unsafe { splat(&self.shape.b_per_w[m]) }
     }
     #[inline(always)]
     unsafe fn c(&self, m: usize) -> Vector<L> {
-        unsafe { splat(&self.shape.c[m]) }
+        unsafe { splat(&self.shape.c_per_w[m]) }
     }
     #[inline(always)]
     unsafe fn w(&self) -> L {
@@ -435,7 +449,7 @@ unsafe fn one_point<L: Lanes, G: Geometry<L>, const ENERGY: bool, const VISCOUS:
             }
         }
 
-        let mut p = piola(&h, &s); // P/64
+        let mut p = geometry.scaled(piola(&h, &s)); // P/64
 
         // Hourglass: K_h = kappa M squares/(192 W); its stress-like part lowers P/64 by
         // K_h/W sum q_a (x) G_a.
