@@ -62,9 +62,10 @@ pub const BUSY: [&str; 7] = [
     "output.window=[{ from = 10e-6, to = 14e-6 }]",
 ];
 
-/// A Python that has h5py, if there is one.
+/// A Python that has h5py, if there is one: `$CREEPAGE_PYTHON`, or else `python3`.
 pub fn python() -> Option<PathBuf> {
-    let asked = std::env::var_os("CREEPAGE_PYTHON").map(PathBuf::from);
+    let asked = std::env::var_os("CREEPAGE_PYTHON").filter(|path| !path.is_empty());
+    let asked = asked.map(PathBuf::from);
     let python = asked.unwrap_or_else(|| "python3".into());
     let has = Command::new(&python).args(["-c", "import h5py"]).stderr(Stdio::null()).status();
     has.is_ok_and(|status| status.success()).then_some(python)

@@ -9,6 +9,7 @@ use runs::project;
 
 /// Kill runs with SIGKILL at random moments, resume them, and compare every bit with a run that was
 /// not killed: half of the kills with penalty contact, half with exact contact and friction with memory.
+/// Where $CREEPAGE_PYTHON, or python3, has h5py, that opens and compares the files too.
 #[derive(Debug, Parser)]
 struct Args {
     /// Kills in all
