@@ -1,9 +1,8 @@
 //! A fixed partition of the elements for parallel assembly with the same bits on any number of
 //! threads.
 //!
-//! Elements are gathered in batches of eight: those of one shape (module `congruence`) first, the others
-//! in mesh order. Batches are cut into blocks of at most [`BLOCK_ELEMENTS`] of one body and one kernel,
-//! and the blocks are coloured so that blocks of one colour share no nodes. Colours run one after
+//! Elements are gathered in batches of eight, of one shape each (module `congruence`) or of any. Batches
+//! of a body, in mesh order, are cut into blocks of at most [`BLOCK_ELEMENTS`] elements, and the blocks are coloured so that blocks of one colour share no nodes. Colours run one after
 //! the other, blocks of a colour in any order: each node receives its contributions in the order
 //! of colours and, within a block, of batches, whatever the number of threads.
 
@@ -62,24 +61,32 @@ pub(crate) enum Kind {
     Full,
 }
 
-/// A run of batches of one body and one kernel.
+/// Batches of one kernel, one after the other.
 #[derive(Clone, Debug)]
-pub(crate) struct Block {
+pub(crate) struct Run {
     /// First batch and one past the last.
     pub(crate) batches: std::ops::Range<usize>,
     /// Number of elements, at most eight per batch; only the last batch may be partial.
     pub(crate) elements: usize,
-    /// Index of the body, hence of the material.
-    pub(crate) body: usize,
     pub(crate) kind: Kind,
     /// Turn of the first batch among all turns; of turned elements only.
     pub(crate) turns: usize,
+}
+
+/// Runs of batches of one body that lie together: what one thread works on at a time.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    /// First run and one past the last.
+    pub(crate) runs: std::ops::Range<usize>,
+    /// Index of the body, hence of the material.
+    pub(crate) body: usize,
 }
 
 /// All batches and the coloured blocks that own them.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
     pub(crate) batches: Vec<Batch>,
+    pub(crate) runs: Vec<Run>,
     pub(crate) blocks: Vec<Block>,
     /// Indices into `blocks`, colour by colour.
     pub(crate) colours: Vec<Vec<u32>>,
@@ -94,11 +101,44 @@ pub(crate) struct Blocks {
     full: Vec<bool>,
 }
 
+/// What a batch is to be made of.
+enum Members<'a> {
+    /// One-point elements of any shape.
+    Any(&'a [u32]),
+    /// One-point elements of one shape.
+    Alike(Alike),
+    /// Fully integrated elements.
+    Full(&'a [u32]),
+}
+
+impl Members<'_> {
+    fn elements(&self) -> &[u32] {
+        match self {
+            Self::Any(list) | Self::Full(list) => list,
+            Self::Alike(alike) => &alike.elements,
+        }
+    }
+
+    fn first(&self) -> u32 {
+        self.elements()[0]
+    }
+
+    fn kind(&self) -> Kind {
+        match self {
+            Self::Any(_) => Kind::OnePoint,
+            Self::Alike(alike) if alike.turn.is_some() => Kind::Turned,
+            Self::Alike(_) => Kind::Congruent,
+            Self::Full(_) => Kind::Full,
+        }
+    }
+}
+
 impl Blocks {
     /// Cuts and colours the elements of `mesh`.
     pub(crate) fn new(mesh: &Mesh, elements: &Elements) -> Self {
         let mut all = Self {
             batches: Vec::with_capacity(mesh.hexes.len() / BATCH + 1),
+            runs: Vec::new(),
             blocks: Vec::new(),
             colours: Vec::new(),
             shapes: Vec::new(),
@@ -115,37 +155,45 @@ impl Blocks {
                 full.iter().for_each(|&e| all.full[e as usize] = true);
             }
             let alike = batches(mesh, &mut one_point, &mut all.shapes);
-            let (turned, straight): (Vec<Alike>, Vec<Alike>) =
-                alike.into_iter().partition(|batch| batch.turn.is_some());
-            all.add_alike(mesh, body, Kind::Congruent, &straight);
-            all.add_alike(mesh, body, Kind::Turned, &turned);
-            all.add(mesh, body, Kind::OnePoint, &one_point, BLOCK_ELEMENTS);
-            all.add(mesh, body, Kind::Full, &full, BLOCK_FULL_ELEMENTS);
+            let mut together: Vec<Members> = alike.into_iter().map(Members::Alike).collect();
+            together.extend(one_point.chunks(BATCH).map(Members::Any));
+            // what lies together is worked on together, whatever its kernel
+            together.sort_by_key(Members::first);
+            all.add(mesh, body, &together, BLOCK_ELEMENTS);
+            let full: Vec<Members> = full.chunks(BATCH).map(Members::Full).collect();
+            all.add(mesh, body, &full, BLOCK_FULL_ELEMENTS);
         }
-        all.colours = colour(mesh.nodes.len(), &all.batches, &all.blocks);
+        all.colours = colour(mesh.nodes.len(), &all);
         all
     }
 
-    /// Batches of elements of one shape each.
-    fn add_alike(&mut self, mesh: &Mesh, body: usize, kind: Kind, alike: &[Alike]) {
-        for block in alike.chunks(BLOCK_ELEMENTS / BATCH) {
-            let (first, turns) = (self.batches.len(), self.turns.len());
-            for batch in block {
-                self.add_batch(mesh, &batch.elements, batch.shape);
-                self.turns.extend(batch.turn);
+    /// Cuts batches of a body into blocks of `size` elements.
+    fn add(&mut self, mesh: &Mesh, body: usize, list: &[Members<'_>], size: usize) {
+        for block in list.chunks(size / BATCH) {
+            let first = self.runs.len();
+            for members in block {
+                let (at, kind) = (self.batches.len(), members.kind());
+                let elements = members.elements();
+                match self.runs[first..].last_mut() {
+                    Some(run) if run.kind == kind && run.elements.is_multiple_of(BATCH) => {
+                        run.batches.end += 1;
+                        run.elements += elements.len();
+                    }
+                    _ => self.runs.push(Run {
+                        batches: at..at + 1,
+                        elements: elements.len(),
+                        kind,
+                        turns: self.turns.len(),
+                    }),
+                }
+                let mut shape = 0;
+                if let Members::Alike(alike) = members {
+                    shape = alike.shape;
+                    self.turns.extend(alike.turn);
+                }
+                self.add_batch(mesh, elements, shape);
             }
-            let (batches, elements) = (first..self.batches.len(), block.len() * BATCH);
-            self.blocks.push(Block { batches, elements, body, kind, turns });
-        }
-    }
-
-    /// Elements of any shape, in order.
-    fn add(&mut self, mesh: &Mesh, body: usize, kind: Kind, list: &[u32], size: usize) {
-        for block in list.chunks(size) {
-            let first = self.batches.len();
-            block.chunks(BATCH).for_each(|elements| self.add_batch(mesh, elements, 0));
-            let (batches, elements) = (first..self.batches.len(), block.len());
-            self.blocks.push(Block { batches, elements, body, kind, turns: 0 });
+            self.blocks.push(Block { runs: first..self.runs.len(), body });
         }
     }
 
@@ -179,6 +227,7 @@ impl Blocks {
     /// Bytes held.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.batches)
+            + size_of_val(&*self.runs)
             + size_of_val(&*self.shapes)
             + size_of_val(&*self.shape_of)
             + size_of_val(&*self.turns)
@@ -188,20 +237,27 @@ impl Blocks {
 
     /// Elements that share their gradients with others.
     pub(crate) fn congruent(&self) -> usize {
-        let shared = |block: &&Block| matches!(block.kind, Kind::Congruent | Kind::Turned);
-        self.blocks.iter().filter(shared).map(|block| block.elements).sum()
+        let shared = |run: &&Run| matches!(run.kind, Kind::Congruent | Kind::Turned);
+        self.runs.iter().filter(shared).map(|run| run.elements).sum()
+    }
+
+    /// The batches of a block.
+    fn batches_of(&self, block: &Block) -> &[Batch] {
+        let runs = &self.runs[block.runs.clone()];
+        let ends = runs.first().zip(runs.last());
+        ends.map_or(&[], |(first, last)| &self.batches[first.batches.start..last.batches.end])
     }
 }
 
 /// Greedy colouring of blocks that share nodes, in order.
-fn colour(nodes: usize, batches: &[Batch], blocks: &[Block]) -> Vec<Vec<u32>> {
+fn colour(nodes: usize, all: &Blocks) -> Vec<Vec<u32>> {
     // One bit per colour already present at each node; 64 is far beyond what a 3-D mesh needs,
     // and a block that finds none free opens a colour of its own.
     let mut used = vec![0u64; nodes];
     let mut colours: Vec<Vec<u32>> = Vec::new();
     let mut lonely = Vec::new();
-    for (index, block) in blocks.iter().enumerate() {
-        let own = &batches[block.batches.clone()];
+    for (index, block) in all.blocks.iter().enumerate() {
+        let own = all.batches_of(block);
         let nodes = || own.iter().flat_map(Batch::nodes);
         let taken = nodes().fold(0u64, |bits, n| bits | used[n]);
         let free = (!taken).trailing_zeros() as usize;
@@ -247,9 +303,9 @@ mod tests {
             let mut seen = HashSet::new();
             for &b in colour {
                 let block = &blocks.blocks[b as usize];
-                owned += block.elements;
+                owned += blocks.runs[block.runs.clone()].iter().map(|r| r.elements).sum::<usize>();
                 let own: HashSet<usize> =
-                    blocks.batches[block.batches.clone()].iter().flat_map(Batch::nodes).collect();
+                    blocks.batches_of(block).iter().flat_map(Batch::nodes).collect();
                 assert!(seen.is_disjoint(&own));
                 seen.extend(own);
             }

@@ -59,7 +59,7 @@ pub(crate) struct Modes<L> {
     pub(crate) hourglass: [Vector<L>; 4],
 }
 
-/// What elements of one shape share, for the batches of a block; null where a kernel shares nothing.
+/// What elements of one shape share, for the batches of a run; not read where a kernel shares nothing.
 #[derive(Clone, Copy)]
 pub(crate) struct Shared {
     pub(crate) shapes: *const Shape,
@@ -67,11 +67,6 @@ pub(crate) struct Shared {
     pub(crate) of_batch: *const u32,
     /// Turn of each batch.
     pub(crate) turns: *const Turn,
-}
-
-impl Shared {
-    pub(crate) const NONE: Self =
-        Self { shapes: std::ptr::null(), of_batch: std::ptr::null(), turns: std::ptr::null() };
 }
 
 /// The force of one vector of elements by one formulation.

@@ -1,6 +1,6 @@
 //! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
-use crate::blocks::{Batch, Block, Blocks, Kind, MOST_NODES};
+use crate::blocks::{Batch, Block, Blocks, Kind, MOST_NODES, Run};
 use crate::count::work;
 use crate::formulation::{Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
@@ -212,11 +212,11 @@ impl Solid {
     /// Floating-point operations of one evaluation of the internal force without energies; a
     /// multiply-addition is two, a division one.
     pub fn flops(&self) -> u64 {
-        let of = |block: &Block| {
-            let done = work(block.kind, self.volumetric, false, self.viscous);
-            u64::from(done.flops()) * block.elements as u64
+        let of = |run: &Run| {
+            let done = work(run.kind, self.volumetric, false, self.viscous);
+            u64::from(done.flops()) * run.elements as u64
         };
-        self.blocks.blocks.iter().map(of).sum()
+        self.blocks.runs.iter().map(of).sum()
     }
 
     /// Number of elements.
@@ -288,34 +288,43 @@ impl Solid {
             force: force.as_mut_ptr(),
         });
         let sums = SharedSums(self.sums.as_mut_ptr());
-        let Blocks { batches, blocks, colours, shapes, shape_of, turns, .. } = &self.blocks;
+        let Blocks { batches, runs, blocks, colours, shapes, shape_of, turns, .. } = &self.blocks;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
             let block: &Block = &blocks[b as usize];
-            let of_batch = shape_of[block.batches.start..].as_ptr();
-            let turns = turns[block.turns..].as_ptr();
-            let (kernel, shared) = match block.kind {
-                Kind::OnePoint => (one_point, Shared::NONE),
-                Kind::Congruent | Kind::Turned => (
-                    if block.kind == Kind::Turned { turned } else { congruent },
-                    Shared { shapes: shapes.as_ptr(), of_batch, turns },
-                ),
-                Kind::Full => (full, Shared::NONE),
-            };
-            // SAFETY: the level was checked in `new`; offsets were taken from the mesh whose
-            // node count the asserts above compare, each batch of a congruent block has its shape, and of a
-            // turned one its turn; blocks of one colour share no nodes, colours
-            // run one after the other, and each block writes its own entry of `sums`.
-            unsafe {
-                *sums.0.add(b as usize) = kernel(
-                    &batches[block.batches.clone()],
-                    block.elements,
-                    &constants[block.body][usize::from(block.kind == Kind::Full)],
-                    arrays.0,
-                    shared,
-                );
+            let mut total = [0.0; 3];
+            for run in &runs[block.runs.clone()] {
+                let shared = Shared {
+                    shapes: shapes.as_ptr(),
+                    of_batch: shape_of[run.batches.start..].as_ptr(),
+                    turns: turns[run.turns..].as_ptr(),
+                };
+                let kernel = match run.kind {
+                    Kind::OnePoint => one_point,
+                    Kind::Congruent => congruent,
+                    Kind::Turned => turned,
+                    Kind::Full => full,
+                };
+                // SAFETY: the level was checked in `new`; offsets were taken from the mesh whose
+                // node count the asserts above compare; each batch of congruent elements has its shape, and of
+                // turned ones its turn; blocks of one colour share no nodes, and colours
+                // run one after the other.
+                let sums = unsafe {
+                    kernel(
+                        &batches[run.batches.clone()],
+                        run.elements,
+                        &constants[block.body][usize::from(run.kind == Kind::Full)],
+                        arrays.0,
+                        shared,
+                    )
+                };
+                for i in 0..3 {
+                    total[i] += sums[i];
+                }
             }
+            // SAFETY: each block writes its own entry.
+            unsafe { *sums.0.add(b as usize) = total };
         };
         if rayon::current_num_threads() == 1 {
             colours.iter().flatten().for_each(run);
