@@ -113,7 +113,6 @@ fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<serde_json
         "nodes_fraction": moved / total,
         "bytes_per_element": bytes,
         "flops_per_element": flops,
-        "congruent_fraction": solid.congruent() as f64 / elements,
         "roofline_ns_per_element": roofline,
         "roofline_fraction": roofline / per(step),
         "time_loop_bytes_per_element": simulation.bytes() as f64 / elements,

@@ -1,10 +1,9 @@
 //! What an element costs: the kernel run on numbers that count their own operations.
 
-use crate::blocks::{BATCH, Batch, Kind};
-use crate::congruence::{Shape, Turn};
+use crate::blocks::{BATCH, Batch};
 use crate::formulation::Volumetric;
 use crate::full::FullyIntegrated;
-use crate::kernel::{Arrays, Congruent, Constants, Kernel, OnePoint, Shared};
+use crate::kernel::{Arrays, Constants, Kernel, OnePoint};
 use crate::lanes::Lanes;
 use mesh::Padded;
 use std::cell::Cell;
@@ -34,14 +33,12 @@ impl Work {
     }
 }
 
-/// Counts the work of one element.
-pub(crate) fn work(kind: Kind, full: Volumetric, energies: bool, viscous: bool) -> Work {
-    match (kind, full) {
-        (Kind::OnePoint, _) => counted::<OnePoint>(energies, viscous),
-        (Kind::Congruent, _) => counted::<Congruent<false>>(energies, viscous),
-        (Kind::Turned, _) => counted::<Congruent<true>>(energies, viscous),
-        (Kind::Full, Volumetric::Full) => counted::<FullyIntegrated<false>>(energies, viscous),
-        (Kind::Full, Volumetric::Mean) => counted::<FullyIntegrated<true>>(energies, viscous),
+/// Counts the work of one element: `full` of a fully integrated one, else of a one-point one.
+pub(crate) fn work(full: Option<Volumetric>, energies: bool, viscous: bool) -> Work {
+    match full {
+        None => counted::<OnePoint>(energies, viscous),
+        Some(Volumetric::Full) => counted::<FullyIntegrated<false>>(energies, viscous),
+        Some(Volumetric::Mean) => counted::<FullyIntegrated<true>>(energies, viscous),
     }
 }
 
@@ -59,9 +56,9 @@ fn counted<K: Kernel>(energies: bool, viscous: bool) -> Work {
     let reference = CORNERS.map(Padded::new);
     let rest = [Padded::ZERO; 8];
     let mut force = [Padded::ZERO; 8];
-    let mut batch = Batch { offsets: [[0; BATCH]; 8] };
-    for (corner, lanes) in batch.offsets.iter_mut().enumerate() {
-        lanes.fill((corner * size_of::<Padded>()) as u32);
+    let mut batch = Batch { nodes: [[0; BATCH]; 8] };
+    for (corner, lanes) in batch.nodes.iter_mut().enumerate() {
+        lanes.fill(corner as u32);
     }
     let constants = Constants {
         lambda: 1.0,
@@ -77,36 +74,24 @@ fn counted<K: Kernel>(energies: bool, viscous: bool) -> Work {
         velocity: rest.as_ptr(),
         force: force.as_mut_ptr(),
     };
-    let (shape, of_batch) = (Shape::UNIT, 0);
-    let turn = Turn { cos: [1.0; BATCH], sin: [0.0; BATCH] };
-    let shared =
-        Shared { shapes: &raw const shape, of_batch: &raw const of_batch, turns: &raw const turn };
     let mut sums = [0.0; 3];
     DONE.set(Work::default());
     let sums = &mut sums;
-    // SAFETY: `Counted` needs no special instructions, the batch's offsets are those of the eight
-    // nodes of each array, and these, the shape and the turn are local.
+    // SAFETY: `Counted` needs no special instructions, the batch's indices are those of the eight
+    // nodes of each array, and these are local.
     unsafe {
         match (energies, viscous) {
             (false, false) => {
-                K::elements_force::<Counted, false, false>(
-                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
-                );
+                K::elements_force::<Counted, false, false>(&batch, 0, 1, &constants, arrays, sums);
             }
             (false, true) => {
-                K::elements_force::<Counted, false, true>(
-                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
-                );
+                K::elements_force::<Counted, false, true>(&batch, 0, 1, &constants, arrays, sums);
             }
             (true, false) => {
-                K::elements_force::<Counted, true, false>(
-                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
-                );
+                K::elements_force::<Counted, true, false>(&batch, 0, 1, &constants, arrays, sums);
             }
             (true, true) => {
-                K::elements_force::<Counted, true, true>(
-                    &batch, 0, 0, 1, &constants, arrays, shared, sums,
-                );
+                K::elements_force::<Counted, true, true>(&batch, 0, 1, &constants, arrays, sums);
             }
         }
     }
@@ -142,10 +127,6 @@ impl Lanes for Counted {
     unsafe fn splat(v: f64) -> Self {
         Self(v)
     }
-    unsafe fn load(from: *const f64) -> Self {
-        // SAFETY: the caller's contract is that of the trait.
-        Self(unsafe { *from })
-    }
     unsafe fn add(self, o: Self) -> Self {
         count(|done| done.additions += 1);
         Self(self.0 + o.0)
@@ -178,15 +159,15 @@ impl Lanes for Counted {
         count(|done| done.multiply_additions += 1);
         Self(c.0 - self.0 * b.0)
     }
-    unsafe fn gather(base: *const Padded, offset: *const u32) -> [Self; 3] {
+    unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
         count(|done| done.gathered += 1);
         // SAFETY: the caller's contract is that of the trait.
-        unsafe { f64::gather(base, offset) }.map(Self)
+        unsafe { f64::gather(base, index) }.map(Self)
     }
-    unsafe fn scatter_sub(base: *mut Padded, offset: *const u32, v: [Self; 3], lanes: usize) {
+    unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], lanes: usize) {
         count(|done| done.scattered += 1);
         // SAFETY: the caller's contract is that of the trait.
-        unsafe { f64::scatter_sub(base, offset, v.map(|lane| lane.0), lanes) }
+        unsafe { f64::scatter_sub(base, index, v.map(|lane| lane.0), lanes) }
     }
     unsafe fn sum(self, lanes: usize) -> f64 {
         if lanes == 1 { self.0 } else { 0.0 }
@@ -201,22 +182,19 @@ mod tests {
     /// dearer fails here and says so.
     #[test]
     fn an_element_costs_no_more_operations_than_when_it_was_measured() {
-        for (kind, full, flops, gathered) in [
-            (Kind::OnePoint, Volumetric::Full, 922, 16),
-            (Kind::Congruent, Volumetric::Full, 639, 8),
-            (Kind::Turned, Volumetric::Full, 724, 8),
-            (Kind::Full, Volumetric::Full, 2613, 16),
-            (Kind::Full, Volumetric::Mean, 3208, 16),
+        for (full, flops, gathered) in [
+            (None, 922, 16),
+            (Some(Volumetric::Full), 2613, 16),
+            (Some(Volumetric::Mean), 3208, 16),
         ] {
-            let done = work(kind, full, false, false);
-            assert_eq!((done.flops(), done.gathered), (flops, gathered), "{kind:?}: {done:?}");
+            let done = work(full, false, false);
+            assert_eq!((done.flops(), done.gathered), (flops, gathered), "{full:?}: {done:?}");
         }
     }
 
     #[test]
     fn energies_and_viscous_stresses_cost_extra() {
-        let one_point =
-            |energies, viscous| work(Kind::OnePoint, Volumetric::Full, energies, viscous);
+        let one_point = |energies, viscous| work(None, energies, viscous);
         let plain = one_point(false, false);
         assert!(one_point(true, false).flops() > plain.flops());
         assert_eq!(one_point(false, true).gathered, plain.gathered + 8);

@@ -27,8 +27,8 @@
 
 use crate::blocks::Batch;
 use crate::kernel::{
-    Arrays, Constants, Kernel, Matrix, Modes, Shared, Sums, Vector, bulk_viscosity, contract,
-    cross, dot, dot_add, elastic, green, green_rate, mean_gradient, modes, piola, scatter, trace,
+    Arrays, Constants, Kernel, Matrix, Modes, Sums, Vector, bulk_viscosity, contract, cross, dot,
+    dot_add, elastic, green, green_rate, mean_gradient, modes, piola, scatter, trace,
 };
 use crate::lanes::Lanes;
 
@@ -47,12 +47,10 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
     #[inline(always)]
     unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
         batch: &Batch,
-        _: usize,
         lane: usize,
         count: usize,
         k: &Constants,
         arrays: Arrays,
-        _: Shared,
         sums: &mut Sums,
     ) {
         // SAFETY: as the caller's throughout.

@@ -15,7 +15,6 @@
 //! the plain sums, V = W/64, B_I = 1/64 (sum of the signs times b_k and c_a).
 
 use crate::blocks::{BATCH, Batch};
-use crate::congruence::{Shape, Turn};
 use crate::lanes::Lanes;
 use mesh::Padded;
 
@@ -59,47 +58,36 @@ pub(crate) struct Modes<L> {
     pub(crate) hourglass: [Vector<L>; 4],
 }
 
-/// What elements of one shape share, for the batches of a run; not read where a kernel shares nothing.
-#[derive(Clone, Copy)]
-pub(crate) struct Shared {
-    pub(crate) shapes: *const Shape,
-    /// Index of each batch's shape.
-    pub(crate) of_batch: *const u32,
-    /// Turn of each batch.
-    pub(crate) turns: *const Turn,
-}
-
 /// The force of one vector of elements by one formulation.
 pub(crate) trait Kernel {
     /// # Safety
-    /// As [`block_force`], for `count` elements from `lane` on of `batch`, number `at` of its block.
+    /// As [`block_force`], for `count` elements of `batch` from `lane` on.
     unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
         batch: &Batch,
-        at: usize,
         lane: usize,
         count: usize,
         k: &Constants,
         arrays: Arrays,
-        shared: Shared,
         sums: &mut Sums,
     );
 }
+
+/// The one-point element with hourglass stiffness.
+pub(crate) struct OnePoint;
 
 /// Subtracts the internal force of a block from `arrays.force` and returns its energies (zero
 /// unless `ENERGY`; the viscous power unless `VISCOUS`).
 ///
 /// # Safety
-/// The instructions of `L` are available; every offset of `batches` is valid in all arrays
-/// (in `velocity` only if `VISCOUS`), and `shared` holds what `K` shares for each batch; nobody else
-/// writes those arrays or reads the forces of the block's nodes meanwhile; `elements` is at least 1 and
-/// fills all batches but the last.
+/// The instructions of `L` are available; every node index of `batches` is valid in all arrays
+/// (in `velocity` only if `VISCOUS`); nobody else writes those arrays or reads the forces of the
+/// block's nodes meanwhile; `elements` is at least 1 and fills all batches but the last.
 #[inline(always)]
 pub(crate) unsafe fn block_force<K: Kernel, L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
     batches: &[Batch],
     elements: usize,
     constants: &Constants,
     arrays: Arrays,
-    shared: Shared,
 ) -> Sums {
     let mut sums = [0.0; 3];
     let mut left = elements;
@@ -113,7 +101,7 @@ pub(crate) unsafe fn block_force<K: Kernel, L: Lanes, const ENERGY: bool, const 
                 // SAFETY: as the caller's; lane + L::N <= 8 because N divides 8.
                 unsafe {
                     K::elements_force::<L, ENERGY, VISCOUS>(
-                        batch, i, lane, count, constants, arrays, shared, &mut sums,
+                        batch, lane, count, constants, arrays, &mut sums,
                     );
                 }
             }
@@ -125,369 +113,116 @@ pub(crate) unsafe fn block_force<K: Kernel, L: Lanes, const ENERGY: bool, const 
     sums
 }
 
-/// The one-point element with hourglass stiffness.
-pub(crate) struct OnePoint;
-
 impl Kernel for OnePoint {
     #[inline(always)]
     unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
         batch: &Batch,
-        _: usize,
         lane: usize,
         count: usize,
         k: &Constants,
         arrays: Arrays,
-        _: Shared,
         sums: &mut Sums,
     ) {
         // SAFETY: as the caller's throughout.
         unsafe {
             let x = modes::<L>(arrays.reference, batch, lane);
-            let gradient = mean_gradient(&x);
-            let per_w = L::splat(1.0).div(gradient.w);
-            let own = Own { gradient, g: x.hourglass, per_w };
-            one_point::<L, Own<L>, ENERGY, VISCOUS>(&own, batch, lane, count, k, arrays, sums);
-        }
-    }
-}
+            let g = &x.hourglass;
+            let Gradient { b, c, w, squares } = mean_gradient(&x);
+            let per_w = L::splat(1.0).div(w);
 
-/// The same for elements of one shape, `TURNED` about y or not.
-pub(crate) struct Congruent<const TURNED: bool>;
+            let u = modes::<L>(arrays.displacement, batch, lane);
+            let h = gradient(&u, &b, &c, per_w);
+            let e = green(&h);
+            let two_g = L::splat(2.0 * k.shear);
+            let pressure = L::splat(k.lambda).mul(trace(&e));
+            // S/64
+            let mut s = elastic(&e, two_g, pressure);
 
-impl<const TURNED: bool> Kernel for Congruent<TURNED> {
-    #[inline(always)]
-    unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
-        batch: &Batch,
-        at: usize,
-        lane: usize,
-        count: usize,
-        k: &Constants,
-        arrays: Arrays,
-        shared: Shared,
-        sums: &mut Sums,
-    ) {
-        // SAFETY: as the caller's throughout.
-        unsafe {
-            let shape = &*shared.shapes.add(*shared.of_batch.add(at) as usize);
-            let (mut cos, mut sin) = (L::splat(1.0), L::splat(0.0));
-            if TURNED {
-                let turn = &*shared.turns.add(at);
-                cos = L::load(turn.cos.as_ptr().add(lane));
-                sin = L::load(turn.sin.as_ptr().add(lane));
+            if ENERGY {
+                // V (lambda/2 tr(E)^2 + G E:E), with V = W/64
+                let density = pressure
+                    .mul(trace(&e))
+                    .mul_add(L::splat(0.5), L::splat(k.shear).mul(contract(&e, &e)));
+                sums[0] += density.mul(w).sum(count);
             }
-            let alike = Alike::<L, TURNED> { shape, cos, sin };
-            one_point::<L, _, ENERGY, VISCOUS>(&alike, batch, lane, count, k, arrays, sums);
-        }
-    }
-}
-
-/// Where the reference gradients of a vector of one-point elements come from.
-trait Geometry<L: Lanes> {
-    /// Into the frame of the gradients.
-    unsafe fn enter(&self, modes: Modes<L>) -> Modes<L>;
-    /// And back.
-    unsafe fn leave(&self, modes: Modes<L>) -> Modes<L>;
-    /// H = 1/W (sum U_k b_k^T + sum U_a c_a^T).
-    unsafe fn gradient(&self, u: &Modes<L>) -> Matrix<L>;
-    /// v - G_a . h
-    unsafe fn less_affine(&self, a: usize, h: Vector<L>, v: L) -> L;
-    /// P, or P W where gradients are held over W.
-    unsafe fn scaled(&self, p: Matrix<L>) -> Matrix<L>;
-    /// p - q/W G_a, p scaled.
-    unsafe fn less_outer(&self, a: usize, q: L, p: Vector<L>) -> Vector<L>;
-    /// b_m and c_m for a scaled p.
-    unsafe fn b(&self, m: usize) -> Vector<L>;
-    unsafe fn c(&self, m: usize) -> Vector<L>;
-    unsafe fn w(&self) -> L;
-    unsafe fn squares(&self) -> L;
-    /// `coefficient` squares/W
-    unsafe fn squares_per_w(&self, coefficient: f64) -> L;
-}
-
-/// Gradients computed from the elements' own corners.
-struct Own<L> {
-    gradient: Gradient<L>,
-    g: [Vector<L>; 4],
-    per_w: L,
-}
-
-impl<L: Lanes> Geometry<L> for Own<L> {
-    #[inline(always)]
-    unsafe fn enter(&self, modes: Modes<L>) -> Modes<L> {
-        modes
-    }
-    #[inline(always)]
-    unsafe fn leave(&self, modes: Modes<L>) -> Modes<L> {
-        modes
-    }
-    #[inline(always)]
-    unsafe fn gradient(&self, u: &Modes<L>) -> Matrix<L> {
-        unsafe {
-            let Gradient { b, c, .. } = &self.gradient;
-            let mut h = [[self.per_w; 3]; 3];
-            let mut i = 0;
-            while i < 3 {
-                let mut j = 0;
-                while j < 3 {
-                    let mut v = u.linear[0][i].mul(b[0][j]);
-                    v = u.linear[1][i].mul_add(b[1][j], v);
-                    v = u.linear[2][i].mul_add(b[2][j], v);
-                    v = u.hourglass[0][i].mul_add(c[0][j], v);
-                    v = u.hourglass[1][i].mul_add(c[1][j], v);
-                    v = u.hourglass[2][i].mul_add(c[2][j], v);
-                    h[i][j] = v.mul(self.per_w);
-                    j += 1;
+            if VISCOUS {
+                let v = modes::<L>(arrays.velocity, batch, lane);
+                let rate = green_rate(&h, &gradient(&v, &b, &c, per_w));
+                let eta = L::splat(k.kelvin_voigt);
+                let mut viscous =
+                    elastic(&rate, two_g.mul(eta), L::splat(k.lambda).mul(trace(&rate)).mul(eta));
+                let q = bulk_viscosity(trace(&rate), w, squares, k);
+                let mut i = 0;
+                while i < 3 {
+                    viscous[i][i] = viscous[i][i].add(q);
+                    i += 1;
                 }
-                i += 1;
-            }
-            h
-        }
-    }
-    #[inline(always)]
-    unsafe fn less_affine(&self, a: usize, h: Vector<L>, v: L) -> L {
-        unsafe {
-            let g = &self.g[a];
-            h[2].neg_mul_add(g[2], h[1].neg_mul_add(g[1], h[0].neg_mul_add(g[0], v)))
-        }
-    }
-    #[inline(always)]
-    unsafe fn scaled(&self, p: Matrix<L>) -> Matrix<L> {
-        p
-    }
-    #[inline(always)]
-    unsafe fn less_outer(&self, a: usize, q: L, p: Vector<L>) -> Vector<L> {
-        unsafe {
-            let (g, over_w) = (&self.g[a], q.mul(self.per_w));
-            [
-                over_w.neg_mul_add(g[0], p[0]),
-                over_w.neg_mul_add(g[1], p[1]),
-                over_w.neg_mul_add(g[2], p[2]),
-            ]
-        }
-    }
-    #[inline(always)]
-    unsafe fn b(&self, m: usize) -> Vector<L> {
-        self.gradient.b[m]
-    }
-    #[inline(always)]
-    unsafe fn c(&self, m: usize) -> Vector<L> {
-        self.gradient.c[m]
-    }
-    #[inline(always)]
-    unsafe fn w(&self) -> L {
-        self.gradient.w
-    }
-    #[inline(always)]
-    unsafe fn squares(&self) -> L {
-        self.gradient.squares
-    }
-    #[inline(always)]
-    unsafe fn squares_per_w(&self, coefficient: f64) -> L {
-        unsafe { L::splat(coefficient).mul(self.gradient.squares).mul(self.per_w) }
-    }
-}
-
-#[inline(always)]
-unsafe fn splat<L: Lanes>(v: &[f64; 3]) -> Vector<L> {
-    unsafe { [L::splat(v[0]), L::splat(v[1]), L::splat(v[2])] }
-}
-
-/// Gradients that all elements share, in frames `TURNED` about y or not.
-struct Alike<'a, L, const TURNED: bool> {
-    shape: &'a Shape,
-    cos: L,
-    sin: L,
-}
-
-/// Components in frames turned by the angle of `cos` and `sin`, z towards x.
-#[inline(always)]
-unsafe fn turned<L: Lanes>(mut modes: Modes<L>, cos: L, sin: L) -> Modes<L> {
-    unsafe {
-        let mut m = 0;
-        while m < 7 {
-            let v = if m < 3 { &mut modes.linear[m] } else { &mut modes.hourglass[m - 3] };
-            let x = sin.mul_add(v[2], cos.mul(v[0]));
-            v[2] = sin.neg_mul_add(v[0], cos.mul(v[2]));
-            v[0] = x;
-            m += 1;
-        }
-        modes
-    }
-}
-
-impl<L: Lanes, const TURNED: bool> Geometry<L> for Alike<'_, L, TURNED> {
-    #[inline(always)]
-    unsafe fn enter(&self, modes: Modes<L>) -> Modes<L> {
-        unsafe { if TURNED { turned(modes, self.cos, self.sin) } else { modes } }
-    }
-    #[inline(always)]
-    unsafe fn leave(&self, modes: Modes<L>) -> Modes<L> {
-        unsafe { if TURNED { turned(modes, self.cos, L::splat(0.0).sub(self.sin)) } else { modes } }
-    }
-    #[inline(always)]
-    unsafe fn gradient(&self, u: &Modes<L>) -> Matrix<L> {
-        unsafe {
-            let (b, c) = (&self.shape.b_per_w, &self.shape.c_per_w);
-            let mut h = [[L::splat(0.0); 3]; 3];
-            let mut i = 0;
-            while i < 3 {
-                let mut j = 0;
-                while j < 3 {
-                    let mut v = u.linear[0][i].mul(L::splat(b[0][j]));
-                    v = u.linear[1][i].mul_add(L::splat(b[1][j]), v);
-                    v = u.linear[2][i].mul_add(L::splat(b[2][j]), v);
-                    v = u.hourglass[0][i].mul_add(L::splat(c[0][j]), v);
-                    v = u.hourglass[1][i].mul_add(L::splat(c[1][j]), v);
-                    h[i][j] = u.hourglass[2][i].mul_add(L::splat(c[2][j]), v);
-                    j += 1;
+                sums[2] += contract(&viscous, &rate).mul(w).sum(count);
+                let mut i = 0;
+                while i < 3 {
+                    s[i] = [
+                        s[i][0].add(viscous[i][0]),
+                        s[i][1].add(viscous[i][1]),
+                        s[i][2].add(viscous[i][2]),
+                    ];
+                    i += 1;
                 }
-                i += 1;
             }
-            h
-        }
-    }
-    #[inline(always)]
-    unsafe fn less_affine(&self, a: usize, h: Vector<L>, v: L) -> L {
-        unsafe {
-            let g = splat::<L>(&self.shape.g[a]);
-            h[2].neg_mul_add(g[2], h[1].neg_mul_add(g[1], h[0].neg_mul_add(g[0], v)))
-        }
-    }
-    #[inline(always)]
-    unsafe fn scaled(&self, p: Matrix<L>) -> Matrix<L> {
-        unsafe {
-            let w = L::splat(self.shape.w);
-            [scale(p[0], w), scale(p[1], w), scale(p[2], w)]
-        }
-    }
-    #[inline(always)]
-    unsafe fn less_outer(&self, a: usize, q: L, p: Vector<L>) -> Vector<L> {
-        unsafe {
-            let g = splat::<L>(&self.shape.g[a]);
-            [q.neg_mul_add(g[0], p[0]), q.neg_mul_add(g[1], p[1]), q.neg_mul_add(g[2], p[2])]
-        }
-    }
-    #[inline(always)]
-    unsafe fn b(&self, m: usize) -> Vector<L> {
-        unsafe { splat(&self.shape.b_per_w[m]) }
-    }
-    #[inline(always)]
-    unsafe fn c(&self, m: usize) -> Vector<L> {
-        unsafe { splat(&self.shape.c_per_w[m]) }
-    }
-    #[inline(always)]
-    unsafe fn w(&self) -> L {
-        unsafe { L::splat(self.shape.w) }
-    }
-    #[inline(always)]
-    unsafe fn squares(&self) -> L {
-        unsafe { L::splat(self.shape.squares) }
-    }
-    #[inline(always)]
-    unsafe fn squares_per_w(&self, coefficient: f64) -> L {
-        unsafe { L::splat(coefficient * self.shape.squares_per_w) }
-    }
-}
 
-/// The force of one vector of one-point elements.
-///
-/// # Safety
-/// As [`Kernel::elements_force`].
-#[inline(always)]
-unsafe fn one_point<L: Lanes, G: Geometry<L>, const ENERGY: bool, const VISCOUS: bool>(
-    geometry: &G,
-    batch: &Batch,
-    lane: usize,
-    count: usize,
-    k: &Constants,
-    arrays: Arrays,
-    sums: &mut Sums,
-) {
-    // SAFETY: as the caller's throughout.
-    unsafe {
-        let u = geometry.enter(modes::<L>(arrays.displacement, batch, lane));
-        let h = geometry.gradient(&u);
-        let e = green(&h);
-        let two_g = L::splat(2.0 * k.shear);
-        let pressure = L::splat(k.lambda).mul(trace(&e));
-        // S/64
-        let mut s = elastic(&e, two_g, pressure);
+            let mut p = piola(&h, &s); // P/64
 
-        if ENERGY {
-            // V (lambda/2 tr(E)^2 + G E:E), with V = W/64
-            let density = pressure
-                .mul(trace(&e))
-                .mul_add(L::splat(0.5), L::splat(k.shear).mul(contract(&e, &e)));
-            sums[0] += density.mul(geometry.w()).sum(count);
-        }
-        if VISCOUS {
-            let v = geometry.enter(modes::<L>(arrays.velocity, batch, lane));
-            let rate = green_rate(&h, &geometry.gradient(&v));
-            let eta = L::splat(k.kelvin_voigt);
-            let mut viscous =
-                elastic(&rate, two_g.mul(eta), L::splat(k.lambda).mul(trace(&rate)).mul(eta));
-            let q = bulk_viscosity(trace(&rate), geometry.w(), geometry.squares(), k);
-            let mut i = 0;
-            while i < 3 {
-                viscous[i][i] = viscous[i][i].add(q);
-                i += 1;
+            // Hourglass: K_h = kappa M squares/(192 W); its stress-like part lowers P/64 by
+            // K_h/W sum q_a (x) G_a.
+            let stiffness = L::splat(k.hourglass).mul(squares).mul(per_w);
+            let mut q = u.hourglass;
+            let mut amplitude = 0;
+            while amplitude < 4 {
+                let mut i = 0;
+                while i < 3 {
+                    let mut v = q[amplitude][i];
+                    v = h[i][0].neg_mul_add(g[amplitude][0], v);
+                    v = h[i][1].neg_mul_add(g[amplitude][1], v);
+                    v = h[i][2].neg_mul_add(g[amplitude][2], v);
+                    q[amplitude][i] = v;
+                    i += 1;
+                }
+                amplitude += 1;
             }
-            sums[2] += contract(&viscous, &rate).mul(geometry.w()).sum(count);
-            let mut i = 0;
-            while i < 3 {
-                s[i] = [
-                    s[i][0].add(viscous[i][0]),
-                    s[i][1].add(viscous[i][1]),
-                    s[i][2].add(viscous[i][2]),
-                ];
-                i += 1;
+            if ENERGY {
+                let mut square = dot(q[0], q[0]);
+                square = dot_add(q[1], q[1], square);
+                square = dot_add(q[2], q[2], square);
+                square = dot_add(q[3], q[3], square);
+                sums[1] += square.mul(stiffness).mul(L::splat(0.5)).sum(count);
             }
-        }
-
-        let mut p = geometry.scaled(piola(&h, &s)); // P/64
-
-        // Hourglass: K_h = kappa M squares/(192 W); its stress-like part lowers P/64 by
-        // K_h/W sum q_a (x) G_a.
-        let stiffness = geometry.squares_per_w(k.hourglass);
-        let mut q = u.hourglass;
-        let mut amplitude = 0;
-        while amplitude < 4 {
-            let mut i = 0;
-            while i < 3 {
-                q[amplitude][i] = geometry.less_affine(amplitude, h[i], q[amplitude][i]);
-                i += 1;
+            let mut amplitude = 0;
+            while amplitude < 4 {
+                q[amplitude] = scale(q[amplitude], stiffness);
+                let mut i = 0;
+                while i < 3 {
+                    let over_w = q[amplitude][i].mul(per_w);
+                    let mut j = 0;
+                    while j < 3 {
+                        p[i][j] = over_w.neg_mul_add(g[amplitude][j], p[i][j]);
+                        j += 1;
+                    }
+                    i += 1;
+                }
+                amplitude += 1;
             }
-            amplitude += 1;
-        }
-        if ENERGY {
-            let mut square = dot(q[0], q[0]);
-            square = dot_add(q[1], q[1], square);
-            square = dot_add(q[2], q[2], square);
-            square = dot_add(q[3], q[3], square);
-            sums[1] += square.mul(stiffness).mul(L::splat(0.5)).sum(count);
-        }
-        let mut amplitude = 0;
-        while amplitude < 4 {
-            q[amplitude] = scale(q[amplitude], stiffness);
-            let mut i = 0;
-            while i < 3 {
-                p[i] = geometry.less_outer(amplitude, q[amplitude][i], p[i]);
-                i += 1;
+            let mut force = Modes { linear: b, hourglass: q };
+            let mut m = 0;
+            while m < 3 {
+                let mut i = 0;
+                while i < 3 {
+                    force.linear[m][i] = dot(p[i], b[m]);
+                    force.hourglass[m][i] = dot_add(p[i], c[m], q[m][i]);
+                    i += 1;
+                }
+                m += 1;
             }
-            amplitude += 1;
+            scatter(&force, arrays.force, batch, lane, count);
         }
-        let mut force = Modes { linear: [q[0], q[1], q[2]], hourglass: q };
-        let mut m = 0;
-        while m < 3 {
-            let mut i = 0;
-            while i < 3 {
-                force.linear[m][i] = dot(p[i], geometry.b(m));
-                force.hourglass[m][i] = dot_add(p[i], geometry.c(m), q[m][i]);
-                i += 1;
-            }
-            m += 1;
-        }
-        scatter(&geometry.leave(force), arrays.force, batch, lane, count);
     }
 }
 
@@ -568,7 +303,7 @@ pub(crate) unsafe fn modes<L: Lanes>(base: *const Padded, batch: &Batch, lane: u
         let mut n = [zero; 8];
         let mut corner = 0;
         while corner < 8 {
-            n[corner] = L::gather(base, batch.offsets[corner].as_ptr().add(lane));
+            n[corner] = L::gather(base, batch.nodes[corner].as_ptr().add(lane));
             corner += 1;
         }
         let mut out = Modes { linear: [zero; 3], hourglass: [zero; 4] };
@@ -634,9 +369,38 @@ pub(crate) unsafe fn scatter<L: Lanes>(
         }
         let mut corner = 0;
         while corner < 8 {
-            L::scatter_sub(base, batch.offsets[corner].as_ptr().add(lane), n[corner], count);
+            L::scatter_sub(base, batch.nodes[corner].as_ptr().add(lane), n[corner], count);
             corner += 1;
         }
+    }
+}
+
+/// H = 1/W (sum U_k b_k^T + sum U_a c_a^T).
+#[inline(always)]
+unsafe fn gradient<L: Lanes>(
+    u: &Modes<L>,
+    b: &[Vector<L>; 3],
+    c: &[Vector<L>; 3],
+    per_w: L,
+) -> Matrix<L> {
+    unsafe {
+        let mut h = [[per_w; 3]; 3];
+        let mut i = 0;
+        while i < 3 {
+            let mut j = 0;
+            while j < 3 {
+                let mut v = u.linear[0][i].mul(b[0][j]);
+                v = u.linear[1][i].mul_add(b[1][j], v);
+                v = u.linear[2][i].mul_add(b[2][j], v);
+                v = u.hourglass[0][i].mul_add(c[0][j], v);
+                v = u.hourglass[1][i].mul_add(c[1][j], v);
+                v = u.hourglass[2][i].mul_add(c[2][j], v);
+                h[i][j] = v.mul(per_w);
+                j += 1;
+            }
+            i += 1;
+        }
+        h
     }
 }
 

@@ -60,8 +60,6 @@ pub(crate) trait Lanes: Copy {
     const N: usize;
 
     unsafe fn splat(v: f64) -> Self;
-    /// The `N` numbers from `from` on.
-    unsafe fn load(from: *const f64) -> Self;
     unsafe fn add(self, o: Self) -> Self;
     unsafe fn sub(self, o: Self) -> Self;
     unsafe fn mul(self, o: Self) -> Self;
@@ -72,15 +70,15 @@ pub(crate) trait Lanes: Copy {
     unsafe fn mul_add(self, b: Self, c: Self) -> Self;
     /// `c - self * b`
     unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self;
-    /// x, y and z of the nodes at the byte offsets `offset[0..N]`.
+    /// x, y and z of the nodes `index[0..N]`.
     ///
-    /// `offset` must be readable for `N` entries and each must lead from `base` to a node.
-    unsafe fn gather(base: *const Padded, offset: *const u32) -> [Self; 3];
-    /// Subtracts the first `count` lanes from the nodes at `offset[0..count]`, in lane order, so that
+    /// `index` must be readable for `N` entries and each must be a valid index into `base`.
+    unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3];
+    /// Subtracts the first `count` lanes from the nodes `index[0..count]`, in lane order, so that
     /// lanes may share nodes.
     ///
     /// As [`gather`](Self::gather), and nobody else may access these nodes meanwhile.
-    unsafe fn scatter_sub(base: *mut Padded, offset: *const u32, v: [Self; 3], count: usize);
+    unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], count: usize);
     /// Sum of the first `count` lanes in lane order.
     unsafe fn sum(self, count: usize) -> f64;
 }
@@ -90,11 +88,6 @@ impl Lanes for f64 {
     #[inline(always)]
     unsafe fn splat(v: f64) -> Self {
         v
-    }
-    #[inline(always)]
-    unsafe fn load(from: *const f64) -> Self {
-        // SAFETY: the caller vouches for the pointer.
-        unsafe { *from }
     }
     #[inline(always)]
     unsafe fn add(self, o: Self) -> Self {
@@ -130,15 +123,15 @@ impl Lanes for f64 {
         c - self * b
     }
     #[inline(always)]
-    unsafe fn gather(base: *const Padded, offset: *const u32) -> [Self; 3] {
+    unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
         // SAFETY: the caller vouches for both pointers.
-        unsafe { (*base.byte_add(*offset as usize)).xyz() }
+        unsafe { (*base.add(*index as usize)).xyz() }
     }
     #[inline(always)]
-    unsafe fn scatter_sub(base: *mut Padded, offset: *const u32, v: [Self; 3], count: usize) {
+    unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], count: usize) {
         if count == 1 {
             // SAFETY: the caller vouches for both pointers and for exclusive access.
-            let node = unsafe { &mut *base.byte_add(*offset as usize) };
+            let node = unsafe { &mut *base.add(*index as usize) };
             node.0[0] -= v[0];
             node.0[1] -= v[1];
             node.0[2] -= v[2];
@@ -165,10 +158,6 @@ pub(crate) mod x86 {
         #[inline(always)]
         unsafe fn splat(v: f64) -> Self {
             unsafe { Self(_mm512_set1_pd(v)) }
-        }
-        #[inline(always)]
-        unsafe fn load(from: *const f64) -> Self {
-            unsafe { Self(_mm512_loadu_pd(from)) }
         }
         #[inline(always)]
         unsafe fn add(self, o: Self) -> Self {
@@ -203,13 +192,13 @@ pub(crate) mod x86 {
             unsafe { Self(_mm512_fnmadd_pd(self.0, b.0, c.0)) }
         }
         #[inline(always)]
-        unsafe fn gather(base: *const Padded, offset: *const u32) -> [Self; 3] {
+        unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
             unsafe {
                 // Rows [x y z _] of nodes (i, i + 4), then a transpose within each half.
-                let r0 = pair(base, offset, 0);
-                let r1 = pair(base, offset, 1);
-                let r2 = pair(base, offset, 2);
-                let r3 = pair(base, offset, 3);
+                let r0 = pair(base, index, 0);
+                let r1 = pair(base, index, 1);
+                let r2 = pair(base, index, 2);
+                let r3 = pair(base, index, 3);
                 let xz01 = _mm512_unpacklo_pd(r0, r1);
                 let y01 = _mm512_unpackhi_pd(r0, r1);
                 let xz23 = _mm512_unpacklo_pd(r2, r3);
@@ -224,7 +213,7 @@ pub(crate) mod x86 {
             }
         }
         #[inline(always)]
-        unsafe fn scatter_sub(base: *mut Padded, offset: *const u32, v: [Self; 3], count: usize) {
+        unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], count: usize) {
             unsafe {
                 let zero = _mm512_setzero_pd();
                 let xy_even = _mm512_unpacklo_pd(v[0].0, v[1].0);
@@ -238,14 +227,14 @@ pub(crate) mod x86 {
                 let r26 = _mm512_permutex2var_pd(xy_even, odd, z_even);
                 let r37 = _mm512_permutex2var_pd(xy_odd, odd, z_odd);
                 if count == 8 {
-                    subtract(base, offset, 0, _mm512_castpd512_pd256(r04));
-                    subtract(base, offset, 1, _mm512_castpd512_pd256(r15));
-                    subtract(base, offset, 2, _mm512_castpd512_pd256(r26));
-                    subtract(base, offset, 3, _mm512_castpd512_pd256(r37));
-                    subtract(base, offset, 4, _mm512_extractf64x4_pd::<1>(r04));
-                    subtract(base, offset, 5, _mm512_extractf64x4_pd::<1>(r15));
-                    subtract(base, offset, 6, _mm512_extractf64x4_pd::<1>(r26));
-                    subtract(base, offset, 7, _mm512_extractf64x4_pd::<1>(r37));
+                    subtract(base, index, 0, _mm512_castpd512_pd256(r04));
+                    subtract(base, index, 1, _mm512_castpd512_pd256(r15));
+                    subtract(base, index, 2, _mm512_castpd512_pd256(r26));
+                    subtract(base, index, 3, _mm512_castpd512_pd256(r37));
+                    subtract(base, index, 4, _mm512_extractf64x4_pd::<1>(r04));
+                    subtract(base, index, 5, _mm512_extractf64x4_pd::<1>(r15));
+                    subtract(base, index, 6, _mm512_extractf64x4_pd::<1>(r26));
+                    subtract(base, index, 7, _mm512_extractf64x4_pd::<1>(r37));
                 } else {
                     let rows = [
                         _mm512_castpd512_pd256(r04),
@@ -259,7 +248,7 @@ pub(crate) mod x86 {
                     ];
                     let mut lane = 0;
                     while lane < count {
-                        subtract(base, offset, lane, rows[lane]);
+                        subtract(base, index, lane, rows[lane]);
                         lane += 1;
                     }
                 }
@@ -274,18 +263,18 @@ pub(crate) mod x86 {
     }
 
     #[inline(always)]
-    unsafe fn pair(base: *const Padded, offset: *const u32, i: usize) -> __m512d {
+    unsafe fn pair(base: *const Padded, index: *const u32, i: usize) -> __m512d {
         unsafe {
-            let low = _mm256_load_pd(base.byte_add(*offset.add(i) as usize).cast());
-            let high = _mm256_load_pd(base.byte_add(*offset.add(i + 4) as usize).cast());
+            let low = _mm256_load_pd(base.add(*index.add(i) as usize).cast());
+            let high = _mm256_load_pd(base.add(*index.add(i + 4) as usize).cast());
             _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high)
         }
     }
 
     #[inline(always)]
-    unsafe fn subtract(base: *mut Padded, offset: *const u32, i: usize, row: __m256d) {
+    unsafe fn subtract(base: *mut Padded, index: *const u32, i: usize, row: __m256d) {
         unsafe {
-            let node = base.byte_add(*offset.add(i) as usize).cast::<f64>();
+            let node = base.add(*index.add(i) as usize).cast::<f64>();
             _mm256_store_pd(node, _mm256_sub_pd(_mm256_load_pd(node), row));
         }
     }
@@ -310,10 +299,6 @@ pub(crate) mod x86 {
         #[inline(always)]
         unsafe fn splat(v: f64) -> Self {
             unsafe { Self(_mm256_set1_pd(v)) }
-        }
-        #[inline(always)]
-        unsafe fn load(from: *const f64) -> Self {
-            unsafe { Self(_mm256_loadu_pd(from)) }
         }
         #[inline(always)]
         unsafe fn add(self, o: Self) -> Self {
@@ -348,12 +333,12 @@ pub(crate) mod x86 {
             unsafe { Self(_mm256_fnmadd_pd(self.0, b.0, c.0)) }
         }
         #[inline(always)]
-        unsafe fn gather(base: *const Padded, offset: *const u32) -> [Self; 3] {
+        unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
             unsafe {
-                let r0 = _mm256_load_pd(base.byte_add(*offset as usize).cast());
-                let r1 = _mm256_load_pd(base.byte_add(*offset.add(1) as usize).cast());
-                let r2 = _mm256_load_pd(base.byte_add(*offset.add(2) as usize).cast());
-                let r3 = _mm256_load_pd(base.byte_add(*offset.add(3) as usize).cast());
+                let r0 = _mm256_load_pd(base.add(*index as usize).cast());
+                let r1 = _mm256_load_pd(base.add(*index.add(1) as usize).cast());
+                let r2 = _mm256_load_pd(base.add(*index.add(2) as usize).cast());
+                let r3 = _mm256_load_pd(base.add(*index.add(3) as usize).cast());
                 let xz01 = _mm256_unpacklo_pd(r0, r1);
                 let y01 = _mm256_unpackhi_pd(r0, r1);
                 let xz23 = _mm256_unpacklo_pd(r2, r3);
@@ -366,7 +351,7 @@ pub(crate) mod x86 {
             }
         }
         #[inline(always)]
-        unsafe fn scatter_sub(base: *mut Padded, offset: *const u32, v: [Self; 3], count: usize) {
+        unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], count: usize) {
             unsafe {
                 let zero = _mm256_setzero_pd();
                 let xy_even = _mm256_unpacklo_pd(v[0].0, v[1].0);
@@ -380,14 +365,14 @@ pub(crate) mod x86 {
                     _mm256_permute2f128_pd::<0x31>(xy_odd, z_odd),
                 ];
                 if count == 4 {
-                    subtract(base, offset, 0, rows[0]);
-                    subtract(base, offset, 1, rows[1]);
-                    subtract(base, offset, 2, rows[2]);
-                    subtract(base, offset, 3, rows[3]);
+                    subtract(base, index, 0, rows[0]);
+                    subtract(base, index, 1, rows[1]);
+                    subtract(base, index, 2, rows[2]);
+                    subtract(base, index, 3, rows[3]);
                 } else {
                     let mut lane = 0;
                     while lane < count {
-                        subtract(base, offset, lane, rows[lane]);
+                        subtract(base, index, lane, rows[lane]);
                         lane += 1;
                     }
                 }

@@ -6,7 +6,6 @@
 //! batches of eight elements; the vector width of the machine is chosen at run time.
 
 mod blocks;
-mod congruence;
 mod count;
 mod formulation;
 mod full;

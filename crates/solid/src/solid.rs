@@ -1,12 +1,12 @@
 //! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
-use crate::blocks::{Batch, Block, Blocks, Kind, MOST_NODES, Run};
+use crate::blocks::{Batch, Block, Blocks};
 use crate::count::work;
 use crate::formulation::{Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
-use crate::kernel::{Arrays, Congruent, Constants, Kernel, OnePoint, Shared, Sums, block_force};
+use crate::kernel::{Arrays, Constants, Kernel, OnePoint, Sums, block_force};
 use crate::lanes::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
@@ -89,14 +89,6 @@ pub enum SolidError {
     /// The instruction set does not exist on this machine.
     #[error("this machine has no {0} instructions")]
     Level(&'static str),
-    /// More nodes than the kernels can address.
-    #[error("{nodes} nodes are more than the {most} of one assembly")]
-    Size {
-        /// Nodes of the mesh.
-        nodes: usize,
-        /// Nodes at most.
-        most: usize,
-    },
     /// Number of materials and of bodies differ.
     #[error("{bodies} bodies need as many materials, not {materials}")]
     Count {
@@ -107,7 +99,7 @@ pub enum SolidError {
     },
 }
 
-type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays, Shared) -> Sums;
+type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
 
 /// All elements of a mesh with their materials.
 pub struct Solid {
@@ -142,9 +134,6 @@ impl Solid {
                 bodies: mesh.bodies.len(),
                 materials: materials.len(),
             });
-        }
-        if mesh.nodes.len() > MOST_NODES {
-            return Err(SolidError::Size { nodes: mesh.nodes.len(), most: MOST_NODES });
         }
         if !level.available() {
             return Err(SolidError::Level(level.name()));
@@ -204,19 +193,14 @@ impl Solid {
         self.level
     }
 
-    /// One-point elements that share their reference gradients with congruent ones.
-    pub fn congruent(&self) -> usize {
-        self.blocks.congruent()
-    }
-
     /// Floating-point operations of one evaluation of the internal force without energies; a
     /// multiply-addition is two, a division one.
     pub fn flops(&self) -> u64 {
-        let of = |run: &Run| {
-            let done = work(run.kind, self.volumetric, false, self.viscous);
-            u64::from(done.flops()) * run.elements as u64
+        let of = |block: &Block| {
+            let done = work(block.full.then_some(self.volumetric), false, self.viscous);
+            u64::from(done.flops()) * block.elements as u64
         };
-        self.blocks.runs.iter().map(of).sum()
+        self.blocks.blocks.iter().map(of).sum()
     }
 
     /// Number of elements.
@@ -226,7 +210,7 @@ impl Solid {
 
     /// Bytes held for the time loop: connectivity in batches, reference positions.
     pub fn bytes(&self) -> usize {
-        self.blocks.bytes() + self.reference.len() * size_of::<Padded>()
+        self.blocks.batches.len() * size_of::<Batch>() + self.reference.len() * size_of::<Padded>()
     }
 
     /// `force -= f_int(u, v)` (N). Viscous stresses take `velocity` at the last half step (m/s).
@@ -278,53 +262,31 @@ impl Solid {
         let nodes = self.reference.len();
         assert!(displacement.len() >= nodes && force.len() >= nodes);
         assert!(!viscous || velocity.len() >= nodes);
-        let kernel = |kind| block_force_of(self.level, kind, self.volumetric, energies, viscous);
-        let [one_point, congruent, turned, full] =
-            [Kind::OnePoint, Kind::Congruent, Kind::Turned, Kind::Full].map(kernel);
-        let arrays = ToThreads(Arrays {
+        let kernels = [None, Some(self.volumetric)]
+            .map(|full| block_force_of(self.level, full, energies, viscous));
+        let arrays = Shared(Arrays {
             reference: self.reference.as_ptr(),
             displacement: displacement.as_ptr(),
             velocity: velocity.as_ptr(),
             force: force.as_mut_ptr(),
         });
         let sums = SharedSums(self.sums.as_mut_ptr());
-        let Blocks { batches, runs, blocks, colours, shapes, shape_of, turns, .. } = &self.blocks;
+        let Blocks { batches, blocks, colours, .. } = &self.blocks;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
             let block: &Block = &blocks[b as usize];
-            let mut total = [0.0; 3];
-            for run in &runs[block.runs.clone()] {
-                let shared = Shared {
-                    shapes: shapes.as_ptr(),
-                    of_batch: shape_of[run.batches.start..].as_ptr(),
-                    turns: turns[run.turns..].as_ptr(),
-                };
-                let kernel = match run.kind {
-                    Kind::OnePoint => one_point,
-                    Kind::Congruent => congruent,
-                    Kind::Turned => turned,
-                    Kind::Full => full,
-                };
-                // SAFETY: the level was checked in `new`; offsets were taken from the mesh whose
-                // node count the asserts above compare; each batch of congruent elements has its shape, and of
-                // turned ones its turn; blocks of one colour share no nodes, and colours
-                // run one after the other.
-                let sums = unsafe {
-                    kernel(
-                        &batches[run.batches.clone()],
-                        run.elements,
-                        &constants[block.body][usize::from(run.kind == Kind::Full)],
-                        arrays.0,
-                        shared,
-                    )
-                };
-                for i in 0..3 {
-                    total[i] += sums[i];
-                }
+            // SAFETY: the level was checked in `new`; node indices were taken from the mesh whose
+            // node count the asserts above compare; blocks of one colour share no nodes, colours
+            // run one after the other, and each block writes its own entry of `sums`.
+            unsafe {
+                *sums.0.add(b as usize) = kernels[usize::from(block.full)](
+                    &batches[block.batches.clone()],
+                    block.elements,
+                    &constants[block.body][usize::from(block.full)],
+                    arrays.0,
+                );
             }
-            // SAFETY: each block writes its own entry.
-            unsafe { *sums.0.add(b as usize) = total };
         };
         if rayon::current_num_threads() == 1 {
             colours.iter().flatten().for_each(run);
@@ -347,10 +309,10 @@ impl Solid {
     /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts: of a fully
     /// integrated element the mean over its deformed volume.
     pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
-        for (range, material) in &self.bodies {
+        for (body, (range, material)) in self.bodies.iter().enumerate() {
             stress[range.clone()].par_iter_mut().zip(range.clone()).for_each(|(out, element)| {
-                let (x, u) = self.corners(displacement, element);
-                *out = if self.blocks.is_full(element) {
+                let (x, u) = self.corners(displacement, body, element);
+                *out = if self.blocks.is_full(body, element) {
                     mean_cauchy(&x, &u, material, self.volumetric)
                 } else {
                     cauchy(&displacement_gradient(&x, &u).0, material)
@@ -359,9 +321,9 @@ impl Solid {
         }
     }
 
-    /// How an element is integrated.
-    fn formulation(&self, element: usize) -> Formulation {
-        if self.blocks.is_full(element) {
+    /// How an element of a body is integrated.
+    fn formulation(&self, body: usize, element: usize) -> Formulation {
+        if self.blocks.is_full(body, element) {
             Formulation::Full(self.volumetric)
         } else {
             Formulation::OnePoint(self.one_point)
@@ -369,8 +331,13 @@ impl Solid {
     }
 
     /// Corners of an element in the reference configuration and their displacements.
-    fn corners(&self, displacement: &[Padded], element: usize) -> ([[f64; 3]; 8], [[f64; 3]; 8]) {
-        let hex = self.blocks.hex(element);
+    fn corners(
+        &self,
+        displacement: &[Padded],
+        body: usize,
+        element: usize,
+    ) -> ([[f64; 3]; 8], [[f64; 3]; 8]) {
+        let hex = self.blocks.hex(body, element);
         let x = hex.map(|n| self.reference[n as usize].xyz());
         (x, hex.map(|n| displacement[n as usize].xyz()))
     }
@@ -381,8 +348,8 @@ impl Solid {
         let mut worst = (0, 0, f64::INFINITY);
         for (body, (range, _)) in self.bodies.iter().enumerate() {
             for element in range.clone() {
-                let (x, u) = self.corners(displacement, element);
-                let det = if self.blocks.is_full(element) {
+                let (x, u) = self.corners(displacement, body, element);
+                let det = if self.blocks.is_full(body, element) {
                     let points = gauss_points(&x);
                     let dets =
                         points.map(|p| determinant(&deformation(&p.displacement_gradient(&u))));
@@ -405,7 +372,8 @@ impl Solid {
     /// Centre of an element in the reference configuration (m).
     pub fn centre(&self, element: usize) -> [f64; 3] {
         let mut c = [0.0; 3];
-        for n in self.blocks.hex(element) {
+        let body = self.bodies.iter().position(|(range, _)| range.contains(&element));
+        for n in self.blocks.hex(body.unwrap_or(0), element) {
             for i in 0..3 {
                 c[i] += self.reference[n as usize].0[i] / 8.0;
             }
@@ -500,30 +468,27 @@ fn trace(e: &[[f64; 3]; 3]) -> f64 {
     e[0][0] + e[1][1] + e[2][2]
 }
 
-struct ToThreads(Arrays);
+struct Shared(Arrays);
 // SAFETY: threads write disjoint nodes (see `Solid::run`).
-unsafe impl Sync for ToThreads {}
+unsafe impl Sync for Shared {}
 struct SharedSums(*mut Sums);
 // SAFETY: threads write disjoint entries (see `Solid::run`).
 unsafe impl Sync for SharedSums {}
 
 macro_rules! level_kernels {
     ($name:ident, $lanes:ty $(, $features:literal)?) => {
-        /// The kernel for this level and these options.
-        fn $name(kind: Kind, full: Volumetric, energies: bool, viscous: bool) -> BlockForce {
+        /// The kernel for this level and these options; `full` of fully integrated elements.
+        fn $name(full: Option<Volumetric>, energies: bool, viscous: bool) -> BlockForce {
             $(#[target_feature(enable = $features)])?
             unsafe fn run<K: Kernel, const ENERGY: bool, const VISCOUS: bool>(
                 batches: &[Batch],
                 elements: usize,
                 constants: &Constants,
                 arrays: Arrays,
-                shared: Shared,
             ) -> Sums {
                 // SAFETY: the caller's contract is that of `block_force`.
                 unsafe {
-                    block_force::<K, $lanes, ENERGY, VISCOUS>(
-                        batches, elements, constants, arrays, shared,
-                    )
+                    block_force::<K, $lanes, ENERGY, VISCOUS>(batches, elements, constants, arrays)
                 }
             }
             fn choose<K: Kernel>(energies: bool, viscous: bool) -> BlockForce {
@@ -534,16 +499,10 @@ macro_rules! level_kernels {
                     (true, true) => run::<K, true, true>,
                 }
             }
-            match (kind, full) {
-                (Kind::OnePoint, _) => choose::<OnePoint>(energies, viscous),
-                (Kind::Congruent, _) => choose::<Congruent<false>>(energies, viscous),
-                (Kind::Turned, _) => choose::<Congruent<true>>(energies, viscous),
-                (Kind::Full, Volumetric::Full) => {
-                    choose::<FullyIntegrated<false>>(energies, viscous)
-                }
-                (Kind::Full, Volumetric::Mean) => {
-                    choose::<FullyIntegrated<true>>(energies, viscous)
-                }
+            match full {
+                None => choose::<OnePoint>(energies, viscous),
+                Some(Volumetric::Full) => choose::<FullyIntegrated<false>>(energies, viscous),
+                Some(Volumetric::Mean) => choose::<FullyIntegrated<true>>(energies, viscous),
             }
         }
     };
@@ -557,17 +516,16 @@ level_kernels!(portable, f64);
 
 fn block_force_of(
     level: Level,
-    kind: Kind,
-    full: Volumetric,
+    full: Option<Volumetric>,
     energies: bool,
     viscous: bool,
 ) -> BlockForce {
     match level {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512 => avx512(kind, full, energies, viscous),
+        Level::Avx512 => avx512(full, energies, viscous),
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2 => avx2(kind, full, energies, viscous),
-        _ => portable(kind, full, energies, viscous),
+        Level::Avx2 => avx2(full, energies, viscous),
+        _ => portable(full, energies, viscous),
     }
 }
 

@@ -8,11 +8,11 @@ impl Solid {
     /// [`add_stiffness_product`](Self::add_stiffness_product) multiplies with, at a node.
     pub fn stiffness_diagonal(&self) -> Vec<[[f64; 3]; 3]> {
         let mut diagonal = vec![[[0.0; 3]; 3]; self.reference.len()];
-        for (range, material) in &self.bodies {
+        for (body, (range, material)) in self.bodies.iter().enumerate() {
             for element in range.clone() {
-                let hex = self.blocks.hex(element);
+                let hex = self.blocks.hex(body, element);
                 let x = hex.map(|n| self.reference[n as usize].xyz());
-                let k = element_stiffness(&x, material, self.formulation(element));
+                let k = element_stiffness(&x, material, self.formulation(body, element));
                 for (corner, node) in hex.iter().enumerate() {
                     let block = &mut diagonal[*node as usize];
                     for i in 0..3 {
