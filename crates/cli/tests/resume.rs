@@ -30,11 +30,16 @@ fn done(out: &Path, more: &[&str]) -> Output {
     output
 }
 
-/// Ends a run by a signal once it rolls.
+/// Short steps: the small case then runs long enough for a signal to meet it on a busy machine too.
+const LONG: [&str; 2] = ["--set", "time.factor=0.15"];
+
+/// Ends a run by a signal once it rolls, or rolls on.
 fn signalled(out: &Path, signal: &str, more: &[&str]) -> Output {
+    let rows = || HistoryFile::open(out.join("history.h5")).map_or(0, |h| h.rows());
+    let before = rows();
     let mut run = creepage(out, more).spawn().unwrap();
     let clock = Instant::now();
-    while HistoryFile::open(out.join("history.h5")).map_or(0, |h| h.rows()) == 0 {
+    while rows() <= before {
         assert!(run.try_wait().unwrap().is_none(), "the run ended before it was stopped");
         assert!(clock.elapsed() < Duration::from_secs(120), "no rows");
         std::thread::sleep(Duration::from_millis(2));
@@ -48,20 +53,21 @@ fn signalled(out: &Path, signal: &str, more: &[&str]) -> Output {
 fn sigterm_and_ctrl_c_write_a_checkpoint_and_the_resumed_run_has_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, out) = (folder.path().join("whole"), folder.path().join("run"));
-    done(&whole, &[]);
+    done(&whole, &LONG);
     for (signal, more) in [("-TERM", &[][..]), ("-INT", &["--resume"])] {
-        let output = signalled(&out, signal, more);
+        let output = signalled(&out, signal, &[&LONG[..], more].concat());
         assert_eq!(output.status.code(), Some(130), "{}", said(&output));
         assert!(said(&output).contains("--resume goes on"), "{}", said(&output));
         let kept = Checkpoint::read(&out.join(CHECKPOINTS[0])).unwrap();
         assert_eq!(results(&out).number("/steps"), kept.step as f64);
     }
-    done(&out, &["--resume"]);
+    let resume = [&LONG[..], &["--resume"]].concat();
+    done(&out, &resume);
     let (whole, found) = (results(&whole), results(&out));
     assert_eq!(whole.differing(&found), Vec::<&str>::new());
     assert_eq!(timeless(&whole.summary), timeless(&found.summary));
 
-    let again = done(&out, &["--resume"]);
+    let again = done(&out, &resume);
     assert!(said(&again).contains("is complete: nothing to resume"), "{}", said(&again));
 }
 
@@ -69,9 +75,9 @@ fn sigterm_and_ctrl_c_write_a_checkpoint_and_the_resumed_run_has_the_same_bits()
 fn what_cannot_be_resumed_ends_with_code_2_and_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
-    signalled(&out, "-TERM", &[]);
+    signalled(&out, "-TERM", &LONG);
     let refused = |more: &[&str], words: &[&str]| {
-        let output = creepage(&out, &[&["--resume"], more].concat()).output().unwrap();
+        let output = creepage(&out, &[&["--resume"], &LONG[..], more].concat()).output().unwrap();
         let said = said(&output);
         assert_eq!(output.status.code(), Some(2), "{said}");
         words.iter().for_each(|word| assert!(said.contains(word), "{word} is not in {said}"));
