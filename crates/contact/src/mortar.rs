@@ -94,9 +94,9 @@ pub(crate) fn restore_means(
     all: usize,
 ) -> Result<Vec<Mean>, StateError> {
     let range = |name: &str| StateError::Range { name: name.into() };
-    let heads = state.wholes(SLAVES, 3)?.as_chunks::<3>().0;
-    let followed = state.reals(FOLLOWED, 7)?.as_chunks::<7>().0;
-    let (nodes, numbers) = (state.wholes(SHARE_NODES, 1)?, state.reals(SHARES, 3)?);
+    let heads = state.whole(SLAVES, 3, None)?.as_chunks::<3>().0;
+    let followed = state.real(FOLLOWED, 7, None)?.as_chunks::<7>().0;
+    let (nodes, numbers) = (state.whole(SHARE_NODES, 1, None)?, state.real(SHARES, 3, None)?);
     let numbers = numbers.as_chunks::<3>().0;
     let wanted: usize = heads.iter().map(|head| head[1] as usize).sum();
     if followed.len() != heads.len() || nodes.len() != wanted || numbers.len() != wanted {

@@ -246,38 +246,46 @@ impl ContactState {
         self.columns.push(Column { name, units, components, values });
     }
 
-    /// Quantities of any number of entries.
-    pub(crate) fn reals(&self, name: &str, components: usize) -> Result<&[f64], StateError> {
-        let values = Numbers::Real(Vec::new());
-        let like = Column { name: String::new(), units: String::new(), components, values };
-        match &self.find(name, &like, None)?.values {
+    /// Quantities, so many entries if that is known.
+    pub(crate) fn real(
+        &self,
+        name: &str,
+        components: usize,
+        entries: Option<usize>,
+    ) -> Result<&[f64], StateError> {
+        match &self.kept(name, components, entries, Numbers::Real(Vec::new()))?.values {
             Numbers::Real(values) => Ok(values),
             Numbers::Whole(_) => Ok(&[]),
         }
     }
 
-    /// Indices of any number of entries.
-    pub(crate) fn wholes(&self, name: &str, components: usize) -> Result<&[u32], StateError> {
-        let values = Numbers::Whole(Vec::new());
-        let like = Column { name: String::new(), units: String::new(), components, values };
-        match &self.find(name, &like, None)?.values {
+    /// Indices, so many entries if that is known.
+    pub(crate) fn whole(
+        &self,
+        name: &str,
+        components: usize,
+        entries: Option<usize>,
+    ) -> Result<&[u32], StateError> {
+        match &self.kept(name, components, entries, Numbers::Whole(Vec::new()))?.values {
             Numbers::Whole(values) => Ok(values),
             Numbers::Real(_) => Ok(&[]),
         }
     }
 
-    fn push_vectors(&mut self, name: String, units: &str, values: &[Vec3]) {
-        let values = Numbers::Real(values.as_flattened().to_vec());
-        self.columns.push(Column { name, units: units.into(), components: 3, values });
+    /// A column of numbers of the kind of `values`.
+    fn kept(
+        &self,
+        name: &str,
+        components: usize,
+        entries: Option<usize>,
+        values: Numbers,
+    ) -> Result<&Column, StateError> {
+        let like = Column { name: String::new(), units: String::new(), components, values };
+        self.find(name, &like, entries.map(|n| n * components))
     }
 
-    fn real(&self, name: &str, components: usize, entries: usize) -> Result<&[f64], StateError> {
-        let values = Numbers::Real(Vec::new());
-        let like = Column { name: String::new(), units: String::new(), components, values };
-        match &self.find(name, &like, Some(entries * components))?.values {
-            Numbers::Real(values) => Ok(values),
-            Numbers::Whole(_) => Ok(&[]),
-        }
+    fn push_vectors(&mut self, name: &str, units: &str, values: &[Vec3]) {
+        self.push(name, units, 3, Numbers::Real(values.as_flattened().to_vec()));
     }
 }
 
@@ -287,21 +295,13 @@ const COUNTERS: &str = "search/steps";
 pub(crate) fn save_search(search: &Search, state: &mut ContactState) {
     for side in 0..2 {
         let name = |what: &str| format!("search/{what}_{side}");
-        state.push_vectors(name("at"), "m", &search.at[side]);
-        state.push_vectors(name("moved"), "m", &search.moved[side]);
-        state.columns.push(Column {
-            name: name("allowance"),
-            units: "1/m2".into(),
-            components: 1,
-            values: Numbers::Real(search.allowance[side].clone()),
-        });
+        state.push_vectors(&name("at"), "m", &search.at[side]);
+        state.push_vectors(&name("moved"), "m", &search.moved[side]);
+        let allowance = Numbers::Real(search.allowance[side].clone());
+        state.push(&name("allowance"), "1/m2", 1, allowance);
     }
-    state.columns.push(Column {
-        name: COUNTERS.into(),
-        units: "1".into(),
-        components: 2,
-        values: Numbers::Whole(vec![search.steps_to_check, search.steps_since_check]),
-    });
+    let counters = vec![search.steps_to_check, search.steps_since_check];
+    state.push(COUNTERS, "1", 2, Numbers::Whole(counters));
 }
 
 /// The reverse of [`save_search`].
@@ -310,23 +310,15 @@ pub(crate) fn restore_search(
     state: &ContactState,
     sides: &[ContactSurface; 2],
 ) -> Result<(), StateError> {
-    let like = Column {
-        name: String::new(),
-        units: String::new(),
-        components: 2,
-        values: Numbers::Whole(Vec::new()),
-    };
-    let Numbers::Whole(counters) = &state.find(COUNTERS, &like, Some(2))?.values else {
-        return Err(StateError::Range { name: COUNTERS.into() });
-    };
+    let counters = state.whole(COUNTERS, 2, Some(1))?;
     for side in 0..2 {
         let name = |what: &str| format!("search/{what}_{side}");
         // Empty before the first search.
         let begun = state.columns.iter().any(|c| c.name == name("at") && c.values.len() > 0);
         let nodes = if begun { sides[side].nodes.len() } else { 0 };
-        search.at[side] = state.real(&name("at"), 3, nodes)?.as_chunks().0.to_vec();
-        search.moved[side] = state.real(&name("moved"), 3, nodes)?.as_chunks().0.to_vec();
-        search.allowance[side] = state.real(&name("allowance"), 1, nodes)?.to_vec();
+        search.at[side] = state.real(&name("at"), 3, Some(nodes))?.as_chunks().0.to_vec();
+        search.moved[side] = state.real(&name("moved"), 3, Some(nodes))?.as_chunks().0.to_vec();
+        search.allowance[side] = state.real(&name("allowance"), 1, Some(nodes))?.to_vec();
     }
     (search.steps_to_check, search.steps_since_check) = (counters[0], counters[1]);
     Ok(())

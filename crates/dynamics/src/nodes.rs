@@ -47,70 +47,61 @@ pub(crate) fn advance(
     partial: &mut [NodeSums],
     level: Level,
 ) -> NodeSums {
+    let pass = Pass { dt, kinetic, dashpots };
     displacement
         .par_chunks_mut(CHUNK)
         .zip(velocity.par_chunks_mut(CHUNK))
         .zip(force.par_chunks_mut(CHUNK).zip(inverse_mass.par_chunks(CHUNK)))
         .zip(partial.par_iter_mut())
         .enumerate()
-        .for_each(|(chunk, (((u, v), (f, m)), sums))| {
-            let first = chunk * CHUNK;
-            *sums = advance_chunk(level, u, v, f, m, dt, kinetic, dashpots, first);
+        .for_each(|(chunk, (((u, v), (f, inverse_mass)), sums))| {
+            let chunk = Chunk { u, v, f, inverse_mass, first: chunk * CHUNK };
+            *sums = advance_chunk(level, chunk, pass);
         });
     let mut total = NodeSums::default();
     partial.iter().for_each(|p| total.add(p));
     total
 }
 
-/// The nodes of a chunk from node `first` on, with instructions of `level`: the same bits with all, since
-/// nothing is fused.
-fn advance_chunk(
-    level: Level,
-    u: &mut [Padded],
-    v: &mut [Padded],
-    f: &mut [Padded],
-    inverse_mass: &[f64],
+/// The nodes of a chunk, from node `first` on.
+struct Chunk<'a> {
+    u: &'a mut [Padded],
+    v: &'a mut [Padded],
+    f: &'a mut [Padded],
+    inverse_mass: &'a [f64],
+    first: usize,
+}
+
+/// What is the same for all chunks.
+#[derive(Clone, Copy)]
+struct Pass<'a> {
     dt: f64,
     kinetic: bool,
-    dashpots: Option<&Dashpots<'_>>,
-    first: usize,
-) -> NodeSums {
+    dashpots: Option<&'a Dashpots<'a>>,
+}
+
+/// A chunk with instructions of `level`: the same bits with all, since nothing is fused.
+fn advance_chunk(level: Level, chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
     #[cfg(target_arch = "x86_64")]
     if level != Level::Portable && level.available() {
         // SAFETY: the machine has the instructions.
-        return unsafe { advance_chunk_wide(u, v, f, inverse_mass, dt, kinetic, dashpots, first) };
+        return unsafe { update_chunk_wide(chunk, pass) };
     }
-    update_chunk(u, v, f, inverse_mass, dt, kinetic, dashpots, first)
+    update_chunk(chunk, pass)
 }
 
 /// # Safety
 /// The machine has AVX2.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-unsafe fn advance_chunk_wide(
-    u: &mut [Padded],
-    v: &mut [Padded],
-    f: &mut [Padded],
-    inverse_mass: &[f64],
-    dt: f64,
-    kinetic: bool,
-    dashpots: Option<&Dashpots<'_>>,
-    first: usize,
-) -> NodeSums {
-    update_chunk(u, v, f, inverse_mass, dt, kinetic, dashpots, first)
+unsafe fn update_chunk_wide(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
+    update_chunk(chunk, pass)
 }
 
 #[inline(always)]
-fn update_chunk(
-    u: &mut [Padded],
-    v: &mut [Padded],
-    f: &mut [Padded],
-    inverse_mass: &[f64],
-    dt: f64,
-    kinetic: bool,
-    dashpots: Option<&Dashpots<'_>>,
-    first: usize,
-) -> NodeSums {
+fn update_chunk(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
+    let Chunk { u, v, f, inverse_mass, first } = chunk;
+    let Pass { dt, kinetic, dashpots } = pass;
     let nodes = first..first + inverse_mass.len();
     match (kinetic, dashpots) {
         (false, None) => update::<false>(u, v, f, inverse_mass, dt),
@@ -252,4 +243,50 @@ fn damped_run<const KINETIC: bool>(
 #[inline(always)]
 fn product(a: Padded, b: Padded) -> f64 {
     a.0[0] * b.0[0] + a.0[1] * b.0[1] + a.0[2] * b.0[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vector_instructions_leave_every_bit_of_the_nodal_update() {
+        let field = |scale: f64| -> Vec<Padded> {
+            (0..9001)
+                .map(|i| {
+                    let k = f64::from(i);
+                    Padded::new([1.7 * k, 2.3 * k + 1.0, 0.9 * k].map(|x| scale * x.sin()))
+                })
+                .collect()
+        };
+        let mass: Vec<f64> =
+            (0..9001).map(|i| if i % 97 == 0 { 0.0 } else { 1.0 + f64::from(i % 13) }).collect();
+        let reference = field(0.4);
+        let dashpots =
+            Dashpots { alpha: 4e3, disk: 100..7000, reference: &reference, motion: None };
+        for dashpots in [None, Some(&dashpots)] {
+            for kinetic in [false, true] {
+                let run = |level| {
+                    let (mut u, mut v, mut f) = (field(1e-3), field(40.0), field(1e5));
+                    let mut partial = vec![NodeSums::default(); chunks(u.len())];
+                    let sums = advance(
+                        &mut u,
+                        &mut v,
+                        &mut f,
+                        &mass,
+                        1e-7,
+                        kinetic,
+                        dashpots,
+                        &mut partial,
+                        level,
+                    );
+                    let sums = [sums.kinetic, sums.dashpot_power].map(f64::to_bits);
+                    (u, v, sums)
+                };
+                let plain = run(Level::Portable);
+                assert!(!kinetic || f64::from_bits(plain.2[0]) != 0.0);
+                assert_eq!(plain, run(Level::detect()));
+            }
+        }
+    }
 }
