@@ -14,8 +14,8 @@ use rayon::prelude::*;
 /// Lists from this length on are worked on by several threads, in parts of `PART` pairs. Every
 /// pair is a computation of its own and forces are added in the order of the list, so the bits
 /// depend on neither number.
-const PARALLEL: usize = 1024;
-const PART: usize = 64;
+const PARALLEL: usize = 128;
+const PART: usize = 32;
 
 /// Settings of [`PenaltyContact`].
 #[derive(Clone, Copy, Debug, PartialEq)]

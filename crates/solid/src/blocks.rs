@@ -1,7 +1,7 @@
 //! A fixed partition of the elements for parallel assembly with the same bits on any number of
 //! threads.
 //!
-//! Elements are cut, in mesh order, into blocks of at most [`BLOCK_ELEMENTS`] of one body and one
+//! Elements are cut, in mesh order, into blocks of one body and one
 //! formulation, and the blocks are coloured so that blocks of one colour share no nodes. Colours run one after
 //! the other, blocks of a colour in any order: each node receives its contributions in the order
 //! of colours and, within a block, of elements, whatever the number of threads.
@@ -9,13 +9,24 @@
 use crate::formulation::Elements;
 use mesh::Mesh;
 
-/// Largest number of elements in a block of one-point elements: small enough that its nodes stay in
-/// the second-level cache and that many threads find work, large enough that starting a block costs
-/// nothing.
-pub(crate) const BLOCK_ELEMENTS: usize = 512;
+/// Blocks that a body's one-point elements are cut into, if the bounds allow: enough for the threads of a
+/// large machine in two or three colours. Larger blocks have fewer nodes in common, each of which is loaded
+/// once per block.
+const BLOCKS: usize = 64;
 
-/// The same for fully integrated elements, each of which takes about three times as long.
-pub(crate) const BLOCK_FULL_ELEMENTS: usize = 128;
+/// Least and largest number of elements in a block of one-point elements: below, starting it costs more
+/// than its work; above, nothing more is gained.
+const BLOCK_ELEMENTS: [usize; 2] = [512, 16384];
+
+/// A fully integrated element takes about as long as so many of one point.
+const FULL: usize = 4;
+
+/// Elements per block for `elements` of a body and a formulation; a multiple of the batch.
+fn block_size(elements: usize, full: bool) -> usize {
+    let [least, most] = BLOCK_ELEMENTS;
+    let size = elements.div_ceil(BLOCKS).next_multiple_of(FULL * BATCH).clamp(least, most);
+    if full { size / FULL } else { size }
+}
 
 /// Elements per batch; the widest vector has as many lanes.
 pub(crate) const BATCH: usize = 8;
@@ -75,9 +86,8 @@ impl Blocks {
             let (full, one_point): (Vec<u32>, Vec<u32>) =
                 part.hexes.clone().map(|e| e as u32).partition(|&e| elements.is_full(e as usize));
             let mut places = Places { first: part.hexes.start, full, batches: [0; 2] };
-            for (list, full, size) in
-                [(&one_point, false, BLOCK_ELEMENTS), (&places.full, true, BLOCK_FULL_ELEMENTS)]
-            {
+            for (list, full) in [(&one_point, false), (&places.full, true)] {
+                let size = block_size(list.len(), full);
                 places.batches[usize::from(full)] = batches.len();
                 for elements in list.chunks(size) {
                     let first = batches.len();
