@@ -28,9 +28,6 @@ pub trait Contact: Send + Debug {
         force: &mut [Padded],
     ) -> ContactSums;
 
-    /// Mesh indices of the surface nodes of a side, ascending: all that contact reads or pushes.
-    fn nodes(&self, side: usize) -> &[u32];
-
     /// An output table for all nodes of side `side`.
     fn nodal_table(&self, side: usize) -> NodalContact;
 
@@ -61,10 +58,6 @@ const PASSES: [&str; 2] = ["pass_0", "pass_1"];
 impl Contact for PenaltyContact {
     fn apply(&mut self, motion: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
         self.apply(motion, force)
-    }
-
-    fn nodes(&self, side: usize) -> &[u32] {
-        self.nodes(side)
     }
 
     fn nodal_table(&self, side: usize) -> NodalContact {

@@ -474,10 +474,6 @@ impl Contact for ExactContact {
         sums
     }
 
-    fn nodes(&self, side: usize) -> &[u32] {
-        &self.sides[side].nodes
-    }
-
     fn nodal_table(&self, side: usize) -> NodalContact {
         NodalContact::whole(&self.sides, side)
     }

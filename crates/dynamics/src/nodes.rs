@@ -1,8 +1,13 @@
-//! The nodal update: velocity, position, and the force cleared for the next step, for a run of nodes.
+//! The nodal update: velocity, position, and the force cleared for the next step, in one pass.
 
 use crate::dashpots::{Dashpots, RigidMotion};
 use mesh::Padded;
-use solid::{Level, SettledNodes};
+use rayon::prelude::*;
+use solid::Level;
+use std::ops::Range;
+
+/// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads.
+const CHUNK: usize = 4096;
 
 /// What the update sums up over the free nodes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,7 +22,7 @@ pub(crate) struct NodeSums {
 }
 
 impl NodeSums {
-    pub(crate) fn add(&mut self, other: &Self) {
+    fn add(&mut self, other: &Self) {
         self.kinetic += other.kinetic;
         self.dashpot_power += other.dashpot_power;
         for i in 0..3 {
@@ -26,48 +31,83 @@ impl NodeSums {
     }
 }
 
-/// What is the same for all nodes of a step.
-#[derive(Clone, Copy)]
-pub(crate) struct Pass<'a> {
-    /// 1/m of all nodes (1/kg); nodes of zero inverse mass keep their velocity.
-    pub(crate) inverse_mass: &'a [f64],
-    /// Time step (s).
-    pub(crate) dt: f64,
-    /// Whether to sum the kinetic energy.
-    pub(crate) kinetic: bool,
-    /// Mass damping, if there is any.
-    pub(crate) dashpots: Option<&'a Dashpots>,
-    /// That of the element kernels.
-    pub(crate) level: Level,
+/// v^{n+1/2} = v^{n-1/2} + dt (f/m - alpha (v^{n-1/2} - v_rigid)) and
+/// u^{n+1} = u^n + dt v^{n+1/2}; clears `force`.
+///
+/// Nodes of zero inverse mass keep their velocity. `partial` holds one entry per chunk; `level` is that of
+/// the element kernels.
+pub(crate) fn advance(
+    displacement: &mut [Padded],
+    velocity: &mut [Padded],
+    force: &mut [Padded],
+    inverse_mass: &[f64],
+    dt: f64,
+    kinetic: bool,
+    dashpots: Option<&Dashpots<'_>>,
+    partial: &mut [NodeSums],
+    level: Level,
+) -> NodeSums {
+    let pass = Pass { dt, kinetic, dashpots };
+    displacement
+        .par_chunks_mut(CHUNK)
+        .zip(velocity.par_chunks_mut(CHUNK))
+        .zip(force.par_chunks_mut(CHUNK).zip(inverse_mass.par_chunks(CHUNK)))
+        .zip(partial.par_iter_mut())
+        .enumerate()
+        .for_each(|(chunk, (((u, v), (f, inverse_mass)), sums))| {
+            let chunk = Chunk { u, v, f, inverse_mass, first: chunk * CHUNK };
+            *sums = advance_chunk(level, chunk, pass);
+        });
+    let mut total = NodeSums::default();
+    partial.iter().for_each(|p| total.add(p));
+    total
 }
 
-/// v^{n+1/2} = v^{n-1/2} + dt (f/m - alpha (v^{n-1/2} - v_rigid)) and u^{n+1} = u^n + dt v^{n+1/2}; clears
-/// the force. The same bits with all instruction sets, since nothing is fused.
-pub(crate) fn advance(nodes: SettledNodes<'_>, pass: Pass<'_>) -> NodeSums {
+/// The nodes of a chunk, from node `first` on.
+struct Chunk<'a> {
+    u: &'a mut [Padded],
+    v: &'a mut [Padded],
+    f: &'a mut [Padded],
+    inverse_mass: &'a [f64],
+    first: usize,
+}
+
+/// What is the same for all chunks.
+#[derive(Clone, Copy)]
+struct Pass<'a> {
+    dt: f64,
+    kinetic: bool,
+    dashpots: Option<&'a Dashpots<'a>>,
+}
+
+/// A chunk with instructions of `level`: the same bits with all, since nothing is fused.
+fn advance_chunk(level: Level, chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
     #[cfg(target_arch = "x86_64")]
-    if pass.level != Level::Portable && pass.level.available() {
+    if level != Level::Portable && level.available() {
         // SAFETY: the machine has the instructions.
-        return unsafe { advance_wide(nodes, pass) };
+        return unsafe { update_chunk_wide(chunk, pass) };
     }
-    advance_plain(nodes, pass)
+    update_chunk(chunk, pass)
 }
 
 /// # Safety
 /// The machine has AVX2.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-unsafe fn advance_wide(nodes: SettledNodes<'_>, pass: Pass<'_>) -> NodeSums {
-    advance_plain(nodes, pass)
+unsafe fn update_chunk_wide(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
+    update_chunk(chunk, pass)
 }
 
 #[inline(always)]
-fn advance_plain(nodes: SettledNodes<'_>, pass: Pass<'_>) -> NodeSums {
-    let dt = pass.dt;
-    match (pass.kinetic, pass.dashpots) {
-        (false, None) => update::<false>(nodes, pass.inverse_mass, dt),
-        (true, None) => update::<true>(nodes, pass.inverse_mass, dt),
-        (false, Some(d)) => damped::<false>(nodes, pass.inverse_mass, dt, d),
-        (true, Some(d)) => damped::<true>(nodes, pass.inverse_mass, dt, d),
+fn update_chunk(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
+    let Chunk { u, v, f, inverse_mass, first } = chunk;
+    let Pass { dt, kinetic, dashpots } = pass;
+    let nodes = first..first + inverse_mass.len();
+    match (kinetic, dashpots) {
+        (false, None) => update::<false>(u, v, f, inverse_mass, dt),
+        (true, None) => update::<true>(u, v, f, inverse_mass, dt),
+        (false, Some(d)) => damped::<false>(u, v, f, inverse_mass, dt, d, nodes),
+        (true, Some(d)) => damped::<true>(u, v, f, inverse_mass, dt, d, nodes),
     }
 }
 
@@ -78,13 +118,12 @@ pub(crate) fn trial(
     force: [f64; 3],
     inverse_mass: f64,
     dt: f64,
-    dashpots: Option<&Dashpots>,
-    reference: &[Padded],
+    dashpots: Option<&Dashpots<'_>>,
 ) -> [f64; 3] {
     let mut after = [0, 1, 2].map(|i: usize| v[i] + dt * inverse_mass * force[i]);
     if let Some(d) = dashpots.filter(|_| inverse_mass > 0.0) {
         let motion = if d.disk.contains(&node) { d.motion } else { None }.unwrap_or_default();
-        let (rigid, _) = motion.at(reference[node]);
+        let (rigid, _) = motion.at(d.reference[node]);
         for i in 0..3 {
             after[i] -= dt * d.alpha * (v[i] - rigid[i]);
         }
@@ -92,12 +131,21 @@ pub(crate) fn trial(
     after
 }
 
+/// Number of chunks, hence of partial sums, for `nodes` nodes.
+pub(crate) fn chunks(nodes: usize) -> usize {
+    nodes.div_ceil(CHUNK)
+}
+
 #[inline(always)]
-fn update<const KINETIC: bool>(nodes: SettledNodes<'_>, inverse_mass: &[f64], dt: f64) -> NodeSums {
+fn update<const KINETIC: bool>(
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
+    inverse_mass: &[f64],
+    dt: f64,
+) -> NodeSums {
     let mut twice_kinetic = 0.0;
-    let SettledNodes { displacement, velocity, force, first, .. } = nodes;
-    let of_node = displacement.iter_mut().zip(velocity).zip(force).zip(&inverse_mass[first..]);
-    for (((u, v), f), &w) in of_node {
+    for (((u, v), f), &w) in u.iter_mut().zip(v).zip(f).zip(inverse_mass) {
         let before = *v;
         let scale = dt * w;
         for i in 0..4 {
@@ -112,29 +160,31 @@ fn update<const KINETIC: bool>(nodes: SettledNodes<'_>, inverse_mass: &[f64], dt
     NodeSums { kinetic: 0.5 * twice_kinetic, ..NodeSums::default() }
 }
 
-/// The same with dashpots. The disk's nodes are contiguous, so that a run falls into at most three of one
-/// body.
+/// The same with dashpots; `nodes` are the chunk's node numbers. The disk's nodes are contiguous,
+/// so that a chunk falls into at most three runs of one body.
 #[inline(always)]
 fn damped<const KINETIC: bool>(
-    nodes: SettledNodes<'_>,
+    u: &mut [Padded],
+    v: &mut [Padded],
+    f: &mut [Padded],
     inverse_mass: &[f64],
     dt: f64,
-    dashpots: &Dashpots,
+    dashpots: &Dashpots<'_>,
+    nodes: Range<usize>,
 ) -> NodeSums {
     let mut sums = NodeSums::default();
-    let SettledNodes { first, reference, displacement: u, velocity: v, force: f } = nodes;
-    let inverse_mass = &inverse_mass[first..first + u.len()];
-    let within = |n: usize| n.clamp(first, first + u.len()) - first;
+    let within = |n: usize| n.clamp(nodes.start, nodes.end);
     let (start, end) = (within(dashpots.disk.start), within(dashpots.disk.end));
-    let runs = [(0..start, false), (start..end, true), (end..u.len(), false)];
+    let runs = [(nodes.start..start, false), (start..end, true), (end..nodes.end, false)];
     for (run, on_disk) in runs {
+        let local = run.start - nodes.start..run.end - nodes.start;
         let motion = if on_disk { dashpots.motion } else { None }.unwrap_or_default();
         let run = damped_run::<KINETIC>(
-            &mut u[run.clone()],
-            &mut v[run.clone()],
-            &mut f[run.clone()],
-            &inverse_mass[run.clone()],
-            &reference[run],
+            &mut u[local.clone()],
+            &mut v[local.clone()],
+            &mut f[local.clone()],
+            &inverse_mass[local],
+            &dashpots.reference[run],
             dt,
             dashpots.alpha,
             &motion,
@@ -201,33 +251,35 @@ mod tests {
 
     #[test]
     fn vector_instructions_leave_every_bit_of_the_nodal_update() {
-        const NODES: usize = 9001;
         let field = |scale: f64| -> Vec<Padded> {
-            (0..NODES)
+            (0..9001)
                 .map(|i| {
-                    let k = i as f64;
+                    let k = f64::from(i);
                     Padded::new([1.7 * k, 2.3 * k + 1.0, 0.9 * k].map(|x| scale * x.sin()))
                 })
                 .collect()
         };
-        let inverse_mass: Vec<f64> =
-            (0..NODES).map(|i| if i % 97 == 0 { 0.0 } else { 1.0 + (i % 13) as f64 }).collect();
+        let mass: Vec<f64> =
+            (0..9001).map(|i| if i % 97 == 0 { 0.0 } else { 1.0 + f64::from(i % 13) }).collect();
         let reference = field(0.4);
-        let dashpots = Dashpots { alpha: 4e3, disk: 100..7000, motion: None };
+        let dashpots =
+            Dashpots { alpha: 4e3, disk: 100..7000, reference: &reference, motion: None };
         for dashpots in [None, Some(&dashpots)] {
             for kinetic in [false, true] {
                 let run = |level| {
                     let (mut u, mut v, mut f) = (field(1e-3), field(40.0), field(1e5));
-                    let nodes = SettledNodes {
-                        first: 0,
-                        reference: &reference,
-                        displacement: &mut u,
-                        velocity: &mut v,
-                        force: &mut f,
-                    };
-                    let inverse_mass = &inverse_mass;
-                    let pass = Pass { inverse_mass, dt: 1e-7, kinetic, dashpots, level };
-                    let sums = advance(nodes, pass);
+                    let mut partial = vec![NodeSums::default(); chunks(u.len())];
+                    let sums = advance(
+                        &mut u,
+                        &mut v,
+                        &mut f,
+                        &mass,
+                        1e-7,
+                        kinetic,
+                        dashpots,
+                        &mut partial,
+                        level,
+                    );
                     let sums = [sums.kinetic, sums.dashpot_power].map(f64::to_bits);
                     (u, v, sums)
                 };

@@ -5,11 +5,11 @@ use crate::guard::{self, Cause, Diagnosis, Place};
 use crate::hub::{Hub, HubWork};
 use crate::ledger::{Energies, Ledger};
 use crate::load::{Fixed, Load};
-use crate::nodes::{self, NodeSums, Pass};
+use crate::nodes::{self, NodeSums};
 use crate::quiet::QuietEnd;
 use contact::{Contact, ContactSums, Motion, Trial};
 use mesh::Padded;
-use solid::{NodalFields, SettledNodes, Solid};
+use solid::Solid;
 use std::time::{Duration, Instant};
 
 /// Everything a simulation starts from.
@@ -48,13 +48,13 @@ pub struct Setup {
 /// Wall time per stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timers {
-    /// Internal force, with velocity and position of the nodes on which nothing else acts.
+    /// Internal force.
     pub internal_force: Duration,
     /// Contact.
     pub contact: Duration,
     /// Quiet ends and the force on the hub.
     pub boundary: Duration,
-    /// Velocity and position of the other nodes and of the hub.
+    /// Velocity and position of nodes and hub, mass damping.
     pub nodes: Duration,
 }
 
@@ -88,8 +88,7 @@ pub struct Simulation {
     pub(crate) displacement: Vec<Padded>,
     pub(crate) velocity: Vec<Padded>,
     pub(crate) force: Vec<Padded>,
-    /// Sums over the nodes that move with each block of elements, and over pieces of those held back.
-    partial: [Vec<NodeSums>; 2],
+    partial: Vec<NodeSums>,
     dt: f64,
     omega_max: f64,
     mass_damping: f64,
@@ -109,16 +108,7 @@ impl Simulation {
         Fixed::clear(&setup.fixed, &mut velocity);
         setup.quiet.release(&setup.fixed);
         let n = inverse_mass.len();
-        // where more than the elements acts
-        let mut held_back = vec![false; n];
-        let contact_nodes = setup.contact.iter().flat_map(|c| [c.nodes(0), c.nodes(1)]).flatten();
-        let others = setup.hub.iter().flat_map(|h| &h.nodes).chain(contact_nodes).copied();
-        let others = others.chain(setup.quiet.nodes()).chain(setup.fixed.iter().map(|f| f.node));
-        let others = others.chain(setup.load.forces.iter().map(|&(node, _)| node));
-        others.for_each(|node| held_back[node as usize] = true);
-        setup.solid.hold_back(&held_back);
         Self {
-            partial: setup.solid.partial_sums().map(|n| vec![NodeSums::default(); n]),
             solid: setup.solid,
             contact: setup.contact,
             hub: setup.hub,
@@ -130,6 +120,7 @@ impl Simulation {
             displacement: setup.displacement,
             velocity,
             force: vec![Padded::ZERO; n],
+            partial: vec![NodeSums::default(); nodes::chunks(n)],
             dt: setup.dt,
             omega_max: setup.omega_max,
             mass_damping: setup.mass_damping,
@@ -145,32 +136,13 @@ impl Simulation {
         let time = n as f64 * dt;
         let start = Instant::now();
 
-        let dashpots = (self.mass_damping > 0.0).then(|| Dashpots {
-            alpha: self.mass_damping,
-            disk: self.disk.clone(),
-            motion: self.hub.as_ref().map(RigidMotion::new),
-        });
-        let pass = Pass {
-            inverse_mass: &self.inverse_mass,
-            dt,
-            kinetic: read,
-            dashpots: dashpots.as_ref(),
-            level: self.solid.level(),
-        };
-        let step =
-            |run: SettledNodes<'_>, sums: &mut NodeSums| sums.add(&nodes::advance(run, pass));
-        self.partial.iter_mut().for_each(|sums| sums.fill(NodeSums::default()));
-        let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
-
-        // internal force at u^n (viscous parts with v^{n-1/2}); nodes on which nothing else acts go on to
-        // v^{n+1/2} and u^{n+1} at once
-        let fields = NodalFields {
-            displacement: &mut self.displacement,
-            velocity: &mut self.velocity,
-            force: &mut self.force,
-        };
-        let [moved_early, moved_late] = &mut self.partial;
-        let sums = self.solid.subtract_internal_force_and_move(fields, read, moved_early, step);
+        // internal force at u^n (viscous parts with v^{n-1/2})
+        let sums = self.solid.subtract_internal_force(
+            &self.displacement,
+            &self.velocity,
+            &mut self.force,
+            read,
+        );
         let internal = Instant::now();
 
         // boundary forces
@@ -178,9 +150,16 @@ impl Simulation {
         Fixed::clear(&self.fixed, &mut self.force);
         self.load.apply(time, &mut self.force);
         let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
+        let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
         let bounded = Instant::now();
 
         // contact at u^n, with all other forces known
+        let dashpots = (self.mass_damping > 0.0).then(|| Dashpots {
+            alpha: self.mass_damping,
+            disk: self.disk.clone(),
+            reference: self.solid.reference(),
+            motion: self.hub.as_ref().map(RigidMotion::new),
+        });
         let contact = match &mut self.contact {
             Some(contact) => {
                 let motion = Motion {
@@ -192,11 +171,10 @@ impl Simulation {
                     dt,
                 };
                 let (velocity, inverse_mass) = (&self.velocity, &self.inverse_mass);
-                let reference = self.solid.reference();
                 let trial = Trial {
                     velocity: &|node, force| {
                         let (v, w) = (velocity[node as usize].xyz(), inverse_mass[node as usize]);
-                        nodes::trial(node as usize, v, force, w, dt, dashpots.as_ref(), reference)
+                        nodes::trial(node as usize, v, force, w, dt, dashpots.as_ref())
                     },
                     inverse_mass,
                 };
@@ -208,15 +186,18 @@ impl Simulation {
         let load = self.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
         let contacted = Instant::now();
 
-        // velocity v^{n+1/2} and position u^{n+1} of the other nodes, then the hub with its nodes
-        let fields = NodalFields {
-            displacement: &mut self.displacement,
-            velocity: &mut self.velocity,
-            force: &mut self.force,
-        };
-        self.solid.move_held_back(fields, moved_late, step);
-        let mut nodes = NodeSums::default();
-        moved_early.iter().chain(moved_late.iter()).for_each(|sums| nodes.add(sums));
+        // velocity v^{n+1/2} and position u^{n+1}, then the hub with its nodes
+        let nodes = nodes::advance(
+            &mut self.displacement,
+            &mut self.velocity,
+            &mut self.force,
+            &self.inverse_mass,
+            dt,
+            read,
+            dashpots.as_ref(),
+            &mut self.partial,
+            self.solid.level(),
+        );
         let omega_before = self.hub.as_ref().map_or(0.0, |h| h.state.omega);
         let hub = match (&mut self.hub, load) {
             (Some(hub), Some(load)) => {

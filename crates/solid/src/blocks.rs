@@ -28,9 +28,6 @@ fn block_size(elements: usize, full: bool) -> usize {
     if full { size / FULL } else { size }
 }
 
-/// No block.
-pub(crate) const NONE: u32 = u32::MAX;
-
 /// Elements per batch; the widest vector has as many lanes.
 pub(crate) const BATCH: usize = 8;
 
@@ -103,16 +100,6 @@ impl Blocks {
         }
         let colours = colour(mesh.nodes.len(), &batches, &blocks);
         Self { batches, blocks, colours, bodies }
-    }
-
-    /// The block that is the last to add force to each of `nodes` nodes; `NONE` for a node of no element.
-    pub(crate) fn last_at_nodes(&self, nodes: usize) -> Vec<u32> {
-        let mut last = vec![NONE; nodes];
-        for &b in self.colours.iter().flatten() {
-            let own = &self.batches[self.blocks[b as usize].batches.clone()];
-            own.iter().flat_map(|x| x.nodes.as_flattened()).for_each(|&n| last[n as usize] = b);
-        }
-        last
     }
 
     /// Nodes of an element. Blocks hold a multiple of eight elements but for the last of a body's

@@ -11,10 +11,8 @@ use crate::lanes::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
 use crate::material::{Material, MaterialError};
-use crate::settled::{NodalFields, Settled, SettledNodes};
 use mesh::{Mesh, Padded};
 use rayon::prelude::*;
-use std::ops::Range;
 use thiserror::Error;
 
 /// Options of the one-point element.
@@ -107,7 +105,6 @@ type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
 pub struct Solid {
     reference: Vec<Padded>,
     blocks: Blocks,
-    settled: Settled,
     /// Of each body, for its one-point and its fully integrated elements.
     constants: Vec<[Constants; 2]>,
     one_point: Element,
@@ -115,7 +112,7 @@ pub struct Solid {
     sums: Vec<Sums>,
     level: Level,
     viscous: bool,
-    bodies: Vec<(Range<usize>, Material)>,
+    bodies: Vec<(std::ops::Range<usize>, Material)>,
 }
 
 impl Solid {
@@ -176,7 +173,6 @@ impl Solid {
         Ok(Self {
             reference: mesh.nodes.iter().map(|x| Padded::new(*x)).collect(),
             sums: vec![[0.0; 3]; blocks.blocks.len()],
-            settled: Settled::new(&blocks, &vec![true; mesh.nodes.len()]),
             blocks,
             constants,
             one_point: elements.one_point(),
@@ -212,11 +208,9 @@ impl Solid {
         self.bodies.last().map_or(0, |(range, _)| range.end)
     }
 
-    /// Bytes held for the time loop: connectivity in batches, reference positions, runs of nodes.
+    /// Bytes held for the time loop: connectivity in batches, reference positions.
     pub fn bytes(&self) -> usize {
-        self.blocks.batches.len() * size_of::<Batch>()
-            + self.reference.len() * size_of::<Padded>()
-            + self.settled.bytes()
+        self.blocks.batches.len() * size_of::<Batch>() + self.reference.len() * size_of::<Padded>()
     }
 
     /// `force -= f_int(u, v)` (N). Viscous stresses take `velocity` at the last half step (m/s).
@@ -233,86 +227,6 @@ impl Solid {
         energies: bool,
     ) -> ForceSums {
         self.run(displacement, velocity, force, energies, self.viscous)
-    }
-
-    /// Marks the nodes, one entry each, that [`Self::subtract_internal_force_and_move`] does not move; by
-    /// default all.
-    ///
-    /// # Panics
-    /// If there are not as many entries as nodes.
-    pub fn hold_back(&mut self, nodes: &[bool]) {
-        assert_eq!(nodes.len(), self.reference.len());
-        self.settled = Settled::new(&self.blocks, nodes);
-    }
-
-    /// Numbers of partial sums that [`Self::subtract_internal_force_and_move`] and
-    /// [`Self::move_held_back`] take.
-    pub fn partial_sums(&self) -> [usize; 2] {
-        [self.blocks.blocks.len(), self.settled.pieces()]
-    }
-
-    /// [`Self::subtract_internal_force`], and `step` for the nodes that are not held back, as soon as they
-    /// have the force of all their elements: runs of neighbours, with the entry of `sums` that belongs to
-    /// them. Which nodes share an entry, and in which order they come, does not depend on the threads.
-    ///
-    /// # Panics
-    /// If an array is shorter than the number of nodes, or `sums` than that of partial sums.
-    pub fn subtract_internal_force_and_move<S: Send>(
-        &mut self,
-        fields: NodalFields<'_>,
-        energies: bool,
-        sums: &mut [S],
-        step: impl Fn(SettledNodes<'_>, &mut S) + Sync,
-    ) -> ForceSums {
-        assert!(
-            fields.velocity.len() >= self.reference.len() && sums.len() >= self.blocks.blocks.len()
-        );
-        let arrays = SharedFields::new(fields, &self.reference);
-        let sums = SharedMut(sums.as_mut_ptr());
-        let forces = ForceArrays {
-            displacement: arrays.displacement,
-            velocity: arrays.velocity,
-            force: arrays.force,
-            nodes: arrays.nodes,
-        };
-        let settled = &self.settled;
-        let after = |block: usize| {
-            let (arrays, sums) = (&arrays, &sums);
-            for run in settled.of_block(block) {
-                // SAFETY: runs of all blocks are disjoint, and nodes of a run are read or written by no
-                // block that runs together with this one or later: of their colour it is the only one, and
-                // later colours do not have them. Each block has its own entry of `sums`.
-                unsafe { step(arrays.nodes(run), &mut *sums.0.add(block)) };
-            }
-        };
-        let mut of_blocks = std::mem::take(&mut self.sums);
-        // SAFETY: `arrays` holds exclusive references to arrays of as many nodes as `run_blocks` asserts.
-        let total =
-            unsafe { self.run_blocks(forces, energies, self.viscous, &mut of_blocks, after) };
-        self.sums = of_blocks;
-        total
-    }
-
-    /// `step` for the nodes held back.
-    ///
-    /// # Panics
-    /// If an array is shorter than the number of nodes, or `sums` than that of partial sums.
-    pub fn move_held_back<S: Send>(
-        &self,
-        fields: NodalFields<'_>,
-        sums: &mut [S],
-        step: impl Fn(SettledNodes<'_>, &mut S) + Sync,
-    ) {
-        let nodes = self.reference.len();
-        let arrays = SharedFields::new(fields, &self.reference);
-        assert!(arrays.nodes >= nodes);
-        sums[..self.settled.pieces()].par_iter_mut().enumerate().for_each(|(piece, sum)| {
-            let arrays = &arrays;
-            for run in self.settled.of_piece(piece) {
-                // SAFETY: runs are disjoint and within the number of nodes.
-                unsafe { step(arrays.nodes(run), sum) };
-            }
-        });
     }
 
     /// `force -= f_int(u)` without viscous stresses, for bodies at rest (N).
@@ -346,52 +260,24 @@ impl Solid {
         viscous: bool,
     ) -> ForceSums {
         let nodes = self.reference.len();
+        assert!(displacement.len() >= nodes && force.len() >= nodes);
         assert!(!viscous || velocity.len() >= nodes);
-        let arrays = ForceArrays {
-            displacement: displacement.as_ptr(),
-            velocity: velocity.as_ptr(),
-            force: force.as_mut_ptr(),
-            nodes: displacement.len().min(force.len()),
-        };
-        let mut of_blocks = std::mem::take(&mut self.sums);
-        // SAFETY: the references above live as long as this call.
-        let total = unsafe { self.run_blocks(arrays, energies, viscous, &mut of_blocks, |_| {}) };
-        self.sums = of_blocks;
-        total
-    }
-
-    /// Subtracts the internal force of all blocks, each followed by `after` with its index.
-    ///
-    /// # Safety
-    /// `fields` are valid for `fields.nodes` entries (`velocity` only if `viscous`), displacement and
-    /// velocity for reads, the force for writes, and nobody else uses them but `after`, which leaves alone
-    /// what another block of the same or a later colour reads or writes.
-    unsafe fn run_blocks(
-        &self,
-        fields: ForceArrays,
-        energies: bool,
-        viscous: bool,
-        of_blocks: &mut [Sums],
-        after: impl Fn(usize) + Sync,
-    ) -> ForceSums {
-        assert!(fields.nodes >= self.reference.len());
-        assert!(of_blocks.len() >= self.blocks.blocks.len());
         let kernels = [None, Some(self.volumetric)]
             .map(|full| block_force_of(self.level, full, energies, viscous));
         let arrays = Shared(Arrays {
             reference: self.reference.as_ptr(),
-            displacement: fields.displacement,
-            velocity: fields.velocity,
-            force: fields.force,
+            displacement: displacement.as_ptr(),
+            velocity: velocity.as_ptr(),
+            force: force.as_mut_ptr(),
         });
-        let sums = SharedMut(of_blocks.as_mut_ptr());
+        let sums = SharedSums(self.sums.as_mut_ptr());
         let Blocks { batches, blocks, colours, .. } = &self.blocks;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
             let block: &Block = &blocks[b as usize];
             // SAFETY: the level was checked in `new`; node indices were taken from the mesh whose
-            // node count the assert above compares; blocks of one colour share no nodes, colours
+            // node count the asserts above compare; blocks of one colour share no nodes, colours
             // run one after the other, and each block writes its own entry of `sums`.
             unsafe {
                 *sums.0.add(b as usize) = kernels[usize::from(block.full)](
@@ -401,7 +287,6 @@ impl Solid {
                     arrays.0,
                 );
             }
-            after(b as usize);
         };
         if rayon::current_num_threads() == 1 {
             colours.iter().flatten().for_each(run);
@@ -412,7 +297,7 @@ impl Solid {
         }
         let mut total = [0.0; 3];
         if energies || viscous {
-            for s in of_blocks.iter() {
+            for s in &self.sums {
                 for i in 0..3 {
                     total[i] += s[i];
                 }
@@ -584,60 +469,11 @@ fn trace(e: &[[f64; 3]; 3]) -> f64 {
 }
 
 struct Shared(Arrays);
-// SAFETY: threads write disjoint nodes (see `Solid::run_blocks`).
+// SAFETY: threads write disjoint nodes (see `Solid::run`).
 unsafe impl Sync for Shared {}
-struct SharedMut<S>(*mut S);
-// SAFETY: threads write disjoint entries (see `Solid::run_blocks` and its callers).
-unsafe impl<S: Send> Sync for SharedMut<S> {}
-
-/// Arrays of nodes that `Solid::run_blocks` reads and writes.
-struct ForceArrays {
-    displacement: *const Padded,
-    velocity: *const Padded,
-    force: *mut Padded,
-    nodes: usize,
-}
-
-/// Nodal arrays that threads take disjoint parts of.
-struct SharedFields {
-    reference: *const Padded,
-    displacement: *mut Padded,
-    velocity: *mut Padded,
-    force: *mut Padded,
-    nodes: usize,
-}
-// SAFETY: threads take disjoint runs of nodes (see `Solid::run_blocks` and its callers).
-unsafe impl Sync for SharedFields {}
-
-impl SharedFields {
-    fn new(fields: NodalFields<'_>, reference: &[Padded]) -> Self {
-        let NodalFields { displacement, velocity, force } = fields;
-        Self {
-            nodes: displacement.len().min(velocity.len()).min(force.len()),
-            reference: reference.as_ptr(),
-            displacement: displacement.as_mut_ptr(),
-            velocity: velocity.as_mut_ptr(),
-            force: force.as_mut_ptr(),
-        }
-    }
-
-    /// # Safety
-    /// The arrays live, `run` is within them, and nobody else uses it.
-    unsafe fn nodes(&self, run: &Range<u32>) -> SettledNodes<'_> {
-        let (first, count) = (run.start as usize, run.len());
-        // SAFETY: as the caller's.
-        unsafe {
-            let part = |array: *mut Padded| std::slice::from_raw_parts_mut(array.add(first), count);
-            SettledNodes {
-                first,
-                reference: std::slice::from_raw_parts(self.reference.add(first), count),
-                displacement: part(self.displacement),
-                velocity: part(self.velocity),
-                force: part(self.force),
-            }
-        }
-    }
-}
+struct SharedSums(*mut Sums);
+// SAFETY: threads write disjoint entries (see `Solid::run`).
+unsafe impl Sync for SharedSums {}
 
 macro_rules! level_kernels {
     ($name:ident, $lanes:ty $(, $features:literal)?) => {
