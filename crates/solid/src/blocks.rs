@@ -102,21 +102,26 @@ impl Blocks {
         Self { batches, blocks, colours, bodies }
     }
 
-    /// Nodes of an element. Blocks hold a multiple of eight elements but for the last of a body's
-    /// formulation, so its batches are full but for the last.
-    pub(crate) fn hex(&self, body: usize, element: usize) -> [u32; 8] {
+    /// Batch and lane of an element, and whether it is fully integrated. Blocks hold a multiple of eight
+    /// elements but for the last of a body's formulation, so its batches are full but for the last.
+    pub(crate) fn place(&self, body: usize, element: usize) -> (&Batch, usize, bool) {
         let places = &self.bodies[body];
-        let (batch, slot) = match places.full.binary_search(&(element as u32)) {
-            Ok(slot) => (places.batches[1], slot),
-            Err(before) => (places.batches[0], element - places.first - before),
+        let (full, slot) = match places.full.binary_search(&(element as u32)) {
+            Ok(slot) => (true, slot),
+            Err(before) => (false, element - places.first - before),
         };
-        let nodes = &self.batches[batch + slot / BATCH].nodes;
-        nodes.map(|corner| corner[slot % BATCH])
+        (&self.batches[places.batches[usize::from(full)] + slot / BATCH], slot % BATCH, full)
+    }
+
+    /// Nodes of an element.
+    pub(crate) fn hex(&self, body: usize, element: usize) -> [u32; 8] {
+        let (batch, lane, _) = self.place(body, element);
+        batch.nodes.map(|corner| corner[lane])
     }
 
     /// Whether an element is fully integrated.
     pub(crate) fn is_full(&self, body: usize, element: usize) -> bool {
-        self.bodies[body].full.binary_search(&(element as u32)).is_ok()
+        self.place(body, element).2
     }
 }
 

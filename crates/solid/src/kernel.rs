@@ -127,11 +127,11 @@ impl Kernel for OnePoint {
         unsafe {
             let x = modes::<L>(arrays.reference, batch, lane);
             let g = &x.hourglass;
-            let Gradient { b, c, w, squares } = mean_gradient(&x);
-            let per_w = L::splat(1.0).div(w);
+            let of_volume = mean_gradient(&x);
+            let Gradient { b, c, w, per_w, squares } = of_volume;
 
             let u = modes::<L>(arrays.displacement, batch, lane);
-            let h = gradient(&u, &b, &c, per_w);
+            let h = gradient(&u, &of_volume);
             let e = green(&h);
             let two_g = L::splat(2.0 * k.shear);
             let pressure = L::splat(k.lambda).mul(trace(&e));
@@ -147,7 +147,7 @@ impl Kernel for OnePoint {
             }
             if VISCOUS {
                 let v = modes::<L>(arrays.velocity, batch, lane);
-                let rate = green_rate(&h, &gradient(&v, &b, &c, per_w));
+                let rate = green_rate(&h, &gradient(&v, &of_volume));
                 let eta = L::splat(k.kelvin_voigt);
                 let mut viscous =
                     elastic(&rate, two_g.mul(eta), L::splat(k.lambda).mul(trace(&rate)).mul(eta));
@@ -232,6 +232,8 @@ pub(crate) struct Gradient<L> {
     c: [Vector<L>; 3],
     /// 64 V
     pub(crate) w: L,
+    /// 1/w
+    per_w: L,
     /// 512 B_iI B_iI
     pub(crate) squares: L,
 }
@@ -257,7 +259,7 @@ pub(crate) unsafe fn mean_gradient<L: Lanes>(x: &Modes<L>) -> Gradient<L> {
         squares = dot_add(c[0], c[0], squares);
         squares = dot_add(c[1], c[1], squares);
         squares = dot_add(c[2], c[2], squares);
-        Gradient { b, c, w, squares }
+        Gradient { b, c, w, per_w: L::splat(1.0).div(w), squares }
     }
 }
 
@@ -377,13 +379,10 @@ pub(crate) unsafe fn scatter<L: Lanes>(
 
 /// H = 1/W (sum U_k b_k^T + sum U_a c_a^T).
 #[inline(always)]
-unsafe fn gradient<L: Lanes>(
-    u: &Modes<L>,
-    b: &[Vector<L>; 3],
-    c: &[Vector<L>; 3],
-    per_w: L,
-) -> Matrix<L> {
+pub(crate) unsafe fn gradient<L: Lanes>(u: &Modes<L>, of_volume: &Gradient<L>) -> Matrix<L> {
     unsafe {
+        let Gradient { b, c, per_w, .. } = of_volume;
+        let per_w = *per_w;
         let mut h = [[per_w; 3]; 3];
         let mut i = 0;
         while i < 3 {

@@ -20,6 +20,7 @@ mod peak;
 mod solid;
 mod stable;
 mod stiffness;
+mod stress;
 
 pub use formulation::{Elements, Formulation, Volumetric};
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};

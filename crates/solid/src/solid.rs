@@ -11,6 +11,7 @@ use crate::lanes::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
 use crate::material::{Material, MaterialError};
+use crate::stress::{deformation, determinant, mean_cauchy, one_point_cauchy};
 use mesh::{Mesh, Padded};
 use rayon::prelude::*;
 use thiserror::Error;
@@ -308,14 +309,19 @@ impl Solid {
 
     /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts: of a fully
     /// integrated element the mean over its deformed volume.
+    ///
+    /// # Panics
+    /// If there are fewer displacements than nodes or fewer stresses than elements.
     pub fn cauchy_stress(&self, displacement: &[Padded], stress: &mut [[f64; 6]]) {
+        assert!(displacement.len() >= self.reference.len());
         for (body, (range, material)) in self.bodies.iter().enumerate() {
             stress[range.clone()].par_iter_mut().zip(range.clone()).for_each(|(out, element)| {
-                let (x, u) = self.corners(displacement, body, element);
-                *out = if self.blocks.is_full(body, element) {
+                let (batch, lane, full) = self.blocks.place(body, element);
+                *out = if full {
+                    let (x, u) = self.corners(displacement, body, element);
                     mean_cauchy(&x, &u, material, self.volumetric)
                 } else {
-                    cauchy(&displacement_gradient(&x, &u).0, material)
+                    one_point_cauchy(&self.reference, displacement, batch, lane, material)
                 };
             });
         }
@@ -380,92 +386,6 @@ impl Solid {
         }
         c
     }
-}
-
-fn deformation(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let mut f = *h;
-    for i in 0..3 {
-        f[i][i] += 1.0;
-    }
-    f
-}
-
-fn determinant(f: &[[f64; 3]; 3]) -> f64 {
-    crate::geometry::dot(f[0], crate::geometry::cross(f[1], f[2]))
-}
-
-/// sigma = F S F^T/det F with S = lambda tr(E) I + 2G E.
-fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
-    let e = green(h);
-    let f = deformation(h);
-    let det = determinant(&f);
-    kirchhoff(&f, &e, material, trace(&e)).map(|c| c / det)
-}
-
-/// Mean of the Cauchy stress over the deformed volume: sum w F S F^T/sum w det F over the Gauss
-/// points, with the element's mean of tr(E) where the volumetric part takes it.
-fn mean_cauchy(
-    x: &[[f64; 3]; 8],
-    u: &[[f64; 3]; 8],
-    material: &Material,
-    volumetric: Volumetric,
-) -> [f64; 6] {
-    let points = gauss_points(x).map(|p| (p.volume, p.displacement_gradient(u)));
-    let reference: f64 = points.iter().map(|(w, _)| w).sum();
-    let mean = points.iter().map(|(w, h)| w * trace(&green(h))).sum::<f64>() / reference;
-    let mut sum = [0.0; 6];
-    let mut volume = 0.0;
-    for (w, h) in &points {
-        let (e, f) = (green(h), deformation(h));
-        let dilatation = match volumetric {
-            Volumetric::Full => trace(&e),
-            Volumetric::Mean => mean,
-        };
-        for (sum, c) in sum.iter_mut().zip(kirchhoff(&f, &e, material, dilatation)) {
-            *sum += w * c;
-        }
-        volume += w * determinant(&f);
-    }
-    sum.map(|c| c / volume)
-}
-
-/// F S F^T with S = lambda theta I + 2G E; xx yy zz xy yz xz.
-fn kirchhoff(
-    f: &[[f64; 3]; 3],
-    e: &[[f64; 3]; 3],
-    material: &Material,
-    dilatation: f64,
-) -> [f64; 6] {
-    let mut s = e.map(|row| row.map(|c| 2.0 * material.shear() * c));
-    for i in 0..3 {
-        s[i][i] += material.lame() * dilatation;
-    }
-    let component = |i: usize, j: usize| {
-        let mut sum = 0.0;
-        for k in 0..3 {
-            for l in 0..3 {
-                sum += f[i][k] * s[k][l] * f[j][l];
-            }
-        }
-        sum
-    };
-    [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| component(i, j))
-}
-
-/// E = (H + H^T + H^T H)/2.
-fn green(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let mut e = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            let quadratic: f64 = (0..3).map(|k| h[k][i] * h[k][j]).sum();
-            e[i][j] = 0.5 * (h[i][j] + h[j][i] + quadratic);
-        }
-    }
-    e
-}
-
-fn trace(e: &[[f64; 3]; 3]) -> f64 {
-    e[0][0] + e[1][1] + e[2][2]
 }
 
 struct Shared(Arrays);

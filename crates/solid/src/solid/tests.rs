@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
+use crate::stress::cauchy;
 use crate::{lumped_mass, mean_gradient};
 use mesh::{HEX_CORNERS as CORNERS, seven_hex_patch};
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::full_stiffness::full_stiffness;
+use crate::stress::{cauchy, green, trace};
 use nalgebra::{DMatrix, DVector, SMatrix, SymmetricEigen};
 
 const BOTH: [Volumetric; 2] = [Volumetric::Full, Volumetric::Mean];
