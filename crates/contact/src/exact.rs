@@ -486,10 +486,8 @@ impl Contact for ExactContact {
         let is_slave = table.side() == self.slave;
         let rows = &self.rows[self.slave][..];
         let (own, others) = if is_slave { (rows, &[][..]) } else { (&[][..], rows) };
-        let own = own.iter().map(Row::touch);
         let others = others.iter().filter(|row| row.is_closed()).flat_map(|row| {
-            let touch = row.touch();
-            self.legs[row.legs()].iter().map(move |leg| (touch, leg.node, leg.weight))
+            self.legs[row.legs()].iter().map(move |leg| (row, leg.node, leg.weight))
         });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, is_slave);

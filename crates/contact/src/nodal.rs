@@ -3,7 +3,7 @@
 use crate::PenaltyContact;
 use crate::pair::Pair;
 use crate::surface::{ContactSurface, NONE};
-use crate::touch::{State, Touch};
+use crate::touch::{Listed, State};
 use crate::vector::{axpy, scale};
 use mesh::Face;
 
@@ -99,15 +99,15 @@ impl NodalContact {
         Self::new(side, &surface.nodes, &surface.area, |i| wanted[i])
     }
 
-    /// Fills the table from the pairs in which nodes of its side are slaves (`own`) and those in
+    /// Fills the table from the pairs in which nodes of its side are slaves (`own`) and the closed ones in
     /// which they bear slaves (`others`), with the node and its weight, which may be negative: means over
     /// slaves then count the size of their force. `followed` says whether nodes of its side are
     /// slaves at all: the gap of those that are not is the mean of the gaps of the pairs that load them.
-    pub(crate) fn fill(
+    pub(crate) fn fill<'a, L: Listed + 'a>(
         &mut self,
         sides: &[ContactSurface; 2],
-        own: impl Iterator<Item = Touch>,
-        others: impl Iterator<Item = (Touch, u32, f64)>,
+        own: &[L],
+        others: impl Iterator<Item = (&'a L, u32, f64)>,
         margin: f64,
         mu_static: f64,
         followed: bool,
@@ -123,10 +123,12 @@ impl NodalContact {
         }
         // The other pass: what the faces of this side take as masters. Forces and slip of its
         // slaves are those of the other side, hence the signs.
-        for (touch, node, weight) in others.filter(|(touch, ..)| touch.is_closed()) {
+        for (pair, node, weight) in others {
+            // most nodes are in no row of a small table
             let Some(row) = table.row(node) else {
                 continue;
             };
+            let touch = pair.touch();
             let normal = weight * touch.normal_force;
             let size = normal.abs();
             table.pressure[row] += normal;
@@ -155,12 +157,13 @@ impl NodalContact {
                 table.gap[row] = if total > 0.0 { table.gap[row] / total } else { margin };
             }
         }
-        for touch in own {
-            let Some(row) = table.row(touch.slave) else {
+        for pair in own {
+            let Some(row) = table.row(pair.slave()) else {
                 continue;
             };
+            let touch = pair.touch();
             table.gap[row] = touch.gap.min(margin);
-            if touch.is_closed() {
+            if pair.is_closed() {
                 table.pressure[row] += touch.normal_force;
                 table.carried[row] += touch.normal_force;
                 table.mu[row] += touch.mu * touch.normal_force;
@@ -189,13 +192,10 @@ impl PenaltyContact {
     pub fn nodal(&self, table: &mut NodalContact) {
         let Some([own, others]) = passes(&self.pairs, table.side) else { return };
         let masters = &self.sides[table.side].faces;
-        let corners = |p: &Pair| {
-            let touch = p.touch();
-            let corners = masters.get(p.face as usize).map(|f| f.local);
-            let corners = corners.into_iter().flatten();
-            corners.zip(p.weights).map(move |(node, weight)| (touch, node, weight))
-        };
-        let (own, others) = (own.iter().map(Pair::touch), others.iter().flat_map(corners));
+        let others = others.iter().filter(|p| p.is_closed()).flat_map(|p| {
+            let corners = masters.get(p.face as usize).map(|f| f.local).into_iter().flatten();
+            corners.zip(p.weights).map(move |(node, weight)| (p, node, weight))
+        });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, true);
     }

@@ -82,6 +82,18 @@ impl Listed for Pair {
         self.state != State::Open
     }
 
+    fn touch(&self) -> Touch {
+        Touch {
+            state: self.state,
+            gap: self.gap,
+            normal_force: self.normal_force,
+            friction: self.friction,
+            mu: self.mu,
+            slip_velocity: self.slip_velocity,
+            slip: self.slip,
+        }
+    }
+
     fn fields(&mut self, visit: &mut impl Fields) {
         visit.whole("slave", &mut self.slave);
         visit.state(&mut self.state);
@@ -105,19 +117,6 @@ impl Listed for Pair {
 }
 
 impl Pair {
-    pub fn touch(&self) -> Touch {
-        Touch {
-            slave: self.slave,
-            state: self.state,
-            gap: self.gap,
-            normal_force: self.normal_force,
-            friction: self.friction,
-            mu: self.mu,
-            slip_velocity: self.slip_velocity,
-            slip: self.slip,
-        }
-    }
-
     /// Energy in the normal spring (J).
     pub fn stored_normal(&self) -> f64 {
         if self.is_closed() { 0.5 * self.stiffness[0] * self.gap * self.gap } else { 0.0 }

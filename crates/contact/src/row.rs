@@ -154,6 +154,18 @@ impl Listed for Row {
         self.state != State::Open
     }
 
+    fn touch(&self) -> Touch {
+        Touch {
+            state: self.state,
+            gap: self.gap,
+            normal_force: self.normal_force,
+            friction: self.friction,
+            mu: self.mu,
+            slip_velocity: self.slip_velocity,
+            slip: self.slip,
+        }
+    }
+
     fn fields(&mut self, visit: &mut impl Fields) {
         visit.whole("slave", &mut self.slave);
         visit.state(&mut self.state);
@@ -176,19 +188,6 @@ impl Listed for Row {
 }
 
 impl Row {
-    pub fn touch(&self) -> Touch {
-        Touch {
-            slave: self.slave,
-            state: self.state,
-            gap: self.gap,
-            normal_force: self.normal_force,
-            friction: self.friction,
-            mu: self.mu,
-            slip_velocity: self.slip_velocity,
-            slip: self.slip,
-        }
-    }
-
     /// Forgets contact, but not where the foot is.
     pub fn open(&mut self) {
         *self =

@@ -31,6 +31,8 @@ pub(crate) trait Listed: Copy {
     fn face(&self) -> u32;
     /// Closed nodes stay listed.
     fn is_closed(&self) -> bool;
+    /// What tables of nodes show of it.
+    fn touch(&self) -> Touch;
     /// Visits everything that a later step or a table of nodes reads.
     fn fields(&mut self, visit: &mut impl Fields);
 }
@@ -38,7 +40,6 @@ pub(crate) trait Listed: Copy {
 /// A slave node and its foot, as the tables of nodes show them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touch {
-    pub slave: u32,
     pub state: State,
     pub gap: f64,
     /// Normal force (N) and tangential force on the slave (N).
@@ -47,12 +48,6 @@ pub(crate) struct Touch {
     pub mu: f64,
     pub slip_velocity: Vec3,
     pub slip: Vec3,
-}
-
-impl Touch {
-    pub fn is_closed(&self) -> bool {
-        self.state != State::Open
-    }
 }
 
 /// Steps for which an open node with this gap (m) and relative speed (m/s) cannot close unless that
