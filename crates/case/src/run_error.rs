@@ -68,7 +68,7 @@ pub enum RunError {
     #[diagnostic(help("the run has stopped; what was written before stays readable"))]
     Output(#[from] output::OutputError),
     /// A file beside the results cannot be written.
-    #[error("cannot write {}: {cause}", path.display())]
+    #[error("cannot write {}: {cause}{}", path.display(), output::room_left(path))]
     #[diagnostic(help(
         "the run has stopped; check that its folder is still there and that the disk has room"
     ))]

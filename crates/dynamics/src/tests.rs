@@ -73,7 +73,7 @@ fn rotates(mesh: &Mesh, mut setup: Setup) {
     for n in 0..10_000 {
         let report = simulation.step(n % 10 == 0);
         if let Some(e) = report.energies {
-            assert!(simulation.guard(&e).is_none());
+            assert!(simulation.check(&report).is_none());
             let start = *initial.get_or_insert(e.total());
             worst = worst.max((e.total() - start).abs() / start);
         }
@@ -101,7 +101,7 @@ fn a_step_above_the_limit_is_diagnosed_as_unstable() {
     let mut simulation = Simulation::new(setup);
     let found = (0..200).find_map(|_| {
         let report = simulation.step(true);
-        simulation.guard(&report.energies.unwrap())
+        simulation.check(&report)
     });
     let found = found.unwrap();
     assert!(found.step < 50, "{}", found.step);
