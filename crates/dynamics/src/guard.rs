@@ -1,8 +1,9 @@
 //! When a run must stop, and what to say.
 //!
 //! Guards look at what a step has found anyway, wherever energies are read; two looks cost more and are
-//! rarer or cheaper: the shape of every element every [`SHAPE_STEPS`] steps, and the coefficient of friction,
-//! one comparison per closed pair and step. What a guard sees is a symptom; [`Simulation::check`] then
+//! rarer or cheaper: the shape of every element every [`SHAPE_STEPS`] steps and, for runs that go wrong at
+//! once or have few steps, at 10, 20, 40 ... before; and the coefficient of friction, one comparison per
+//! closed pair and step. What a guard sees is a symptom; [`Simulation::check`] then
 //! asks for its cause, as far as a cause can be told from the state.
 
 use crate::dashpots::RigidMotion;
@@ -113,6 +114,8 @@ pub enum Cause {
         depth: f64,
         /// The limit (m).
         limit: f64,
+        /// Normal force (N).
+        force: f64,
     },
     /// The disk has left the bar upwards.
     ContactLost {
@@ -163,6 +166,15 @@ pub struct Diagnosis {
     pub place: Place,
 }
 
+/// The energy that nothing supplied, in brackets, where it is one.
+fn from_nowhere(imbalance: f64) -> String {
+    if imbalance.is_finite() && imbalance != 0.0 {
+        format!(" ({imbalance:.3e} J from nowhere)")
+    } else {
+        String::new()
+    }
+}
+
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { step, time, imbalance, place, .. } = self;
@@ -171,13 +183,15 @@ impl fmt::Display for Diagnosis {
             Cause::UnstableStep { ratio } => write!(
                 f,
                 "the time step is {ratio:.2} times the stability limit 2/omega_max and the motion \
-                 grows without bound ({imbalance:.3e} J from nowhere)"
+                 grows without bound{}",
+                from_nowhere(*imbalance)
             )?,
             Cause::StiffContact { ratio } => write!(
                 f,
                 "contact springs that closed after the time step was chosen are too stiff for it: it \
                  is {ratio:.2} times the stability limit with them, and the motion grows without \
-                 bound ({imbalance:.3e} J from nowhere)"
+                 bound{}",
+                from_nowhere(*imbalance)
             )?,
             Cause::EnergyGrowth => write!(
                 f,
@@ -216,10 +230,10 @@ impl fmt::Display for Diagnosis {
                     )?;
                 }
             }
-            Cause::Penetration { depth, limit } => write!(
+            Cause::Penetration { depth, limit, force } => write!(
                 f,
                 "the surfaces penetrate each other by {:.4} mm, beyond {:.4} mm: contact is too soft \
-                 for the load",
+                 for the normal force of {force:.3e} N",
                 depth * 1e3,
                 limit * 1e3
             )?,
@@ -275,8 +289,8 @@ impl Diagnosis {
                 "correct the law ([friction]), or raise guards.friction where it is meant so"
             }
             Cause::Inverted { .. } => {
-                "check load.normal, drive.speed and the units of [material]; raise element.hourglass \
-                 towards 0.05 if it is lower"
+                "check load.normal, drive.torque, drive.speed and the units of [material]; raise \
+                 element.hourglass to 0.05 if it is lower"
             }
             Cause::Hourglass { coefficient, .. } if coefficient < USUAL_HOURGLASS => {
                 "raise element.hourglass to 0.05"
@@ -285,8 +299,8 @@ impl Diagnosis {
                 "refine mesh.zone.size, or set element.contact_layers = \"full\""
             }
             Cause::Penetration { .. } => {
-                "stiffen the springs (contact.penalty.normal; 0.1 to 1 is usual), lower the load, or \
-                 raise guards.penetration where it is meant so"
+                "stiffen the springs (contact.penalty.normal; 0.1 to 1 is usual), lower the load or the \
+                 torque, or raise guards.penetration where it is meant so"
             }
             Cause::ContactLost { .. } => {
                 "check load.normal, disk.lift and load.hub_mass, or raise guards.parted where the disk \
@@ -308,6 +322,12 @@ pub(crate) fn violated(ledger: &Ledger, now: &Energies) -> bool {
     let total = now.total() - now.external_work;
     let floor = ledger.initial().map_or(0.0, |i| 1e-5 * i.total().abs());
     !total.is_finite() || ledger.imbalance(now).abs() > 0.25 * ledger.largest_exchange() + floor
+}
+
+/// Whether the shape of the elements is looked at after a step.
+fn looks_at_shape(step: usize) -> bool {
+    let early = step < SHAPE_STEPS && step.is_multiple_of(10) && (step / 10).is_power_of_two();
+    early || step.is_multiple_of(SHAPE_STEPS)
 }
 
 /// A node of a contact surface and what is there.
@@ -366,7 +386,12 @@ impl Simulation {
         self.watch_contact(report);
         let symptom = match &report.energies {
             Some(now) if violated(&self.ledger, now) => self.energy_cause(now),
-            Some(now) => self.soft_cause(report, now)?,
+            Some(now) => {
+                let cause = self.soft_cause(report, now)?;
+                // what bodies inside out do is no cause
+                let (element, ratio) = self.solid.most_folded(&self.displacement);
+                if ratio <= 0.0 { self.inverted(element) } else { cause }
+            }
             None => return None,
         };
         Some(self.diagnosis(report, symptom))
@@ -425,8 +450,11 @@ impl Simulation {
         let limits = self.limits;
         let sums = &report.contact;
         if sums.max_penetration > limits.penetration {
-            let (depth, limit) = (sums.max_penetration, limits.penetration);
-            return Some(Cause::Penetration { depth, limit });
+            return Some(Cause::Penetration {
+                depth: sums.max_penetration,
+                limit: limits.penetration,
+                force: sums.normal_force,
+            });
         }
         if let Some(since) = self.watch.parted
             && report.time - since > limits.parted
@@ -441,7 +469,7 @@ impl Simulation {
                 return Some(Cause::EndOfBar { hub: x, end });
             }
         }
-        let looks = report.step.is_multiple_of(SHAPE_STEPS);
+        let looks = looks_at_shape(report.step);
         if let Some(usual) = self.usual_hourglass(now, looks)
             && usual > limits.least_energy
             && usual > limits.hourglass * now.internal
@@ -454,14 +482,8 @@ impl Simulation {
         }
         if looks {
             let (element, ratio) = self.solid.most_folded(&self.displacement);
-            if ratio.is_nan() || ratio <= 0.0 {
-                let step = self.dt * self.omega_max / 2.0;
-                let unstable = step > 1.0;
-                return Some(if unstable {
-                    Cause::UnstableStep { ratio: step }
-                } else {
-                    self.inverted(element)
-                });
+            if ratio <= 0.0 {
+                return Some(self.inverted(element));
             }
         }
         None
@@ -480,7 +502,12 @@ impl Simulation {
         }
     }
 
+    /// The cause that an element is inside out: the step, where that is too long.
     fn inverted(&self, element: usize) -> Cause {
+        let ratio = self.dt * self.omega_max / 2.0;
+        if ratio > 1.0 {
+            return Cause::UnstableStep { ratio };
+        }
         let volume_ratio = self.solid.element_state(&self.displacement, element).volume_ratio;
         Cause::Inverted { volume_ratio }
     }
