@@ -325,7 +325,7 @@ pub(crate) fn violated(ledger: &Ledger, now: &Energies) -> bool {
 }
 
 /// Whether the shape of the elements is looked at after a step.
-fn looks_at_shape(step: usize) -> bool {
+pub(crate) fn looks_at_shape(step: usize) -> bool {
     let early = step < SHAPE_STEPS && step.is_multiple_of(10) && (step / 10).is_power_of_two();
     early || step.is_multiple_of(SHAPE_STEPS)
 }
