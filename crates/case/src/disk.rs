@@ -77,8 +77,9 @@ impl Disk {
         })
     }
 
-    /// In megabytes, as `creepage mesh` shows it.
-    pub(crate) fn json(&self) -> Value {
+    /// In megabytes, as `creepage mesh` shows it, with what is free for `folder` (null where the system does
+    /// not tell).
+    pub(crate) fn json(&self, folder: &Path) -> Value {
         let mb = |bytes: f64| bytes / 1e6;
         json!({
             "total_mb": mb(self.total()),
@@ -86,6 +87,7 @@ impl Disk {
             "contact_mb": mb(self.contact),
             "history_mb": mb(self.history),
             "checkpoints_mb": mb(self.checkpoints),
+            "free_mb": output::free_space(folder).map(|free| mb(free as f64)),
         })
     }
 }

@@ -52,3 +52,38 @@ pub(crate) fn peak_rss_mb() -> f64 {
     let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
     kib.map_or(0.0, |k| k * 1024.0 / 1e6)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn what_the_machine_cannot_hold_is_refused_with_both_numbers_and_the_rest_is_not() {
+        assert!(fits(1_000_000, 950.0, 951.0).is_ok());
+        let error = fits(1_000_000, 950.0, 500.0).unwrap_err();
+        let said = error.to_string();
+        for words in ["1000000 elements", "1.0 GB", "0.5 GB that are free", "mesh.zone.size"] {
+            assert!(said.contains(words), "{words} is not in {said}");
+        }
+        assert_eq!((error.exit_code(), error.key()), (2, Some("mesh.zone.size")));
+        // a system that does not tell
+        assert!(fits(usize::MAX, 950.0, f64::INFINITY).is_ok());
+    }
+
+    #[test]
+    fn fine_zones_are_counted_before_their_mesh_is_made() {
+        let path = std::path::Path::new("a.toml");
+        let text =
+            "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 0\nfriction.static = 0.5\n";
+        let mut case = Case::from_text(text, path, &[]).unwrap();
+        assert!(enough_for_zones(&case, BYTES_PER_ELEMENT).is_ok());
+        // so many elements that no machine holds them
+        case.mesh.zone.size = 1e-6;
+        let begun = std::time::Instant::now();
+        let error = crate::model::Model::build(&case).err().unwrap();
+        assert!(matches!(error, RunError::Memory { .. }), "{error}");
+        assert!(begun.elapsed().as_secs() < 5);
+    }
+}
