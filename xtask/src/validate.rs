@@ -21,7 +21,7 @@ pub fn validate() -> ExitCode {
     // Asked at run time: clones that share a target folder share this program as well.
     let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
     let root = Path::new(&home).parent().unwrap_or(Path::new("."));
-    let steps: [(&str, Step); 10] = [
+    let steps: [(&str, Step); 11] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -32,6 +32,7 @@ pub fn validate() -> ExitCode {
         ("smoke run", smoke_run),
         ("report page", report_page),
         ("sweep through Dask", dask),
+        ("full and read-only disks", disks),
     ];
     let mut report = Vec::new();
     for (name, step) in steps {
@@ -173,6 +174,12 @@ fn report_page(root: &Path) -> Outcome {
 fn dask(root: &Path) -> Outcome {
     let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
     check_with_python(root, "check_dask.py", &[binary, root.to_path_buf()])
+}
+
+/// Runs on small file systems of their own fill them up. Says so where none can be mounted.
+fn disks(root: &Path) -> Outcome {
+    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    check_with_python(root, "check_disk.py", &[binary, root.to_path_buf()])
 }
 
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous

@@ -7,7 +7,7 @@ use crate::record::RecorderState;
 use crate::schema;
 use crate::start::Found;
 use contact::ContactState;
-use dynamics::{Energies, HubState, LEDGER_NUMBERS, Ledger, SimulationState, Timers};
+use dynamics::{Energies, HubState, LEDGER_NUMBERS, Ledger, SimulationState, Timers, Watch};
 use output::{Array, Checkpoint, Lengths, Numbers, Provenance};
 
 /// Attributes: what was found before rolling, as JSON, and the instruction set of the kernels.
@@ -33,6 +33,8 @@ pub(crate) struct Clock {
     wall: Option<Duration>,
     /// Step and instant of the last one, or of the beginning.
     last: (u64, Instant),
+    /// Whether the first is due at once.
+    first: bool,
 }
 
 impl Clock {
@@ -43,15 +45,20 @@ impl Clock {
             wall: (case.wall_minutes > 0.0)
                 .then(|| Duration::from_secs_f64(60.0 * case.wall_minutes)),
             last: (step, Instant::now()),
+            first: step == 0,
         }
     }
 
     /// Whether one is due before step `step`; the next interval then begins.
     pub(crate) fn is_due(&mut self, step: u64) -> bool {
         let (at, instant) = self.last;
-        let due = self.steps.is_some_and(|interval| step - at >= interval)
+        // what the preload has found is kept at once
+        let any = self.steps.is_some() || self.wall.is_some();
+        let due = (self.first && any)
+            || self.steps.is_some_and(|interval| step - at >= interval)
             || self.wall.is_some_and(|interval| instant.elapsed() >= interval);
         if due {
+            self.first = false;
             self.last = (step, Instant::now());
         }
         due
@@ -65,6 +72,7 @@ impl State {
         let mut provenance = provenance.clone();
         let found = serde_json::to_string(&self.found).unwrap_or_default();
         provenance.attributes = vec![(FOUND.into(), found), (KERNELS.into(), kernels.into())];
+        let watch = simulation.watch;
         let mut arrays = vec![
             vectors("nodes/displacement", "m", "displacement", &simulation.displacement),
             vectors("nodes/velocity", "m/s", "velocity half a step before", &simulation.velocity),
@@ -76,6 +84,12 @@ impl State {
             ),
             real("ledger", "J", "works and energy balance so far", &simulation.ledger.numbers()),
             real("energies", "J", "energies when last read", &self.energies.numbers()),
+            real(
+                "guards",
+                "1, s",
+                "1 if there was contact; since when there is none, negative if there is",
+                &[f64::from(u8::from(watch.touched)), watch.parted.unwrap_or(-1.0)],
+            ),
             real("recorder/next_fields", "s", "next snapshot", &[self.recorder.next_fields]),
             real(
                 "recorder/means",
@@ -143,6 +157,13 @@ impl State {
             }
             Err(_) => None,
         };
+        let watch = match find("guards") {
+            Ok(numbers) => {
+                let [touched, parted] = fixed(numbers)?;
+                Watch { touched: touched != 0.0, parted: (parted >= 0.0).then_some(parted) }
+            }
+            Err(_) => Watch::default(),
+        };
         let columns: Vec<_> = checkpoint.arrays.iter().filter_map(column).collect();
         let [next_fields] = fixed(find("recorder/next_fields")?)?;
         Ok(Self {
@@ -154,6 +175,7 @@ impl State {
                 reactions: vectors("quiet_ends/reaction")?,
                 ledger: Ledger::from_numbers(fixed::<LEDGER_NUMBERS>(find("ledger")?)?),
                 contact: (!columns.is_empty()).then_some(ContactState { columns }),
+                watch,
                 timers: Timers { internal_force, contact, boundary, nodes },
             },
             recorder: RecorderState {

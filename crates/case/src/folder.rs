@@ -1,20 +1,25 @@
 //! The folder of a run: taken only when it is free, or given up by `--force`.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::postmortem::POSTMORTEM;
 use crate::schema::Case;
 use output::CHECKPOINTS;
 
 /// The resolved case of a run.
 pub const CASE_FILE: &str = "case.toml";
 
+/// Held locked while a run is written; stays behind, empty.
+const LOCK: &str = "run.lock";
+
 /// The files that a run writes; `--force` removes these and nothing else.
-pub const RUN_FILES: [&str; 9] = [
+pub const RUN_FILES: [&str; 10] = [
     CASE_FILE,
     "fields.vtkhdf",
     "contact.vtkhdf",
@@ -22,6 +27,7 @@ pub const RUN_FILES: [&str; 9] = [
     "probes.h5",
     "summary.json",
     "run.log",
+    POSTMORTEM,
     CHECKPOINTS[0],
     CHECKPOINTS[1],
 ];
@@ -37,6 +43,13 @@ pub enum FolderError {
         path: PathBuf,
         /// Whether files of a run are among its content.
         run: bool,
+    },
+    /// Another process writes the run in the folder.
+    #[error("another process is at work in {}", path.display())]
+    #[diagnostic(help("wait for it, or stop it, or choose another folder with --out DIR"))]
+    Busy {
+        /// The folder.
+        path: PathBuf,
     },
     /// The path is a file.
     #[error("{} is a file, not a folder", path.display())]
@@ -61,21 +74,50 @@ pub fn default_folder(case: &Case) -> PathBuf {
     Path::new("runs").join(&case.name)
 }
 
-/// Refuses a folder that holds anything, unless `force`; touches nothing.
+/// Whether a run has been begun in `folder`.
+pub fn has_run(folder: &Path) -> bool {
+    RUN_FILES.iter().any(|file| folder.join(file).exists())
+}
+
+/// A folder in which no other process writes a run as long as this lives.
+#[derive(Debug)]
+pub struct Held {
+    _lock: Option<File>,
+}
+
+/// Keeps other processes out of `folder`, which is there. The system lets go of it however this process
+/// ends. Where it has no locks, as on some network disks, nobody is kept out.
+pub fn hold(folder: &Path) -> Result<Held, FolderError> {
+    let path = || folder.to_path_buf();
+    let file = File::options().create(true).append(true).open(folder.join(LOCK));
+    let file = file.map_err(|cause| FolderError::NotWritable { path: path(), cause })?;
+    match file.try_lock() {
+        Ok(()) => Ok(Held { _lock: Some(file) }),
+        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: path() }),
+        Err(TryLockError::Error(_)) => Ok(Held { _lock: None }),
+    }
+}
+
+/// Refuses a folder that cannot be written to, or in which a run cannot be begun because it holds
+/// anything, unless `force`; leaves nothing behind.
 pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
     let path = || folder.to_path_buf();
     match fs::metadata(folder) {
         Ok(found) if !found.is_dir() => Err(FolderError::NotAFolder { path: path() }),
         Ok(_) => {
             let unwritable = |cause| FolderError::NotWritable { path: path(), cause };
-            let occupied = fs::read_dir(folder).map_err(unwritable)?.next().is_some();
-            if occupied && !force {
-                let run = RUN_FILES.iter().any(|file| folder.join(file).exists());
-                return Err(FolderError::Taken { path: path(), run });
+            let others = |name: &std::ffi::OsStr| name != LOCK;
+            let mut found = fs::read_dir(folder).map_err(unwritable)?;
+            if found.any(|entry| entry.is_ok_and(|e| others(&e.file_name()))) && !force {
+                return Err(FolderError::Taken { path: path(), run: has_run(folder) });
             }
-            Ok(())
+            prove_writable(folder).map_err(unwritable)
         }
-        Err(_) => Ok(()),
+        Err(_) => {
+            let there = folder.ancestors().skip(1).find(|place| place.is_dir());
+            let there = there.unwrap_or(Path::new("."));
+            prove_writable(there).map_err(|cause| FolderError::NotWritable { path: path(), cause })
+        }
     }
 }
 
@@ -83,12 +125,14 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
 ///
 /// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] are
 /// removed, so that notes and figures beside a run survive; [`CASE_FILE`] is the run's to replace.
-pub fn prepare(folder: &Path, force: bool) -> Result<(), FolderError> {
+pub fn prepare(folder: &Path, force: bool) -> Result<Held, FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
     check(folder, force)?;
     fs::create_dir_all(folder).map_err(unwritable)?;
-    prove_writable(folder).map_err(unwritable)?;
+    let held = hold(folder)?;
+    // looked at again: another process may just have been here
+    check(folder, force)?;
     // with what a kill left half-written; the case itself is replaced at once, so that at any kill
     // there is one that says what the folder is of
     let files = RUN_FILES.iter().flat_map(|file| [(*file).to_owned(), format!("{file}.partial")]);
@@ -98,12 +142,16 @@ pub fn prepare(folder: &Path, force: bool) -> Result<(), FolderError> {
             _ => {}
         }
     }
-    Ok(())
+    Ok(held)
 }
 
 /// Permission bits do not tell (read-only mounts, full disks): only writing does.
 fn prove_writable(folder: &Path) -> io::Result<()> {
-    let probe = folder.join(format!(".creepage-{}", std::process::id()));
-    fs::write(&probe, b"creepage")?;
-    fs::remove_file(&probe)
+    static PROBES: AtomicUsize = AtomicUsize::new(0);
+    let number = PROBES.fetch_add(1, Ordering::Relaxed);
+    let probe = folder.join(format!(".creepage-{}-{number}", std::process::id()));
+    let written = fs::write(&probe, b"creepage");
+    // also what a full disk has let in
+    let removed = fs::remove_file(&probe);
+    written.and(removed)
 }

@@ -342,6 +342,15 @@ pub const KEYS: &[Key] = &[
     key("checkpoint.steps", Count(1, 1_000_000_000), "steps", "give a whole number: 100000"),
     key("checkpoint.time", Number(over(0.0, 10.0)), "s", INTERVAL),
     key("checkpoint.wall_minutes", Number(within(0.0, 1e5)), "min", "give minutes, 0 for none: 5"),
+    key("guards.hourglass", Number(over(0.0, 1e6)), "-", "give a share of the strain energy: 0.5"),
+    key(
+        "guards.penetration",
+        Number(over(0.0, 1e6)),
+        "-",
+        "give element sizes: 0.5 for half a one",
+    ),
+    key("guards.parted", Number(over(0.0, 10.0)), "s", "give a time in seconds: 1e-4"),
+    key("guards.friction", Number(over(0.0, 1e12)), "-", "give a coefficient of friction: 5"),
 ];
 
 const STIFFNESS_REMEDY: &str = "give a scale factor (0.1), an areal stiffness \

@@ -8,7 +8,7 @@ use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::preload::store::hexadecimal;
-use crate::schema::{Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Time};
+use crate::schema::{Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Time};
 use crate::sense;
 use crate::table;
 
@@ -30,15 +30,16 @@ impl Case {
         toml::to_string(self).unwrap_or_default()
     }
 
-    /// SHA-256, in hexadecimal, of [`Case::to_toml`] with the default section `checkpoint`, on which
-    /// no result depends.
+    /// SHA-256, in hexadecimal, of [`Case::to_toml`] with the default sections `checkpoint` and `guards`, on
+    /// which no result depends.
     pub fn hash(&self) -> String {
         hexadecimal(&Sha256::digest(self.results_toml()))
     }
 
-    /// The case file with the default `checkpoint`: everything that results depend on.
+    /// The case file with the default `checkpoint` and `guards`: everything that results depend on.
     pub(crate) fn results_toml(&self) -> String {
-        Self { checkpoint: Checkpoint::default(), ..self.clone() }.to_toml()
+        let (checkpoint, guards) = (Checkpoint::default(), Guards::default());
+        Self { checkpoint, guards, ..self.clone() }.to_toml()
     }
 
     /// What is allowed but deserves a warning, one sentence each.
@@ -112,6 +113,7 @@ fn write_defaults(case: &mut Case) {
     }
     case.preload.tolerance = Some(case.preload_tolerance());
     case.preload.max_iterations = Some(case.preload_iterations());
+    case.guards.parted = case.longest_parted();
     case.evaluate.last = Some(case.evaluate_last());
     case.output.fields_interval = Some(case.fields_interval());
 }

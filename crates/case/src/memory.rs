@@ -1,14 +1,36 @@
 //! Memory: what a run needs, what the machine has, what was used.
 
 use crate::run_error::RunError;
+use crate::schema::Case;
 
 /// Bytes per element of a whole run; the static preload takes the most.
 pub(crate) const BYTES_PER_ELEMENT: f64 = 950.0;
 
+/// Bytes per element of its mesh alone, with the elements set up.
+const BYTES_PER_MESH_ELEMENT: f64 = 400.0;
+
+/// Refuses a case before its mesh is made where the fine zones alone, which are known without it, are more
+/// than the machine can hold at so many bytes per element.
+pub(crate) fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), RunError> {
+    let zone = &case.mesh.zone;
+    let across = if case.mesh.plane_strain { 1.0 } else { zone.width / zone.size };
+    let elements = 2.0 * zone.length * zone.depth / zone.size.powi(2) * across;
+    fits(elements as usize, bytes_per_element, free_mb())
+}
+
+/// The same for the mesh alone.
+pub(crate) fn enough_for_mesh(case: &Case) -> Result<(), RunError> {
+    enough_for_zones(case, BYTES_PER_MESH_ELEMENT)
+}
+
 /// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
 pub(crate) fn enough_memory(elements: usize) -> Result<(), RunError> {
-    let free_gb = free_mb() / 1e3;
-    let needed_gb = elements as f64 * BYTES_PER_ELEMENT / 1e9;
+    fits(elements, BYTES_PER_ELEMENT, free_mb())
+}
+
+fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), RunError> {
+    let free_gb = free_mb / 1e3;
+    let needed_gb = elements as f64 * bytes_per_element / 1e9;
     if needed_gb > free_gb {
         return Err(RunError::Memory { elements, needed_gb, free_gb });
     }
@@ -29,4 +51,39 @@ pub(crate) fn peak_rss_mb() -> f64 {
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
     let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
     kib.map_or(0.0, |k| k * 1024.0 / 1e6)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn what_the_machine_cannot_hold_is_refused_with_both_numbers_and_the_rest_is_not() {
+        assert!(fits(1_000_000, 950.0, 951.0).is_ok());
+        let error = fits(1_000_000, 950.0, 500.0).unwrap_err();
+        let said = error.to_string();
+        for words in ["1000000 elements", "1.0 GB", "0.5 GB that are free", "mesh.zone.size"] {
+            assert!(said.contains(words), "{words} is not in {said}");
+        }
+        assert_eq!((error.exit_code(), error.key()), (2, Some("mesh.zone.size")));
+        // a system that does not tell
+        assert!(fits(usize::MAX, 950.0, f64::INFINITY).is_ok());
+    }
+
+    #[test]
+    fn fine_zones_are_counted_before_their_mesh_is_made() {
+        let path = std::path::Path::new("a.toml");
+        let text =
+            "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 0\nfriction.static = 0.5\n";
+        let mut case = Case::from_text(text, path, &[]).unwrap();
+        assert!(enough_for_zones(&case, BYTES_PER_ELEMENT).is_ok());
+        // so many elements that no machine holds them
+        case.mesh.zone.size = 1e-6;
+        let begun = std::time::Instant::now();
+        let error = crate::model::Model::build(&case).err().unwrap();
+        assert!(matches!(error, RunError::Memory { .. }), "{error}");
+        assert!(begun.elapsed().as_secs() < 5);
+    }
 }

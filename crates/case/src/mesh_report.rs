@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::time::{Instant, SystemTime};
 
+use crate::disk::Disk;
+use crate::folder::default_folder;
 use crate::memory::BYTES_PER_ELEMENT;
 use crate::model::Model;
 use crate::run_error::RunError;
@@ -63,6 +65,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
             "memory_mb": elements as f64 * BYTES_PER_ELEMENT / 1e6,
             "steps": steps,
             "run_time_s": steps * per_step,
+            "disk": Disk::of(case, &model, steps).json(&default_folder(case)),
         },
     }))
 }

@@ -1,6 +1,7 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
 use crate::friction;
+use crate::memory::enough_for_mesh;
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers, Ends, FrictionMode};
 use crate::sense::LAYERS;
@@ -43,6 +44,7 @@ pub(crate) struct Model {
 impl Model {
     /// Builds the meshes of a case.
     pub(crate) fn build(case: &Case) -> Result<Self, RunError> {
+        enough_for_mesh(case)?;
         // a slice is made one cube wide and stretched to its width
         let size = case.mesh.zone.size;
         let slice = |width: f64| if case.mesh.plane_strain { size } else { width };

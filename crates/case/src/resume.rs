@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::checkpoint::{KERNELS, State};
-use crate::folder::RUN_FILES;
+use crate::folder::has_run;
 use crate::schema::Case;
 use miette::Diagnostic;
 use output::summary::Status;
@@ -68,7 +68,7 @@ pub(crate) struct Point {
 /// Where the run of `case` in `folder` goes on.
 pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> {
     let path = || folder.to_path_buf();
-    if !RUN_FILES.iter().any(|file| folder.join(file).exists()) {
+    if !has_run(folder) {
         return Err(ResumeError::NoRun { folder: path() });
     }
     if let Some(difference) = difference(case, folder) {
@@ -114,8 +114,8 @@ fn difference(case: &Case, folder: &Path) -> Option<String> {
     let theirs = toml::Table::try_from(&theirs).unwrap_or_default();
     let mut keys = Vec::new();
     differing(&ours, &theirs, "", &mut keys);
-    // intervals may change
-    keys.retain(|key| !key.starts_with("checkpoint"));
+    // intervals and limits may change
+    keys.retain(|key| !key.starts_with("checkpoint") && !key.starts_with("guards"));
     match &keys[..] {
         [] => None,
         [some @ .., last] if some.len() < 4 => {

@@ -5,11 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::checkpoint::{Clock, State};
+use crate::disk::Disk;
 use crate::folder;
+use crate::guards::READING;
 use crate::hertz::hertz;
 use crate::log::Log;
-use crate::memory::enough_memory;
+use crate::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 use crate::model::Model;
+use crate::postmortem::{self, POSTMORTEM};
 use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
 use crate::resume::{self, Origin, Point};
@@ -55,7 +58,13 @@ pub fn run(
 ) -> Result<serde_json::Value, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     // The whole run inside the pool: entering it costs microseconds, a step of a small case few more.
-    pool.install(|| run_in_pool(case, options, stop, observe))
+    let result = pool.install(|| run_in_pool(case, options, stop, observe));
+    if let Err(error @ (RunError::Output(_) | RunError::Text { .. })) = &result {
+        // as far as that is possible where files could not be written
+        let _ = Log::append(options.out.join("run.log"))
+            .and_then(|mut log| log.say(&format!("end: Failed, {error}")));
+    }
+    result
 }
 
 fn run_in_pool(
@@ -65,6 +74,8 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
+    let resumes = options.resume && folder::has_run(&options.out);
+    let held = if resumes { Some(folder::hold(&options.out)?) } else { None };
     let (origin, why) = match origin(case, options)? {
         Some(Origin::Complete(summary)) => return Ok(complete(&options.out, summary)),
         Some(Origin::Checkpoint(point)) => (Some(*point), None),
@@ -76,18 +87,19 @@ fn run_in_pool(
         // A mesh that is refused must cost no earlier run its results.
         folder::check(&options.out, replaces)?;
     }
+    enough_for_zones(case, BYTES_PER_ELEMENT)?;
     let mut model = Model::build(case)?;
     if let Some(point) = &origin {
         model.kernels = point.kernels;
     }
     enough_memory(model.mesh.hexes.len())?;
     let log_file = options.out.join("run.log");
-    let mut log = match &origin {
-        None => {
-            folder::prepare(&options.out, replaces)?;
-            Log::new(log_file)?
+    let (_held, mut log) = match (&origin, held) {
+        (Some(_), Some(held)) => (held, Log::append(log_file)?),
+        (_, held) => {
+            drop(held);
+            (folder::prepare(&options.out, replaces)?, Log::new(log_file)?)
         }
-        Some(_) => Log::append(log_file)?,
     };
     write_text(options.out.join("case.toml"), &case.to_toml())?;
     log.say(&format!(
@@ -157,6 +169,11 @@ fn run_in_pool(
     if let Some(line) = facts.numbers.expectation() {
         log.warn(&line)?;
     }
+    if let (None, Some(line)) =
+        (&resumed, Disk::of(case, &model, steps as f64).shortage(&options.out))
+    {
+        log.warn(&line)?;
+    }
     let hertz = hertz(case);
     let created = match &resumed {
         Some((checkpoint, _)) => checkpoint.provenance.created.clone(),
@@ -184,8 +201,8 @@ fn run_in_pool(
     if let Some((_, state)) = resumed {
         recorder.restore(&state.recorder);
         (last, before) = (state.energies, state.wall);
-        // the word of an interruption holds no longer
-        remove(&options.out.join("summary.json"))?;
+        // the word of an interruption or a stop holds no longer
+        ["summary.json", POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
     }
     let rolling = Instant::now();
     let first = simulation.steps() as u64;
@@ -195,7 +212,8 @@ fn run_in_pool(
     let mut status = Status::Completed;
     for n in first..steps {
         let stops = stop.load(Ordering::Relaxed);
-        if stops || clock.is_due(n) {
+        // a state that the guards are about to stop must push no good one out
+        if (stops || clock.is_due(n)) && simulation.is_sound() {
             let begun = Instant::now();
             let state = State {
                 simulation: simulation.snapshot(),
@@ -213,16 +231,14 @@ fn run_in_pool(
             break;
         }
         recorder.before_step(&simulation)?;
-        let read = recorder.reads(n) || n + 1 == steps;
+        let read = recorder.reads(n) || n + 1 == steps || n.is_multiple_of(READING);
         let report = simulation.step(read);
-        if let Some(energies) = report.energies {
-            diagnosis = simulation.guard(&energies);
-            if diagnosis.is_some() {
-                status = Status::Failed;
-                break;
-            }
-            last = energies;
+        diagnosis = simulation.check(&report);
+        if diagnosis.is_some() {
+            status = Status::Failed;
+            break;
         }
+        last = report.energies.unwrap_or(last);
         recorder.after_step(&simulation, &report)?;
         if n % 64 == 0 {
             let per_s = (n - first) as f64 / rolling.elapsed().as_secs_f64();
@@ -242,6 +258,8 @@ fn run_in_pool(
     let (means, output_wall) = recorder.finish(&simulation)?;
     if let Some(d) = &diagnosis {
         log.say(&format!("{d}; remedy: {}", d.remedy()))?;
+        postmortem::write(&options.out, &mut simulation, d, &basis.provenance)?;
+        log.say(&format!("{POSTMORTEM} holds both bodies as they are"))?;
     }
 
     let ending = Ending {

@@ -65,10 +65,13 @@ pub enum RunError {
     Preload(#[from] crate::preload::PreloadError),
     /// Results cannot be written.
     #[error(transparent)]
-    #[diagnostic(help("the run has stopped; what was written before stays readable"))]
+    #[diagnostic(help(
+        "the run has stopped; what was written before stays readable, and --resume goes on once the \
+         disk has room"
+    ))]
     Output(#[from] output::OutputError),
     /// A file beside the results cannot be written.
-    #[error("cannot write {}: {cause}", path.display())]
+    #[error("cannot write {}: {cause}{}", path.display(), output::room_left(path))]
     #[diagnostic(help(
         "the run has stopped; check that its folder is still there and that the disk has room"
     ))]

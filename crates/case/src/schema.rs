@@ -68,6 +68,10 @@ pub struct Case {
     /// How often the state is kept, for `--resume`. No result depends on it.
     #[serde(default)]
     pub checkpoint: Checkpoint,
+    /// What stops the run, beside energy from nowhere, numbers that are none and elements inside out.
+    /// No result depends on it.
+    #[serde(default)]
+    pub guards: Guards,
 }
 
 /// The hexahedron.
@@ -422,6 +426,30 @@ impl Default for Checkpoint {
     }
 }
 
+/// What no sound run does. A run that does it stops, with its cause, place and remedy.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Guards {
+    /// Hourglass energy over strain energy (dimensionless), reckoned with the usual coefficient 0.05
+    /// where `element.hourglass` is smaller. Default 0.5.
+    pub hourglass: f64,
+    /// Largest penetration in element sizes `mesh.zone.size` (dimensionless). Default 0.5: the search for
+    /// contact looks half a face deep.
+    pub penetration: f64,
+    /// Longest time without contact once there was contact (s). Default 1e-4 after a preload; none with
+    /// `preload.method = "none"`, where the disk may bounce.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parted: Option<f64>,
+    /// Largest coefficient of friction that the law may give (dimensionless). Default 5.
+    pub friction: f64,
+}
+
+impl Default for Guards {
+    fn default() -> Self {
+        Self { hourglass: 0.5, penetration: 0.5, parted: None, friction: 5.0 }
+    }
+}
+
 /// A span of time in which contact is recorded every `every` steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -509,6 +537,12 @@ impl Case {
             PreloadMethod::Static => 100,
             PreloadMethod::Relaxation | PreloadMethod::None => 40_000,
         })
+    }
+
+    /// Longest time without contact (s), if there is a limit.
+    pub fn longest_parted(&self) -> Option<f64> {
+        let preloaded = self.preload.method != PreloadMethod::None;
+        self.guards.parted.or(preloaded.then_some(1e-4))
     }
 
     /// Interval between field snapshots (s).

@@ -22,6 +22,11 @@ const MOST_ELEMENTS: f64 = 2e8;
 const MOST_STEPS: f64 = 1e9;
 const MANY_STEPS: f64 = 1e7;
 
+/// Young's modulus below this (Pa) and density outside these (kg/m^3) are likely of another unit.
+const SOFTEST: f64 = 5e5;
+const LIGHTEST: f64 = 20.0;
+const HEAVIEST: f64 = 2.5e4;
+
 /// Whether a character may stand in a case's name, which becomes a folder's.
 pub fn in_a_name(c: char) -> bool {
     c.is_alphanumeric() || "-_. +".contains(c)
@@ -170,6 +175,16 @@ fn check_choices(case: &Case, found: &mut Findings) {
                 .into()
         },
         "set contact.enforcement = \"exact\", or leave contact.rows out",
+    );
+    found.require(
+        element.hourglass > 0.0 || case.preload.method != PreloadMethod::Static,
+        &["element.hourglass"],
+        || {
+            "element.hourglass = 0 leaves the elements without stiffness against hourglassing: the \
+             static preload has no solution"
+                .into()
+        },
+        "raise element.hourglass to 0.05, its default; 0.01 to 0.1 is the sensible range",
     );
     found.require(
         !exact || case.preload.method != PreloadMethod::Relaxation,
@@ -503,8 +518,46 @@ fn check_length(case: &Case, found: &mut Findings) {
     );
 }
 
+/// What looks like another unit than that of the key, one sentence each.
+fn units(case: &Case) -> Vec<String> {
+    let mut found = Vec::new();
+    for (body, own, material) in [
+        ("disk", &case.disk.material, case.disk_material()),
+        ("bar", &case.bar.material, case.bar_material()),
+    ] {
+        let path = |key: &str, is_own: bool| {
+            if is_own { format!("{body}.material.{key}") } else { format!("material.{key}") }
+        };
+        let young = path("young", own.young.is_some());
+        let density = path("density", own.density.is_some());
+        if material.young < SOFTEST {
+            found.push(format!(
+                "{young} = {} Pa is softer than rubber: is it in MPa? steel has 210e9 Pa",
+                number(material.young)
+            ));
+        }
+        if material.density < LIGHTEST {
+            found.push(format!(
+                "{density} = {} kg/m^3 is lighter than foam: is it in g/cm^3? steel has 7850 kg/m^3",
+                number(material.density)
+            ));
+        } else if material.density > HEAVIEST {
+            found.push(format!(
+                "{density} = {} kg/m^3 is heavier than any metal: steel has 7850 kg/m^3",
+                number(material.density)
+            ));
+        }
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
 /// The patch, by Hertz, must stay inside the fine zone while rolling from x = 0.
 fn check_path(case: &Case, found: &mut Findings) {
+    // the likely cause of an absurd patch
+    let units = units(case).into_iter().map(|unit| format!("; {unit}")).collect::<String>();
+    let help = |remedy: &str| format!("{remedy}{units}");
     let zone = &case.mesh.zone;
     let patch = hertz(case);
     let (rear, front) = (-patch.a, case.rolled() + patch.a);
@@ -519,7 +572,7 @@ fn check_path(case: &Case, found: &mut Findings) {
                 rear
             )
         },
-        "start the fine zone further back, or reduce the load",
+        &help("start the fine zone further back, or reduce the load"),
     );
     let end = zone.start + zone.length;
     found.require(
@@ -541,7 +594,7 @@ fn check_path(case: &Case, found: &mut Findings) {
                 number(round(end))
             )
         },
-        "roll less (time.roll), or lengthen the fine zone (mesh.zone.length)",
+        &help("roll less (time.roll), or lengthen the fine zone (mesh.zone.length)"),
     );
     found.require(
         zone.width >= 2.0 * patch.b * (1.0 - 1e-12),
@@ -553,7 +606,7 @@ fn check_path(case: &Case, found: &mut Findings) {
                 2.0 * patch.b
             )
         },
-        "widen the fine zone, reduce the load, or give the bar a smaller crown_radius",
+        &help("widen the fine zone, reduce the load, or give the bar a smaller crown_radius"),
     );
 }
 
@@ -570,6 +623,11 @@ pub fn warnings(case: &Case) -> Vec<String> {
             warnings.push(text);
         }
     };
+    units(case).into_iter().for_each(|unit| warn(true, unit));
+    warn(
+        case.element.hourglass == 0.0,
+        "element.hourglass = 0: nothing holds the elements against hourglassing".into(),
+    );
     let factor = case.time.factor.unwrap_or(Time::FACTOR);
     warn(
         factor > 1.0,

@@ -1,5 +1,6 @@
 //! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
 
+use crate::guards::limits;
 use crate::model::{BAR, DISK, Model};
 use crate::numbers::{Numbers, numbers};
 use crate::preload::{self, Preloaded, preload, store};
@@ -284,7 +285,7 @@ fn assemble(
         LoadMode::Load => Vertical::Load(case.load.normal),
         LoadMode::Height => Vertical::Held,
     };
-    let simulation = Simulation::new(Setup {
+    let mut simulation = Simulation::new(Setup {
         solid,
         contact: Some(contact),
         hub: Some(hub),
@@ -300,6 +301,7 @@ fn assemble(
         omega_max: 2.0 / stability.dt_limit,
         mass_damping: case.damping.mass,
     });
+    simulation.set_limits(limits(case, model));
     let numbers = numbers(case, model, dt);
     Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }
 }

@@ -6,6 +6,7 @@ use crate::hertz::Hertz;
 use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
+use crate::postmortem::POSTMORTEM;
 use crate::preload::PreloadError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;
@@ -67,7 +68,10 @@ pub(crate) fn summary(
             balance_error: simulation.ledger().balance_error(),
         },
         contact: contact_means(means),
-        files: Files::default(),
+        files: Files {
+            postmortem: ending.diagnosis.map(|_| POSTMORTEM.to_owned()),
+            ..Files::default()
+        },
         stages: [
             ("preload", facts.preload_wall),
             ("rolling", seconds(ending.rolling)),
@@ -136,7 +140,7 @@ pub(crate) fn without_rolling(
         peak_rss_mb: peak_rss_mb(),
         energy: Energy::default(),
         contact: Contact::default(),
-        files: Files { fields: none(), contact: none(), history: none() },
+        files: Files { fields: none(), contact: none(), history: none(), postmortem: None },
         stages: [("preload".to_owned(), wall_s)].into(),
         extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", error.remedy())))].into(),
     }

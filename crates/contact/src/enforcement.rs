@@ -28,6 +28,12 @@ pub trait Contact: Send + Debug {
         force: &mut [Padded],
     ) -> ContactSums;
 
+    /// `y += K_c x` with the springs closed at the last call; nothing for a method without springs.
+    ///
+    /// # Panics
+    /// If a slice has fewer entries than the mesh has nodes.
+    fn add_stiffness_product(&self, x: &[Padded], y: &mut [Padded]);
+
     /// An output table for all nodes of side `side`.
     fn nodal_table(&self, side: usize) -> NodalContact;
 
@@ -58,6 +64,10 @@ const PASSES: [&str; 2] = ["pass_0", "pass_1"];
 impl Contact for PenaltyContact {
     fn apply(&mut self, motion: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
         self.apply(motion, force)
+    }
+
+    fn add_stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {
+        self.stiffness_product(x, y);
     }
 
     fn nodal_table(&self, side: usize) -> NodalContact {

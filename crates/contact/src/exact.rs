@@ -464,6 +464,7 @@ impl Contact for ExactContact {
             sums.closed += 1;
             sums.slipping += usize::from(row.state == State::Slip);
             sums.max_penetration = sums.max_penetration.max(-row.gap);
+            sums.meet(row.mu);
             sums.manifold += usize::from(self.is_manifold(row, &positions, motion));
         }
         sums.sticking = sums.closed - sums.slipping;
@@ -473,6 +474,8 @@ impl Contact for ExactContact {
         self.active = active;
         sums
     }
+
+    fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}
 
     fn nodal_table(&self, side: usize) -> NodalContact {
         NodalContact::whole(&self.sides, side)

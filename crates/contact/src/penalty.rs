@@ -81,8 +81,19 @@ pub struct ContactSums {
     pub slipping: usize,
     /// Largest penetration (m).
     pub max_penetration: f64,
+    /// Largest coefficient of friction that the law gave; NaN where it gave none.
+    pub largest_mu: f64,
     /// Whether the search was refreshed.
     pub searched: bool,
+}
+
+impl ContactSums {
+    /// Takes a coefficient into the largest; one that is no number stays.
+    pub(crate) fn meet(&mut self, mu: f64) {
+        if mu.is_nan() || mu > self.largest_mu {
+            self.largest_mu = mu;
+        }
+    }
 }
 
 /// Two-pass penalty contact of two surfaces with friction springs.
@@ -214,6 +225,7 @@ impl PenaltyContact {
                 sums.closed += 1;
                 sums.slipping += usize::from(pair.state == State::Slip);
                 sums.max_penetration = sums.max_penetration.max(-pair.gap);
+                sums.meet(pair.mu);
             }
             sums.force[slave] = add(sums.force[slave], own);
             sums.force[1 - slave] = add(sums.force[1 - slave], other);

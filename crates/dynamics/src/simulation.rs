@@ -1,7 +1,7 @@
 //! The time loop.
 
 use crate::dashpots::{Dashpots, RigidMotion};
-use crate::guard::{self, Cause, Diagnosis, Place};
+use crate::guard::{Limits, Watch};
 use crate::hub::{Hub, HubWork};
 use crate::ledger::{Energies, Ledger};
 use crate::load::{Fixed, Load};
@@ -77,23 +77,25 @@ pub struct StepReport {
 
 /// Central difference over the whole model.
 pub struct Simulation {
-    solid: Solid,
+    pub(crate) solid: Solid,
     pub(crate) contact: Option<Box<dyn Contact>>,
     pub(crate) hub: Option<Hub>,
     pub(crate) quiet: QuietEnd,
     fixed: Vec<Fixed>,
     load: Load,
-    disk: std::ops::Range<usize>,
-    inverse_mass: Vec<f64>,
+    pub(crate) disk: std::ops::Range<usize>,
+    pub(crate) inverse_mass: Vec<f64>,
     pub(crate) displacement: Vec<Padded>,
     pub(crate) velocity: Vec<Padded>,
     pub(crate) force: Vec<Padded>,
     partial: Vec<NodeSums>,
-    dt: f64,
-    omega_max: f64,
+    pub(crate) dt: f64,
+    pub(crate) omega_max: f64,
     mass_damping: f64,
     pub(crate) step: usize,
     pub(crate) ledger: Ledger,
+    pub(crate) limits: Limits,
+    pub(crate) watch: Watch,
     pub(crate) timers: Timers,
 }
 
@@ -126,6 +128,8 @@ impl Simulation {
             mass_damping: setup.mass_damping,
             step: 0,
             ledger: Ledger::default(),
+            limits: Limits::default(),
+            watch: Watch::default(),
             timers: Timers::default(),
         }
     }
@@ -243,44 +247,6 @@ impl Simulation {
             None => ([0.0; 3], 0.0),
         };
         StepReport { step: n, time, contact, energies, drive, omega }
-    }
-
-    /// The diagnosis if `now` cannot be a solution.
-    pub fn guard(&self, now: &Energies) -> Option<Diagnosis> {
-        if !guard::violated(&self.ledger, now) {
-            return None;
-        }
-        let imbalance = self.ledger.imbalance(now);
-        let ratio = self.dt * self.omega_max / 2.0;
-        let cause = if ratio > 1.0 {
-            Cause::UnstableStep { ratio }
-        } else if imbalance.is_finite() {
-            Cause::EnergyGrowth
-        } else {
-            Cause::NotFinite
-        };
-        let (element, _, jacobian) = self.solid.smallest_jacobian(&self.displacement);
-        let mut place = Place { node: 0, position: [0.0; 3], speed: 0.0, element, jacobian };
-        let rigid = self.hub.as_ref().map(RigidMotion::new);
-        for (node, v) in self.velocity.iter().enumerate() {
-            let at = match &rigid {
-                Some(rigid) if self.disk.contains(&node) => {
-                    rigid.at(self.solid.reference()[node]).0
-                }
-                _ => [0.0; 4],
-            };
-            let speed = (0..3).map(|i| (v.0[i] - at[i]).powi(2)).sum::<f64>().sqrt();
-            if speed > place.speed || !speed.is_finite() {
-                place.node = node;
-                place.speed = speed;
-                place.position = self.solid.reference()[node].xyz();
-                if !speed.is_finite() {
-                    break;
-                }
-            }
-        }
-        let step = self.step.saturating_sub(1);
-        Some(Diagnosis { step, time: step as f64 * self.dt, cause, imbalance, place })
     }
 
     /// Steps done; the state is at t = steps dt.

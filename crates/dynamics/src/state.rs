@@ -1,5 +1,6 @@
 //! The state between two steps, as plain data: enough to go on with the same bits.
 
+use crate::guard::Watch;
 use crate::hub::HubState;
 use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
@@ -24,6 +25,8 @@ pub struct SimulationState {
     pub ledger: Ledger,
     /// Contact, if there is any.
     pub contact: Option<ContactState>,
+    /// What the guards have seen.
+    pub watch: Watch,
     /// Wall time per stage so far.
     pub timers: Timers,
 }
@@ -58,6 +61,7 @@ impl Simulation {
             reactions: self.quiet.reactions().collect(),
             ledger: self.ledger,
             contact: self.contact.as_ref().map(|contact| contact.snapshot()),
+            watch: self.watch,
             timers: self.timers,
         }
     }
@@ -93,6 +97,7 @@ impl Simulation {
             contact.restore(state)?;
         }
         (self.step, self.ledger, self.timers) = (state.step, state.ledger, state.timers);
+        self.watch = state.watch;
         Ok(())
     }
 }

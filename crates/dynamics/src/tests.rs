@@ -73,7 +73,7 @@ fn rotates(mesh: &Mesh, mut setup: Setup) {
     for n in 0..10_000 {
         let report = simulation.step(n % 10 == 0);
         if let Some(e) = report.energies {
-            assert!(simulation.guard(&e).is_none());
+            assert!(simulation.check(&report).is_none());
             let start = *initial.get_or_insert(e.total());
             worst = worst.max((e.total() - start).abs() / start);
         }
@@ -101,7 +101,7 @@ fn a_step_above_the_limit_is_diagnosed_as_unstable() {
     let mut simulation = Simulation::new(setup);
     let found = (0..200).find_map(|_| {
         let report = simulation.step(true);
-        simulation.guard(&report.energies.unwrap())
+        simulation.check(&report)
     });
     let found = found.unwrap();
     assert!(found.step < 50, "{}", found.step);
@@ -249,4 +249,59 @@ fn fixed_directions_do_not_move_and_their_supports_do_no_work() {
     assert!(u.iter().any(|u| u.0[1] != 0.0));
     let error = simulation.ledger().balance_error();
     assert!(error < 1e-9, "{error:e}");
+}
+
+/// A free cube of 4 mm whose hub, its upper face, moves at 10 m/s in x.
+fn carried() -> Simulation {
+    let mesh = mesh::block([4, 4, 4], [4e-3, 4e-3, 4e-3]);
+    let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
+    setup.velocity.fill(Padded::new([10.0, 0.0, 0.0]));
+    let mut hub = Hub::new(
+        [2e-3; 3],
+        &mesh.bodies[0].node_sets["z+"],
+        setup.solid.reference(),
+        &setup.mass,
+        0.0,
+        Spin::Creepage { free: 0.0, creepage: 0.0, ramp: 0.0 },
+        Vertical::Held,
+    );
+    hub.state.vx = 10.0;
+    setup.hub = Some(hub);
+    setup.disk = 0..mesh.nodes.len();
+    Simulation::new(setup)
+}
+
+#[test]
+fn the_end_of_the_bar_stops_a_hub_that_passes_it() {
+    let mut simulation = carried();
+    simulation.set_limits(Limits { track: [0.0, 2.1e-3], ..Limits::default() });
+    let found = (0..1000).find_map(|n| {
+        let report = simulation.step(n % 10 == 0);
+        simulation.check(&report)
+    });
+    let found = found.unwrap();
+    assert!(matches!(found.cause, Cause::EndOfBar { end: 2.1e-3, .. }), "{found}");
+    // ten steps are read at a time
+    let passed = 0.1e-3 / 10.0;
+    assert!((found.time - passed).abs() <= 11.0 * simulation.dt(), "{} {passed}", found.time);
+    assert!(found.to_string().contains("end of the bar"), "{found}");
+}
+
+#[test]
+fn a_node_pushed_through_its_element_makes_the_state_unsound_and_so_does_one_that_is_no_number() {
+    let mut simulation = carried();
+    assert!(simulation.is_sound());
+    let node = 62;
+    simulation.displacement[node].0[2] -= 2.2e-3;
+    assert!(!simulation.is_sound());
+    let (element, ratio) = simulation.solid().most_folded(simulation.displacement());
+    assert!(ratio < 0.0 && simulation.solid().nodes_of(element).contains(&(node as u32)));
+    simulation.displacement[node].0[2] = f64::NAN;
+    assert!(!simulation.is_sound());
+}
+
+#[test]
+fn shapes_are_looked_at_early_and_then_every_500_steps() {
+    let looks: Vec<_> = (0..1600).filter(|&n| guard::looks_at_shape(n)).collect();
+    assert_eq!(looks, [0, 10, 20, 40, 80, 160, 320, 500, 1000, 1500]);
 }

@@ -1,3 +1,4 @@
+use crate::room_left;
 use std::path::PathBuf;
 
 /// Why a file of a run could not be written or read, and what to do about it.
@@ -5,8 +6,8 @@ use std::path::PathBuf;
 pub enum OutputError {
     /// A new file could not be written.
     #[error(
-        "cannot create {}: {reason}; check that its folder exists and is writable and that the \
-         disk has room", path.display()
+        "cannot create {}: {reason}{}; check that its folder exists and is writable and that the \
+         disk has room", path.display(), room_left(path)
     )]
     Create {
         /// The file.
@@ -16,8 +17,8 @@ pub enum OutputError {
     },
     /// An existing file could not be extended.
     #[error(
-        "cannot append to {}: {reason}; what it held before is still readable; check that the \
-         disk has room and that the file was not moved or removed", path.display()
+        "cannot append to {}: {reason}{}; what it held before is still readable; check that the \
+         disk has room and that the file was not moved or removed", path.display(), room_left(path)
     )]
     Append {
         /// The file.

@@ -1,6 +1,6 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle, undo};
 use crate::{OutputError, Provenance};
 use std::path::{Path, PathBuf};
 
@@ -226,6 +226,15 @@ impl TransientGrid {
     /// Appends one snapshot: `values` in the order of the fields given to [`Self::create`].
     pub fn append(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.check_values(values)?;
+        let appended = self.append_whole(time, values);
+        match appended {
+            Ok(()) => self.steps += 1,
+            Err(_) => undo(&self.path, &self.growing(), &STEPS, COUNT, self.steps),
+        }
+        appended
+    }
+
+    fn append_whole(&self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         let step = self.steps as i64;
         let mut file = Appender::open(&self.path)?;
         file.make_room(values.iter().map(Values::bytes).sum())?;
@@ -248,9 +257,7 @@ impl TransientGrid {
         for name in MESH_OFFSETS {
             file.append(&format!("VTKHDF/Steps/{name}"), &[0i64])?;
         }
-        file.close_with_count(&STEPS, COUNT, step + 1)?;
-        self.steps += 1;
-        Ok(())
+        file.close_with_count(&STEPS, COUNT, step + 1)
     }
 
     /// Number of snapshots written.

@@ -263,10 +263,29 @@ pub(crate) fn cut(
     file.close_with_count(group, count, snapshots as i64)
 }
 
+/// Cuts a file off behind its first snapshots where an append that failed has left more of some datasets;
+/// as far as that is possible, since its error is the one that matters.
+pub(crate) fn undo(
+    path: &Path,
+    datasets: &[Growing],
+    group: &[&str],
+    count: &str,
+    snapshots: usize,
+) {
+    let longer = |source: Source| {
+        let wanted = |dataset: &Growing| snapshots * dataset.rows;
+        datasets.iter().any(|d| source.length(&d.name).is_ok_and(|length| length > wanted(d)))
+    };
+    if Source::open(path).is_ok_and(longer) {
+        let _ = cut(path, datasets, group, count, snapshots);
+    }
+}
+
 /// A file being extended.
 pub(crate) struct Appender {
     path: PathBuf,
-    file: H5File,
+    /// Until it is closed.
+    file: Option<H5File>,
     /// Until its announcement.
     room: Option<Room>,
 }
@@ -277,7 +296,7 @@ impl Appender {
             .no_locking()
             .open_rw(path)
             .map_err(|error| append_error(path, error))?;
-        Ok(Self { path: path.to_owned(), file, room: None })
+        Ok(Self { path: path.to_owned(), file: Some(file), room: None })
     }
 
     /// Makes room for `bytes` of data, announced by the first [`Self::append`]: late enough that no
@@ -294,7 +313,7 @@ impl Appender {
 
     pub fn append<T: H5Type>(&mut self, name: &str, data: &[T]) -> Result<(), OutputError> {
         let write = |room: Option<Room>| -> H5Result<()> {
-            self.file.dataset_writer(name)?.append(data)?;
+            open(&self.file)?.dataset_writer(name)?.append(data)?;
             room.map_or(Ok(()), |room| Ok(room.announce()?))
         };
         write(self.room.take()).map_err(|error| append_error(&self.path, error))
@@ -304,7 +323,7 @@ impl Appender {
     fn cut(&mut self, name: &str, rows: usize) -> Result<(), OutputError> {
         let mut found = 0;
         let mut write = || -> H5Result<()> {
-            let dataset = self.file.dataset_writer(name)?;
+            let dataset = open(&self.file)?.dataset_writer(name)?;
             let mut shape = dataset.shape();
             if let Some(length) = shape.first_mut() {
                 found = *length;
@@ -322,14 +341,28 @@ impl Appender {
 
     /// Closing writes the dataset headers first and the group that carries the count after them.
     pub fn close_with_count(
-        self,
+        mut self,
         group: &[&str],
         name: &str,
         value: i64,
     ) -> Result<(), OutputError> {
-        set_count(&self.file, group, name, value)
-            .and_then(|()| self.file.close_no_sync())
+        open(&self.file)
+            .and_then(|file| set_count(file, group, name, value))
+            .and_then(|()| self.file.take().map_or(Ok(()), H5File::close_no_sync))
             .map_err(|error| append_error(&self.path, error))
+    }
+}
+
+fn open(file: &Option<H5File>) -> H5Result<&H5File> {
+    file.as_ref().ok_or_else(|| Hdf5Error::InvalidState("the file is closed".into()))
+}
+
+/// After an error, which was returned: the library would else tell of it once more on standard error.
+impl Drop for Appender {
+    fn drop(&mut self) {
+        if let Some(file) = self.file.take() {
+            let _ = file.close_no_sync();
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Rows of scalars over time: one extendable 1-D dataset per column.
 
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle, undo};
 use crate::{OutputError, Provenance};
 use std::path::{Path, PathBuf};
 
@@ -104,6 +104,14 @@ impl History {
         if rows.is_empty() {
             return Ok(());
         }
+        let appended = self.append_whole(rows, width);
+        if appended.is_err() {
+            undo(&self.path, &growing(&self.columns), &[], COUNT, self.rows);
+        }
+        appended
+    }
+
+    fn append_whole(&mut self, rows: &[f64], width: usize) -> Result<(), OutputError> {
         let count = rows.len() / width;
         let mut file = Appender::open(&self.path)?;
         file.make_room(size_of_val(rows))?;

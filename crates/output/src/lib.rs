@@ -27,6 +27,7 @@
 mod background;
 mod checkpoint;
 mod error;
+mod free;
 mod grid;
 mod hdf5;
 mod history;
@@ -39,6 +40,7 @@ mod vtu;
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
 pub use checkpoint::{Array, CHECKPOINTS, Checkpoint, Lengths, Numbers};
 pub use error::OutputError;
+pub use free::{free_space, room_left};
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
 pub use history::{Column, History};
 pub use json::write_json_atomically;

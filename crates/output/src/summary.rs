@@ -111,6 +111,9 @@ pub struct Files {
     pub contact: String,
     /// Scalars over time.
     pub history: String,
+    /// The state in which the guards stopped the run, if they did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub postmortem: Option<String>,
 }
 
 impl Default for Files {
@@ -119,6 +122,7 @@ impl Default for Files {
             fields: "fields.vtkhdf".into(),
             contact: "contact.vtkhdf".into(),
             history: "history.h5".into(),
+            postmortem: None,
         }
     }
 }

@@ -28,6 +28,6 @@ pub use lanes::Level;
 pub use mass::lumped_mass;
 pub use material::{Material, MaterialError};
 pub use peak::multiply_additions;
-pub use solid::{Element, ForceSums, Solid, SolidError, Viscosity};
+pub use solid::{Element, ElementState, ForceSums, Solid, SolidError, Viscosity};
 pub use stable::{element_frequency_bound, largest_frequency, nodal_stiffness_bounds};
 pub use stiffness::element_stiffness;

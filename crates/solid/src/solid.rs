@@ -184,6 +184,11 @@ impl Solid {
         })
     }
 
+    /// Coefficient of the hourglass stiffness of the one-point elements.
+    pub fn hourglass(&self) -> f64 {
+        self.one_point.hourglass
+    }
+
     /// Reference coordinates of the nodes (m).
     pub fn reference(&self) -> &[Padded] {
         &self.reference
@@ -450,5 +455,9 @@ fn block_force_of(
 }
 
 mod diagonal;
+mod shape;
+
+pub use shape::ElementState;
+
 #[cfg(test)]
 mod tests;

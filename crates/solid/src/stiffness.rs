@@ -57,7 +57,7 @@ fn one_point_stiffness(
 }
 
 /// gamma_aI of the four hourglass modes.
-fn hourglass_shapes(x: &[[f64; 3]; 8], volume: f64, b: &[[f64; 3]; 8]) -> [[f64; 8]; 4] {
+pub(crate) fn hourglass_shapes(x: &[[f64; 3]; 8], volume: f64, b: &[[f64; 3]; 8]) -> [[f64; 8]; 4] {
     let base = [
         CORNERS.map(|c| c[1] * c[2]),
         CORNERS.map(|c| c[2] * c[0]),

@@ -46,6 +46,13 @@ pub fn text(report: &Value) -> String {
 
     heading(&mut out, "Estimate of a run");
     row(&mut out, "memory", &digits(at("/estimate/memory_mb"), 3), "MB", "");
+    let disk = at("/estimate/disk/total_mb");
+    let free = at("/estimate/disk/free_mb");
+    let short = match (disk, free) {
+        (Some(disk), Some(free)) if disk > free => format!("only {free:.0} MB are free"),
+        _ => "of results".into(),
+    };
+    row(&mut out, "disk", &digits(disk, 3), "MB", &short);
     row(&mut out, "steps", &count(at("/estimate/steps")), "", "");
     let time = duration(at("/estimate/run_time_s"));
     row(&mut out, "rolling takes about", &time, "", "on this machine");
@@ -87,13 +94,15 @@ mod tests {
             "quality": { "min_scaled_jacobian": 0.4556, "max_aspect": 25.000000000000007 },
             "stable_dt": { "bound": 1.8469e-7, "bound_element": 16514,
                            "bound_element_centre": [0.0677, 0.009, 0.01209] },
-            "estimate": { "run_time_s": 3.84, "steps": 6989.0 },
+            "estimate": { "run_time_s": 3.84, "steps": 6989.0,
+                          "disk": { "total_mb": 160.2, "free_mb": 99.0 } },
         }));
         for line in [
             "quick: 41 320 elements, 46 641 nodes",
             "  disk        27 400 elements      30 534 nodes   sets: hub 1 176, tread 2 352",
             "  largest aspect ratio            25.0",
             "  bound by elements              184.7 ns     element 16 514 at (67.7, 9.0, 12.1) mm",
+            "  disk                           160 MB       only 99 MB are free",
             "  rolling takes about           3.84 s        on this machine",
         ] {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");

@@ -1,0 +1,28 @@
+//! The limits of the guards, from the case and its mesh.
+
+use crate::hertz::hertz;
+use crate::model::{BAR, Model};
+use crate::schema::Case;
+use dynamics::Limits;
+
+/// Energies below this part of load times approach (Hertz) are those of a contact that only begins.
+const LEAST_ENERGY: f64 = 0.01;
+/// A normal force below this part of the load is none.
+const LEAST_FORCE: f64 = 1e-3;
+/// Steps between two readings of the energies, at most: `output.history_interval` may be larger.
+pub(crate) const READING: u64 = 100;
+
+/// What stops the run of a case.
+pub(crate) fn limits(case: &Case, model: &Model) -> Limits {
+    let guards = &case.guards;
+    let along = model.mesh.nodes[model.mesh.bodies[BAR].nodes.clone()].iter().map(|x| x[0]);
+    Limits {
+        hourglass: guards.hourglass,
+        least_energy: LEAST_ENERGY * case.load.normal * hertz(case).approach,
+        penetration: guards.penetration * case.mesh.zone.size,
+        parted: case.longest_parted().unwrap_or(f64::INFINITY),
+        least_force: LEAST_FORCE * case.load.normal,
+        friction: guards.friction,
+        track: along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]),
+    }
+}

@@ -1,0 +1,221 @@
+//! How far elements are from their shape: what guards look at and post-mortems show, in plain scalar
+//! form beside the kernels of the time loop.
+
+use super::{Solid, deformation, determinant, green, trace};
+use crate::formulation::Volumetric;
+use crate::gauss::gauss_points;
+use crate::geometry::{cross, displacement_gradient, dot, mean_gradient};
+use crate::stiffness::hourglass_shapes;
+use mesh::Padded;
+use rayon::prelude::*;
+
+/// The state of one element.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElementState {
+    /// Mean det F: its volume over that of the reference (dimensionless).
+    pub volume_ratio: f64,
+    /// Smallest det F at its corners (dimensionless): zero where the element is folded flat.
+    pub corner_ratio: f64,
+    /// Strain energy (J).
+    pub strain_energy: f64,
+    /// Energy of its hourglass stiffness (J); zero for a fully integrated element.
+    pub hourglass_energy: f64,
+}
+
+/// The corners that differ from each in xi, eta and zeta (`VTK_HEXAHEDRON` order).
+const NEIGHBOURS: [[usize; 3]; 8] =
+    [[1, 3, 4], [0, 2, 5], [3, 1, 6], [2, 0, 7], [5, 7, 0], [4, 6, 1], [7, 5, 2], [6, 4, 3]];
+
+/// det(dx/dxi) at each corner up to one common sign per corner: the product of the three edges there.
+fn corner_products(x: &[[f64; 3]; 8]) -> [f64; 8] {
+    std::array::from_fn(|corner| {
+        let edge = |other: usize| [0, 1, 2].map(|i| x[other][i] - x[corner][i]);
+        let [a, b, c] = NEIGHBOURS[corner].map(edge);
+        dot(a, cross(b, c))
+    })
+}
+
+/// Smallest det F at the corners: of a trilinear element det F is there the deformed over the reference
+/// product of edges. NaN where a displacement is none.
+fn corner_ratio(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> f64 {
+    let deformed = std::array::from_fn(|c| [0, 1, 2].map(|i| x[c][i] + u[c][i]));
+    let ratios = corner_products(&deformed).into_iter().zip(corner_products(x));
+    ratios.map(|(now, reference)| now / reference).fold(f64::INFINITY, worse)
+}
+
+fn worse(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
+}
+
+/// K_h/2 sum q_a . q_a (J) with the amplitudes q_a = sum u_I gamma_aI and K_h = kappa (lambda + 2G)
+/// B_iI B_iI/(24 V); `modulus` is kappa (lambda + 2G) (Pa).
+fn hourglass_energy(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8], modulus: f64) -> f64 {
+    let (volume, b) = mean_gradient(x);
+    let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
+    let amplitudes = hourglass_shapes(x, volume, &b)
+        .map(|gamma| [0, 1, 2].map(|i| gamma.iter().zip(u).map(|(g, u)| g * u[i]).sum::<f64>()));
+    let square: f64 = amplitudes.iter().flatten().map(|q| q * q).sum();
+    0.5 * modulus * squares / (24.0 * volume) * square
+}
+
+impl Solid {
+    /// The element that is folded most at a corner and the smallest det F there; the first of several,
+    /// and of those where it is NaN. Zero and below, the element is inside out. Allocates nothing.
+    pub fn most_folded(&self, displacement: &[Padded]) -> (usize, f64) {
+        let rank = |(element, ratio): (usize, f64)| {
+            let ratio = if ratio.is_nan() { f64::NEG_INFINITY } else { ratio };
+            (ratio, element)
+        };
+        let least = |a: (usize, f64), b: (usize, f64)| {
+            let ((x, i), (y, j)) = (rank(a), rank(b));
+            if x < y || (x == y && i < j) { a } else { b }
+        };
+        let none = (usize::MAX, f64::INFINITY);
+        self.bodies
+            .iter()
+            .enumerate()
+            .map(|(body, (range, _))| {
+                let elements = range.clone().into_par_iter().with_min_len(1024);
+                let ratio = |element| {
+                    let (x, u) = self.corners(displacement, body, element);
+                    (element, corner_ratio(&x, &u))
+                };
+                elements.map(ratio).reduce(|| none, least)
+            })
+            .fold(none, least)
+    }
+
+    /// What the energy of the one-point elements' hourglass stiffness would be with `coefficient` (J).
+    pub fn hourglass_energy(&self, displacement: &[Padded], coefficient: f64) -> f64 {
+        let of = |element| {
+            let body = self.body_of(element);
+            if self.blocks.is_full(body, element) {
+                return 0.0;
+            }
+            let (x, u) = self.corners(displacement, body, element);
+            hourglass_energy(&x, &u, coefficient * self.bodies[body].1.p_modulus())
+        };
+        (0..self.elements()).map(of).sum()
+    }
+
+    /// The state of every element.
+    pub fn element_states(&self, displacement: &[Padded]) -> Vec<ElementState> {
+        let of = |element| self.element_state(displacement, element);
+        (0..self.elements()).into_par_iter().map(of).collect()
+    }
+
+    /// Nodes of an element (`VTK_HEXAHEDRON` order).
+    pub fn nodes_of(&self, element: usize) -> [u32; 8] {
+        self.blocks.hex(self.body_of(element), element)
+    }
+
+    /// Index of the body of an element.
+    pub fn body_of(&self, element: usize) -> usize {
+        self.bodies.iter().position(|(range, _)| range.contains(&element)).unwrap_or(0)
+    }
+
+    /// The state of one element.
+    pub fn element_state(&self, displacement: &[Padded], element: usize) -> ElementState {
+        let body = self.body_of(element);
+        let material = &self.bodies[body].1;
+        let (x, u) = self.corners(displacement, body, element);
+        // lambda/2 theta^2 + G E:E
+        let density = |e: &[[f64; 3]; 3], theta: f64| {
+            let square: f64 = e.iter().flatten().map(|c| c * c).sum();
+            0.5 * material.lame() * theta * theta + material.shear() * square
+        };
+        let corner_ratio = corner_ratio(&x, &u);
+        if self.blocks.is_full(body, element) {
+            let points = gauss_points(&x).map(|p| (p.volume, p.displacement_gradient(&u)));
+            let volume: f64 = points.iter().map(|(w, _)| w).sum();
+            let mean = points.iter().map(|(w, h)| w * trace(&green(h))).sum::<f64>() / volume;
+            let (mut now, mut strain_energy) = (0.0, 0.0);
+            for (w, h) in &points {
+                let e = green(h);
+                let theta = match self.volumetric {
+                    Volumetric::Full => trace(&e),
+                    Volumetric::Mean => mean,
+                };
+                strain_energy += w * density(&e, theta);
+                now += w * determinant(&deformation(h));
+            }
+            let volume_ratio = now / volume;
+            return ElementState {
+                volume_ratio,
+                corner_ratio,
+                strain_energy,
+                hourglass_energy: 0.0,
+            };
+        }
+        let (h, volume) = displacement_gradient(&x, &u);
+        let e = green(&h);
+        let modulus = self.one_point.hourglass * material.p_modulus();
+        ElementState {
+            volume_ratio: determinant(&deformation(&h)),
+            corner_ratio,
+            strain_energy: volume * density(&e, trace(&e)),
+            hourglass_energy: hourglass_energy(&x, &u, modulus),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use crate::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
+    use mesh::Padded;
+
+    const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
+
+    #[test]
+    fn energies_of_the_elements_add_up_to_those_of_the_kernels() {
+        let mesh = mesh::block([4, 3, 3], [4e-3, 3e-3, 3e-3]);
+        let wave = |x: &[f64; 3], i: usize| 1e-5 * (900.0 * x[(i + 1) % 3] + i as f64).sin();
+        let u: Vec<_> =
+            mesh.nodes.iter().map(|x| Padded::new([0, 1, 2].map(|i| wave(x, i)))).collect();
+        let some: Vec<_> = (0..mesh.hexes.len()).map(|e| e % 3 == 0).collect();
+        let one_point = Element { hourglass: 0.05 };
+        for volumetric in [Volumetric::Mean, Volumetric::Full] {
+            let elements = Elements::mixed(one_point, &some, volumetric);
+            let mut solid =
+                Solid::new(&mesh, &[STEEL], elements, Viscosity::default(), Level::detect())
+                    .unwrap();
+            let states = solid.element_states(&u);
+            let mut force = vec![Padded::ZERO; u.len()];
+            let sums = solid.subtract_elastic_force(&u, &mut force, true);
+            let strain: f64 = states.iter().map(|s| s.strain_energy).sum();
+            let hourglass: f64 = states.iter().map(|s| s.hourglass_energy).sum();
+            assert!((strain / sums.internal - 1.0).abs() < 1e-12, "{strain} {}", sums.internal);
+            assert!((hourglass / sums.hourglass - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_corner_pushed_through_its_element_is_the_most_folded_and_nan_comes_first() {
+        let mesh = mesh::block([5, 4, 3], [5.0, 4.0, 3.0]);
+        let solid = Solid::new(
+            &mesh,
+            &[STEEL],
+            Element { hourglass: 0.05 },
+            Viscosity::default(),
+            Level::detect(),
+        )
+        .unwrap();
+        let mut u = vec![Padded::ZERO; mesh.nodes.len()];
+        assert_eq!(solid.most_folded(&u), (0, 1.0));
+        let element = 37;
+        let [.., corner] = mesh.hexes[element];
+        let [first, ..] = mesh.hexes[element];
+        let (from, to) = (mesh.nodes[corner as usize], mesh.nodes[first as usize]);
+        u[corner as usize] = Padded::new([0, 1, 2].map(|i| 1.2 * (to[i] - from[i])));
+        let (found, ratio) = solid.most_folded(&u);
+        assert!(ratio < 0.0 && mesh.hexes[found].contains(&corner), "{found} {ratio}");
+        assert_eq!(solid.element_states(&u)[found].corner_ratio, ratio);
+        u[corner as usize].0[1] = f64::NAN;
+        let (found, ratio) = solid.most_folded(&u);
+        let with = |e: &[u32; 8]| e.contains(&corner);
+        assert_eq!(found, mesh.hexes.iter().position(with).unwrap());
+        assert!(ratio.is_nan());
+    }
+}
