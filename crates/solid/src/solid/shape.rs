@@ -1,11 +1,12 @@
 //! How far elements are from their shape: what guards look at and post-mortems show, in plain scalar
 //! form beside the kernels of the time loop.
 
-use super::{Solid, deformation, determinant, green, trace};
+use super::Solid;
 use crate::formulation::Volumetric;
 use crate::gauss::gauss_points;
 use crate::geometry::{cross, displacement_gradient, dot, mean_gradient};
 use crate::stiffness::hourglass_shapes;
+use crate::stress::{deformation, determinant, green, trace};
 use mesh::Padded;
 use rayon::prelude::*;
 
