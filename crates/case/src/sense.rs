@@ -586,8 +586,8 @@ pub fn warnings(case: &Case) -> Vec<String> {
     warn(
         case.deterministic && case.preload.method == PreloadMethod::Static,
         "deterministic = true pins the time loop, but the factorisation of preload.method = \
-         \"static\" rounds by the processor: for the same bits on different ones take \
-         \"relaxation\""
+         \"static\" rounds by the processor: for the same bits on different ones take \"relaxation\", \
+         or bring the preload along with --preload-cache"
             .into(),
     );
     let patch = hertz(case);

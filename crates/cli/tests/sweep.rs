@@ -269,7 +269,7 @@ fn a_sweep_killed_again_and_again_ends_with_the_bits_of_one_that_was_not() {
 #[test]
 fn a_sweep_leaves_the_same_bits_on_any_number_of_threads_with_its_kernels_pinned() {
     let place = Place::new(
-        "base = \"base.toml\"\n[set]\ntime.roll = 2e-4\npreload.method = \"relaxation\"\n\
+        "base = \"base.toml\"\n[set]\ntime.roll = 2e-4\n\
          [[axis]]\nkey = \"contact.enforcement\"\nvalues = [\"penalty\", \"exact\"]\n\
          [[derive]]\nkey = \"time.step\"\nrule = \"fixed\"\n",
     );
@@ -278,7 +278,7 @@ fn a_sweep_leaves_the_same_bits_on_any_number_of_threads_with_its_kernels_pinned
         assert_eq!(output.status.code(), Some(0), "{}", said(&output));
         let runs = place.results(threads)["runs"].clone();
         let runs = runs.as_array().unwrap().iter();
-        let folders = runs.map(|run| place.dir.path().join(run["run"].as_str().unwrap()));
+        let folders = runs.map(|run| place.path(threads).join(run["run"].as_str().unwrap()));
         folders.map(|folder| runs::results(&folder)).collect::<Vec<_>>()
     };
     let first = sweep("1");

@@ -252,7 +252,11 @@ impl Table {
         if value >= 0.0 && value < end as f64 && value.fract() == 0.0 {
             return Ok(value as usize);
         }
-        Err(self.refuse(format!("there is no {what} {value}; they are 0 to {}", end - 1)))
+        let known = match end.checked_sub(1) {
+            Some(last) => format!("they are 0 to {last}"),
+            None => "there are none at all".into(),
+        };
+        Err(self.refuse(format!("there is no {what} {value}; {known}")))
     }
 
     fn refuse(&self, problem: String) -> ImportError {
