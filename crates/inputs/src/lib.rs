@@ -1,8 +1,8 @@
 //! Every kind of input that comes from outside, as a function over bytes that reads it as the program
 //! does and stops where a computation would begin.
 //!
-//! Whatever the bytes, such a function returns: it does not panic, takes at most [`LIMIT`] of
-//! processor time and [`LIMIT_MIB`] of memory. The fuzzers of the folder `fuzz/` look for bytes that
+//! Whatever the bytes, such a function returns: it does not panic, and takes at most [`LIMIT`] and
+//! [`LIMIT_MIB`] of memory. The fuzzers of the folder `fuzz/` look for bytes that
 //! break this; what they ever found, and their corpus, is replayed by the tests of this crate.
 
 mod hdf5;
@@ -10,8 +10,7 @@ mod text;
 
 use std::time::Duration;
 
-/// What an input may take. Tests hold it on any machine that is not overloaded; most take a
-/// thousandth.
+/// Time that an input may take.
 pub const LIMIT: Duration = Duration::from_secs(5);
 
 /// Memory that an input may take (MiB).
