@@ -338,7 +338,7 @@ fn price_of_the_fixed_order() {
     let mesh = mesh::block([48, 36, 24], [48.0, 36.0, 24.0]);
     let apart = {
         let mut mesh = mesh.clone();
-        let block = crate::blocks::BLOCK_ELEMENTS;
+        let block = crate::blocks::block_size(mesh.hexes.len(), false);
         let (mut nodes, mut hexes) = (Vec::new(), Vec::new());
         for own in mesh.hexes.chunks(block) {
             let mut new = std::collections::BTreeMap::new();
