@@ -69,13 +69,7 @@ fn the_reference_mesh_holds_what_its_case_says() {
     let shape = Shape {
         disk: Disk { radius: 0.46, hub_radius: 0.10, width: 0.06, crown: None },
         bar: Bar { length: 0.24, width: 0.06, height: 0.07, crown: Some(0.30), start: -0.09 },
-        zone: FineZone {
-            length: 0.08,
-            width: 0.02,
-            depth: 0.008,
-            start: -0.010,
-            ..SHAPE.zone
-        },
+        zone: FineZone { length: 0.08, width: 0.02, depth: 0.008, start: -0.010, ..SHAPE.zone },
         ..SHAPE
     };
     let mesh = fit(imported, &shape).unwrap().mesh;
@@ -180,14 +174,8 @@ fn an_abaqus_file_may_wrap_lines_generate_sets_and_name_faces() {
 #[test]
 fn the_faces_of_abaqus_are_those_of_its_manual() {
     // Abaqus Elements Guide, three-dimensional solid elements: nodes of the faces of C3D8.
-    let faces = [
-        [1, 2, 3, 4],
-        [5, 8, 7, 6],
-        [1, 5, 6, 2],
-        [2, 6, 7, 3],
-        [3, 7, 8, 4],
-        [4, 8, 5, 1],
-    ];
+    let faces =
+        [[1, 2, 3, 4], [5, 8, 7, 6], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 8, 4], [4, 8, 5, 1]];
     let nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n";
     for (i, expected) in faces.iter().enumerate() {
         let text = format!(
@@ -216,7 +204,8 @@ fn what_is_not_read_is_refused_by_line_with_what_to_do() {
         assert!(matches!(error.fault, Fault::Unsupported { .. }));
         assert!(error.to_string().contains(word) && !error.fault.remedy().is_empty(), "{error}");
     }
-    for (format, word) in [("4 0 8", "MSH format 4"), ("4.1 1 8", "binary"), ("2.2 1 8", "binary")] {
+    for (format, word) in [("4 0 8", "MSH format 4"), ("4.1 1 8", "binary"), ("2.2 1 8", "binary")]
+    {
         let text = format!("$MeshFormat\n{format}\n$EndMeshFormat\n");
         let error = read_gmsh(text.as_bytes()).unwrap_err();
         assert_eq!(error.line, Some(2), "{error}");
@@ -299,13 +288,14 @@ fn counts_in_a_header_are_not_believed() {
 #[test]
 fn a_mesh_that_creepage_writes_raw_and_appended_is_read() {
     // a header of 8 bytes, three points, then nothing else
-    let mut raw = b"<VTKFile header_type=\"UInt64\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece>\
+    let mut raw =
+        b"<VTKFile header_type=\"UInt64\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece>\
         <Points><DataArray type=\"Float32\" format=\"appended\" offset=\"0\"/></Points><Cells>\
         <DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\"></DataArray>\
         <DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\"></DataArray>\
         <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\"></DataArray>\
         </Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_"
-        .to_vec();
+            .to_vec();
     raw.extend(12u64.to_le_bytes());
     [0.5f32, -1.0, 0.25].iter().for_each(|x| raw.extend(x.to_le_bytes()));
     raw.extend(b"</AppendedData></VTKFile>");

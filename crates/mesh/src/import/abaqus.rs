@@ -510,9 +510,8 @@ pub fn write_abaqus(mesh: &Foreign) -> String {
     // places from 0 become numbers from 1
     let node = |n: usize| if nodes.ids.is_empty() { n as u64 + 1 } else { nodes.id(n) };
     let hex = |e: usize| if elements.ids.is_empty() { e as u64 + 1 } else { elements.id(e) };
-    let row = |numbers: &[u64]| {
-        numbers.iter().map(u64::to_string).collect::<Vec<_>>().join(", ") + "\n"
-    };
+    let row =
+        |numbers: &[u64]| numbers.iter().map(u64::to_string).collect::<Vec<_>>().join(", ") + "\n";
     let mut text = String::from("*HEADING\n*NODE\n");
     for (n, [x, y, z]) in points.iter().enumerate() {
         text += &format!("{}, {x:?}, {y:?}, {z:?}\n", node(n));
@@ -537,10 +536,7 @@ pub fn write_abaqus(mesh: &Foreign) -> String {
         let numbers = |places: &[u32], of: &dyn Fn(usize) -> u64| -> Vec<u64> {
             places.iter().map(|&place| of(place as usize)).collect()
         };
-        let kinds = [
-            ("NSET", numbers(&set.nodes, &node)),
-            ("ELSET", numbers(&set.hexes, &hex)),
-        ];
+        let kinds = [("NSET", numbers(&set.nodes, &node)), ("ELSET", numbers(&set.hexes, &hex))];
         for (kind, numbers) in kinds.iter().filter(|(_, numbers)| !numbers.is_empty()) {
             text += &format!("*{kind}, {kind}={name}\n");
             numbers.chunks(16).for_each(|chunk| text += &row(chunk));

@@ -15,6 +15,9 @@ use roxmltree::{Document, Node};
 /// Largest part of an array that one byte of zlib can stand for.
 const ZLIB_RATIO: usize = 1100;
 
+/// Arrays over points, or over cells, that a file may have.
+const MOST_ARRAYS: usize = 200;
+
 /// Reads a VTU file.
 ///
 /// # Errors
@@ -204,7 +207,12 @@ impl<'a> File<'a> {
         members: &[Cell],
     ) -> Result<(), ImportError> {
         for (section, count) in [("PointData", foreign.points.len()), ("CellData", members.len())] {
-            for array in child(piece, section).into_iter().flat_map(arrays) {
+            let all: Vec<Node> = child(piece, section).into_iter().flat_map(arrays).collect();
+            if all.len() > MOST_ARRAYS {
+                let what = format!("a grid with {} arrays in {section}", all.len());
+                return Err(unsupported(piece, &what, "write the sets alone"));
+            }
+            for array in all {
                 let components = array.attribute("NumberOfComponents").unwrap_or("1");
                 let Some(name) = array.attribute("Name").filter(|_| components == "1") else {
                     continue;
