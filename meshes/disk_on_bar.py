@@ -3,7 +3,8 @@
 
 The disk's side (x, z) and the bar's section (y, z) are meshed with unstructured quadrangles, fine
 where contact passes, and drawn out to hexahedra: the disk along y, the bar along x. The two meshes
-do not match. Lengths in metres; the disk touches the bar at the origin.
+do not match: where contact passes, elements of the bar are 8/9 as long as those of the disk. Lengths in
+metres; the disk touches the bar at the origin.
 
     pip install gmsh
     python3 meshes/disk_on_bar.py disk-on-bar-2mm.msh
@@ -20,11 +21,11 @@ import gmsh
 
 REFERENCE = dict(radius=0.46, hub=0.10, disk_width=0.06,
                  length=0.24, bar_width=0.06, height=0.07, crown=0.30, start=-0.09,
-                 size=2e-3, zone_start=-0.010, zone_length=0.08, zone_width=0.02, depth=0.008,
+                 size=2e-3, bar_size=0.08 / 45, zone_start=-0.010, zone_length=0.08, zone_width=0.02, depth=0.008,
                  slope=0.30, coarsest=0.05)
 SMALL = dict(radius=0.1, hub=0.05, disk_width=0.02,
              length=0.1, bar_width=0.02, height=0.02, crown=0.30, start=-0.05,
-             size=2e-3, zone_start=-0.012, zone_length=0.024, zone_width=0.008, depth=0.004,
+             size=2e-3, bar_size=2e-3, zone_start=-0.012, zone_length=0.024, zone_width=0.008, depth=0.004,
              slope=0.5, coarsest=0.02)
 
 
@@ -127,6 +128,7 @@ def main():
     args = parser.parse_args()
     p = dict(SMALL if args.small else REFERENCE)
     if args.size:
+        p["bar_size"] *= args.size / p["size"]
         p["size"] = args.size
 
     gmsh.initialize()
@@ -137,7 +139,7 @@ def main():
                         ("Mesh.MshFileVersion", args.msh), ("Mesh.SaveGroupsOfNodes", 1)]:
         gmsh.option.setNumber(name, value)
     arc, wheel, tread, hub = disk(p)
-    crest, rail, top, clamp = bar(p)
+    crest, rail, top, clamp = bar(dict(p, size=p["bar_size"]))
     gmsh.model.geo.synchronize()
     least = gmsh.model.mesh.field.add("Min")
     gmsh.model.mesh.field.setNumbers(least, "FieldsList", [field([arc], p), field([crest], p)])

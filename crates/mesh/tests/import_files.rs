@@ -74,7 +74,7 @@ fn the_reference_mesh_holds_what_its_case_says() {
     };
     let mesh = fit(imported, &shape).unwrap().mesh;
     let faces = |body: usize| mesh.bodies[body].surfaces["zone"].faces.len();
-    assert_eq!([faces(0), faces(1)], [40 * 10, 40 * 10]);
+    assert_eq!([faces(0), faces(1)], [40 * 10, 45 * 12]);
     assert!(mesh::quality(&mesh).min_scaled_jacobian > 0.2, "{:?}", mesh::quality(&mesh));
 }
 
