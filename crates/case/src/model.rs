@@ -2,6 +2,7 @@
 
 use crate::friction;
 use crate::memory::enough_for_mesh;
+use crate::mesh_file;
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers, Ends, FrictionMode};
 use crate::sense::LAYERS;
@@ -9,7 +10,7 @@ use contact::{
     BodyMaterial, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
     StabilityScale,
 };
-use mesh::{Face, FineZone, Mesh, Surface};
+use mesh::{Face, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 
 /// Index of the disk among bodies and contact sides.
@@ -20,6 +21,8 @@ pub(crate) const BAR: usize = 1;
 /// The discretised bodies.
 pub(crate) struct Model {
     pub(crate) mesh: Mesh,
+    /// What is to be said of a mesh file, a sentence each.
+    pub(crate) notes: Vec<String>,
     pub(crate) materials: [Material; 2],
     element: Element,
     /// Which elements are fully integrated, one entry per element; empty where none is.
@@ -45,36 +48,10 @@ impl Model {
     /// Builds the meshes of a case.
     pub(crate) fn build(case: &Case) -> Result<Self, RunError> {
         enough_for_mesh(case)?;
-        // a slice is made one cube wide and stretched to its width
-        let size = case.mesh.zone.size;
-        let slice = |width: f64| if case.mesh.plane_strain { size } else { width };
-        let zone = FineZone {
-            size,
-            length: case.mesh.zone.length,
-            width: slice(case.mesh.zone.width),
-            depth: case.mesh.zone.depth,
-            start: case.mesh.zone.start,
-            growth: case.mesh.growth,
-            coarsest: case.mesh.coarsest,
+        let (mesh, notes) = match mesh_file::import(case)? {
+            Some(imported) => imported,
+            None => (generated(case)?, Vec::new()),
         };
-        let disk = mesh::Disk {
-            radius: case.disk.radius,
-            hub_radius: case.disk.hub_radius,
-            width: slice(case.disk.width),
-            crown: case.disk.crown_radius.radius(),
-        };
-        let bar = mesh::Bar {
-            length: case.bar.length,
-            width: slice(case.bar.width),
-            height: case.bar.height,
-            crown: case.bar.crown_radius.radius(),
-            start: case.bar.start,
-        };
-        let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
-        if case.mesh.plane_strain {
-            let stretch = case.mesh.zone.width / size;
-            mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
-        }
         let materials = [material(case.disk_material()), material(case.bar_material())];
         let mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
         let surface = |body: usize, name: &str| {
@@ -103,6 +80,7 @@ impl Model {
             clamped: set(BAR, "bottom"),
             quiet,
             mesh,
+            notes,
         })
     }
 
@@ -174,6 +152,22 @@ impl Model {
         let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
         [DISK, BAR].map(|side| (&self.surfaces[side], body(self.materials[side])))
     }
+}
+
+/// The meshes of the shapes that a case gives.
+fn generated(case: &Case) -> Result<Mesh, RunError> {
+    let (mut disk, mut bar) = (case.disk.shape(), case.bar.shape());
+    let mut zone = case.mesh.fine_zone();
+    let stretch = zone.width / zone.size;
+    if case.mesh.plane_strain {
+        // a slice is made one cube wide and stretched to its width
+        (disk.width, bar.width, zone.width) = (zone.size, zone.size, zone.size);
+    }
+    let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+    if case.mesh.plane_strain {
+        mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
+    }
+    Ok(mesh)
 }
 
 /// The elements in the contact layers of the fine zones, if they are to be fully integrated.

@@ -112,6 +112,7 @@ fn run_in_pool(
         log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
     }
     case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
+    model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
     let elements = model.mesh.hexes.len();
     log.say(&format!("mesh: {elements} elements, {} nodes", model.mesh.nodes.len()))?;
     if model.fully_integrated() > 0 {

@@ -21,6 +21,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("change the keys of [disk], [bar] or [mesh] that it names"))]
     Mesh(#[from] mesh::MeshError),
+    /// The mesh file cannot be used.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy))]
+    MeshFile(#[from] crate::mesh_file::MeshFileError),
     /// The elements cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("change the keys of [material], [disk], [bar] or [mesh] that it names"))]
@@ -108,7 +112,11 @@ impl RunError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
-            Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
+            Self::MeshFile(_)
+            | Self::NoContact
+            | Self::Case(_)
+            | Self::Threads(_)
+            | Self::Memory { .. } => 2,
             Self::Step { .. } | Self::Resume(_) | Self::Restore(_) => 2,
             Self::Preload(error) if error.is_interruption() => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::check::CheckArgs;
 use crate::import_contact::ImportArgs;
+use crate::import_k::ImportKArgs;
 use crate::plot::PlotArgs;
 use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
@@ -89,6 +90,13 @@ pub enum Command {
         The columns, with a small example: docs/checks.md."
     )]
     ImportContact(ImportArgs),
+    /// Make a case and a mesh file of an LS-DYNA keyword file of a disk on a bar
+    #[command(
+        after_help = "Example:\n  creepage import-k meshes/small.k --unit mm-ton-s --out small\n  \
+        creepage run small/case.toml\n\nThe cards that are read, and the keys that they become: \
+        docs/ls-dyna.md. All others are refused by their line."
+    )]
+    ImportK(ImportKArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

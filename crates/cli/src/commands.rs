@@ -71,6 +71,7 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         Command::Report(options) => crate::report_page::command(args, options),
         Command::Sweep(options) => crate::sweep::command(args, options),
         Command::ImportContact(options) => crate::import_contact::command(args, options),
+        Command::ImportK(options) => crate::import_k::command(args, options),
         Command::Schema => {
             report::print_json(&case::json_schema());
             Ok(0)

@@ -5,6 +5,7 @@ mod check;
 mod commands;
 mod convergence_plot;
 mod import_contact;
+mod import_k;
 mod plot;
 mod progress;
 mod report;
