@@ -1,11 +1,13 @@
 //! From a resolved case to a finished run.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::checkpoint::{Clock, State};
 use crate::folder;
+use crate::friction::{FrictionLaw, OwnLaw};
 use crate::hertz::hertz;
 use crate::log::Log;
 use crate::memory::enough_memory;
@@ -17,7 +19,7 @@ use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::{Start, restart, start};
 use crate::summary::{Ending, summary, without_rolling};
-use dynamics::{Diagnosis, Energies};
+use dynamics::Energies;
 use output::summary::Status;
 use output::{CHECKPOINTS, Provenance};
 use serde_json::json;
@@ -41,6 +43,8 @@ pub struct RunOptions {
     pub preload_cache: Option<PathBuf>,
     /// The case file, for the log.
     pub source: PathBuf,
+    /// The friction law of a case with `friction.law = "python"`.
+    pub law: Option<Arc<dyn OwnLaw>>,
 }
 
 /// Runs a case to its end, to a stop request or to a guard, and returns its summary.
@@ -65,6 +69,9 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
+    if case.friction.law == FrictionLaw::Python && options.law.is_none() {
+        return Err(RunError::NoLaw);
+    }
     let (origin, why) = match origin(case, options)? {
         Some(Origin::Complete(summary)) => return Ok(complete(&options.out, summary)),
         Some(Origin::Checkpoint(point)) => (Some(*point), None),
@@ -77,6 +84,7 @@ fn run_in_pool(
         folder::check(&options.out, replaces)?;
     }
     let mut model = Model::build(case)?;
+    model.law = options.law.clone();
     if let Some(point) = &origin {
         model.kernels = point.kernels;
     }
@@ -191,7 +199,7 @@ fn run_in_pool(
     let first = simulation.steps() as u64;
     let mut clock = Clock::new(&case.checkpoint, simulation.dt(), first);
     let mut keeping = Duration::ZERO;
-    let mut diagnosis: Option<Diagnosis> = None;
+    let mut diagnosis: Option<String> = None;
     let mut status = Status::Completed;
     for n in first..steps {
         let stops = stop.load(Ordering::Relaxed);
@@ -215,9 +223,14 @@ fn run_in_pool(
         recorder.before_step(&simulation)?;
         let read = recorder.reads(n) || n + 1 == steps;
         let report = simulation.step(read);
+        if let Some(failure) = options.law.as_ref().and_then(|law| law.failure()) {
+            diagnosis = Some(format!("the friction law failed at step {n}: {failure}"));
+            status = Status::Failed;
+            break;
+        }
         if let Some(energies) = report.energies {
-            diagnosis = simulation.guard(&energies);
-            if diagnosis.is_some() {
+            if let Some(found) = simulation.guard(&energies) {
+                diagnosis = Some(format!("{found}; remedy: {}", found.remedy()));
                 status = Status::Failed;
                 break;
             }
@@ -241,7 +254,7 @@ fn run_in_pool(
     let rolling_wall = before[1] + rolling.elapsed();
     let (means, output_wall) = recorder.finish(&simulation)?;
     if let Some(d) = &diagnosis {
-        log.say(&format!("{d}; remedy: {}", d.remedy()))?;
+        log.say(d)?;
     }
 
     let ending = Ending {

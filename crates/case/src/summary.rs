@@ -9,14 +9,15 @@ use crate::model::Model;
 use crate::preload::PreloadError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;
-use dynamics::{Diagnosis, Energies, Simulation};
+use dynamics::{Energies, Simulation};
 use output::summary::{Contact, Energy, Files, Status, Summary};
 use serde_json::json;
 
 /// How a run ended.
 pub(crate) struct Ending {
     pub(crate) status: Status,
-    pub(crate) diagnosis: Option<Diagnosis>,
+    /// What the guards found, and what to do.
+    pub(crate) diagnosis: Option<String>,
     /// The last energies read.
     pub(crate) energies: Energies,
     pub(crate) means: Means,
@@ -106,8 +107,7 @@ pub(crate) fn summary(
     ];
     summary.extra = sections.map(|(k, v)| (k.to_owned(), v)).into();
     if let Some(d) = &ending.diagnosis {
-        let text = format!("{d}; remedy: {}", d.remedy());
-        summary.extra.insert("diagnosis".into(), json!(text));
+        summary.extra.insert("diagnosis".into(), json!(d));
     }
     summary
 }

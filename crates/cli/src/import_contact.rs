@@ -10,7 +10,6 @@ use serde_json::json;
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
-use crate::report;
 
 /// Options of `import-contact`.
 #[derive(Debug, clap::Args)]
@@ -70,7 +69,7 @@ pub fn command(args: &Args, options: &ImportArgs) -> Result<u8, Failure> {
     let document = json!({ "file": options.out.display().to_string(), "nodes": points.len(),
                            "faces": faces.len(), "steps": steps, "rows": rows });
     if args.json {
-        report::print_json(&document);
+        args.print_json(&document);
     } else if !args.quiet {
         let out = options.out.display();
         let _ = writeln!(
