@@ -40,7 +40,7 @@ def test_a_sweep_runs_in_processes_of_its_own(tmp_path):
     assert [run["status"] for run in found["runs"]] == ["completed"] * 2
     assert heard[-1]["completed"] == 2
     assert [run["parameters"]["friction.static"] for run in found["runs"]] == [0.1, 0.3]
-    assert creepage.Run(found["runs"][1]["run"]).case["friction"]["static"] == 0.3
+    assert creepage.Run(tmp_path / "out" / found["runs"][1]["run"]).case["friction"]["static"] == 0.3
 
 
 def test_warnings_of_a_case_are_python_warnings(tmp_path):

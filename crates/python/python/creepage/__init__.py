@@ -8,8 +8,9 @@ SI units everywhere; x rolling direction, y lateral, z up; the undeformed disk t
 apex at the origin.
 """
 
-from ._commands import mesh, run, schema, slider, sweep, verify
+from ._commands import run, schema, slider, sweep, verify
 from ._errors import CaseError, CreepageError, Interrupted, LimitError, RunError
+from ._mesh import mesh
 from ._run import Field, History, Records, Run, Side
 
 __all__ = [

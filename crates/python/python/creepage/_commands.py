@@ -130,26 +130,3 @@ def verify(*names, quick=False, long=False, list=False, plot=None):
 def schema() -> dict:
     """JSON Schema of a case: every key with its unit, default and range."""
     return execute(["schema"])[1]
-
-
-class _Mesh:
-    """``creepage.mesh(case)`` and what is about meshes."""
-
-    def __call__(self, case, out=None, **overrides) -> dict:
-        """Build the mesh of a case.
-
-        Args:
-            case: path of a case file, or a dict of its keys.
-            out: write the mesh here, .vtu or .vtkhdf.
-            overrides: keys of the case, as of :func:`creepage.run`.
-
-        Returns:
-            dict: elements, nodes, bodies (with their sets), quality, stable_dt (s), estimate of
-            memory (MB), steps and run time (s).
-        """
-        path, text = _case.source(case)
-        words = ["mesh", path, *_case.sets(overrides), *options(out=out)]
-        return execute(words, case=text)[1]
-
-
-mesh = _Mesh()

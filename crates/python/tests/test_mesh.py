@@ -1,0 +1,64 @@
+"""Meshes of other programs."""
+
+import creepage
+import numpy as np
+import pytest
+
+meshio = pytest.importorskip("meshio")
+
+
+def two_bricks():
+    """A brick on a brick, with sets of every kind that meshio knows."""
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    points = np.concatenate([cube, cube - [0, 0, 1]]) * 1e-3
+    return meshio.Mesh(
+        points,
+        [("hexahedron", [range(8), range(8, 16)]), ("quad", [[0, 3, 2, 1]]), ("line", [[0, 1]])],
+        point_sets={"hub": [4, 5, 6, 7], "top": [12, 13, 14, 15], "low": [8, 9, 10, 11]},
+        cell_sets={"disk": [[0], [], []], "tread": [[], [0], []]},
+    )
+
+
+def written(path):
+    found = meshio.read(path)
+    return found, found.point_data, found.cell_data
+
+
+def test_sets_of_a_mesh_become_arrays_of_zeros_and_ones(tmp_path):
+    keys = creepage.mesh.from_meshio(
+        two_bricks(), {"bar": [1], "clamp": "low"}, out=tmp_path / "mesh.vtu", unit="mm"
+    )
+    assert keys == {"file": str(tmp_path / "mesh.vtu"), "unit": "mm"}
+    found, points, cells = written(keys["file"])
+    assert np.array_equal(found.points, two_bricks().points)
+    assert [(block.type, len(block.data)) for block in found.cells] == [("hexahedron", 2), ("quad", 1)]
+    assert [list(part) for part in cells["disk"]] == [[1, 0], [0]]
+    assert [list(part) for part in cells["bar"]] == [[0, 1], [0]]
+    assert [list(part) for part in cells["tread"]] == [[0, 0], [1]]
+    assert list(np.flatnonzero(points["clamp"])) == [8, 9, 10, 11]
+
+
+def test_a_written_mesh_reads_as_itself(tmp_path):
+    first = creepage.mesh.from_meshio(two_bricks(), {"bar": [1], "clamp": "low"}, out=tmp_path / "a.vtu")
+    again = creepage.mesh.from_meshio(first["file"], out=tmp_path / "b.vtu")
+    assert open(first["file"], "rb").read() == open(again["file"], "rb").read()
+
+
+def test_what_cannot_be_a_mesh_is_refused_by_name(tmp_path):
+    out = tmp_path / "mesh.vtu"
+    mesh = two_bricks()
+    for sets, said in [
+        ({}, "no set bar, clamp; it has: disk, hub, low, top, tread"),
+        ({"bar": "rail"}, "bar = 'rail'.*it has"),
+        ({"rail": "bar"}, "it may have disk, bar"),
+        ({"clamp": [16]}, "index 16 of 16"),
+        ({"clamp": np.ones(3, bool)}, r"shape \(3,\)"),
+    ]:
+        with pytest.raises(creepage.CaseError, match=said):
+            creepage.mesh.from_meshio(mesh, sets, out=out)
+    tets = meshio.Mesh(mesh.points, [("tetra", [[0, 1, 2, 4]]), *mesh.cells])
+    with pytest.raises(creepage.CaseError, match="1 cells of the type tetra"):
+        creepage.mesh.from_meshio(tets, out=out)
+    with pytest.raises(creepage.CaseError, match="meshio cannot read"):
+        creepage.mesh.from_meshio(tmp_path / "none.msh", out=out)
+    assert not out.exists()
