@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -84,9 +85,31 @@ class Mesh:
 def read(meshio, path):
     """A file by meshio, whose many ways to fail are one here."""
     try:
+        if Path(path).suffix.lower() == ".inp":
+            with tempfile.TemporaryDirectory() as folder:
+                copy = Path(folder, "mesh.inp")
+                copy.write_text(with_whole_sets(Path(path).read_text("utf-8")), "utf-8")
+                return meshio.read(copy)
         return meshio.read(path)
     except (Exception, SystemExit) as problem:  # meshio ends the interpreter on some files
         raise CaseError(f"{path}: meshio cannot read it: {problem}") from problem
+
+
+def with_whole_sets(text):
+    """An Abaqus file whose sets stand in one piece: of a set that goes on under a second ``*ELSET`` or ``*NSET``
+    of its name, meshio keeps the last piece alone."""
+    pieces = {"": []}
+    here = pieces[""]
+    for number, line in enumerate(text.splitlines()):
+        if line.startswith("*") and not line.startswith("**"):
+            keyword = line.upper().replace(" ", "")
+            key = keyword if keyword.startswith(("*ELSET,", "*NSET,")) else number
+            goes_on = key in pieces
+            here = pieces.setdefault(key, [])
+            if goes_on:
+                continue
+        here.append(line)
+    return "\n".join(line for piece in pieces.values() for line in piece) + "\n"
 
 
 def refuse_other_cells(mesh):
@@ -107,6 +130,8 @@ def named(mesh):
     for name, chosen in mesh.point_sets.items():
         nodes[name] = masked(chosen, len(mesh.points))
     for name, chosen in mesh.cell_sets.items():
+        if name.startswith("gmsh:"):  # entities, not cells
+            continue
         parts = zip(chosen, mesh.cells)
         cells[name] = [masked([] if part is None else part, len(block.data)) for part, block in parts]
     groups = mesh.cell_data.get("gmsh:physical")
