@@ -1,4 +1,4 @@
-//! `cargo xtask wheel`: the wheel of the Python package, and its tests.
+//! `cargo xtask wheel`: the wheel of the Python package; its tests, and the notebooks.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -21,7 +21,7 @@ pub fn wheel() -> ExitCode {
 }
 
 /// Builds the wheel, installs it in the virtual environment of the checks, and runs the tests of the
-/// package there.
+/// package and the notebooks there.
 pub fn tests(root: &Path) -> Outcome {
     let python = match python(root) {
         Ok(python) => python,
@@ -40,7 +40,25 @@ pub fn tests(root: &Path) -> Outcome {
         return Outcome::Failed;
     }
     let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
-    execute(Command::new(&python).args(pytest).current_dir(root.join("crates/python")))
+    let tests = execute(Command::new(&python).args(pytest).current_dir(root.join("crates/python")));
+    if tests != Outcome::Passed {
+        return tests;
+    }
+    let mut command = Command::new(&python);
+    command.args(pytest).arg("--nbmake").arg(root.join("notebooks")).current_dir(root);
+    if !draws(&python) {
+        eprintln!(
+            "warning: there is no libEGL to draw with; notebooks/first-run.ipynb was skipped"
+        );
+        command.args(["--ignore-glob", "*first-run.ipynb"]);
+    }
+    execute(&mut command)
+}
+
+/// Whether VTK can draw without a display.
+fn draws(python: &Path) -> bool {
+    let ask = "import ctypes.util, sys; sys.exit(ctypes.util.find_library('EGL') is None)";
+    Command::new(python).args(["-c", ask]).status().is_ok_and(|status| status.success())
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.

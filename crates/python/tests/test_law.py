@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from conftest import SHORT, SMALL
+from creepage._case import recorded
 from test_run import assert_same_bits
 
 
@@ -15,7 +16,7 @@ def falling(s):
 def test_a_constant_law_has_the_bits_of_coulomb(small, tmp_path):
     run = creepage.run(SMALL, tmp_path / "run", friction=lambda s: np.full_like(s, 0.3), **SHORT)
     assert_same_bits(small.path, run.path)
-    assert "np.full_like(s, 0.3)" in run.case["friction"]["source"]
+    assert run.case["friction"]["source"] == "lambda s: np.full_like(s, 0.3)"
 
 
 @pytest.mark.parametrize(
@@ -62,10 +63,21 @@ def test_the_bits_do_not_depend_on_threads(tmp_path):
     ],
 )
 def test_what_is_no_law_is_refused_before_anything_runs(tmp_path, law, said):
-    with pytest.warns() if False else np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):
         with pytest.raises(creepage.CaseError, match=said):
             creepage.run(SMALL, tmp_path / "run", friction=law, **SHORT)
     assert not (tmp_path / "run").exists()
+
+
+def test_what_is_recorded_of_a_law_is_the_law_alone():
+    def inner(s):
+        return 0.3 + 0 * s
+
+    assert recorded(inner) == "def inner(s):\n    return 0.3 + 0 * s"
+    laws = dict(one=lambda s: {"a": (0.3, 0)}["a"][0] + 0 * s, force=True)
+    assert recorded(laws["one"]) == "lambda s: {'a': (0.3, 0)}['a'][0] + 0 * s"
+    assert recorded(Tiring(1)).startswith("class Tiring:")
+    assert recorded(np.sqrt) == "numpy.sqrt (no source)"
 
 
 class Tiring:

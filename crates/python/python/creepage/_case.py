@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import json
 import os
+import re
+import textwrap
 from collections.abc import Mapping
 
 from . import _creepage
@@ -92,8 +95,27 @@ def recorded(function) -> str:
     """Where a function comes from: its source, or its name where there is none."""
     for candidate in (function, type(function)):
         try:
-            return inspect.cleandoc(inspect.getsource(candidate)).strip()
+            source = textwrap.dedent(inspect.getsource(candidate)).strip()
         except (OSError, TypeError):
             continue
+        return the_lambda(source, function) or source
     name = getattr(function, "__qualname__", type(function).__qualname__)
     return f"{getattr(function, '__module__', '')}.{name} (no source)"
+
+
+def the_lambda(lines, function):
+    """A lambda out of the lines in which it stands, so that what is beside it, such as the options of a run,
+    is not recorded; None where it is no lambda, or one of several."""
+    if getattr(function, "__name__", None) != "<lambda>":
+        return None
+    found = []
+    for start in (match.start() for match in re.finditer(r"\blambda\b", lines)):
+        for end in range(len(lines), start, -1):
+            try:
+                tree = ast.parse(f"({lines[start:end]}\n)", mode="eval").body
+            except (SyntaxError, ValueError):
+                continue
+            if isinstance(tree, ast.Lambda):
+                found.append(ast.unparse(tree))
+                break
+    return found[0] if len(found) == 1 else None
