@@ -44,6 +44,12 @@ def test_a_law_at_the_same_instant_is_asked_at_every_trial(tmp_path):
     assert np.abs(ours - theirs).max() <= 1e-6 * np.abs(ours).max()
 
 
+def test_a_check_says_which_measures_need_the_law(tmp_path):
+    run = creepage.run(SMALL, tmp_path / "run", friction=falling, **SHORT)
+    with pytest.raises(creepage.LimitError, match="law_error .the friction law is not known"):
+        run.check(limits={"law_error": 1.0}, strict=True)
+
+
 def test_the_bits_do_not_depend_on_threads(tmp_path):
     a, b = (creepage.run(SMALL, tmp_path / f"{n}", friction=falling, threads=n, **SHORT) for n in (1, 2))
     assert_same_bits(a.path, b.path)

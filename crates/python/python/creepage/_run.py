@@ -337,11 +337,13 @@ class Run:
         document = execute(words)[1]
         if strict and not document["pass"]:
             broken = [
-                f"{name} = {metric['value']:.4g} (limit {metric['limit']:.4g})"
+                f"{name} = {metric['value']} (limit {metric['limit']})"
+                if metric["value"] is not None
+                else f"{name} ({metric.get('note', 'not known')})"
                 for name, metric in document["metrics"].items()
                 if metric.get("pass") is False
             ]
-            raise LimitError("beyond its limit: " + ", ".join(broken), run=self)
+            raise LimitError("beyond a limit: " + ", ".join(broken), run=self)
         return document
 
     def figures(self, out=None, format=("svg", "png"), window=None) -> dict:
