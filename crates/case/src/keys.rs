@@ -247,6 +247,7 @@ pub const KEYS: &[Key] = &[
             "prakash_clifton",
             "table",
             "expression",
+            "python",
         ]),
         "",
         "choose one of the words",
@@ -290,6 +291,7 @@ pub const KEYS: &[Key] = &[
         "",
         "give a formula in s, p, t and x in quotes: `expression = \"0.32 + 0.18*exp(-6*s)\"`",
     ),
+    key("friction.source", Text, "", "give the source of the function in quotes"),
     key("friction.mode", Word(&["lagged", "exact"]), "", "choose one of the words"),
     key(
         "friction.memory.distance",

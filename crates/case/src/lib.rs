@@ -46,6 +46,7 @@ mod tests;
 
 pub use bench::{BlockElement, bench, bench_block};
 pub use error::{CaseError, KeyError};
+pub use friction::OwnLaw;
 pub use json_schema::json_schema;
 pub use load::error_at_key;
 pub use mesh_file::MeshFileError;

@@ -53,16 +53,21 @@ impl Case {
     }
 }
 
-/// An error found after loading, told at the place where a key was written.
+/// An error found after loading, told at the place where a key was written; `text` is the case where it is
+/// not in the file.
 pub fn error_at_key(
     path: &Path,
+    text: Option<&str>,
     sets: &[String],
     key: &str,
     message: &str,
     remedy: &str,
 ) -> CaseError {
     let read = || -> Result<Layers, CaseError> {
-        let mut layers = Layers::read(path)?;
+        let mut layers = match text {
+            Some(text) => Layers::from_text(text, path)?,
+            None => Layers::read(path)?,
+        };
         sets.iter().try_for_each(|set| layers.add_set(set))?;
         Ok(layers)
     };

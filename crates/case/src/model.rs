@@ -1,6 +1,6 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
-use crate::friction;
+use crate::friction::{self, OwnLaw};
 use crate::memory::enough_for_mesh;
 use crate::mesh_file;
 use crate::run_error::RunError;
@@ -12,6 +12,7 @@ use contact::{
 };
 use mesh::{Face, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
+use std::sync::Arc;
 
 /// Index of the disk among bodies and contact sides.
 pub(crate) const DISK: usize = 0;
@@ -30,6 +31,8 @@ pub(crate) struct Model {
     volumetric: Volumetric,
     /// Instruction set of the element kernels.
     pub(crate) kernels: Level,
+    /// The friction law that was handed over with the run.
+    pub(crate) law: Option<Arc<dyn OwnLaw>>,
     /// Lumped masses (kg).
     pub(crate) mass: Vec<f64>,
     /// The whole contact surfaces.
@@ -73,6 +76,7 @@ impl Model {
                 crate::schema::Volumetric::Full => Volumetric::Full,
             },
             kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
+            law: None,
             mass,
             surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
             zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
@@ -117,7 +121,7 @@ impl Model {
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
         };
-        let mut law = friction::law(case)?;
+        let mut law = friction::law(case, self.law.as_ref())?;
         if case.friction.mode == Some(FrictionMode::Exact) {
             // no friction acts in the preload
             law = Box::new(Coulomb { mu: law.mu_static() });
@@ -132,7 +136,8 @@ impl Model {
             curvature: case.contact.curvature,
             rows: rows(case),
         };
-        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, friction::law(case)?)?)
+        let law = friction::law(case, self.law.as_ref())?;
+        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, law)?)
     }
 
     /// The side whose nodes are slaves of exact contact: that of the finer zone, the disk's where both

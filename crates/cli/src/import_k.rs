@@ -11,7 +11,6 @@ use serde_json::json;
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
-use crate::report;
 
 /// Options of `import-k`.
 #[derive(Debug, clap::Args)]
@@ -61,7 +60,7 @@ pub fn command(args: &Args, options: &ImportKArgs) -> Result<u8, Failure> {
     let found = case::mesh_report(&loaded, None)?;
     let elements = found["elements"].as_u64().unwrap_or_default();
     if args.json {
-        report::print_json(&json!({
+        args.print_json(&json!({
             "case": case.display().to_string(),
             "mesh": mesh.display().to_string(),
             "elements": elements,
