@@ -184,16 +184,14 @@ impl Model {
     /// Moves the bodies to where Creepage wants them: the disk's axis at x = 0, the bar's apex at
     /// z = 0 and the disk on it, both centred on y = 0. Measures their shapes.
     fn place(&mut self, notes: &mut Vec<String>) -> Shape {
-        let [tread, top] =
-            ["tread", "top"].map(|set| self.extent(&mut self.faces(set).iter().flatten().copied()));
+        let top = self.extent(&mut self.faces("top").iter().flatten().copied());
         let bodies = [0, 1].map(|b| self.extent(&mut self.nodes[b].iter().copied()));
         let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-        let axis = middle(tread[0]);
-        let drop = tread[2][0] - top[2][1];
-        let moves = [
-            [-axis, -middle(bodies[0][1]), -tread[2][0]],
-            [-axis, -middle(bodies[1][1]), -top[2][1]],
-        ];
+        let across = middle(bodies[0][1]);
+        let ([axis, height], radius) = self.running_circle(across);
+        let lowest = height - radius;
+        let drop = lowest - top[2][1];
+        let moves = [[-axis, -across, -lowest], [-axis, -middle(bodies[1][1]), -top[2][1]]];
         for (body, by) in moves.iter().enumerate() {
             for &n in &self.nodes[body] {
                 let point = &mut self.foreign.points[n as usize];
@@ -211,7 +209,6 @@ impl Model {
         }
         let [disk, bar] = [0, 1].map(|b| self.extent(&mut self.nodes[b].iter().copied()));
         let span = |[low, high]: [f64; 2]| high - low;
-        let radius = 0.5 * span(tread[0]);
         let points = &self.foreign.points;
         let from_axis = |n: u32| {
             let p = points[n as usize];
@@ -242,6 +239,34 @@ impl Model {
             start: bar[0][0],
             zone: self.zone(bar[0], span(bar[1]).min(span(disk[1]))),
         }
+    }
+
+    /// Centre (x, z) and radius of the circle through the tread's nodes nearest to y = `across`.
+    ///
+    /// Source: Kåsa (1976), "A circle fitting procedure and its error analysis": the linear least
+    /// squares of x^2 + z^2 = 2 a x + 2 b z + c.
+    fn running_circle(&self, across: f64) -> ([f64; 2], f64) {
+        let nodes: BTreeSet<u32> = self.faces("tread").iter().flatten().copied().collect();
+        let at = |n: u32| self.foreign.points[n as usize];
+        let off = |n: u32| (at(n)[1] - across).abs();
+        let least = nodes.iter().map(|&n| off(n)).fold(f64::INFINITY, f64::min);
+        let ring: Vec<[f64; 2]> = nodes
+            .iter()
+            .filter(|n| off(**n) <= least + 1e-6)
+            .map(|&n| [at(n)[0], at(n)[2]])
+            .collect();
+        let count = ring.len() as f64;
+        let mean = [0, 1].map(|i| ring.iter().map(|p| p[i]).sum::<f64>() / count);
+        let (mut xx, mut xz, mut zz, mut xr, mut zr, mut rr) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        for p in &ring {
+            let (x, z) = (p[0] - mean[0], p[1] - mean[1]);
+            let r = x * x + z * z;
+            (xx, xz, zz) = (xx + x * x, xz + x * z, zz + z * z);
+            (xr, zr, rr) = (xr + x * r, zr + z * r, rr + r);
+        }
+        let twice = 2.0 * (xx * zz - xz * xz);
+        let (a, b) = ((xr * zz - zr * xz) / twice, (zr * xx - xr * xz) / twice);
+        ([mean[0] + a, mean[1] + b], (rr / count + a * a + b * b).sqrt())
     }
 
     /// The part of the bar's top with faces about as small as that nearest to the first contact, on
