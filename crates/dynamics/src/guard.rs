@@ -350,12 +350,14 @@ fn worst_spot(contact: &dyn Contact, measure: impl Fn(&Spot) -> f64) -> Option<S
         contact.nodal(&mut table);
         for (i, &node) in table.nodes.iter().enumerate() {
             let slip_speed = table.slip_velocity[i].iter().map(|c| c * c).sum::<f64>().sqrt();
+            let pressure = table.pressure[i];
             let spot = Spot {
                 node: node as usize,
                 gap: table.gap[i],
-                mu: table.mu[i],
+                // the table weighs coefficients with forces: where those are none, it knows no coefficient
+                mu: if pressure.is_nan() { f64::NAN } else { table.mu[i] },
                 slip_speed,
-                pressure: table.pressure[i],
+                pressure,
             };
             let value = measure(&spot);
             let value = if value.is_nan() { f64::INFINITY } else { value };
