@@ -53,9 +53,14 @@ pub struct SweepArgs {
     collect: Option<Vec<PathBuf>>,
 }
 
+/// Reads the sweep file and everything that it names.
+pub fn load(options: &SweepArgs) -> Result<Sweep, Failure> {
+    Ok(Sweep::load(&options.sweep)?)
+}
+
 /// Runs the command.
 pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
-    let sweep = Sweep::load(&options.sweep)?;
+    let sweep = load(options)?;
     let folder = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&sweep.name));
     if let Some(elsewhere) = &options.collect {
         if let Some(missing) = elsewhere.iter().find(|folder| !folder.is_dir()) {
