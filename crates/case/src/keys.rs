@@ -140,6 +140,7 @@ pub const KEYS: &[Key] = &[
     key("name", Text, "", "use letters, digits, '-', '_' and '.', as in a folder's name"),
     key("title", Text, "", "give one line of text in quotes"),
     key("extends", Text, "", "give the path of another case file, relative to this one"),
+    key("deterministic", Flag, "", "give true or false"),
     key("disk.radius", LENGTH, "m", METRES),
     key("disk.hub_radius", LENGTH, "m", METRES),
     key("disk.width", LENGTH, "m", METRES),

@@ -95,7 +95,7 @@ impl Model {
                 crate::schema::Volumetric::Mean => Volumetric::Mean,
                 crate::schema::Volumetric::Full => Volumetric::Full,
             },
-            kernels: Level::detect(),
+            kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
             mass,
             surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
             zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],

@@ -159,12 +159,9 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
         return Err("it is of another case".into());
     }
     let kernels = checkpoint.text(KERNELS).unwrap_or_default();
-    let level = [Level::Avx512, Level::Avx2, Level::Portable]
-        .into_iter()
-        .find(|level| level.name() == kernels && level.available())
-        .ok_or_else(|| {
-            format!("it was computed with {kernels} kernels, which this machine cannot run")
-        })?;
+    let level = Level::named(kernels).and_then(Level::with_the_same_bits).ok_or_else(|| {
+        format!("it was computed with {kernels} kernels, which this machine cannot run")
+    })?;
     let state = State::from_checkpoint(&checkpoint)?;
     results_reach(&checkpoint, folder)?;
     Ok((checkpoint, state, level))

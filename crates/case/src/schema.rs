@@ -26,6 +26,10 @@ pub struct Case {
     /// Tables merge key by key, arrays are replaced whole. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extends: Option<String>,
+    /// Whether the element kernels are those whose bits every processor can give (AVX2's, also where there
+    /// is AVX-512 or no AVX2). Default false: the fastest of the machine.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub deterministic: bool,
     /// The disk.
     #[serde(default)]
     pub disk: Disk,

@@ -136,6 +136,10 @@ pub struct RunArgs {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<usize>,
+    /// Take the kernels whose bits every processor can give, at some cost in speed; the same as
+    /// --set deterministic=true
+    #[arg(long)]
+    pub deterministic: bool,
     /// Go on with the run in the folder from its last checkpoint, to the same bits; with --force,
     /// begin anew where there is none of this case
     #[arg(long)]
@@ -149,6 +153,14 @@ pub struct RunArgs {
     /// Live as long as standard input is open, and print progress: how a sweep holds its runs
     #[arg(long, hide = true)]
     pub leash: bool,
+}
+
+impl RunArgs {
+    /// What is laid over the case file.
+    pub fn sets(&self) -> Vec<String> {
+        let pinned = self.deterministic.then(|| "deterministic=true".to_owned());
+        self.sets.iter().cloned().chain(pinned).collect()
+    }
 }
 
 /// Options of `mesh`.
@@ -172,7 +184,7 @@ pub struct BenchArgs {
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<usize>,
     /// Instruction set of the element kernels [default: the best of this machine]
-    #[arg(long, value_name = "avx512|avx2|portable", value_parser = kernels)]
+    #[arg(long, value_name = "avx512|avx2|fused|portable", value_parser = kernels)]
     pub kernels: Option<Level>,
     /// Set a key of the reference case, for example mesh.zone.size=2e-3; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -201,12 +213,10 @@ fn element(text: &str) -> Result<BlockElement, String> {
 }
 
 fn kernels(text: &str) -> Result<Level, String> {
-    let level =
-        [Level::Avx512, Level::Avx2, Level::Portable].into_iter().find(|l| l.name() == text);
-    match level {
+    match Level::named(text) {
         Some(level) if level.available() => Ok(level),
         Some(_) => Err("this machine does not have these instructions".into()),
-        None => Err("one of avx512, avx2, portable is needed".into()),
+        None => Err("one of avx512, avx2, fused, portable is needed".into()),
     }
 }
 

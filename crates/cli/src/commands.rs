@@ -95,7 +95,8 @@ fn check_args(args: &Args) -> Result<u8, Failure> {
 }
 
 fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
-    let case = load(args, &options.case, &options.sets)?;
+    let sets = options.sets();
+    let case = load(args, &options.case, &sets)?;
     let out = options.out.clone().unwrap_or_else(|| case::folder::default_folder(&case));
     let run_options = RunOptions {
         out: out.clone(),
@@ -112,7 +113,7 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     }
     let result = case::run(&case, &run_options, &stop, &mut |progress| watch.show(progress));
     watch.finish();
-    let summary = result.map_err(|error| placed(error, &options.case, &options.sets))?;
+    let summary = result.map_err(|error| placed(error, &options.case, &sets))?;
     if args.json {
         report::print_json(&summary);
     } else if !args.quiet {

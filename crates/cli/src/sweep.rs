@@ -39,6 +39,10 @@ pub struct SweepArgs {
     /// Memory that the runs may take together, in MB [default: nine tenths of what is free]
     #[arg(long, value_name = "MB", value_parser = megabytes, allow_hyphen_values = true)]
     memory: Option<f64>,
+    /// Take the kernels whose bits every processor can give in every run; the same as
+    /// deterministic = true in [set]
+    #[arg(long)]
+    deterministic: bool,
     /// Go on with the sweep in the folder: keep the runs that are done, do the others
     #[arg(long, conflicts_with = "force")]
     resume: bool,
@@ -55,7 +59,11 @@ pub struct SweepArgs {
 
 /// Reads the sweep file and everything that it names.
 pub fn load(options: &SweepArgs) -> Result<Sweep, Failure> {
-    Ok(Sweep::load(&options.sweep)?)
+    let mut sweep = Sweep::load(&options.sweep)?;
+    if options.deterministic {
+        sweep.sets.push(("deterministic".into(), true.into()));
+    }
+    Ok(sweep)
 }
 
 /// Runs the command.

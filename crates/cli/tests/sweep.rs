@@ -267,6 +267,35 @@ fn a_sweep_killed_again_and_again_ends_with_the_bits_of_one_that_was_not() {
 }
 
 #[test]
+fn a_sweep_leaves_the_same_bits_on_any_number_of_threads_with_its_kernels_pinned() {
+    let place = Place::new(
+        "base = \"base.toml\"\n[set]\ntime.roll = 2e-4\n\
+         [[axis]]\nkey = \"contact.enforcement\"\nvalues = [\"penalty\", \"exact\"]\n\
+         [[derive]]\nkey = \"time.step\"\nrule = \"fixed\"\n",
+    );
+    let sweep = |threads: &str| {
+        let output = place.sweep(&["--out", threads, "--threads", threads, "--deterministic"]);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let runs = place.results(threads)["runs"].clone();
+        let runs = runs.as_array().unwrap().iter();
+        let folders = runs.map(|run| place.path(threads).join(run["run"].as_str().unwrap()));
+        folders.map(|folder| runs::results(&folder)).collect::<Vec<_>>()
+    };
+    let first = sweep("1");
+    assert_eq!(first.len(), 2);
+    for run in &first {
+        assert!(run.resolved.contains("\ndeterministic = true\n"));
+        assert!(["avx2", "fused"].contains(&run.summary["kernels"].as_str().unwrap()));
+    }
+    for threads in ["2", "3", "4", "7"] {
+        for (a, b) in first.iter().zip(sweep(threads)) {
+            assert_eq!(a.differing(&b), Vec::<&str>::new(), "{threads} threads");
+            assert_eq!(a.resolved, b.resolved);
+        }
+    }
+}
+
+#[test]
 fn runs_end_with_their_killed_sweep() {
     let place = four();
     let mut child = place.command(&["--out", "out", "--jobs", "2"]).spawn().unwrap();

@@ -205,7 +205,10 @@ impl fmt::Display for Diagnosis {
                 } else {
                     write!(f, "the friction law gives no coefficient of friction")?;
                 }
-                write!(f, ", at a slip speed of {slip_speed:.3e} m/s and {pressure:.3e} Pa")?;
+                if slip_speed.is_finite() {
+                    write!(f, ", at a slip speed of {slip_speed:.3e} m/s")?;
+                }
+                write!(f, ", under {pressure:.3e} Pa")?;
             }
             Cause::Inverted { volume_ratio } if volume_ratio > 0.0 => write!(
                 f,

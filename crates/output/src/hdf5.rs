@@ -366,10 +366,14 @@ impl Drop for Appender {
     }
 }
 
+/// Bytes that deflate can make of one, at most.
+const MOST_PER_BYTE: u64 = 1032;
+
 /// A file being read.
 pub(crate) struct Source {
     path: PathBuf,
     file: H5File,
+    length: u64,
 }
 
 impl Source {
@@ -378,7 +382,35 @@ impl Source {
             .no_locking()
             .open(path)
             .map_err(|error| read_error(path, error.to_string()))?;
-        Ok(Self { path: path.to_owned(), file })
+        let length =
+            std::fs::metadata(path).map_err(|error| read_error(path, error.to_string()))?;
+        Ok(Self { path: path.to_owned(), file, length: length.len() })
+    }
+
+    /// A dataset to be read. A damaged shape could take all memory: refused is what does not go into
+    /// the file even if it is all zeros, and more chunks than the file has bytes. Nothing that a
+    /// writer left is like that, since no chunk of it is missing.
+    fn dataset(&self, name: &str) -> H5Result<H5Dataset> {
+        let dataset = self.file.dataset(name)?;
+        let product =
+            |dims: &[usize]| dims.iter().fold(1_u64, |all, &n| all.saturating_mul(n as u64));
+        let size = dataset.element_size() as u64;
+        let most = self.length.saturating_mul(MOST_PER_BYTE);
+        let shape = dataset.shape();
+        let chunk = dataset.chunk_dims().unwrap_or_default();
+        let bytes = |dims: &[usize]| product(dims).saturating_mul(size);
+        // The index of chunks is laid out for the extent that the dataset may grow to, if that has a limit.
+        let limits = dataset.max_shape()?;
+        let extent = shape.iter().zip(&limits).map(|(n, limit)| limit.unwrap_or(0).max(*n));
+        let chunks = extent.zip(&chunk).map(|(n, chunk)| n.div_ceil((*chunk).max(1)));
+        let chunks = product(&chunks.collect::<Vec<_>>());
+        if bytes(&shape) <= most && bytes(&chunk) <= most && chunks <= self.length {
+            return Ok(dataset);
+        }
+        Err(Hdf5Error::InvalidState(format!(
+            "`{name}` is damaged: {shape:?} numbers in chunks of {chunk:?} do not go into {} bytes",
+            self.length
+        )))
     }
 
     pub fn path(&self) -> &Path {
@@ -406,7 +438,7 @@ impl Source {
     /// All numbers of a dataset of [`Creator::plain`].
     pub fn plain(&self, dataset: &str) -> Result<Numbers, OutputError> {
         let read = || -> H5Result<Numbers> {
-            let dataset = self.file.dataset(dataset)?;
+            let dataset = self.dataset(dataset)?;
             if dataset.shape().contains(&0) {
                 return Ok(match dataset.datatype()? {
                     DatatypeMessage::FloatingPoint { .. } => Numbers::Real(Vec::new()),
@@ -456,7 +488,7 @@ impl Source {
     /// Rows `start..start + count` as `f64`, whatever number type is stored.
     pub fn rows(&self, dataset: &str, start: usize, count: usize) -> Result<Vec<f64>, OutputError> {
         let read = || -> H5Result<Vec<f64>> {
-            let dataset = self.file.dataset(dataset)?;
+            let dataset = self.dataset(dataset)?;
             let mut counts = dataset.shape();
             let mut starts = vec![0; counts.len()];
             if let (Some(first), Some(length)) = (starts.first_mut(), counts.first_mut()) {

@@ -16,6 +16,7 @@ mod error;
 mod figures;
 mod foot;
 mod frames;
+mod import;
 mod law;
 mod limits;
 mod map;
@@ -34,6 +35,7 @@ pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE
 pub use error::PostError;
 pub use figures::{Named, figures};
 pub use frames::{ContactHistory, Frame, PAIRING_ATTRIBUTE, Pairing};
+pub use import::{ImportError, ImportFiles, Imported, import_contact};
 pub use law::Law;
 pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use page::{run_page, sweep_page};

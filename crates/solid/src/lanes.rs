@@ -14,11 +14,34 @@ pub enum Level {
     Avx512,
     /// 4 lanes of AVX2 with FMA.
     Avx2,
+    /// The arithmetic of [`Level::Avx2`] in plain Rust, to the bit; slow where the machine cannot fuse.
+    Fused,
     /// Plain Rust, any machine.
     Portable,
 }
 
 impl Level {
+    /// All levels, the widest first.
+    pub const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Fused, Self::Portable];
+
+    /// The level whose bits every machine can give: AVX2's, by its instructions or without them.
+    pub fn pinned() -> Self {
+        if Self::Avx2.available() { Self::Avx2 } else { Self::Fused }
+    }
+
+    /// The level of that [`name`](Self::name).
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|level| level.name() == name)
+    }
+
+    /// A level that gives the bits of this one on this machine.
+    pub fn with_the_same_bits(self) -> Option<Self> {
+        match self {
+            Self::Avx2 | Self::Fused => Some(Self::pinned()),
+            level => level.available().then_some(level),
+        }
+    }
+
     /// The widest level that this machine runs.
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -36,16 +59,17 @@ impl Level {
     /// Whether this machine runs this level.
     pub fn available(self) -> bool {
         match (Self::detect(), self) {
-            (_, Self::Portable) | (Self::Avx512, _) => true,
+            (_, Self::Portable | Self::Fused) | (Self::Avx512, _) => true,
             (best, level) => best == level,
         }
     }
 
-    /// `"avx512"`, `"avx2"` or `"portable"`.
+    /// `"avx512"`, `"avx2"`, `"fused"` or `"portable"`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Avx512 => "avx512",
             Self::Avx2 => "avx2",
+            Self::Fused => "fused",
             Self::Portable => "portable",
         }
     }
@@ -143,9 +167,92 @@ impl Lanes for f64 {
     }
 }
 
+/// Four elements as AVX2 has them: the same operations in the same order, fused where it fuses.
+#[derive(Clone, Copy)]
+pub(crate) struct Four([f64; 4]);
+
+impl Four {
+    #[inline(always)]
+    fn with(self, o: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| of(self.0[i], o.0[i])))
+    }
+}
+
+impl Lanes for Four {
+    const N: usize = 4;
+    #[inline(always)]
+    unsafe fn splat(v: f64) -> Self {
+        Self([v; 4])
+    }
+    #[inline(always)]
+    unsafe fn add(self, o: Self) -> Self {
+        self.with(o, |a, b| a + b)
+    }
+    #[inline(always)]
+    unsafe fn sub(self, o: Self) -> Self {
+        self.with(o, |a, b| a - b)
+    }
+    #[inline(always)]
+    unsafe fn mul(self, o: Self) -> Self {
+        self.with(o, |a, b| a * b)
+    }
+    #[inline(always)]
+    unsafe fn div(self, o: Self) -> Self {
+        self.with(o, |a, b| a / b)
+    }
+    #[inline(always)]
+    unsafe fn min(self, o: Self) -> Self {
+        self.with(o, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    unsafe fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+    #[inline(always)]
+    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i].mul_add(b.0[i], c.0[i])))
+    }
+    #[inline(always)]
+    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        Self(std::array::from_fn(|i| (-self.0[i]).mul_add(b.0[i], c.0[i])))
+    }
+    #[inline(always)]
+    unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
+        // SAFETY: the caller vouches for both pointers.
+        let nodes: [[f64; 3]; 4] =
+            std::array::from_fn(|i| unsafe { (*base.add(*index.add(i) as usize)).xyz() });
+        std::array::from_fn(|axis| Self(nodes.map(|x| x[axis])))
+    }
+    #[inline(always)]
+    unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], count: usize) {
+        for lane in 0..count.min(4) {
+            // SAFETY: the caller vouches for both pointers and for exclusive access.
+            let node = unsafe { &mut *base.add(*index.add(lane) as usize) };
+            for (axis, v) in v.iter().enumerate() {
+                node.0[axis] -= v.0[lane];
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn sum(self, count: usize) -> f64 {
+        ordered_sum(&self.0, count)
+    }
+}
+
+#[inline(always)]
+fn ordered_sum(lanes: &[f64], count: usize) -> f64 {
+    let mut sum = 0.0;
+    let mut lane = 0;
+    while lane < count {
+        sum += lanes[lane];
+        lane += 1;
+    }
+    sum
+}
+
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86 {
-    use super::{Lanes, Padded};
+    use super::{Lanes, Padded, ordered_sum};
     use std::arch::x86_64::*;
 
     #[derive(Clone, Copy)]
@@ -277,17 +384,6 @@ pub(crate) mod x86 {
             let node = base.add(*index.add(i) as usize).cast::<f64>();
             _mm256_store_pd(node, _mm256_sub_pd(_mm256_load_pd(node), row));
         }
-    }
-
-    #[inline(always)]
-    fn ordered_sum(lanes: &[f64], count: usize) -> f64 {
-        let mut sum = 0.0;
-        let mut lane = 0;
-        while lane < count {
-            sum += lanes[lane];
-            lane += 1;
-        }
-        sum
     }
 
     #[derive(Clone, Copy)]

@@ -18,6 +18,7 @@ pub fn multiply_additions(level: Level, flops: usize) -> usize {
         Level::Avx512 => (8, avx512),
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => (4, avx2),
+        Level::Fused => (4, fused),
         _ => (1, portable),
     };
     let rounds = flops.div_ceil(2 * CHAINS * lanes);
@@ -63,6 +64,11 @@ unsafe fn avx512(rounds: usize, small: f64) -> f64 {
 unsafe fn avx2(rounds: usize, small: f64) -> f64 {
     // SAFETY: as above.
     unsafe { run::<crate::lanes::x86::F64x4>(rounds, small) }
+}
+
+unsafe fn fused(rounds: usize, small: f64) -> f64 {
+    // SAFETY: plain Rust.
+    unsafe { run::<crate::lanes::Four>(rounds, small) }
 }
 
 unsafe fn portable(rounds: usize, small: f64) -> f64 {

@@ -7,9 +7,9 @@ use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
 use crate::kernel::{Arrays, Constants, Kernel, OnePoint, Sums, block_force};
-use crate::lanes::Level;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
+use crate::lanes::{Four, Level};
 use crate::material::{Material, MaterialError};
 use crate::stress::{deformation, determinant, mean_cauchy, one_point_cauchy};
 use mesh::{Mesh, Padded};
@@ -437,6 +437,7 @@ macro_rules! level_kernels {
 level_kernels!(avx512, x86::F64x8, "avx512f,avx2,fma");
 #[cfg(target_arch = "x86_64")]
 level_kernels!(avx2, x86::F64x4, "avx2,fma");
+level_kernels!(fused, Four);
 level_kernels!(portable, f64);
 
 fn block_force_of(
@@ -450,6 +451,7 @@ fn block_force_of(
         Level::Avx512 => avx512(full, energies, viscous),
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => avx2(full, energies, viscous),
+        Level::Fused => fused(full, energies, viscous),
         _ => portable(full, energies, viscous),
     }
 }

@@ -8,7 +8,7 @@ mod full;
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 const ELEMENT: Element = Element { hourglass: 0.05 };
-const LEVELS: [Level; 3] = [Level::Portable, Level::Avx2, Level::Avx512];
+const LEVELS: [Level; 4] = Level::ALL;
 
 fn solid(mesh: &Mesh, level: Level) -> Solid {
     Solid::new(mesh, &[STEEL], ELEMENT, Viscosity::default(), level).unwrap()
@@ -214,7 +214,7 @@ fn every_level_agrees_with_the_textbook_element() {
 }
 
 #[test]
-fn one_two_and_three_threads_give_the_same_bits() {
+fn one_to_seven_threads_give_the_same_bits() {
     let mesh = shaken([20, 12, 9]);
     let u = field(&mesh, 1e-3);
     let v = field(&mesh, 5.0);
@@ -228,8 +228,36 @@ fn one_two_and_three_threads_give_the_same_bits() {
     };
     let one = run(1);
     assert!(one.1.viscous_power > 0.0);
-    assert_eq!(one, run(2));
-    assert_eq!(one, run(3));
+    for threads in [2, 3, 4, 7] {
+        assert_eq!(one, run(threads));
+    }
+}
+
+#[test]
+fn plain_rust_gives_the_bits_of_avx2_in_every_element_with_energies_and_viscosity() {
+    if !Level::Avx2.available() {
+        return;
+    }
+    let mesh = shaken([7, 5, 3]);
+    let (u, v) = (field(&mesh, 1e-3), field(&mesh, 5.0));
+    let viscosity = Viscosity { bulk_linear: 0.06, bulk_quadratic: 1.2, kelvin_voigt: 1e-8 };
+    let full: Vec<bool> = (0..mesh.hexes.len()).map(|i| i % 3 == 0).collect();
+    for volumetric in [Volumetric::Mean, Volumetric::Full] {
+        for viscosity in [viscosity, Viscosity::default()] {
+            let run = |level| {
+                let elements = Elements::mixed(ELEMENT, &full, volumetric);
+                let mut solid = Solid::new(&mesh, &[STEEL], elements, viscosity, level).unwrap();
+                [false, true].map(|energies| {
+                    let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+                    let sums = solid.subtract_internal_force(&u, &v, &mut f, energies);
+                    (f, [sums.internal, sums.hourglass, sums.viscous_power].map(f64::to_bits))
+                })
+            };
+            let fused = run(Level::Fused);
+            assert_eq!(fused, run(Level::Avx2));
+            assert_ne!(fused[1], run(Level::Portable)[1], "which rounds twice");
+        }
+    }
 }
 
 #[test]
@@ -298,4 +326,62 @@ fn an_inside_out_element_is_refused_by_name() {
     mesh.hexes[1].swap(3, 7);
     let error = Solid::new(&mesh, &[STEEL], ELEMENT, Viscosity::default(), Level::Portable);
     assert!(matches!(error, Err(SolidError::Inverted { element: 1, .. })));
+}
+
+/// What the fixed order costs: an assembly that runs block after block as the mesh has them, which no
+/// order-free one on several threads can beat, against the colours; and, where blocks share no node at
+/// all, one parallel run over all against one per colour with a wait between.
+#[test]
+#[ignore = "measures time: run it alone, with --nocapture"]
+fn price_of_the_fixed_order() {
+    // elements of cases/quick.toml
+    let mesh = mesh::block([48, 36, 24], [48.0, 36.0, 24.0]);
+    let apart = {
+        let mut mesh = mesh.clone();
+        let block = crate::blocks::block_size(mesh.hexes.len(), false);
+        let (mut nodes, mut hexes) = (Vec::new(), Vec::new());
+        for own in mesh.hexes.chunks(block) {
+            let mut new = std::collections::BTreeMap::new();
+            for hex in own {
+                hexes.push(hex.map(|n| {
+                    *new.entry(n).or_insert_with(|| {
+                        nodes.push(mesh.nodes[n as usize]);
+                        nodes.len() as u32 - 1
+                    })
+                }));
+            }
+        }
+        (mesh.nodes, mesh.hexes) = (nodes, hexes);
+        mesh.bodies[0].nodes = 0..mesh.nodes.len();
+        mesh
+    };
+    for (mesh, threads) in [(&mesh, 1), (&apart, 2)] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let u = field(mesh, 1e-3);
+        let coloured = solid(&shared_colours(mesh.hexes.len()), Level::detect()).blocks.colours;
+        let mut ordered = solid(mesh, Level::detect());
+        let mut free = solid(mesh, Level::detect());
+        let all = (0..free.blocks.blocks.len() as u32).collect();
+        free.blocks.colours = vec![all];
+        ordered.blocks.colours = coloured;
+        let mut f = vec![Padded::ZERO; mesh.nodes.len()];
+        let mut best = [f64::INFINITY; 2];
+        for _ in 0..400 {
+            for (solid, best) in [&mut ordered, &mut free].into_iter().zip(&mut best) {
+                let start = std::time::Instant::now();
+                pool.install(|| solid.subtract_internal_force(&u, &[], &mut f, false));
+                *best = best.min(start.elapsed().as_secs_f64());
+            }
+        }
+        let [ordered, free] = best.map(|t| 1e9 * t / mesh.hexes.len() as f64);
+        let price = 100.0 * (ordered / free - 1.0);
+        println!("{threads} threads: {ordered:.2} ns per element, free {free:.2} ns: {price:.1} %");
+    }
+}
+
+/// The block of that many elements whose colours the measurement takes.
+fn shared_colours(elements: usize) -> Mesh {
+    let mesh = mesh::block([48, 36, 24], [48.0, 36.0, 24.0]);
+    assert_eq!(mesh.hexes.len(), elements);
+    mesh
 }
