@@ -64,6 +64,7 @@ pub fn options(out: &Path, threads: usize) -> RunOptions {
         resume: false,
         preload_cache: None,
         source: PathBuf::from("test"),
+        law: None,
     }
 }
 

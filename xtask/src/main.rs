@@ -1,4 +1,4 @@
-//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`.
+//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `wheel`.
 
 mod book;
 mod book_test;
@@ -8,6 +8,7 @@ mod links;
 mod markdown;
 mod shell;
 mod validate;
+mod wheel;
 
 use std::process::ExitCode;
 
@@ -24,7 +25,7 @@ struct Args {
 #[derive(Debug, Subcommand)]
 enum Chore {
     /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
-    /// the case files, the kernels' instructions, a smoke run with the checks of its files
+    /// the case files, the kernels' instructions, a smoke run with the checks of its files, the Python package
     Validate,
     /// Build the documents as a book, target/book/html, and check its links and its equations
     Book,
@@ -34,6 +35,8 @@ enum Chore {
         #[arg(long)]
         all: bool,
     },
+    /// Build the wheel of the Python package into target/wheel
+    Wheel,
     /// Kill runs at random moments, resume them, and compare every bit: `--help` after it for more
     #[command(disable_help_flag = true)]
     KillLoop {
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Chore::Book => validate::alone(validate::book),
         Chore::BookTest { all: false } => validate::alone(validate::book_test),
         Chore::BookTest { all: true } => validate::alone(validate::all_of_the_book),
+        Chore::Wheel => wheel::wheel(),
         Chore::KillLoop { options } => kill_loop::kill_loop(&options),
     }
 }

@@ -19,13 +19,6 @@ pub enum Outcome {
 /// A check of the project, given its root folder.
 pub type Step = fn(&Path) -> Outcome;
 
-/// The checkout's root.
-fn root() -> PathBuf {
-    // Asked at run time: clones that share a target folder share this program as well.
-    let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
-    Path::new(&home).parent().unwrap_or(Path::new(".")).to_owned()
-}
-
 /// Runs one step.
 pub fn alone(step: Step) -> ExitCode {
     if step(&root()) == Outcome::Passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -34,7 +27,7 @@ pub fn alone(step: Step) -> ExitCode {
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 13] = [
+    let steps: [(&str, Step); 14] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -46,6 +39,7 @@ pub fn validate() -> ExitCode {
         ("report page", report_page),
         ("sweep through Dask", dask),
         ("full and read-only disks", disks),
+        ("Python package", crate::wheel::tests),
         ("book", book),
         ("commands of the book", book_test),
     ];
@@ -73,6 +67,13 @@ pub fn validate() -> ExitCode {
     }
     let failed = report.iter().any(|(_, outcome, _)| *outcome == Outcome::Failed);
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// The root folder of the project.
+pub fn root() -> PathBuf {
+    // Asked at run time: clones that share a target folder share this program as well.
+    let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
+    Path::new(&home).parent().unwrap_or(Path::new(".")).to_path_buf()
 }
 
 fn format(root: &Path) -> Outcome {
@@ -218,11 +219,11 @@ pub fn all_of_the_book(root: &Path) -> Outcome {
 
 fn commands_of_the_book(root: &Path, all: bool) -> Outcome {
     if Command::new("bash").arg("--version").output().is_err() {
-        return missing("there is no bash", "the book's commands");
+        return missing("there is no bash", "the test of the book's commands");
     }
     let python = match python(root) {
         Ok(python) => python.parent().map(Path::to_owned),
-        Err(problem) => return missing(&problem, "the book's commands"),
+        Err(problem) => return missing(&problem, "the test of the book's commands"),
     };
     if cargo(root, &["build", "--release"], &[]) == Outcome::Failed {
         return Outcome::Failed;
@@ -241,11 +242,11 @@ fn told(faults: &[String]) -> Outcome {
 }
 
 /// Something is missing on this machine; the continuous integration must have it.
-fn missing(problem: &str, what: &str) -> Outcome {
+pub fn missing(problem: &str, what: &str) -> Outcome {
     if env::var_os("CI").is_some() {
         return told(&[problem.to_owned()]);
     }
-    eprintln!("warning: {problem}; {what}: skipped");
+    eprintln!("warning: {problem}; {what} was skipped");
     Outcome::Skipped
 }
 
@@ -261,7 +262,7 @@ fn check_with_python(root: &Path, script: &str, arguments: &[PathBuf]) -> Outcom
 
 /// The interpreter of a virtual environment under the target folder with the requirements of
 /// the checks, made on the first call.
-fn python(root: &Path) -> Result<PathBuf, String> {
+pub fn python(root: &Path) -> Result<PathBuf, String> {
     let venv = target(root).join("python");
     let bin = venv.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let python = bin.join(if cfg!(windows) { "python.exe" } else { "python" });
@@ -287,7 +288,7 @@ fn python(root: &Path) -> Result<PathBuf, String> {
 }
 
 /// The target folder; cargo itself gives it the same place.
-fn target(root: &Path) -> PathBuf {
+pub fn target(root: &Path) -> PathBuf {
     match env::var_os("CARGO_TARGET_DIR") {
         Some(folder) => root.join(folder),
         None => root.join("target"),
@@ -299,7 +300,8 @@ fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
     execute(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
 }
 
-fn execute(command: &mut Command) -> Outcome {
+/// Runs a command to its end.
+pub fn execute(command: &mut Command) -> Outcome {
     match command.status() {
         Ok(status) if status.success() => Outcome::Passed,
         Ok(status) => {

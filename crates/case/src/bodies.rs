@@ -38,6 +38,18 @@ impl Default for Disk {
     }
 }
 
+impl Disk {
+    /// The shape to mesh.
+    pub(crate) fn shape(&self) -> mesh::Disk {
+        mesh::Disk {
+            radius: self.radius,
+            hub_radius: self.hub_radius,
+            width: self.width,
+            crown: self.crown_radius.radius(),
+        }
+    }
+}
+
 /// The bar: clamped at its bottom, its top's apex at z = 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -69,6 +81,19 @@ impl Default for Bar {
             start: -0.09,
             ends: Ends::Quiet,
             material: MaterialOverride::default(),
+        }
+    }
+}
+
+impl Bar {
+    /// The shape to mesh.
+    pub(crate) fn shape(&self) -> mesh::Bar {
+        mesh::Bar {
+            length: self.length,
+            width: self.width,
+            height: self.height,
+            crown: self.crown_radius.radius(),
+            start: self.start,
         }
     }
 }
@@ -132,10 +157,25 @@ impl MaterialOverride {
     }
 }
 
-/// The mesh: a fine zone where contact passes, graded to coarse elements elsewhere.
+/// The mesh: a fine zone where contact passes, graded to coarse elements elsewhere; or a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Meshing {
+    /// Mesh of another program, relative to this file: Gmsh `.msh`, Abaqus `.inp` or `.vtu`. `[disk]`,
+    /// `[bar]` and `mesh.zone` then say what the mesh is, and must agree with it; `growth`, `coarsest`
+    /// and `zone.depth` are without meaning. Default: the mesh is generated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// SHA-256 of the file, in hexadecimal. Written into the case of a run, so that no other mesh
+    /// takes its place unseen. Default with `file`: that of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sha256: Option<String>,
+    /// Unit of the file's coordinates: `"m"`, `"cm"`, `"mm"` or `"in"`. Default with `file`: `"m"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<LengthUnit>,
+    /// Names of the sets in the file.
+    #[serde(skip_serializing_if = "MeshSets::is_empty")]
+    pub sets: MeshSets,
     /// Ratio of neighbouring element sizes outside the fine zone (dimensionless). Default 1.35.
     pub growth: f64,
     /// Largest element size (m). Default 0.05.
@@ -151,7 +191,80 @@ pub struct Meshing {
 
 impl Default for Meshing {
     fn default() -> Self {
-        Self { growth: 1.35, coarsest: 0.05, plane_strain: false, zone: Zone::default() }
+        Self {
+            file: None,
+            sha256: None,
+            unit: None,
+            sets: MeshSets::default(),
+            growth: 1.35,
+            coarsest: 0.05,
+            plane_strain: false,
+            zone: Zone::default(),
+        }
+    }
+}
+
+impl Meshing {
+    /// The fine zone and the grading around it.
+    pub(crate) fn fine_zone(&self) -> mesh::FineZone {
+        let Zone { size, length, width, depth, start } = self.zone;
+        mesh::FineZone {
+            size,
+            length,
+            width,
+            depth,
+            start,
+            growth: self.growth,
+            coarsest: self.coarsest,
+        }
+    }
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum LengthUnit {
+    /// Metre.
+    #[default]
+    #[serde(rename = "m")]
+    Metre,
+    /// Centimetre.
+    #[serde(rename = "cm")]
+    Centimetre,
+    /// Millimetre.
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// Inch.
+    #[serde(rename = "in")]
+    Inch,
+}
+
+/// Names of the sets in a mesh file.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MeshSets {
+    /// The disk's elements. Default with `mesh.file`: `"disk"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disk: Option<String>,
+    /// The bar's elements. Default with `mesh.file`: `"bar"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bar: Option<String>,
+    /// Nodes or faces of the rigid hub. Default with `mesh.file`: `"hub"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hub: Option<String>,
+    /// Faces or nodes of the disk's running surface. Default with `mesh.file`: `"tread"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tread: Option<String>,
+    /// Faces or nodes of the bar's running surface. Default with `mesh.file`: `"top"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub top: Option<String>,
+    /// Nodes or faces by which the bar is clamped. Default with `mesh.file`: `"clamp"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamp: Option<String>,
+}
+
+impl MeshSets {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
     }
 }
 

@@ -1,13 +1,19 @@
 //! The keys of the friction law, and which law uses which.
 
+mod own;
+
+pub use own::OwnLaw;
+
 use crate::hertz::hertz;
 use crate::schema::Case;
 use contact::{
     ContactError, Coulomb, Domain, Exponential, Expression, Implicit, Lagged, Memory, NodeFriction,
     PrakashClifton, RateState, Remembering, SlipWeakening, SteadyLaw, Table,
 };
+use own::Own;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The friction law.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -16,12 +22,13 @@ pub struct Friction {
     /// `"coulomb"` (one coefficient, `static`), `"exponential"` (Eq 8 of the paper:
     /// mu(s) = dynamic + (static - dynamic) exp(-decay |s|)), `"slip_weakening"` (linear from `static`
     /// to `dynamic` over `distance`), `"rate_state"` (Dieterich-Ruina), `"prakash_clifton"` (shear
-    /// strength that follows `static` times the pressure over `distance`), `"table"` or `"expression"`.
+    /// strength that follows `static` times the pressure over `distance`), `"table"`, `"expression"` or
+    /// `"python"` (a function that the Python package hands over with the run).
     /// Default `"coulomb"`.
     #[serde(default)]
     pub law: FrictionLaw,
     /// Coefficient of friction at zero slip velocity (dimensionless). Required; refused with the laws
-    /// `"rate_state"`, `"table"` and `"expression"`.
+    /// `"rate_state"`, `"table"`, `"expression"` and `"python"`.
     #[serde(rename = "static", default, skip_serializing_if = "Option::is_none")]
     pub static_: Option<f64>,
     /// Coefficient at high slip velocity, or after slip (dimensionless), at most `static`. Default 0.32
@@ -74,14 +81,18 @@ pub struct Friction {
     /// `"0.32 + 0.18*exp(-6*s)"`. Required with this law, refused with others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
+    /// What the function of `law = "python"` is: its source, for the record. Required with this law,
+    /// refused with others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
     /// Which slip velocity the coefficient belongs to: `"lagged"`, that of the step before, or
     /// `"exact"`, that of the same instant, which needs `contact.enforcement = "exact"`. Used by the
-    /// laws `"exponential"`, `"table"`, `"expression"` and `"rate_state"`. Default `"lagged"`; of
+    /// laws `"exponential"`, `"table"`, `"expression"`, `"python"` and `"rate_state"`. Default `"lagged"`; of
     /// `"rate_state"` with exact enforcement `"exact"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mode: Option<FrictionMode>,
     /// Memory of the coefficient: it follows the law over a distance of slip. Only with the laws
-    /// `"exponential"`, `"table"` and `"expression"`; default none.
+    /// `"exponential"`, `"table"`, `"expression"` and `"python"`; default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<FrictionMemory>,
 }
@@ -155,6 +166,8 @@ pub enum FrictionLaw {
     Table,
     /// A coefficient by a formula.
     Expression,
+    /// A coefficient by a function that is handed over with the run.
+    Python,
 }
 
 /// A law with the keys of `[friction]` that it uses.
@@ -168,7 +181,7 @@ pub(crate) struct Uses {
 }
 
 /// Which law uses which keys.
-pub(crate) const USES: [Uses; 7] = [
+pub(crate) const USES: [Uses; 8] = [
     Uses { law: FrictionLaw::Coulomb, word: "coulomb", needs: &["static"], takes: &[] },
     Uses {
         law: FrictionLaw::Exponential,
@@ -199,6 +212,12 @@ pub(crate) const USES: [Uses; 7] = [
         law: FrictionLaw::Expression,
         word: "expression",
         needs: &["expression"],
+        takes: &["mode", "memory"],
+    },
+    Uses {
+        law: FrictionLaw::Python,
+        word: "python",
+        needs: &["source"],
         takes: &["mode", "memory"],
     },
 ];
@@ -244,6 +263,7 @@ impl Friction {
             ("age", self.age.is_some()),
             ("table", self.table.is_some()),
             ("expression", self.expression.is_some()),
+            ("source", self.source.is_some()),
             ("mode", self.mode.is_some()),
             ("memory", self.memory.is_some()),
         ]
@@ -277,7 +297,10 @@ impl Friction {
             FrictionLaw::PrakashClifton => {
                 self.relaxation_speed.get_or_insert(RELAXATION_SPEED);
             }
-            FrictionLaw::Coulomb | FrictionLaw::Table | FrictionLaw::Expression => {}
+            FrictionLaw::Coulomb
+            | FrictionLaw::Table
+            | FrictionLaw::Expression
+            | FrictionLaw::Python => {}
         }
     }
 
@@ -324,10 +347,17 @@ pub(crate) fn domain(case: &Case) -> Domain {
     }
 }
 
-/// The friction law of a case.
-pub(crate) fn law(case: &Case) -> Result<Box<dyn NodeFriction>, ContactError> {
+/// The friction law of a case; `own` is what was handed over with the run. Without it the law
+/// `"python"` is no friction: nothing that does without it rolls.
+pub(crate) fn law(
+    case: &Case,
+    own: Option<&Arc<dyn OwnLaw>>,
+) -> Result<Box<dyn NodeFriction>, ContactError> {
     let friction = &case.friction;
     let distance = friction.distance.unwrap_or(0.0);
+    let memory =
+        friction.memory.map(|memory| Memory { distance: memory.distance, floor: memory.floor });
+    let mode = friction.mode.unwrap_or_default();
     let steady = match friction.law {
         FrictionLaw::Coulomb => return Ok(Box::new(Coulomb { mu: friction.at_rest() })),
         FrictionLaw::SlipWeakening => {
@@ -368,12 +398,14 @@ pub(crate) fn law(case: &Case) -> Result<Box<dyn NodeFriction>, ContactError> {
             let text = friction.expression.as_deref().unwrap_or_default();
             SteadyLaw::Expression(Expression::over(text, &domain(case))?)
         }
+        FrictionLaw::Python => {
+            let Some(own) = own else { return Ok(Box::new(Coulomb { mu: 0.0 })) };
+            let implicit = memory.is_none() && mode == FrictionMode::Exact;
+            return Ok(Box::new(Own::new(Arc::clone(own), memory, implicit)));
+        }
     };
-    Ok(match (friction.memory, friction.mode.unwrap_or_default()) {
-        (Some(memory), _) => Box::new(Remembering {
-            steady,
-            memory: Memory { distance: memory.distance, floor: memory.floor },
-        }),
+    Ok(match (memory, mode) {
+        (Some(memory), _) => Box::new(Remembering { steady, memory }),
         (None, FrictionMode::Lagged) => Box::new(Lagged(steady)),
         (None, FrictionMode::Exact) => Box::new(Implicit(steady)),
     })

@@ -129,6 +129,7 @@ const POISSON: Form = Number(below(0.0, 0.5));
 const DENSITY: Form = Number(within(1.0, 1e5));
 
 const METRES: &str = "give the length in metres: 0.06 for 60 mm";
+const SET: &str = "give the name of a set of the mesh file in quotes";
 const YOUNG_REMEDY: &str = "give Young's modulus in pascal: 210e9 for steel";
 const POISSON_REMEDY: &str =
     "an explicit solid needs a finite wave speed: steel has 0.3, rubber-like bodies up to 0.49";
@@ -166,6 +167,20 @@ pub const KEYS: &[Key] = &[
     key("material.young", YOUNG, "Pa", YOUNG_REMEDY),
     key("material.poisson", POISSON, "-", POISSON_REMEDY),
     key("material.density", DENSITY, "kg/m^3", DENSITY_REMEDY),
+    key(
+        "mesh.file",
+        Text,
+        "",
+        "give the path of a .msh, .inp or .vtu file in quotes, relative to this file",
+    ),
+    key("mesh.sha256", Text, "", "leave it out: it is written into the case of a run"),
+    key("mesh.unit", Word(&["m", "cm", "mm", "in"]), "", "choose one of the words"),
+    key("mesh.sets.disk", Text, "", SET),
+    key("mesh.sets.bar", Text, "", SET),
+    key("mesh.sets.hub", Text, "", SET),
+    key("mesh.sets.tread", Text, "", SET),
+    key("mesh.sets.top", Text, "", SET),
+    key("mesh.sets.clamp", Text, "", SET),
     key(
         "mesh.growth",
         Number(within(1.05, 3.0)),
@@ -232,6 +247,7 @@ pub const KEYS: &[Key] = &[
             "prakash_clifton",
             "table",
             "expression",
+            "python",
         ]),
         "",
         "choose one of the words",
@@ -275,6 +291,7 @@ pub const KEYS: &[Key] = &[
         "",
         "give a formula in s, p, t and x in quotes: `expression = \"0.32 + 0.18*exp(-6*s)\"`",
     ),
+    key("friction.source", Text, "", "give the source of the function in quotes"),
     key("friction.mode", Word(&["lagged", "exact"]), "", "choose one of the words"),
     key(
         "friction.memory.distance",

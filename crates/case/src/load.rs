@@ -7,8 +7,11 @@ use sha2::{Digest, Sha256};
 use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
+use crate::mesh_file;
 use crate::preload::store::hexadecimal;
-use crate::schema::{Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Time};
+use crate::schema::{
+    Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing, Time,
+};
 use crate::sense;
 use crate::table;
 
@@ -36,10 +39,12 @@ impl Case {
         hexadecimal(&Sha256::digest(self.results_toml()))
     }
 
-    /// The case file with the default `checkpoint` and `guards`: everything that results depend on.
+    /// The case file with the default `checkpoint` and `guards` and without the place of a mesh file,
+    /// whose contents count: everything that results depend on.
     pub(crate) fn results_toml(&self) -> String {
         let (checkpoint, guards) = (Checkpoint::default(), Guards::default());
-        Self { checkpoint, guards, ..self.clone() }.to_toml()
+        let mesh = Meshing { file: None, ..self.mesh.clone() };
+        Self { checkpoint, guards, mesh, ..self.clone() }.to_toml()
     }
 
     /// What is allowed but deserves a warning, one sentence each.
@@ -48,16 +53,21 @@ impl Case {
     }
 }
 
-/// An error found after loading, told at the place where a key was written.
+/// An error found after loading, told at the place where a key was written; `text` is the case where it is
+/// not in the file.
 pub fn error_at_key(
     path: &Path,
+    text: Option<&str>,
     sets: &[String],
     key: &str,
     message: &str,
     remedy: &str,
 ) -> CaseError {
     let read = || -> Result<Layers, CaseError> {
-        let mut layers = Layers::read(path)?;
+        let mut layers = match text {
+            Some(text) => Layers::from_text(text, path)?,
+            None => Layers::read(path)?,
+        };
         sets.iter().try_for_each(|set| layers.add_set(set))?;
         Ok(layers)
     };
@@ -72,6 +82,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
         layers.add_set(set)?;
     }
     table::inline(&mut layers)?;
+    mesh_file::resolve(&mut layers)?;
     check::keys(&layers)?;
     // Rendered and read again, the merged keys go through serde's own strictness as well.
     let merged = toml::to_string(&layers.table).unwrap_or_default();
@@ -110,6 +121,20 @@ fn write_defaults(case: &mut Case) {
     }
     if case.time.duration.is_none() {
         case.time.roll = Some(case.rolled());
+    }
+    if case.mesh.file.is_some() {
+        case.mesh.unit.get_or_insert_default();
+        let sets = &mut case.mesh.sets;
+        for (set, name) in [
+            (&mut sets.disk, "disk"),
+            (&mut sets.bar, "bar"),
+            (&mut sets.hub, "hub"),
+            (&mut sets.tread, "tread"),
+            (&mut sets.top, "top"),
+            (&mut sets.clamp, "clamp"),
+        ] {
+            set.get_or_insert_with(|| name.to_owned());
+        }
     }
     case.preload.tolerance = Some(case.preload_tolerance());
     case.preload.max_iterations = Some(case.preload_iterations());

@@ -47,6 +47,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
         "fully_integrated": model.fully_integrated(),
         "nodes": nodes,
         "bodies": bodies,
+        "notes": model.notes,
         "quality": {
             "min_scaled_jacobian": quality.min_scaled_jacobian,
             "mean_scaled_jacobian": quality.mean_scaled_jacobian,

@@ -1,7 +1,8 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
-use crate::friction;
+use crate::friction::{self, OwnLaw};
 use crate::memory::enough_for_mesh;
+use crate::mesh_file;
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers, Ends, FrictionMode};
 use crate::sense::LAYERS;
@@ -9,8 +10,9 @@ use contact::{
     BodyMaterial, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
     StabilityScale,
 };
-use mesh::{Face, FineZone, Mesh, Surface};
+use mesh::{Face, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
+use std::sync::Arc;
 
 /// Index of the disk among bodies and contact sides.
 pub(crate) const DISK: usize = 0;
@@ -20,6 +22,8 @@ pub(crate) const BAR: usize = 1;
 /// The discretised bodies.
 pub(crate) struct Model {
     pub(crate) mesh: Mesh,
+    /// What is to be said of a mesh file, a sentence each.
+    pub(crate) notes: Vec<String>,
     pub(crate) materials: [Material; 2],
     element: Element,
     /// Which elements are fully integrated, one entry per element; empty where none is.
@@ -27,6 +31,8 @@ pub(crate) struct Model {
     volumetric: Volumetric,
     /// Instruction set of the element kernels.
     pub(crate) kernels: Level,
+    /// The friction law that was handed over with the run.
+    pub(crate) law: Option<Arc<dyn OwnLaw>>,
     /// Lumped masses (kg).
     pub(crate) mass: Vec<f64>,
     /// The whole contact surfaces.
@@ -45,36 +51,10 @@ impl Model {
     /// Builds the meshes of a case.
     pub(crate) fn build(case: &Case) -> Result<Self, RunError> {
         enough_for_mesh(case)?;
-        // a slice is made one cube wide and stretched to its width
-        let size = case.mesh.zone.size;
-        let slice = |width: f64| if case.mesh.plane_strain { size } else { width };
-        let zone = FineZone {
-            size,
-            length: case.mesh.zone.length,
-            width: slice(case.mesh.zone.width),
-            depth: case.mesh.zone.depth,
-            start: case.mesh.zone.start,
-            growth: case.mesh.growth,
-            coarsest: case.mesh.coarsest,
+        let (mesh, notes) = match mesh_file::import(case)? {
+            Some(imported) => imported,
+            None => (generated(case)?, Vec::new()),
         };
-        let disk = mesh::Disk {
-            radius: case.disk.radius,
-            hub_radius: case.disk.hub_radius,
-            width: slice(case.disk.width),
-            crown: case.disk.crown_radius.radius(),
-        };
-        let bar = mesh::Bar {
-            length: case.bar.length,
-            width: slice(case.bar.width),
-            height: case.bar.height,
-            crown: case.bar.crown_radius.radius(),
-            start: case.bar.start,
-        };
-        let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
-        if case.mesh.plane_strain {
-            let stretch = case.mesh.zone.width / size;
-            mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
-        }
         let materials = [material(case.disk_material()), material(case.bar_material())];
         let mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
         let surface = |body: usize, name: &str| {
@@ -96,6 +76,7 @@ impl Model {
                 crate::schema::Volumetric::Full => Volumetric::Full,
             },
             kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
+            law: None,
             mass,
             surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
             zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
@@ -103,6 +84,7 @@ impl Model {
             clamped: set(BAR, "bottom"),
             quiet,
             mesh,
+            notes,
         })
     }
 
@@ -139,7 +121,7 @@ impl Model {
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
         };
-        let mut law = friction::law(case)?;
+        let mut law = friction::law(case, self.law.as_ref())?;
         if case.friction.mode == Some(FrictionMode::Exact) {
             // no friction acts in the preload
             law = Box::new(Coulomb { mu: law.mu_static() });
@@ -154,7 +136,8 @@ impl Model {
             curvature: case.contact.curvature,
             rows: rows(case),
         };
-        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, friction::law(case)?)?)
+        let law = friction::law(case, self.law.as_ref())?;
+        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, law)?)
     }
 
     /// The side whose nodes are slaves of exact contact: that of the finer zone, the disk's where both
@@ -174,6 +157,22 @@ impl Model {
         let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
         [DISK, BAR].map(|side| (&self.surfaces[side], body(self.materials[side])))
     }
+}
+
+/// The meshes of the shapes that a case gives.
+fn generated(case: &Case) -> Result<Mesh, RunError> {
+    let (mut disk, mut bar) = (case.disk.shape(), case.bar.shape());
+    let mut zone = case.mesh.fine_zone();
+    let stretch = zone.width / zone.size;
+    if case.mesh.plane_strain {
+        // a slice is made one cube wide and stretched to its width
+        (disk.width, bar.width, zone.width) = (zone.size, zone.size, zone.size);
+    }
+    let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+    if case.mesh.plane_strain {
+        mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
+    }
+    Ok(mesh)
 }
 
 /// The elements in the contact layers of the fine zones, if they are to be fully integrated.

@@ -45,7 +45,7 @@ pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
         n1: tangential(case, model, depth).map(|k| contact::spring_number(k, &at)),
         falling: falls.and_then(|law| contact::falling(&law, &at)),
         nucleation: falls.zip(memory).map(|(law, d)| contact::nucleation_length(&law, d, &at)),
-        slip_length: 2.0 * patch.a * slipping(case, patch.a),
+        slip_length: 2.0 * patch.a * slipping(case, model, patch.a),
         at,
     }
 }
@@ -68,8 +68,8 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
 
 /// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
 /// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
-fn slipping(case: &Case, half_length: f64) -> f64 {
-    let mu = friction::law(case).map_or(f64::NAN, |law| law.mu_static());
+fn slipping(case: &Case, model: &Model, half_length: f64) -> f64 {
+    let mu = friction::law(case, model.law.as_ref()).map_or(f64::NAN, |law| law.mu_static());
     let share = match case.drive.mode {
         DriveMode::Creepage => {
             case.drive.creepage.unwrap_or(0.0).abs() * case.disk.radius / (mu * half_length)

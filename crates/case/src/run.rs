@@ -1,12 +1,14 @@
 //! From a resolved case to a finished run.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::checkpoint::{Clock, State};
 use crate::disk::Disk;
 use crate::folder;
+use crate::friction::{FrictionLaw, OwnLaw};
 use crate::guards::READING;
 use crate::hertz::hertz;
 use crate::log::Log;
@@ -20,7 +22,7 @@ use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::{Start, restart, start};
 use crate::summary::{Ending, summary, without_rolling};
-use dynamics::{Diagnosis, Energies};
+use dynamics::Energies;
 use output::summary::Status;
 use output::{CHECKPOINTS, Provenance};
 use serde_json::json;
@@ -44,6 +46,8 @@ pub struct RunOptions {
     pub preload_cache: Option<PathBuf>,
     /// The case file, for the log.
     pub source: PathBuf,
+    /// The friction law of a case with `friction.law = "python"`.
+    pub law: Option<Arc<dyn OwnLaw>>,
 }
 
 /// Runs a case to its end, to a stop request or to a guard, and returns its summary.
@@ -74,6 +78,9 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
+    if case.friction.law == FrictionLaw::Python && options.law.is_none() {
+        return Err(RunError::NoLaw);
+    }
     let resumes = options.resume && folder::has_run(&options.out);
     let held = if resumes { Some(folder::hold(&options.out)?) } else { None };
     let (origin, why) = match origin(case, options)? {
@@ -89,6 +96,7 @@ fn run_in_pool(
     }
     enough_for_zones(case, BYTES_PER_ELEMENT)?;
     let mut model = Model::build(case)?;
+    model.law = options.law.clone();
     if let Some(point) = &origin {
         model.kernels = point.kernels;
     }
@@ -112,6 +120,7 @@ fn run_in_pool(
         log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
     }
     case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
+    model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
     let elements = model.mesh.hexes.len();
     log.say(&format!("mesh: {elements} elements, {} nodes", model.mesh.nodes.len()))?;
     if model.fully_integrated() > 0 {
@@ -208,7 +217,7 @@ fn run_in_pool(
     let first = simulation.steps() as u64;
     let mut clock = Clock::new(&case.checkpoint, simulation.dt(), first);
     let mut keeping = Duration::ZERO;
-    let mut diagnosis: Option<Diagnosis> = None;
+    let (mut found, mut diagnosis) = (None, None);
     let mut status = Status::Completed;
     for n in first..steps {
         let stops = stop.load(Ordering::Relaxed);
@@ -233,8 +242,14 @@ fn run_in_pool(
         recorder.before_step(&simulation)?;
         let read = recorder.reads(n) || n + 1 == steps || n.is_multiple_of(READING);
         let report = simulation.step(read);
-        diagnosis = simulation.check(&report);
-        if diagnosis.is_some() {
+        if let Some(failure) = options.law.as_ref().and_then(|law| law.failure()) {
+            diagnosis = Some(format!("the friction law failed at step {n}: {failure}"));
+            status = Status::Failed;
+            break;
+        }
+        found = simulation.check(&report);
+        if let Some(found) = &found {
+            diagnosis = Some(format!("{found}; remedy: {}", found.remedy()));
             status = Status::Failed;
             break;
         }
@@ -257,7 +272,9 @@ fn run_in_pool(
     let rolling_wall = before[1] + rolling.elapsed();
     let (means, output_wall) = recorder.finish(&simulation)?;
     if let Some(d) = &diagnosis {
-        log.say(&format!("{d}; remedy: {}", d.remedy()))?;
+        log.say(d)?;
+    }
+    if let Some(d) = &found {
         postmortem::write(&options.out, &mut simulation, d, &basis.provenance)?;
         log.say(&format!("{POSTMORTEM} holds both bodies as they are"))?;
     }
@@ -265,6 +282,7 @@ fn run_in_pool(
     let ending = Ending {
         status,
         diagnosis,
+        postmortem: found.is_some(),
         energies: last,
         means,
         elements,

@@ -21,6 +21,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("change the keys of [disk], [bar] or [mesh] that it names"))]
     Mesh(#[from] mesh::MeshError),
+    /// The mesh file cannot be used.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy))]
+    MeshFile(#[from] crate::mesh_file::MeshFileError),
     /// The elements cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("change the keys of [material], [disk], [bar] or [mesh] that it names"))]
@@ -47,6 +51,12 @@ pub enum RunError {
     #[error("the mesh has no contact surface in its fine zone")]
     #[diagnostic(help("enlarge mesh.zone"))]
     NoContact,
+    /// The function of the friction law is missing.
+    #[error("friction.law = \"python\": the run needs the function of its friction law")]
+    #[diagnostic(help(
+        "hand it over: `creepage.run(case, friction=law)` in Python; friction.source is what it was"
+    ))]
+    NoLaw,
     /// The time step asked for is not stable.
     #[error(
         "time.step = {step:.4e} s is above the stability limit of {limit:.4e} s, which the closed \
@@ -108,8 +118,12 @@ impl RunError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
-            Self::NoContact | Self::Case(_) | Self::Threads(_) | Self::Memory { .. } => 2,
-            Self::Step { .. } | Self::Resume(_) | Self::Restore(_) => 2,
+            Self::MeshFile(_)
+            | Self::NoContact
+            | Self::Case(_)
+            | Self::Threads(_)
+            | Self::Memory { .. } => 2,
+            Self::Step { .. } | Self::Resume(_) | Self::Restore(_) | Self::NoLaw => 2,
             Self::Preload(error) if error.is_interruption() => 130,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
         }

@@ -7,7 +7,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use crate::bodies::{Bar, Disk, Ends, Material, MaterialOverride, Meshing, Zone};
+pub use crate::bodies::{
+    Bar, Disk, Ends, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Zone,
+};
 pub use crate::forms::{Crown, Stiffness};
 pub use crate::friction::{Friction, FrictionLaw, FrictionMemory, FrictionMode, StateLaw};
 

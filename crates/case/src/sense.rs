@@ -134,6 +134,25 @@ fn check_choices(case: &Case, found: &mut Findings) {
             );
         }
     }
+    let mesh = &case.mesh;
+    let sets = [
+        ("mesh.sets.disk", &mesh.sets.disk),
+        ("mesh.sets.bar", &mesh.sets.bar),
+        ("mesh.sets.hub", &mesh.sets.hub),
+        ("mesh.sets.tread", &mesh.sets.tread),
+        ("mesh.sets.top", &mesh.sets.top),
+        ("mesh.sets.clamp", &mesh.sets.clamp),
+    ];
+    let given = sets.into_iter().map(|(key, name)| (key, name.is_some()));
+    let others = [("mesh.unit", mesh.unit.is_some()), ("mesh.sha256", mesh.sha256.is_some())];
+    for (key, given) in given.chain(others) {
+        found.require(
+            mesh.file.is_some() || !given,
+            &[key],
+            || format!("{key} is not used without mesh.file"),
+            "name the mesh file in mesh.file, or leave this key out",
+        );
+    }
     let element = &case.element;
     for (key, given) in [
         ("element.layers", element.layers.is_some()),

@@ -10,14 +10,17 @@ use crate::postmortem::POSTMORTEM;
 use crate::preload::PreloadError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;
-use dynamics::{Diagnosis, Energies, Simulation};
+use dynamics::{Energies, Simulation};
 use output::summary::{Contact, Energy, Files, Status, Summary};
 use serde_json::json;
 
 /// How a run ended.
 pub(crate) struct Ending {
     pub(crate) status: Status,
-    pub(crate) diagnosis: Option<Diagnosis>,
+    /// Why it failed, and what to do.
+    pub(crate) diagnosis: Option<String>,
+    /// Whether guards stopped it and left the bodies as they were.
+    pub(crate) postmortem: bool,
     /// The last energies read.
     pub(crate) energies: Energies,
     pub(crate) means: Means,
@@ -69,7 +72,7 @@ pub(crate) fn summary(
         },
         contact: contact_means(means),
         files: Files {
-            postmortem: ending.diagnosis.map(|_| POSTMORTEM.to_owned()),
+            postmortem: ending.postmortem.then(|| POSTMORTEM.to_owned()),
             ..Files::default()
         },
         stages: [
@@ -110,8 +113,7 @@ pub(crate) fn summary(
     ];
     summary.extra = sections.map(|(k, v)| (k.to_owned(), v)).into();
     if let Some(d) = &ending.diagnosis {
-        let text = format!("{d}; remedy: {}", d.remedy());
-        summary.extra.insert("diagnosis".into(), json!(text));
+        summary.extra.insert("diagnosis".into(), json!(d));
     }
     summary
 }

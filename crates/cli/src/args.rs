@@ -1,16 +1,21 @@
 //! Commands and options.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use crate::check::CheckArgs;
+use crate::embedded::{Embedded, Told};
 use crate::import_contact::ImportArgs;
+use crate::import_k::ImportKArgs;
 use crate::plot::PlotArgs;
+use crate::report;
 use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
 use crate::sweep::SweepArgs;
 use crate::verify::VerifyArgs;
 use case::{BlockElement, Level};
 use clap::{ArgAction, Parser, Subcommand};
+use serde_json::Value;
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
 #[derive(Debug, Parser)]
@@ -37,9 +42,39 @@ pub struct Args {
     /// the documents are checked
     #[arg(long, global = true, hide = true)]
     pub check_args: bool,
+    /// The program that holds this command.
+    #[arg(skip)]
+    pub embedded: Option<Embedded>,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Args {
+    /// Hands over the document of `--json`.
+    pub fn print_json(&self, document: &Value) {
+        match &self.embedded {
+            Some(embedded) => (embedded.tell)(Told::Document(document.clone())),
+            None => report::print_json(document),
+        }
+    }
+
+    /// Says a remark beside the results.
+    pub fn say(&self, line: &str) {
+        match &self.embedded {
+            Some(embedded) => (embedded.tell)(Told::Said(line.to_owned())),
+            // A closed standard error is no reason to panic.
+            None if !self.quiet => drop(writeln!(std::io::stderr(), "{line}")),
+            None => {}
+        }
+    }
+
+    /// Tells the program that holds this command, if one does.
+    pub fn tell(&self, told: impl FnOnce() -> Told) {
+        if let Some(embedded) = &self.embedded {
+            (embedded.tell)(told());
+        }
+    }
 }
 
 /// The commands.
@@ -93,6 +128,13 @@ pub enum Command {
         The columns, with a small example: docs/checks.md."
     )]
     ImportContact(ImportArgs),
+    /// Make a case and a mesh file of an LS-DYNA keyword file of a disk on a bar
+    #[command(
+        after_help = "Example:\n  creepage import-k meshes/small.k --unit mm-ton-s --out small\n  \
+        creepage run small/case.toml\n\nThe cards that are read, and the keys that they become: \
+        docs/ls-dyna.md. All others are refused by their line."
+    )]
+    ImportK(ImportKArgs),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,

@@ -66,7 +66,7 @@ pub fn command(args: &Args, options: &CheckArgs) -> Result<u8, Failure> {
     };
     let found = post::check(&paths, &mut basis, &wanted)?;
     if args.json {
-        report::print_json(&found.document);
+        args.print_json(&found.document);
     } else if !args.quiet {
         report::print_check(&found.document);
     }

@@ -11,6 +11,7 @@ use miette::{Report, miette};
 use serde_json::{Value, json};
 
 use crate::args::{Args, BenchArgs, Command, MeshArgs, RunArgs};
+use crate::embedded::Told;
 use crate::progress::Watch;
 use crate::report;
 
@@ -21,9 +22,12 @@ pub const STOPPED_BY_GUARD: u8 = 3;
 /// Exit code: interrupted by Ctrl-C or SIGTERM.
 pub const INTERRUPTED: u8 = 130;
 
-/// A command that failed: what to say and the exit code.
+/// A command that failed.
+#[derive(Debug)]
 pub struct Failure {
+    /// What to say.
     pub report: Report,
+    /// The exit code.
     pub code: u8,
 }
 
@@ -74,8 +78,9 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         Command::Report(options) => crate::report_page::command(args, options),
         Command::Sweep(options) => crate::sweep::command(args, options),
         Command::ImportContact(options) => crate::import_contact::command(args, options),
+        Command::ImportK(options) => crate::import_k::command(args, options),
         Command::Schema => {
-            report::print_json(&case::json_schema());
+            args.print_json(&case::json_schema());
             Ok(0)
         }
         Command::Slider(options) => crate::slider::command(args, options),
@@ -105,23 +110,28 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
         resume: options.resume,
         preload_cache: options.preload_cache.clone(),
         source: options.case.clone(),
+        law: args.embedded.as_ref().and_then(|embedded| embedded.law.clone()),
     };
-    let stop = stop_flag()?;
+    let stop = stop_flag(args)?;
+    args.tell(|| Told::Folder(out.clone()));
     let mut watch = Watch::new(args.quiet, options.leash);
     if options.leash {
         hold_leash(Arc::clone(&stop));
     }
-    let result = case::run(&case, &run_options, &stop, &mut |progress| watch.show(progress));
+    let result = case::run(&case, &run_options, &stop, &mut |progress| {
+        watch.show(progress);
+        args.tell(|| Told::Run(*progress));
+    });
     watch.finish();
-    let summary = result.map_err(|error| placed(error, &options.case, &sets))?;
+    let summary = result.map_err(|error| placed(error, args, &options.case, &sets))?;
     if args.json {
-        report::print_json(&summary);
+        args.print_json(&summary);
     } else if !args.quiet {
         report::print_run(&summary, &out);
     }
     let status = summary.get("status").and_then(Value::as_str);
     let diagnosis = summary.get("diagnosis").and_then(Value::as_str);
-    if let Some(diagnosis) = diagnosis {
+    if let Some(diagnosis) = diagnosis.filter(|_| args.embedded.is_none()) {
         let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
     }
     if status == Some("interrupted") && !args.quiet {
@@ -140,9 +150,9 @@ fn mesh(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
         check_mesh_file(out)?;
     }
     let found = case::mesh_report(&case, options.out.as_deref())
-        .map_err(|error| placed(error, &options.case, &options.sets))?;
+        .map_err(|error| placed(error, args, &options.case, &options.sets))?;
     if args.json {
-        report::print_json(&found);
+        args.print_json(&found);
     } else if !args.quiet {
         report::print_mesh(&found);
     }
@@ -170,10 +180,10 @@ fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
     let found = match options.block {
         Some(n) => case::bench_block(n, options.element, threads, options.kernels)?,
         None => case::bench(threads, options.kernels, &options.sets)
-            .map_err(|error| placed(error, Path::new("reference.toml"), &options.sets))?,
+            .map_err(|error| placed(error, args, Path::new("reference.toml"), &options.sets))?,
     };
     if args.json {
-        report::print_json(&found);
+        args.print_json(&found);
     } else if !args.quiet {
         report::print_bench(&found);
     }
@@ -181,23 +191,28 @@ fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
 }
 
 /// An error about a key of the case, with the line where the key was written.
-fn placed(error: RunError, case: &Path, sets: &[String]) -> Failure {
+fn placed(error: RunError, args: &Args, case: &Path, sets: &[String]) -> Failure {
+    let text = text(args);
     match error.key() {
         Some(key) => {
-            case::error_at_key(case, sets, key, &error.to_string(), "change this key").into()
+            case::error_at_key(case, text, sets, key, &error.to_string(), "change this key").into()
         }
         None => error.into(),
     }
 }
 
 fn load(args: &Args, path: &Path, sets: &[String]) -> Result<Case, Failure> {
-    let case = Case::load(path, sets)?;
-    if !args.quiet {
-        for warning in case.warnings() {
-            let _ = writeln!(std::io::stderr(), "warning: {warning}");
-        }
-    }
+    let case = match text(args) {
+        Some(text) => Case::from_text(text, path, sets)?,
+        None => Case::load(path, sets)?,
+    };
+    case.warnings().iter().for_each(|warning| args.say(&format!("warning: {warning}")));
     Ok(case)
+}
+
+/// The case where it is not in a file.
+fn text(args: &Args) -> Option<&str> {
+    args.embedded.as_ref()?.case.as_deref()
 }
 
 pub fn all_cores() -> usize {
@@ -218,7 +233,12 @@ fn hold_leash(stop: Arc<AtomicBool>) {
 }
 
 /// The first Ctrl-C or SIGTERM asks the run to end in order, the second ends the process.
-pub fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+///
+/// A program that holds the command has its own flag.
+pub fn stop_flag(args: &Args) -> Result<Arc<AtomicBool>, Failure> {
+    if let Some(embedded) = &args.embedded {
+        return Ok(Arc::clone(&embedded.stop));
+    }
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     ctrlc::set_handler(move || {

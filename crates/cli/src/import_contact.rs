@@ -9,7 +9,6 @@ use serde_json::json;
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
-use crate::report;
 
 /// Options of `import-contact`.
 #[derive(Debug, clap::Args)]
@@ -39,8 +38,8 @@ pub fn command(args: &Args, options: &ImportArgs) -> Result<u8, Failure> {
     let Imported { nodes, faces, steps, rows } = import_contact(&files)?;
     let out = out.display();
     if args.json {
-        report::print_json(&json!({ "file": out.to_string(), "nodes": nodes, "faces": faces,
-                                    "steps": steps, "rows": rows }));
+        args.print_json(&json!({ "file": out.to_string(), "nodes": nodes, "faces": faces,
+                                 "steps": steps, "rows": rows }));
     } else if !args.quiet {
         let _ = writeln!(std::io::stdout(), "{out}: {nodes} nodes, {faces} faces, {steps} records");
     }

@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::args::Args;
 use crate::check::{BasisArgs, basis, window};
 use crate::commands::Failure;
-use crate::{report, sweep_folder as sweep};
+use crate::sweep_folder as sweep;
 
 /// Options of `plot`.
 #[derive(Debug, clap::Args)]
@@ -61,7 +61,7 @@ pub fn command(args: &Args, options: &PlotArgs) -> Result<u8, Failure> {
         written.push(json!({ "name": stem, "about": about, "files": files }));
     }
     if args.json {
-        report::print_json(&json!({ "name": name, "figures": written }));
+        args.print_json(&json!({ "name": name, "figures": written }));
     }
     Ok(0)
 }

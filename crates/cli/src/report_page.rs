@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use crate::args::Args;
 use crate::check::{BasisArgs, basis};
 use crate::commands::Failure;
-use crate::{report, sweep_folder as sweep};
+use crate::sweep_folder as sweep;
 
 /// Options of `report`.
 #[derive(Debug, clap::Args)]
@@ -47,7 +47,7 @@ pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
         PostError::Asked(format!("--out {}: cannot write the page: {error}", out.display()))
     })?;
     if args.json {
-        report::print_json(&json!({ "page": out.display().to_string(), "pass": pass }));
+        args.print_json(&json!({ "page": out.display().to_string(), "pass": pass }));
     } else if !args.quiet {
         let _ = writeln!(std::io::stdout(), "{}", out.display());
     }

@@ -17,7 +17,6 @@ use slider::{BlowUp, Method, Outcome, Parameters, Threshold, figures, tables};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD, stop_flag};
-use crate::report;
 use csv_file::{CsvFile, Unwritable};
 use settings::{SettingError, Settings, Sources};
 
@@ -92,7 +91,7 @@ fn simulate(
     csv: Option<&Path>,
 ) -> Result<Outcome, Failure> {
     let mut csv = csv.map(CsvFile::new).transpose()?;
-    let stop = stop_flag()?;
+    let stop = stop_flag(args)?;
     let bar = bar(args, (p.end / p.dt).round() as u64);
     let mut step = 0u64;
     let result = slider::run(p, method, |time, state| {
@@ -147,9 +146,7 @@ fn plot(
     write(figure_6(p, methods)?, "figure-6")?;
     write(figure_7(p, methods)?, "figure-7")?;
     write(figure_8(p, other, zoom(p))?, "figure-8")?;
-    if !args.quiet {
-        let _ = writeln!(std::io::stderr(), "running the map of the time step, a few seconds");
-    }
+    args.say("running the map of the time step, a few seconds");
     write(time_step_map(p), "time-step-map")?;
     Ok(paths)
 }
@@ -181,7 +178,7 @@ fn threshold(t: Threshold) -> Value {
 
 fn show(args: &Args, document: &Value, page: impl FnOnce() -> String) {
     if args.json {
-        report::print_json(document);
+        args.print_json(document);
     } else if !args.quiet {
         let _ = write!(std::io::stdout(), "{}", page());
     }

@@ -1,5 +1,6 @@
 //! `creepage sweep`.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -14,6 +15,7 @@ use serde_json::Value;
 
 use crate::args::{Args, threads};
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, all_cores, stop_flag};
+use crate::embedded::Told;
 use crate::progress::SweepWatch;
 use crate::report;
 use crate::report_page::write_sweep;
@@ -78,12 +80,8 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         let plan = plan::open(&sweep, &folder)?;
         return finish(args, &plan, collect(&plan, elsewhere)?);
     }
-    let stop = stop_flag()?;
-    let mut say = |line: &str| {
-        if !args.quiet {
-            let _ = writeln!(std::io::stderr(), "{}: {line}", sweep.name);
-        }
-    };
+    let stop = stop_flag(args)?;
+    let mut say = |line: &str| args.say(&format!("{}: {line}", sweep.name));
     let existing = match (options.force, options.resume, &options.plan) {
         (true, ..) => Existing::Replace,
         // A plan runs nothing, so that writing it once more harms no run.
@@ -103,16 +101,16 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
             code: BAD_INPUT,
         })?;
         if args.json {
-            report::print_json(&plan.document);
+            args.print_json(&plan.document);
         } else if !args.quiet {
             let _ = writeln!(std::io::stdout(), "{}", path.display());
         }
         return Ok(0);
     }
-    let program = std::env::current_exe().map_err(|error| Failure {
-        report: miette!("this program cannot find itself to start its runs: {error}"),
-        code: BAD_INPUT,
-    })?;
+    let program = match &args.embedded {
+        Some(embedded) => embedded.program.clone(),
+        None => vec![this_program()?],
+    };
     let budget = Budget { jobs, threads, memory_mb: options.memory };
     say(&format!(
         "{} runs in {}, {jobs} at a time, {threads} thread{} each",
@@ -121,7 +119,10 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         if threads == 1 { "" } else { "s" }
     ));
     let mut watch = SweepWatch::new(args.quiet, &sweep.name);
-    let results = schedule::run(&plan, &program, &budget, &stop, &mut |now| watch.show(now));
+    let results = schedule::run(&plan, &program, &budget, &stop, &mut |now| {
+        watch.show(now);
+        args.tell(|| Told::Sweep(now.clone()));
+    });
     watch.finish();
     let code = finish(args, &plan, results?)?;
     if stop.load(Ordering::SeqCst) && code != 0 {
@@ -129,6 +130,14 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         return Ok(INTERRUPTED);
     }
     Ok(code)
+}
+
+fn this_program() -> Result<OsString, Failure> {
+    let path = std::env::current_exe().map_err(|error| Failure {
+        report: miette!("this program cannot find itself to start its runs: {error}"),
+        code: BAD_INPUT,
+    })?;
+    Ok(path.into())
 }
 
 /// Shows the results; the exit code is 1 unless every run came to its end.
@@ -141,7 +150,7 @@ fn finish(args: &Args, plan: &Plan, results: Value) -> Result<u8, Failure> {
     }
     let page = write_sweep(&plan.folder, &results)?;
     if args.json {
-        report::print_json(&results);
+        args.print_json(&results);
     } else if !args.quiet {
         report::print_sweep(&results, &plan.folder, &page);
     }

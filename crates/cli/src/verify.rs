@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use miette::miette;
@@ -10,8 +11,8 @@ use serde_json::json;
 use verify::{PROBLEMS, Problem, Row, Set, Size, VerifyError};
 
 use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure, STOPPED_BY_GUARD};
-use crate::{convergence_plot, report, rupture_plot};
+use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD};
+use crate::{convergence_plot, rupture_plot};
 
 /// Exit code: a row beyond its limit.
 const FAILED: u8 = 1;
@@ -46,9 +47,10 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
     let size = if options.quick { Size::Quick } else { Size::Full };
     let mut rows = Vec::new();
     for problem in problems {
-        if !args.quiet {
-            let _ = writeln!(std::io::stderr(), "{}: {}", problem.name, problem.about);
+        if args.embedded.as_ref().is_some_and(|by| by.stop.load(Ordering::Relaxed)) {
+            return Ok(INTERRUPTED);
         }
+        args.say(&format!("{}: {}", problem.name, problem.about));
         let clock = Instant::now();
         let found = problem.run(size)?;
         if !args.json && !args.quiet {
@@ -74,7 +76,7 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
     }
     let pass = rows.iter().all(|row| row.pass);
     if args.json {
-        report::print_json(&json!({ "results": rows, "pass": pass }));
+        args.print_json(&json!({ "results": rows, "pass": pass }));
     } else if !args.quiet {
         let failed = rows.iter().filter(|row| !row.pass).count();
         let _ = writeln!(
@@ -108,7 +110,7 @@ fn list(args: &Args) {
         let problems = PROBLEMS.iter().map(|problem| {
             json!({ "name": problem.name, "about": problem.about, "long": long(problem) })
         });
-        report::print_json(&json!({ "problems": problems.collect::<Vec<_>>() }));
+        args.print_json(&json!({ "problems": problems.collect::<Vec<_>>() }));
         return;
     }
     for problem in PROBLEMS {

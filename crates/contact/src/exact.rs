@@ -15,7 +15,7 @@
 
 use crate::enforcement::{Contact, Trial};
 use crate::face::{Positions, project};
-use crate::friction::{NodeFriction, Place};
+use crate::friction::{NodeFriction, Place, Slid};
 use crate::local;
 use crate::mortar::{Mean, Mortar, restore_means, save_means};
 use crate::nodal::NodalContact;
@@ -74,6 +74,8 @@ pub struct ExactContact {
     /// Rows that may carry force in this step, and their legs.
     active: Vec<u32>,
     legs: Vec<Leg>,
+    /// What the law of friction is told about those that were closed before, in their order.
+    slid: Vec<Slid>,
     /// Mortar rows whose integrals were taken in this step.
     integrated: usize,
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step.
@@ -114,6 +116,7 @@ impl ExactContact {
             curvature: settings.curvature,
             active: Vec::new(),
             legs: Vec::new(),
+            slid: Vec::new(),
             integrated: 0,
             velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
             pace: [0, 1].map(|s| vec![0.0; zeros(s)]),
@@ -365,11 +368,13 @@ impl Contact for ExactContact {
             let most = self.rows[own].len();
             self.active.reserve(most.saturating_sub(self.active.len()));
             self.legs.reserve((4 * most).saturating_sub(self.legs.len()));
+            self.slid.reserve(most.saturating_sub(self.slid.len()));
         }
         let mut rows = std::mem::take(&mut self.rows[own]);
         let mut active = std::mem::take(&mut self.active);
         active.clear();
         self.legs.clear();
+        self.slid.clear();
         self.integrated = 0;
         self.now += 1;
 
@@ -392,12 +397,24 @@ impl Contact for ExactContact {
                 continue;
             }
             let at = self.at(row, &positions, motion);
-            row.memory = if was_closed {
-                self.law.advance(row.memory, norm(row.slip_velocity), &at, motion.dt)
+            if was_closed {
+                let slip_speed = norm(row.slip_velocity);
+                self.slid.push(Slid { state: row.memory, slip_speed, at });
             } else {
-                self.law.begin(&at)
-            };
+                row.memory = self.law.begin(&at);
+            }
             active.push(i as u32);
+        }
+        self.law.advance_all(&mut self.slid, motion.dt);
+        let mut advanced = self.slid.iter();
+        for &i in &active {
+            let row = &mut rows[i as usize];
+            // those of `slid`, in the same order
+            if row.is_closed()
+                && let Some(slid) = advanced.next()
+            {
+                row.memory = slid.state;
+            }
         }
         sums.integrated = self.integrated;
         // Only now: all velocities are free ones.
@@ -519,6 +536,7 @@ impl Contact for ExactContact {
             *means = restore_means(state, nodes, all)?;
         }
         self.active.reserve(rows.len());
+        self.slid.reserve(rows.len());
         self.legs.reserve(4 * rows.len());
         self.rows[own] = rows;
         restore_search(&mut self.search, state, &self.sides)

@@ -35,7 +35,7 @@ pub use error::ContactError;
 pub use exact::{ExactContact, ExactSettings};
 pub use friction::{
     Coulomb, Domain, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Implicit,
-    Interface, Lagged, Memory, NodeFriction, Place, PrakashClifton, RateState, Remembering,
+    Interface, Lagged, Memory, NodeFriction, Place, PrakashClifton, RateState, Remembering, Slid,
     SlipWeakening, StateLaw, SteadyLaw, Strengthens, Table, TableError, falling, nucleation_length,
     spring_number,
 };

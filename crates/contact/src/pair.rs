@@ -1,7 +1,7 @@
 //! One slave node and its foot on the master surface: normal spring and damper, friction spring.
 
 use crate::face::{Positions, SurfacePoint, project, shape};
-use crate::friction::{NodeFriction, Place};
+use crate::friction::{NodeFriction, Place, Slid};
 use crate::penalty::Motion;
 use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
@@ -42,6 +42,21 @@ pub(crate) struct Pair {
     /// Dissipated in the last step (J).
     pub friction_work: f64,
     pub damping_work: f64,
+    /// What the friction of the step under way starts from.
+    trial: Trial,
+}
+
+/// The motion to which the friction spring of a pair answers in the step under way.
+#[derive(Clone, Copy, Debug, Default)]
+struct Trial {
+    /// In contact since the step before.
+    held: bool,
+    /// Tangential motion of the slave over the step relative to its old foot (m).
+    delta: Vec3,
+    /// The old force laid into the new tangent plane (N).
+    start: Vec3,
+    /// First direction of the face at the new foot.
+    tangent: Vec3,
 }
 
 impl Listed for Pair {
@@ -67,6 +82,7 @@ impl Listed for Pair {
             slip: [0.0; 3],
             friction_work: 0.0,
             damping_work: 0.0,
+            trial: Trial::default(),
         }
     }
 
@@ -206,7 +222,7 @@ impl Pass<'_> {
         self.press(pair, &before, node, face, motion);
         match motion {
             Some(motion) => {
-                self.rub(pair, &before, x, &followed.old, &foot.point, node, face, motion);
+                self.drag(pair, &before, x, &followed.old, &foot.point, node, face, motion);
             }
             None => {
                 pair.state = State::Stick;
@@ -254,25 +270,14 @@ impl Pass<'_> {
         pair.damping_work = -0.5 * (before.damper_force + pair.damper_force) * closing;
     }
 
-    /// The friction spring, Eqs (10) and (11) of Vollebregt (2017).
-    ///
-    /// `Delta` is the tangential motion of the slave over the step relative to its old foot,
-    /// which moved with the face: a rotation common to both bodies gives none. The old force
-    /// turns with the frame of the face at the old foot, and is then laid into the new tangent
-    /// plane with its length kept. Trial force `f* = f - k_t Delta`, capped at `mu f_n` in its own
-    /// direction, with `mu` at the slip speed of the step before.
-    ///
-    /// # Energy
-    /// The cap lets the spring slip by `Delta_p = Delta + (f^{n+1} - f^n)/k_t`. The trapezoidal
-    /// work of the force on both bodies is then
-    /// `1/2 (f^n + f^{n+1}).Delta = 1/2 (f^n + f^{n+1}).Delta_p - (|f^{n+1}|^2 - |f^n|^2)/(2 k_t)`:
-    /// minus the energy stored and minus the dissipation `-1/2 (f^n + f^{n+1}).Delta_p`, exactly.
-    /// The dissipation is negative only where the motion of one step turns a full friction force
-    /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
+    /// The motion that the friction spring answers to: `Delta`, the tangential motion of the slave over the
+    /// step relative to its old foot, which moved with the face, so that a rotation common to both bodies
+    /// gives none. The old force turns with the frame of the face at the old foot, and is then laid into
+    /// the new tangent plane with its length kept.
     ///
     /// In the step in which a pair closes there is no old foot: the spring starts unloaded, and
     /// the slip speed is that of the nodes' velocities.
-    fn rub(
+    fn drag(
         &self,
         pair: &mut Pair,
         before: &Pair,
@@ -287,20 +292,50 @@ impl Pass<'_> {
         if !before.is_closed() {
             let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
             pair.slip_velocity = tangential(velocity, pair.normal);
-            let (at, speed) = (self.place(pair, x, motion.time), norm(pair.slip_velocity));
-            pair.memory = self.law.begin(&at);
-            let after = self.law.advance(pair.memory, speed, &at, motion.dt);
-            pair.mu = self.law.mu(after, speed, &at);
+            pair.memory = self.law.begin(&self.place(pair, x, motion.time));
+            pair.trial = Trial::default();
             return;
         }
-        let delta = tangential(sub(x, old.x), pair.normal);
         let [e1, e2] = frame(old.tangent, old.normal);
         let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
-        let start = lay_into(turned, pair.normal);
+        pair.trial = Trial {
+            held: true,
+            delta: tangential(sub(x, old.x), pair.normal),
+            start: lay_into(turned, pair.normal),
+            tangent: new.tangent,
+        };
+    }
+
+    /// What the law of friction is told about a closed pair: the slip speed of the step before.
+    pub fn slid(&self, pair: &Pair, positions: &Positions<'_>, time: f64) -> Slid {
+        let x = positions.at(self.slave.nodes[pair.slave as usize]);
+        Slid {
+            state: pair.memory,
+            slip_speed: norm(pair.slip_velocity),
+            at: self.place(pair, x, time),
+        }
+    }
+
+    /// The friction spring of a closed pair, Eqs (10) and (11) of Vollebregt (2017): trial force
+    /// `f* = f - k_t Delta`, capped at `mu f_n` in its own direction, with `mu` at the slip speed of the
+    /// step before, to which the law's state has been advanced.
+    ///
+    /// # Energy
+    /// The cap lets the spring slip by `Delta_p = Delta + (f^{n+1} - f^n)/k_t`. The trapezoidal
+    /// work of the force on both bodies is then
+    /// `1/2 (f^n + f^{n+1}).Delta = 1/2 (f^n + f^{n+1}).Delta_p - (|f^{n+1}|^2 - |f^n|^2)/(2 k_t)`:
+    /// minus the energy stored and minus the dissipation `-1/2 (f^n + f^{n+1}).Delta_p`, exactly.
+    /// The dissipation is negative only where the motion of one step turns a full friction force
+    /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
+    pub fn rub(&self, pair: &mut Pair, slid: &Slid, dt: f64) {
+        pair.mu = self.law.mu(slid.state, slid.slip_speed, &slid.at);
+        let Trial { held, delta, start, tangent } = pair.trial;
+        if !held {
+            // the state stays that of the beginning: this slip is counted in the next step
+            return;
+        }
+        pair.memory = slid.state;
         let stiffness = pair.stiffness[1];
-        let (place, speed) = (self.place(pair, x, motion.time), norm(before.slip_velocity));
-        pair.memory = self.law.advance(before.memory, speed, &place, motion.dt);
-        pair.mu = self.law.mu(pair.memory, speed, &place);
         let mut friction = axpy(start, -stiffness, delta);
         let (trial, cap) = (norm(friction), pair.mu * pair.normal_force);
         // a coefficient that is no number must reach the guards
@@ -312,11 +347,11 @@ impl Pass<'_> {
                 pair.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
             }
         }
-        let [e1, e2] = frame(new.tangent, new.normal);
+        let [e1, e2] = frame(tangent, pair.normal);
         pair.framed = [dot(friction, e1), dot(friction, e2)];
         pair.friction = friction;
-        pair.slip_velocity = scale(1.0 / motion.dt, delta);
-        pair.slip = axpy(before.slip, 1.0, delta);
+        pair.slip_velocity = scale(1.0 / dt, delta);
+        pair.slip = axpy(pair.slip, 1.0, delta);
     }
 
     fn place(&self, pair: &Pair, position: Vec3, time: f64) -> Place {

@@ -1,7 +1,7 @@
 //! Two-pass penalty contact: the criticised method of surface-to-surface contact.
 
 use crate::face::Positions;
-use crate::friction::NodeFriction;
+use crate::friction::{NodeFriction, Slid};
 use crate::pair::{Pair, Pass, scatter};
 use crate::search::{Search, neighbours};
 use crate::surface::ContactSurface;
@@ -109,6 +109,8 @@ pub struct PenaltyContact {
     /// The pairs of each pass, ascending by slave: pass `i` has the nodes of side `i` as slaves.
     pub(crate) pairs: [Vec<Pair>; 2],
     pub(crate) law: Box<dyn NodeFriction>,
+    /// What the law is told about the closed pairs of a pass, in their order.
+    slid: Vec<Slid>,
     pub(crate) search: Search,
     pub(crate) settings: PenaltySettings,
     stability: Option<StabilityScale>,
@@ -141,6 +143,7 @@ impl PenaltyContact {
             sides,
             pairs: [Vec::new(), Vec::new()],
             law,
+            slid: Vec::new(),
             settings: *settings,
             stability,
             bound: [Vec::new(), Vec::new()],
@@ -192,6 +195,10 @@ impl PenaltyContact {
             self.search.refresh(&self.sides, positions, &mut self.pairs);
         }
         let mut pairs = std::mem::take(&mut self.pairs);
+        let mut slid = std::mem::take(&mut self.slid);
+        let most = pairs.iter().map(Vec::len).max().unwrap_or(0);
+        slid.clear();
+        slid.reserve(most);
         for (slave, list) in pairs.iter_mut().enumerate() {
             let pass = self.pass(slave);
             if list.len() < PARALLEL {
@@ -204,6 +211,14 @@ impl PenaltyContact {
                         pass.update(pair, positions, motion);
                     }
                 });
+            }
+            slid.clear();
+            if let Some(motion) = motion {
+                let closed = list.iter().filter(|pair| pair.is_closed());
+                slid.extend(closed.map(|pair| pass.slid(pair, positions, motion.time)));
+                pass.law.advance_all(&mut slid, motion.dt);
+                let closed = list.iter_mut().filter(|pair| pair.is_closed());
+                closed.zip(&slid).for_each(|(pair, slid)| pass.rub(pair, slid, motion.dt));
             }
             // The forces that really reach the nodes of either side, for the sums.
             let (mut own, mut other) = ([0.0; 3], [0.0; 3]);
@@ -232,6 +247,7 @@ impl PenaltyContact {
         }
         sums.sticking = sums.closed - sums.slipping;
         self.pairs = pairs;
+        self.slid = slid;
         sums
     }
 

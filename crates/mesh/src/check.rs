@@ -1,7 +1,7 @@
 //! Faults that would make a mesh unfit for the solver.
 
 use crate::hex::{area, dot, norm, sub};
-use crate::near::{duplicates, hanging};
+use crate::near::{COINCIDENT, duplicates, hanging};
 use crate::quality::scaled_jacobian;
 use crate::{Body, Face, HEX_FACES, Mesh, MeshError};
 
@@ -27,7 +27,7 @@ pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
         check_indices(mesh, body)?;
         check_shapes(mesh, body)?;
         let boundary = boundary(mesh, body)?;
-        if let Some((first, second)) = duplicates(mesh, body) {
+        if let Some((first, second)) = duplicates(mesh, body, COINCIDENT) {
             return Err(MeshError::DuplicateNodes { first, second, point: mesh.nodes[first] });
         }
         if let Some((node, face)) = hanging(mesh, &boundary) {

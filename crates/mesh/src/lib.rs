@@ -10,6 +10,7 @@ mod error;
 mod grading;
 mod grid;
 mod hex;
+pub mod import;
 mod join;
 mod layers;
 mod near;

@@ -5,14 +5,14 @@ use crate::hex::{norm, sub};
 use crate::{Body, Face, Mesh};
 
 /// Distance below which two nodes coincide, over the shortest edge of the body.
-const COINCIDENT: f64 = 1e-6;
+pub(crate) const COINCIDENT: f64 = 1e-6;
 
 /// Distance of a hanging node from the face, over the face's longest edge. Hanging nodes lie on an
 /// edge or in the plane of a face up to round-off or the sag of a curved side.
 const ON_FACE: f64 = 1e-3;
 
-/// Two nodes of the body at one place, if any.
-pub(crate) fn duplicates(mesh: &Mesh, body: &Body) -> Option<(usize, usize)> {
+/// Two nodes of the body nearer to each other than a fraction of its shortest edge, if any.
+pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usize, usize)> {
     let mut shortest = f64::INFINITY;
     for hex in &mesh.hexes[body.hexes.clone()] {
         for [a, b] in crate::hex::HEX_EDGES {
@@ -20,9 +20,12 @@ pub(crate) fn duplicates(mesh: &Mesh, body: &Body) -> Option<(usize, usize)> {
             shortest = shortest.min(norm(edge));
         }
     }
-    let near = COINCIDENT * shortest;
+    let near = fraction * shortest;
     // An odd fraction of the edge: regular meshes then rarely have nodes on borders of cells.
-    let cell = 0.3137 * shortest;
+    // Where an edge is next to nothing, cells stay so large that their numbers can be held.
+    let points = &mesh.nodes[body.nodes.clone()];
+    let reach = points.iter().flatten().fold(0f64, |reach, x| reach.max(x.abs()));
+    let cell = (0.3137 * shortest).max(1e-12 * reach);
     let mut places: Vec<([i64; 3], u32)> = Vec::with_capacity(body.nodes.len() * 9 / 8);
     for node in body.nodes.clone() {
         let p = mesh.nodes[node];

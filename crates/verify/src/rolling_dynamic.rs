@@ -169,6 +169,7 @@ fn rolled(reference: &Reference, h: f64, more: &[String]) -> Result<Rolled, crat
         force: false,
         resume: false,
         source: "a-coulomb.toml".into(),
+        law: None,
     };
     let summary = case::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
     let number = |section: &str, key: &'static str| {

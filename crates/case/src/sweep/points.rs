@@ -139,7 +139,7 @@ impl Sweep {
                 CaseError::Key(Box::new(error))
             }
             (None, Some(key)) => {
-                crate::load::error_at_key(&self.base, &[], key, &message, "change this key")
+                crate::load::error_at_key(&self.base, None, &[], key, &message, "change this key")
             }
             (None, None) => {
                 let remedy = "change the base case or the axes";

@@ -5,6 +5,7 @@
 //! so outlives its sweep, and a sweep that goes on meets no run of its predecessor.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -72,7 +73,8 @@ struct Job {
     progress: Arc<AtomicU64>,
 }
 
-/// Runs what of `plan` is not yet done with `program`, and returns the sweep's results.
+/// Runs what of `plan` is not yet done with `program`, its name and first arguments, and returns the sweep's
+/// results.
 ///
 /// A run that fails does not stop the others. A stop request ends the runs under way in order;
 /// the results then say which runs are missing.
@@ -82,7 +84,7 @@ struct Job {
 /// started; results that cannot be written.
 pub fn run(
     plan: &Plan,
-    program: &Path,
+    program: &[OsString],
     budget: &Budget,
     stop: &AtomicBool,
     observe: &mut dyn FnMut(&Watched),
@@ -131,7 +133,7 @@ pub fn run(
         }
         let mut at = 0;
         while at < jobs.len() {
-            let failed = |cause| SweepError::File { path: program.into(), cause };
+            let failed = |cause| SweepError::File { path: program_file(program), cause };
             let Some(exit) = jobs[at].child.try_wait().map_err(failed)? else {
                 at += 1;
                 continue;
@@ -179,6 +181,11 @@ fn cost(point: &Point) -> f64 {
     point.elements.max(1) as f64 * case.duration() / step
 }
 
+/// The file of a program.
+fn program_file(program: &[OsString]) -> PathBuf {
+    program.first().cloned().unwrap_or_default().into()
+}
+
 fn partial_check(folder: &Path) -> PathBuf {
     folder.join(format!("{CHECK}.partial"))
 }
@@ -186,7 +193,7 @@ fn partial_check(folder: &Path) -> PathBuf {
 impl Job {
     fn begin(
         plan: &Plan,
-        program: &Path,
+        program: &[OsString],
         threads: usize,
         (index, stage): (usize, Stage),
     ) -> Result<Self, SweepError> {
@@ -203,8 +210,8 @@ impl Job {
         };
         let log = log.map_err(failed(&log_path))?;
         let [run, check] = arguments(&plan.folder, name, threads);
-        let mut command = Command::new(program);
-        command.stderr(log);
+        let mut command = Command::new(program_file(program));
+        command.args(program.iter().skip(1)).stderr(log);
         match stage {
             Stage::Run => {
                 command.args(run).args(["--leash", "--quiet"]);
@@ -216,7 +223,7 @@ impl Job {
                 command.args(check).stdin(Stdio::null()).stdout(document);
             }
         }
-        let mut child = command.spawn().map_err(failed(program))?;
+        let mut child = command.spawn().map_err(failed(&program_file(program)))?;
         let progress = Arc::new(AtomicU64::new(0));
         if let Some(stdout) = child.stdout.take() {
             let progress = Arc::clone(&progress);

@@ -81,6 +81,7 @@ fn every_case_of_the_project_loads() {
     for name in [
         "quick.toml",
         "smoke.toml",
+        "gmsh.toml",
         "zhao-li/a-coulomb.toml",
         "zhao-li/b-falling.toml",
         "zhao-li/d-coulomb-low.toml",

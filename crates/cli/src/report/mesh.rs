@@ -29,6 +29,9 @@ pub fn text(report: &Value) -> String {
             sets(body)
         );
     }
+    for note in report.get("notes").and_then(Value::as_array).unwrap_or(&none) {
+        let _ = writeln!(out, "  {}", note.as_str().unwrap_or_default());
+    }
     heading(&mut out, "Quality");
     let worst = format!("element {}", count(at("/quality/worst_element")));
     let jacobian = |key: &str| digits(at(&format!("/quality/{key}")), 3);

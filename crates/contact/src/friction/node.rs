@@ -14,6 +14,17 @@ pub struct Place {
     pub pressure: f64,
 }
 
+/// A node that has been in contact since the step before, on its way to the state of this step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slid {
+    /// State of the step before; [`NodeFriction::advance_all`] puts that of this step here.
+    pub state: [f64; 2],
+    /// Slip speed of the step before (m/s).
+    pub slip_speed: f64,
+    /// Where it is now.
+    pub at: Place,
+}
+
 /// Friction of a contact node: the bound `|p_tau| <= mu p_n` with a coefficient that may depend on
 /// the slip speed of the same instant, on place, time and pressure, and on two numbers of state,
 /// whose meaning is the law's own.
@@ -27,6 +38,14 @@ pub trait NodeFriction: Send + Sync + Debug {
 
     /// State after a step `dt` (s) in which the node slipped at `slip_speed` (m/s).
     fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2];
+
+    /// [`advance`](Self::advance) of all nodes of a step at once, for laws whose every call has a price.
+    /// The nodes come in a fixed order.
+    fn advance_all(&self, nodes: &mut [Slid], dt: f64) {
+        for node in nodes {
+            node.state = self.advance(node.state, node.slip_speed, &node.at, dt);
+        }
+    }
 
     /// Coefficient of friction in this state at the slip speed `slip_speed >= 0` (m/s) of the same
     /// instant. Does not depend on the latter unless [`is_implicit`](Self::is_implicit).

@@ -1,0 +1,14 @@
+//! LS-DYNA keyword files of a disk on a bar, as a case and a mesh file.
+//!
+//! Cards that are read, and what becomes of each: docs/ls-dyna.md. Everything else is refused by its
+//! line, so that nothing of a model is lost unseen.
+
+mod cards;
+mod deck;
+mod model;
+#[cfg(test)]
+mod tests;
+mod units;
+
+pub use model::{Translation, translate};
+pub use units::Units;

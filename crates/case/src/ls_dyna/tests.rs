@@ -1,0 +1,186 @@
+//! The small model of `meshes/`, and cards that are refused.
+
+use super::{Translation, Units, translate};
+use crate::Case;
+use crate::schema::{Crown, FrictionLaw, Stiffness};
+use mesh::import::{ImportError, SetNames, Unit, bodies, read_abaqus};
+use std::fs;
+use std::path::Path;
+
+const DECK: &str = include_str!("../../../../meshes/small.k");
+
+fn import(text: &str) -> Result<Translation, ImportError> {
+    translate(text.as_bytes(), Units::parse("mm-ton-s").unwrap(), "small.k", "mesh.inp")
+}
+
+fn case(made: &Translation) -> Case {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    fs::write(&path, &made.case).unwrap();
+    fs::write(folder.path().join("mesh.inp"), &made.mesh).unwrap();
+    Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{}", made.case))
+}
+
+#[test]
+fn the_cards_of_the_small_model_become_the_keys_of_the_table() {
+    let made = import(DECK).unwrap();
+    let case = case(&made);
+    assert_eq!((case.disk.radius, case.disk.hub_radius, case.disk.width), (0.1, 0.05, 0.02));
+    assert_eq!((case.bar.length, case.bar.height, case.bar.start), (0.1, 0.02, -0.05));
+    assert!(matches!(case.bar.crown_radius, Crown::Radius(c) if (c - 0.30).abs() < 1e-3));
+    assert_eq!(case.disk.crown_radius, Crown::Flat);
+    let steel = case.disk_material();
+    assert_eq!((steel.young, steel.poisson, steel.density), (210e9, 0.3, 7800.0));
+    assert!((case.load.normal - 2000.0).abs() < 0.1, "{}", case.load.normal);
+    assert_eq!(case.drive.speed, 16.0);
+    // 160.32 rad/s at 0.1 m and 16 m/s
+    assert!((case.drive.creepage.unwrap() - 2e-3).abs() < 1e-12);
+    assert_eq!(case.friction.law, FrictionLaw::Exponential);
+    // 0.006 s/mm
+    assert_eq!(
+        (case.friction.static_, case.friction.dynamic, case.friction.decay),
+        (Some(0.5), Some(0.32), Some(6.0))
+    );
+    assert_eq!(case.contact.penalty.normal, Stiffness::Factor(1.0));
+    assert_eq!(case.contact.penalty.tangential, Stiffness::Factor(1.0));
+    assert_eq!(case.contact.penalty.damping, 0.1);
+    assert!(!case.contact.curvature);
+    assert_eq!(case.element.hourglass, 0.05);
+    assert_eq!((case.damping.bulk_linear, case.damping.bulk_quadratic), (0.06, 1.5));
+    assert_eq!((case.time.factor, case.time.duration), (Some(0.67), Some(2.5e-4)));
+    assert!((case.mesh.zone.size - 2e-3).abs() < 1e-4, "{:?}", case.mesh.zone);
+    assert!(made.notes.iter().any(|note| note.contains("*CONTROL_ENERGY")), "{:?}", made.notes);
+}
+
+#[test]
+fn the_mesh_of_a_keyword_file_is_that_of_the_same_msh() {
+    let made = import(DECK).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/small.msh");
+    let first = mesh::import::read_gmsh(&fs::read(path).unwrap()).unwrap();
+    let second = read_abaqus(made.mesh.as_bytes()).unwrap();
+    let of = |foreign| bodies(foreign, &SetNames::default(), Unit::Metre).unwrap().mesh;
+    let (first, second) = (of(&first), of(&second));
+    assert_eq!(first.hexes.len(), second.hexes.len());
+    for (name, body) in [("tread", 0), ("hub", 0), ("top", 1), ("bottom", 1)] {
+        let count = |mesh: &mesh::Mesh| mesh.bodies[body].node_sets[name].len();
+        assert_eq!(count(&first), count(&second), "{name}");
+    }
+    let volume = |mesh: &mesh::Mesh| mesh::quality(mesh).volume;
+    assert!((volume(&first) / volume(&second) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn columns_and_commas_one_line_and_two_are_the_same() {
+    let second_format = DECK.replace(
+        "*MAT_ELASTIC\n$      MID        RO         E        PR\n         1    7.8e-9   2.1e+05       0.3",
+        "*MAT_ELASTIC\n1,7.8-9,2.1d5,0.3",
+    );
+    assert_ne!(second_format, DECK);
+    assert_eq!(import(&second_format), import(DECK));
+    let mut lines: Vec<String> = DECK.lines().map(str::to_owned).collect();
+    let start = lines.iter().position(|l| l == "*ELEMENT_SOLID").unwrap() + 1;
+    let (head, nodes) = lines[start].split_at(16);
+    let two = format!("{head}\n{nodes}");
+    lines[start] = two;
+    assert_eq!(import(&lines.join("\n")).unwrap().mesh, import(DECK).unwrap().mesh);
+}
+
+#[test]
+fn equal_coefficients_of_friction_or_no_decay_are_coulombs_law() {
+    for line in [
+        "       0.5       0.5    0.0060       0.0      10.0",
+        "       0.5      0.32       0.0       0.0      10.0",
+    ] {
+        let old = "       0.5      0.32    0.0060       0.0      10.0";
+        let case = case(&import(&DECK.replace(old, line)).unwrap());
+        assert_eq!((case.friction.law, case.friction.static_), (FrictionLaw::Coulomb, Some(0.5)));
+    }
+}
+
+#[test]
+fn a_model_that_begins_elsewhere_is_moved_to_x_0_and_said_so() {
+    let shifted: String = DECK
+        .lines()
+        .map(|line| {
+            // a line of *NODE
+            if line.len() == 56 {
+                let x: f64 = line[8..24].trim().parse().unwrap();
+                format!("{}{:16.6}{}\n", &line[..8], x + 250.0, &line[24..])
+            } else {
+                format!("{line}\n")
+            }
+        })
+        .collect();
+    let moved = import(&shifted).unwrap();
+    assert!(moved.notes.iter().any(|note| note.contains("in x")), "{:?}", moved.notes);
+    assert_eq!(case(&moved).bar, case(&import(DECK).unwrap()).bar);
+}
+
+#[test]
+fn what_is_not_read_is_refused_by_its_line() {
+    let at = |words: &str| 1 + DECK.lines().position(|l| l.starts_with(words)).unwrap();
+    for (old, new, line, words) in [
+        ("*TITLE", "*MAT_PLASTIC_KINEMATIC", at("*TITLE"), "*MAT_PLASTIC_KINEMATIC is not read"),
+        ("*TITLE", "*INCLUDE", at("*TITLE"), "*INCLUDE"),
+        ("*NODE\n", "*NODE+\n", at("*NODE"), "long format"),
+        ("    2.5e-4", "     &tend", at("    2.5e-4"), "parameter"),
+        (
+            "         1         4      0.05",
+            "         1         6      0.05",
+            at("*HOURGLASS"),
+            "IHQ = 6",
+        ),
+        (
+            "       101       102         0",
+            "       101       102         3",
+            at("       101"),
+            "SSTYP",
+        ),
+        (
+            "       0.5      0.32    0.0060       0.0",
+            "       0.5      0.32    0.0060       9.0",
+            at("       0.5"),
+            "VC = 9",
+        ),
+        (
+            "         2         0         1         1         1",
+            "         2         0         1         0         1",
+            at("         2         0"),
+            "DOFX",
+        ),
+        ("       1.0       1.0\n*CON", "       1.0       2.0\n*CON", at("*CONTACT"), "SFM = 2"),
+        ("   2.1e+05       0.3", "   2.1e+05       abc", at("         1    7.8e-9"), "`abc`"),
+    ] {
+        let text = DECK.replacen(old, new, 1);
+        assert_ne!(text, DECK, "{old}");
+        let error = import(&text).unwrap_err();
+        assert!(error.to_string().contains(words), "{words}: {error}");
+        assert_eq!(error.line, Some(line), "{words}");
+    }
+}
+
+#[test]
+fn what_a_disk_on_a_bar_lacks_is_named() {
+    for (keyword, lines) in [
+        ("*CONSTRAINED_NODAL_RIGID_BODY", 3),
+        ("*BOUNDARY_SPC_SET", 3),
+        ("*CONTACT_SURFACE_TO_SURFACE", 7),
+        ("*LOAD_NODE_SET", 3),
+        ("*CONTROL_TERMINATION", 3),
+        ("*INITIAL_VELOCITY_GENERATION", 5),
+    ] {
+        let mut kept: Vec<&str> = DECK.lines().collect();
+        let at = kept.iter().position(|l| *l == keyword).unwrap();
+        kept.drain(at..at + lines);
+        let error = import(&kept.join("\n")).unwrap_err();
+        let word = keyword.trim_end_matches("_GENERATION");
+        assert!(error.to_string().contains(word), "{keyword}: {error}");
+    }
+}
+
+#[test]
+fn a_keyword_file_cut_off_anywhere_never_panics() {
+    for part in 0..80 {
+        let _ = import(&DECK[..DECK.len() * part / 80]);
+    }
+}

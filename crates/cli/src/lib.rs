@@ -1,0 +1,103 @@
+//! The command line as a library: what [`main`] does for a terminal, [`command`] does for a program that
+//! holds it.
+
+mod args;
+mod check;
+mod commands;
+mod convergence_plot;
+mod embedded;
+mod import_contact;
+mod import_k;
+mod plot;
+mod progress;
+mod report;
+mod report_page;
+mod rupture_plot;
+mod slider;
+mod sweep;
+mod sweep_folder;
+mod verify;
+
+use std::ffi::OsString;
+use std::io::Write;
+
+use clap::Parser;
+
+use args::Args;
+pub use commands::Failure;
+pub use embedded::{Embedded, Told};
+
+/// Runs the command that `words` write, the first of which is the program's name, for the terminal; returns
+/// the exit code.
+pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<_> = words.into_iter().collect();
+    let args = match Args::try_parse_from(&words) {
+        Ok(args) => args,
+        Err(error) => return usage(&error, &words),
+    };
+    set_up_messages(&args);
+    match commands::dispatch(&args) {
+        Ok(code) => code,
+        Err(failure) => {
+            if args.json {
+                report::print_json(&failure.document());
+            }
+            // A closed standard error is no reason to panic.
+            let _ = writeln!(std::io::stderr(), "{:?}", failure.report);
+            failure.code
+        }
+    }
+}
+
+/// Runs the command that `words` write, the first of which is the program's name, for the program
+/// that holds it: nothing is written to the terminal, and documents are told as with `--json`. Returns
+/// the exit code.
+///
+/// # Errors
+/// What [`main`] would end with, after its message.
+pub fn command(
+    words: impl IntoIterator<Item = OsString>,
+    embedded: Embedded,
+) -> Result<u8, Failure> {
+    let mut args = Args::try_parse_from(words).map_err(|error| {
+        let text = error.render().to_string();
+        let report = miette::miette!("{}", text.trim_end().trim_start_matches("error: "));
+        Failure { report, code: commands::BAD_INPUT }
+    })?;
+    (args.json, args.quiet, args.embedded) = (true, true, Some(embedded));
+    commands::dispatch(&args)
+}
+
+/// Help and version that were asked for, or wrong usage.
+fn usage(error: &clap::Error, words: &[OsString]) -> u8 {
+    let wanted = words.iter().any(|word| word == "--json");
+    if error.use_stderr() && wanted {
+        let text = error.render().to_string();
+        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        report::print_json(&commands::failure(message, commands::BAD_INPUT));
+    }
+    let _ = error.print();
+    if error.use_stderr() { commands::BAD_INPUT } else { 0 }
+}
+
+fn set_up_messages(args: &Args) {
+    // The hook is set once, before any report is made; a second setting could only be a mistake
+    // of this program, and the default handler would still show the message.
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
+    }));
+    let level = match (args.quiet, args.verbose) {
+        (true, _) => "error",
+        (false, 0) => "warn",
+        (false, 1) => "info",
+        (false, _) => "debug",
+    };
+    let filter = tracing_subscriber::EnvFilter::try_from_env("CREEPAGE_LOG")
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new(level));
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_target(false)
+        .without_time()
+        .init();
+}

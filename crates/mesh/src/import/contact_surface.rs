@@ -1,0 +1,138 @@
+//! What the set of a contact surface must be: one sheet without holes.
+
+use super::bodies::Imported;
+use super::error::{Fault, ImportError};
+use super::parts::Parts;
+use crate::Face;
+use std::collections::{BTreeMap, HashMap};
+use std::f64::consts::TAU;
+
+/// A sheet that faces make, and what its borders must be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sheet {
+    /// A band around the disk: two borders, each once about the disk's axis.
+    Band,
+    /// A patch with one border.
+    Patch,
+}
+
+/// Checks that the faces `chosen` of `boundary` make one sheet without holes.
+pub(super) fn check(
+    imported: &Imported,
+    set: (&'static str, &str),
+    sheet: Sheet,
+    boundary: &[Face],
+    chosen: &[bool],
+) -> Result<(), ImportError> {
+    let (key, name) = (set.0, set.1.to_owned());
+    let inside: Vec<&Face> = boundary.iter().zip(chosen).filter(|c| *c.1).map(|c| c.0).collect();
+    // Faces of each edge.
+    let mut edges: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+    for (i, face) in inside.iter().enumerate() {
+        for [a, b] in edges_of(face) {
+            edges.entry([a.min(b), a.max(b)]).or_default().push(i as u32);
+        }
+    }
+    let element = |face: &Face| imported.elements.id(face.hex as usize);
+    let at_face = |face: &Face, fault: Fault| imported.elements.fault(face.hex as usize, fault);
+    let mut pieces = Parts::new(inside.len());
+    let mut border: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
+    for (i, face) in inside.iter().enumerate() {
+        for [a, b] in edges_of(face) {
+            let edge = [a.min(b), a.max(b)];
+            let faces = &edges[&edge];
+            if faces.len() > 2 {
+                let edge = edge.map(|n| imported.nodes.id(n as usize));
+                return Err(at_face(face, Fault::Fold { key, name, edge }));
+            }
+            faces.iter().for_each(|&other| pieces.join(i as u32, other));
+            if faces.len() == 1 {
+                border.insert(edge, [a, b]);
+            }
+        }
+    }
+    if let Some(apart) = pieces.apart() {
+        let face = inside[apart as usize];
+        return Err(at_face(face, Fault::Pieces { key, name, element: element(face) }));
+    }
+
+    let loops = loops(&border);
+    let (rims, holes): (Vec<_>, Vec<_>) = match sheet {
+        Sheet::Band => loops.into_iter().partition(|l| winding(imported, l) != 0),
+        Sheet::Patch => {
+            let longest = loops.iter().map(Vec::len).max();
+            let first = loops.iter().position(|l| Some(l.len()) == longest);
+            let (rim, holes): (Vec<_>, Vec<_>) =
+                loops.into_iter().enumerate().partition(|(i, _)| Some(*i) == first);
+            let bare = |l: Vec<(usize, Vec<[u32; 2]>)>| l.into_iter().map(|(_, l)| l).collect();
+            (bare(rim), bare(holes))
+        }
+    };
+    // The face outside the set at an edge of its border.
+    let beyond = |[a, b]: [u32; 2]| {
+        let outside = boundary.iter().zip(chosen).filter(|c| !*c.1).map(|c| c.0);
+        let mut met = outside.filter(|f| f.nodes.contains(&a) && f.nodes.contains(&b));
+        met.next().copied()
+    };
+    let open = sheet == Sheet::Band && rims.len() < 2;
+    let smallest = holes.iter().min_by_key(|l| l.len());
+    match smallest {
+        // a band that does not close has its one border about nothing
+        Some(hole) if !open || holes.len() > 1 => {
+            let face = beyond(hole[0]).unwrap_or(*inside[0]);
+            let at = imported.mesh.nodes[hole[0][0] as usize];
+            let fault = Fault::Hole { key, name, edges: hole.len(), at, element: element(&face) };
+            Err(at_face(&face, fault))
+        }
+        _ if open => {
+            let edge = border.values().find_map(|&edge| beyond(edge));
+            let face = edge.unwrap_or(*inside[0]);
+            Err(at_face(&face, Fault::Open { key, name, element: element(&face) }))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn edges_of(face: &Face) -> [[u32; 2]; 4] {
+    let [a, b, c, d] = face.nodes;
+    [[a, b], [b, c], [c, d], [d, a]]
+}
+
+/// The edges of a border, each in the sense of its face, by the loops that they make.
+fn loops(border: &BTreeMap<[u32; 2], [u32; 2]>) -> Vec<Vec<[u32; 2]>> {
+    let mut places: BTreeMap<u32, u32> = BTreeMap::new();
+    for node in border.values().flatten() {
+        let next = places.len() as u32;
+        places.entry(*node).or_insert(next);
+    }
+    let mut joined = Parts::new(places.len());
+    border.values().for_each(|[a, b]| joined.join(places[a], places[b]));
+    let mut found: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
+    for edge in border.values() {
+        found.entry(joined.of(places[&edge[0]])).or_default().push(*edge);
+    }
+    found.into_values().collect()
+}
+
+/// How often a border goes about the axis of the disk, the middle of its extent in x and z.
+fn winding(imported: &Imported, border: &[[u32; 2]]) -> i64 {
+    let mesh = &imported.mesh;
+    let middle = [0, 2].map(|axis| {
+        let along = mesh.nodes[mesh.bodies[0].nodes.clone()].iter().map(|p| p[axis]);
+        let (low, high) = along
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        0.5 * (low + high)
+    });
+    let arm = |n: u32| {
+        let p = mesh.nodes[n as usize];
+        [p[0] - middle[0], p[2] - middle[1]]
+    };
+    let turn: f64 = border
+        .iter()
+        .map(|&[a, b]| {
+            let ([x, z], [u, w]) = (arm(a), arm(b));
+            (x * w - z * u).atan2(x * u + z * w)
+        })
+        .sum();
+    (turn / TAU).round() as i64
+}

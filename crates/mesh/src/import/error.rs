@@ -1,0 +1,423 @@
+//! What can be wrong with a foreign mesh.
+
+/// Why a foreign mesh is refused, and the line of a text file where that stands.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{fault}")]
+pub struct ImportError {
+    /// Line of the file, counted from 1; `None` for binary files, arrays, and what no line shows.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub fault: Fault,
+}
+
+/// What is wrong with a foreign mesh. Nodes and elements are named by their numbers in the file;
+/// in a VTU file and in arrays these are their places, counted from 0.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// The file does not follow its format.
+    #[error("{what}")]
+    Syntax {
+        /// What was expected and what was found.
+        what: String,
+    },
+    /// A part of the format that is not read.
+    #[error("{what} is not read")]
+    Unsupported {
+        /// The part.
+        what: String,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+    /// A cell that is no hexahedron with eight nodes.
+    #[error("element {element} is {kind}; only hexahedra with 8 nodes are computed with")]
+    Cell {
+        /// The element.
+        element: u64,
+        /// What it is.
+        kind: String,
+    },
+    /// The mesh has no hexahedra.
+    #[error("there are no hexahedra with 8 nodes in the mesh")]
+    NoHexes,
+    /// A number is used twice.
+    #[error("{what} {id} is there twice")]
+    Repeated {
+        /// `"node"`, `"element"` or the like.
+        what: &'static str,
+        /// Its number.
+        id: u64,
+    },
+    /// Something names what is not there.
+    #[error("{from} names {what}, which is not there")]
+    Unknown {
+        /// What names it.
+        from: String,
+        /// What is not there.
+        what: String,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("node {node} has a coordinate that is not finite: {point:?}")]
+    NotFinite {
+        /// The node.
+        node: u64,
+        /// Its coordinates, in the unit of the file.
+        point: [f64; 3],
+    },
+    /// A hexahedron names a node twice.
+    #[error("element {element} names node {node} twice: a hexahedron has 8 different corners")]
+    Collapsed {
+        /// The element.
+        element: u64,
+        /// The node.
+        node: u64,
+    },
+    /// A hexahedron without a positive Jacobian at each corner, whichever way it is numbered.
+    #[error(
+        "element {element} is inverted or flat at its corner {corner}: scaled Jacobian {value:.3e}, \
+         and numbering it the other way round does not mend it"
+    )]
+    Inverted {
+        /// The element.
+        element: u64,
+        /// Corner, counted from 1 in the order of the file.
+        corner: usize,
+        /// Scaled Jacobian there.
+        value: f64,
+    },
+    /// Two nodes of one body at one place.
+    #[error(
+        "nodes {first} and {second} of the {body} coincide at {point:?} m: they are not merged"
+    )]
+    Coincident {
+        /// One node.
+        first: u64,
+        /// The other node.
+        second: u64,
+        /// The body.
+        body: &'static str,
+        /// Where (m).
+        point: [f64; 3],
+    },
+    /// A face inside a body that is shared in no proper way.
+    #[error(
+        "a face of element {element} is shared by more than two elements, or by two on the same \
+         side of it"
+    )]
+    FaceShared {
+        /// The element.
+        element: u64,
+    },
+    /// A node on a face or edge of an element that it is no corner of.
+    #[error("node {node} hangs on a face of element {element}, which it is no corner of")]
+    Hanging {
+        /// The node.
+        node: u64,
+        /// The element.
+        element: u64,
+    },
+    /// The disk and the bar have a node in common.
+    #[error("node {node} belongs to elements of the disk and of the bar: they share no nodes")]
+    SharedNode {
+        /// The node.
+        node: u64,
+    },
+    /// An element is in no body, or in both.
+    #[error("element {element} is in {of} of the sets `{disk}` (disk) and `{bar}` (bar)")]
+    NoBody {
+        /// The element.
+        element: u64,
+        /// `"neither"` or `"both"`.
+        of: &'static str,
+        /// Name of the disk's set.
+        disk: String,
+        /// Name of the bar's set.
+        bar: String,
+    },
+    /// A set is not in the file.
+    #[error("there is no set `{name}` ({key}); the file has {there}")]
+    MissingSet {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// The name looked for.
+        name: String,
+        /// The sets that there are.
+        there: String,
+    },
+    /// A set holds nothing of the kind that is needed.
+    #[error("set `{name}` ({key}) holds no {what}")]
+    EmptySet {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// What it should hold.
+        what: &'static str,
+    },
+    /// A set names nodes or faces of the wrong body.
+    #[error(
+        "set `{name}` ({key}) names both bodies: node {node} is of the {other}, not of the {body}"
+    )]
+    BothBodies {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// A node of the other body.
+        node: u64,
+        /// The body that the set must lie on.
+        body: &'static str,
+        /// The other body.
+        other: &'static str,
+    },
+    /// A face of a set is not on the outside of its body.
+    #[error(
+        "set `{name}` ({key}): the face with the nodes {nodes:?} is none of the {body}'s outside"
+    )]
+    NotOutside {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// Corner nodes.
+        nodes: [u64; 4],
+        /// The body.
+        body: &'static str,
+    },
+    /// Two sets that must keep apart have a node in common.
+    #[error("sets `{first}` and `{second}` share node {node}")]
+    SetsMeet {
+        /// One set.
+        first: String,
+        /// The other set.
+        second: String,
+        /// The node.
+        node: u64,
+    },
+    /// A body of several parts that do not hang together.
+    #[error("element {element} does not hang together with the rest of the {body}")]
+    Loose {
+        /// The body.
+        body: &'static str,
+        /// An element of a smaller part.
+        element: u64,
+    },
+    /// A contact surface has a hole.
+    #[error(
+        "set `{name}` ({key}) has a hole, bounded by {edges} edges, at {at:?} m: a face of element \
+         {element} is left out of it"
+    )]
+    Hole {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// Edges around the hole.
+        edges: usize,
+        /// A node on its border (m).
+        at: [f64; 3],
+        /// Element of the face beyond the border.
+        element: u64,
+    },
+    /// The tread does not go round the disk.
+    #[error(
+        "set `{name}` ({key}) does not go round the disk: it ends at a face of element {element}"
+    )]
+    Open {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// Element of a face beyond the end.
+        element: u64,
+    },
+    /// A contact surface is in several pieces.
+    #[error("set `{name}` ({key}) is in several pieces: a face of element {element} is apart")]
+    Pieces {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// Element of a face of a smaller piece.
+        element: u64,
+    },
+    /// A contact surface that more than two faces meet in at an edge.
+    #[error("set `{name}` ({key}): more than two of its faces meet in the edge of nodes {edge:?}")]
+    Fold {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// Ends of the edge.
+        edge: [u64; 2],
+    },
+    /// A size of the mesh is not what the case says.
+    #[error("the {what} of the mesh is {found} m, but {key} = {expected} m")]
+    Size {
+        /// What was measured.
+        what: &'static str,
+        /// Its value (m).
+        found: f64,
+        /// Key of the case.
+        key: &'static str,
+        /// Value of the key (m).
+        expected: f64,
+    },
+    /// All sizes are off by the ratio of two units.
+    #[error(
+        "the disk of the mesh has a radius of {found} m, but disk.radius = {expected} m: its \
+         coordinates are in {unit}"
+    )]
+    Unit {
+        /// Radius found (m).
+        found: f64,
+        /// `disk.radius` (m).
+        expected: f64,
+        /// The unit it must have been written in, as `mesh.unit` names it.
+        unit: &'static str,
+    },
+    /// The mesh is not where the case's frame wants it.
+    #[error("the {what} of the mesh lies at {found} m, not at {expected} m")]
+    Place {
+        /// What was measured.
+        what: &'static str,
+        /// Where it is (m).
+        found: f64,
+        /// Where it must be (m).
+        expected: f64,
+    },
+    /// A node of a contact surface is off the cylinder or crown that the case gives.
+    #[error(
+        "node {node} of set `{name}` lies {distance:.2e} m off the surface that {keys} describe, \
+         more than {limit:.2e} m"
+    )]
+    OffSurface {
+        /// The node.
+        node: u64,
+        /// Name of the set.
+        name: String,
+        /// Distance (m).
+        distance: f64,
+        /// Keys of the case.
+        keys: &'static str,
+        /// Largest distance allowed (m).
+        limit: f64,
+    },
+    /// No face, or too few, in the zone.
+    #[error(
+        "set `{name}` ({key}) covers {covered:.0} % of the zone of mesh.zone: {faces} faces lie there"
+    )]
+    Uncovered {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// Area of the faces over that of the zone (%).
+        covered: f64,
+        /// Faces in the zone.
+        faces: usize,
+    },
+    /// The faces of the zone have another size than the case says.
+    #[error(
+        "in the zone the faces of the mesh have edges of {disk:.3e} m (disk) and {bar:.3e} m (bar), \
+         but mesh.zone.size = {size} m"
+    )]
+    ZoneSize {
+        /// Mean edge on the disk (m).
+        disk: f64,
+        /// Mean edge on the bar (m).
+        bar: f64,
+        /// `mesh.zone.size` (m).
+        size: f64,
+    },
+    /// An end of the bar is not plane.
+    #[error("the bar has no plane {which} end x = {at} m, on which bar.ends = \"quiet\" could act")]
+    NoEnd {
+        /// `"rear"` or `"front"`.
+        which: &'static str,
+        /// Where it was looked for (m).
+        at: f64,
+    },
+    /// A fault that none of the others describes.
+    #[error(transparent)]
+    Mesh(#[from] crate::MeshError),
+}
+
+impl Fault {
+    /// The fault without a line.
+    pub(crate) fn nowhere(self) -> ImportError {
+        ImportError { line: None, fault: self }
+    }
+
+    /// The fault at a line, counted from 1.
+    pub(crate) fn at(self, line: usize) -> ImportError {
+        ImportError { line: Some(line), fault: self }
+    }
+
+    /// What to do about it.
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Syntax { .. } | Self::Unknown { .. } => {
+                "write the file anew with the program that it comes from".into()
+            }
+            Self::Unsupported { remedy, .. } => (*remedy).into(),
+            Self::Cell { .. } | Self::NoHexes => {
+                "mesh both bodies with linear hexahedra; in Gmsh: recombine and extrude with \
+                 layers, order 1"
+                    .into()
+            }
+            Self::Repeated { .. } => "number nodes and elements without repetition".into(),
+            Self::NotFinite { .. } | Self::Collapsed { .. } | Self::Inverted { .. } => {
+                "mend the element in the program that made the mesh".into()
+            }
+            Self::Coincident { .. } | Self::FaceShared { .. } | Self::Hanging { .. } => {
+                "merge coincident nodes within each body (Gmsh: Coherence Mesh, meshio: \
+                 merge duplicates), and make its elements match"
+                    .into()
+            }
+            Self::SharedNode { .. } => {
+                "mesh the two bodies apart, also where they touch, and do not merge their nodes"
+                    .into()
+            }
+            Self::NoBody { .. } => {
+                "put every hexahedron into one of the two sets; mesh.sets.disk and mesh.sets.bar \
+                 name them"
+                    .into()
+            }
+            Self::MissingSet { key, .. } => {
+                format!(
+                    "name the set so in the file, or give its name in the case: {key} = \"...\""
+                )
+            }
+            Self::EmptySet { .. } | Self::BothBodies { .. } | Self::NotOutside { .. } => {
+                "choose the nodes or faces of the set anew".into()
+            }
+            Self::SetsMeet { .. } => "end one of the sets before the other begins".into(),
+            Self::Loose { .. } => {
+                "merge the nodes where the parts touch, or leave the part out".into()
+            }
+            Self::Hole { .. } | Self::Open { .. } | Self::Pieces { .. } | Self::Fold { .. } => {
+                "put all faces of the running surface into the set and no others".into()
+            }
+            Self::Size { key, found, .. } => {
+                format!("set {key} = {found}, or mesh the body in its size")
+            }
+            Self::Unit { unit, .. } => format!("set mesh.unit = \"{unit}\""),
+            Self::Place { .. } => "move the mesh: x is the rolling direction, z up, the disk \
+                                   touches the bar's top at the origin with its axis along y"
+                .into(),
+            Self::OffSurface { .. } => {
+                "give the radii of the mesh in those keys, or contact.curvature = false for a \
+                 surface of another shape"
+                    .into()
+            }
+            Self::Uncovered { .. } => {
+                "move or shorten mesh.zone, or extend the set: contact passes over the zone".into()
+            }
+            Self::ZoneSize { disk, bar, .. } => {
+                format!("set mesh.zone.size = {:.2e}, or refine the mesh", disk.min(*bar))
+            }
+            Self::NoEnd { .. } => "make the ends plane, or set bar.ends = \"free\"".into(),
+            Self::Mesh(_) => "mend the mesh in the program that made it".into(),
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The format of a file, by its name.
+
+use super::error::ImportError;
+use super::foreign::Foreign;
+use super::{read_abaqus, read_gmsh, read_vtu};
+use std::path::Path;
+
+/// A format of mesh files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Gmsh's MSH 2.2 or 4.1, as text.
+    Gmsh,
+    /// Abaqus input file.
+    Abaqus,
+    /// VTK XML unstructured grid.
+    Vtu,
+}
+
+impl Format {
+    /// The format of a file by the ending of its name, if it is one that is read.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "msh" => Some(Self::Gmsh),
+            "inp" => Some(Self::Abaqus),
+            "vtu" => Some(Self::Vtu),
+            _ => None,
+        }
+    }
+
+    /// Reads the bytes of a file of this format.
+    ///
+    /// # Errors
+    /// What the reader of the format refuses.
+    pub fn read(self, bytes: &[u8]) -> Result<Foreign, ImportError> {
+        match self {
+            Self::Gmsh => read_gmsh(bytes),
+            Self::Abaqus => read_abaqus(bytes),
+            Self::Vtu => read_vtu(bytes),
+        }
+    }
+}

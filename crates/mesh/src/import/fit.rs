@@ -1,0 +1,232 @@
+//! The imported bodies against the shapes that the case gives.
+
+use super::bodies::Imported;
+use super::error::{Fault, ImportError};
+use super::unit::Unit;
+use crate::check::boundary;
+use crate::grid::nodes_of;
+use crate::{Bar, Disk, Face, FineZone, Mesh, SmoothSurface, Surface, quad_corner_areas};
+
+/// Relative deviation of a size of the mesh from that of the case: polygons instead of circles, and
+/// coordinates of few digits.
+const SIZE: f64 = 0.01;
+
+/// Distance of a contact surface from where the case has it, over the edge of the zone's elements.
+const PLACE: f64 = 0.05;
+
+/// Distance of the nodes of the zone from the exact surface, over the edge of the zone's elements:
+/// at 2 mm, 0.2 um of the 0.1 mm by which wheel and rail approach each other.
+const EXACT: f64 = 1e-4;
+
+/// Deviation of a plane end of the bar from its plane, over the bar's length.
+const PLANE: f64 = 1e-6;
+
+/// Shapes that the case gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// The disk.
+    pub disk: Disk,
+    /// The bar.
+    pub bar: Bar,
+    /// The zone that contact passes over; of the sizes only that of its elements.
+    pub zone: FineZone,
+    /// Whether the contact surfaces are the exact cylinder and crown of the case, on which the nodes
+    /// of the zone must then lie; if not, contact meets the facets.
+    pub exact: bool,
+    /// Whether the bar's ends must be plane, for the boundary that lets waves out.
+    pub ends: bool,
+}
+
+/// Sets the bodies against the shapes of the case, and adds what the solver takes from there:
+/// surfaces and node sets `"zone"` (the faces of tread and top whose middle lies in the zone),
+/// surfaces `"rear"` and `"front"` of the bar, and the exact surfaces.
+///
+/// # Errors
+/// The first size or place that does not agree.
+pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportError> {
+    sizes(&imported, shape)?;
+    ends(&mut imported, shape)?;
+    let Shape { disk, bar, zone, .. } = *shape;
+    let centre = [0.0, 0.0, disk.radius];
+    let tread = SmoothSurface::Tread { centre, radius: disk.radius, crown: disk.crown };
+    let top = SmoothSurface::Top { apex: 0.0, crown: bar.crown };
+    let names = imported.names.clone();
+    let mut edges = [0.0; 2];
+    for (body, ours, key, name, smooth, keys) in [
+        (0, "tread", "mesh.sets.tread", &names.tread, tread, "disk.radius and disk.crown_radius"),
+        (1, "top", "mesh.sets.top", &names.top, top, "bar.crown_radius"),
+    ] {
+        let mesh = &imported.mesh;
+        let all = mesh.bodies[body].surfaces[ours].faces.clone();
+        let inside = |f: &&Face| in_zone(&middle(mesh, f), body, shape);
+        let faces: Vec<Face> = all.iter().filter(inside).copied().collect();
+        let area: f64 = faces.iter().map(|f| face_area(mesh, f)).sum();
+        let covered = area / (zone.length * zone.width);
+        edges[body] = (area / faces.len() as f64).sqrt();
+        // a row of elements may stick out or be missing at each side
+        let row = 2.0 * edges[body].max(zone.size) * (1.0 / zone.length + 1.0 / zone.width);
+        if faces.is_empty() || covered < (1.0 - row).max(0.25) {
+            let name = name.clone();
+            let (covered, faces) = (100.0 * covered, faces.len());
+            return Err(Fault::Uncovered { key, name, covered, faces }.nowhere());
+        }
+        let nodes = nodes_of(&faces);
+        if shape.exact {
+            let limit = EXACT * zone.size;
+            let off = |&n: &u32| smooth.offset(mesh.nodes[n as usize]).abs();
+            let worst = nodes.iter().copied().max_by(|a, b| off(a).total_cmp(&off(b)));
+            if let Some(n) = worst.filter(|n| off(n) > limit) {
+                let (node, distance) = (imported.nodes.id(n as usize), off(&n));
+                let fault = Fault::OffSurface { node, name: name.clone(), distance, keys, limit };
+                return Err(imported.nodes.fault(n as usize, fault));
+            }
+        }
+        let smooth = shape.exact.then_some(smooth);
+        let body = &mut imported.mesh.bodies[body];
+        body.surfaces.insert(ours.into(), Surface { faces: all, smooth });
+        body.surfaces.insert("zone".into(), Surface { faces, smooth });
+        body.node_sets.insert("zone".into(), nodes);
+    }
+    let [disk, bar] = edges;
+    if zone.size < disk.min(bar) / 1.5 || zone.size > disk.max(bar) * 1.5 {
+        return Err(Fault::ZoneSize { disk, bar, size: zone.size }.nowhere());
+    }
+    Ok(imported)
+}
+
+/// Sizes and places of the bodies as wholes.
+fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
+    let Shape { disk, bar, zone, .. } = *shape;
+    let mesh = &imported.mesh;
+    let tread = extent(mesh, &mesh.bodies[0].node_sets["tread"]);
+    let top = extent(mesh, &mesh.bodies[1].node_sets["top"]);
+    let whole = [0, 1].map(|b| {
+        let nodes = &mesh.bodies[b].nodes;
+        extent(mesh, &(nodes.start as u32..nodes.end as u32).collect::<Vec<_>>())
+    });
+    let span = |e: &Extent, a: usize| e.high[a] - e.low[a];
+    let close = |x: f64, y: f64| (x - y).abs() <= SIZE * y.abs();
+
+    let radius = 0.5 * span(&tread, 0);
+    if !close(radius, disk.radius) {
+        let expected = disk.radius;
+        let unit = Unit::ALL.into_iter().filter(|u| *u != Unit::Metre);
+        let mut unit = unit.filter(|u| close(u.metres(radius), expected));
+        return Err(match unit.next() {
+            Some(unit) => Fault::Unit { found: digits(radius), expected, unit: unit.symbol() },
+            None => size("radius of the disk", radius, "disk.radius", expected),
+        }
+        .nowhere());
+    }
+    let [x, z] = [0, 2].map(|a| 0.5 * (tread.low[a] + tread.high[a]));
+    let hub = mesh.bodies[0].node_sets["hub"].iter().map(|&n| {
+        let p = mesh.nodes[n as usize];
+        (p[0] - x).hypot(p[2] - z)
+    });
+    let hub = hub.fold(0.0, f64::max);
+    let nearly = |what, found: f64, expected: f64, room: f64| {
+        if (found - expected).abs() <= room {
+            return Ok(());
+        }
+        Err(Fault::Place { what, found: digits(found), expected }.nowhere())
+    };
+    nearly("x of the disk's axis", x, 0.0, SIZE * disk.radius)?;
+    for (what, found, key, expected) in [
+        ("width of the disk", span(&whole[0], 1), "disk.width", disk.width),
+        ("radius of the hub", hub, "disk.hub_radius", disk.hub_radius),
+        ("length of the bar", span(&whole[1], 0), "bar.length", bar.length),
+        ("width of the bar", span(&whole[1], 1), "bar.width", bar.width),
+        ("height of the bar", span(&whole[1], 2), "bar.height", bar.height),
+    ] {
+        if !close(found, expected) {
+            return Err(size(what, found, key, expected).nowhere());
+        }
+    }
+    nearly("rear end of the bar (x)", whole[1].low[0], bar.start, SIZE * bar.length)?;
+    for (what, extent, width) in [
+        ("middle of the disk's width (y)", &whole[0], disk.width),
+        ("middle of the bar's width (y)", &whole[1], bar.width),
+    ] {
+        nearly(what, 0.5 * (extent.low[1] + extent.high[1]), 0.0, SIZE * width)?;
+    }
+    // An apex between two nodes is missed by the sag of half an element.
+    let sag = |curvature: f64| 0.125 * zone.size * zone.size * curvature;
+    let across = |crown: Option<f64>| crown.map_or(0.0, f64::recip);
+    let room = PLACE * zone.size;
+    let apex = |crown| room + 4.0 * (sag(1.0 / disk.radius) + sag(across(crown)));
+    nearly("lowest point of the tread (z)", tread.low[2], 0.0, apex(disk.crown))?;
+    nearly("apex of the bar's top (z)", top.high[2], 0.0, apex(bar.crown))
+}
+
+fn size(what: &'static str, found: f64, key: &'static str, expected: f64) -> Fault {
+    Fault::Size { what, found: digits(found), key, expected }
+}
+
+/// A measured length to six digits, as a person would give it.
+fn digits(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+struct Extent {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+fn extent(mesh: &Mesh, nodes: &[u32]) -> Extent {
+    let mut e = Extent { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+    for &n in nodes {
+        for a in 0..3 {
+            e.low[a] = e.low[a].min(mesh.nodes[n as usize][a]);
+            e.high[a] = e.high[a].max(mesh.nodes[n as usize][a]);
+        }
+    }
+    e
+}
+
+/// The faces of the bar's plane ends.
+fn ends(imported: &mut Imported, shape: &Shape) -> Result<(), ImportError> {
+    if !shape.ends {
+        return Ok(());
+    }
+    let mesh = &imported.mesh;
+    let bar = &mesh.bodies[1];
+    let outside = boundary(mesh, bar).map_err(|fault| Fault::Mesh(fault).nowhere())?;
+    let all: Vec<u32> = (bar.nodes.start as u32..bar.nodes.end as u32).collect();
+    let Extent { low, high } = extent(mesh, &all);
+    let mut ends = Vec::new();
+    for (which, at) in [("rear", low[0]), ("front", high[0])] {
+        let plane = |n: &u32| (mesh.nodes[*n as usize][0] - at).abs() <= PLANE * shape.bar.length;
+        let faces: Vec<Face> =
+            outside.iter().filter(|f| f.nodes.iter().all(plane)).copied().collect();
+        if faces.is_empty() {
+            return Err(Fault::NoEnd { which, at: digits(at) }.nowhere());
+        }
+        ends.push((which, Surface { faces, smooth: None }));
+    }
+    let nodes = nodes_of(&ends.iter().flat_map(|e| &e.1.faces).copied().collect::<Vec<_>>());
+    let bar = &mut imported.mesh.bodies[1];
+    bar.node_sets.insert("ends".into(), nodes);
+    ends.into_iter().for_each(|(which, surface)| {
+        bar.surfaces.insert(which.into(), surface);
+    });
+    Ok(())
+}
+
+fn middle(mesh: &Mesh, face: &Face) -> [f64; 3] {
+    [0, 1, 2].map(|a| 0.25 * face.nodes.iter().map(|&n| mesh.nodes[n as usize][a]).sum::<f64>())
+}
+
+fn face_area(mesh: &Mesh, face: &Face) -> f64 {
+    quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize])).iter().sum()
+}
+
+/// Whether a point of a contact surface lies in the zone: on the disk by its arc from the first
+/// contact, as the generated zone.
+fn in_zone(p: &[f64; 3], body: usize, shape: &Shape) -> bool {
+    let Shape { disk, zone, .. } = *shape;
+    let along = if body == 0 { disk.radius * p[0].atan2(disk.radius - p[2]) } else { p[0] };
+    let room = 1e-6 * zone.size;
+    along >= zone.start - room
+        && along <= zone.start + zone.length + room
+        && p[1].abs() <= 0.5 * zone.width + room
+}

@@ -1,0 +1,31 @@
+//! Meshes of other programs: Gmsh, Abaqus, VTU, arrays.
+//!
+//! [`Format::read`] takes a file to a [`Foreign`] mesh, [`Foreign::from_arrays`] arrays; [`bodies()`]
+//! checks it and makes the two bodies of it; [`fit()`] sets them against the shapes that the case
+//! gives. The result has the sets and surfaces of the generated meshes, so that the solver does not
+//! know where a mesh comes from. Nodes and elements are numbered anew along a curve through space:
+//! the bits of a run depend neither on the file's format nor on its numbering of nodes.
+
+mod abaqus;
+mod bodies;
+mod contact_surface;
+mod error;
+mod file;
+mod fit;
+mod foreign;
+mod gmsh;
+mod order;
+mod parts;
+mod text;
+mod unit;
+mod vtu;
+
+pub use abaqus::{read_abaqus, write_abaqus};
+pub use bodies::{Imported, SetNames, bodies};
+pub use error::{Fault, ImportError};
+pub use file::Format;
+pub use fit::{Shape, fit};
+pub use foreign::{Foreign, Labels, Set};
+pub use gmsh::read_gmsh;
+pub use unit::Unit;
+pub use vtu::read_vtu;

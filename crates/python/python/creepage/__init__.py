@@ -1,0 +1,33 @@
+"""Explicit finite elements for rolling contact: an elastic disk rolls on an elastic bar.
+
+    import creepage
+    run = creepage.run("cases/quick.toml", friction=lambda s: 0.3 + 0.2 * np.exp(-6 * s))
+    run.contact.bar["pressure"][-1]     # Pa, one number per node
+
+SI units everywhere; x rolling direction, y lateral, z up; the undeformed disk touches the bar's
+apex at the origin.
+"""
+
+from ._commands import run, schema, slider, sweep, verify
+from ._errors import CaseError, CreepageError, Interrupted, LimitError, RunError
+from ._mesh import mesh
+from ._run import Field, History, Records, Run, Side
+
+__all__ = [
+    "CaseError",
+    "CreepageError",
+    "Field",
+    "History",
+    "Interrupted",
+    "LimitError",
+    "Records",
+    "Run",
+    "RunError",
+    "Side",
+    "mesh",
+    "run",
+    "schema",
+    "slider",
+    "sweep",
+    "verify",
+]

@@ -1,0 +1,193 @@
+"""Meshes: of a case, and of other programs."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from . import _case
+from ._errors import CaseError
+from ._execute import execute, options
+
+# what the solver asks for, in [mesh.sets]
+NEEDED = ("disk", "bar", "hub", "tread", "top", "clamp")
+# kinds of cells that a mesh may have beside its bricks: they carry sets or nothing
+BESIDE = ("quad", "line", "vertex")
+
+
+class Mesh:
+    """``creepage.mesh(case)``, and ``creepage.mesh.from_meshio``."""
+
+    def __call__(self, case, out=None, **overrides) -> dict:
+        """Build the mesh of a case.
+
+        Args:
+            case: path of a case file, or a dict of its keys.
+            out: write the mesh here, .vtu or .vtkhdf.
+            overrides: keys of the case, as of :func:`creepage.run`.
+
+        Returns:
+            dict: elements, nodes, bodies (with their sets), quality, stable_dt (s), estimate of
+            memory (MB), steps and run time (s).
+        """
+        path, text = _case.source(case)
+        words = ["mesh", path, *_case.sets(overrides), *options(out=out)]
+        return execute(words, case=text)[1]
+
+    @staticmethod
+    def from_meshio(mesh, sets=None, *, out, unit="m") -> dict:
+        """A mesh of any format that meshio reads, for ``mesh.file`` of a case.
+
+        Args:
+            mesh: a ``meshio.Mesh``, or the path of a file.
+            sets: what "disk", "bar", "hub", "tread", "top" and "clamp" are: the name of a set of the
+                mesh, or indices (or a mask) of nodes, of bricks for "disk" and "bar". What is left out
+                is the set of that name.
+            out: the .vtu file to write. Its sets are arrays of zeros and ones.
+            unit: length of the coordinates: "m", "cm", "mm" or "in".
+
+        Returns:
+            dict: the keys of [mesh]: ``creepage.run(case, mesh=creepage.mesh.from_meshio(...))``.
+        """
+        import meshio
+
+        out = Path(out)
+        if out.suffix != ".vtu":
+            raise CaseError(f"out = {out}: the file's name must end in .vtu")
+        if not isinstance(mesh, meshio.Mesh):
+            mesh = read(meshio, mesh)
+        refuse_other_cells(mesh)
+        nodes, cells = named(mesh)
+        for name, given in (sets or {}).items():
+            if name not in NEEDED:
+                raise CaseError(f"sets has {name!r}; it may have {', '.join(NEEDED)}")
+            take(name, given, mesh, nodes, cells)
+        missing = [name for name in NEEDED if name not in nodes and name not in cells]
+        if missing:
+            there = ", ".join(sorted({*nodes, *cells})) or "none"
+            raise CaseError(f"the mesh has no set {', '.join(missing)}; it has: {there}. Name them by sets")
+        kept = [k for k, block in enumerate(mesh.cells) if block.type in ("hexahedron", "quad")]
+        chosen = {name: [masks[k].astype(np.uint8) for k in kept] for name, masks in cells.items()}
+        points = np.zeros((len(mesh.points), 3))
+        points[:, : mesh.points.shape[1]] = mesh.points
+        meshio.Mesh(
+            points,
+            [(mesh.cells[k].type, mesh.cells[k].data) for k in kept],
+            point_data={name: mask.astype(np.uint8) for name, mask in nodes.items()},
+            cell_data=chosen,
+        ).write(out)
+        return {"file": os.path.abspath(out), "unit": unit}
+
+
+def read(meshio, path):
+    """A file by meshio, whose many ways to fail are one here."""
+    try:
+        if Path(path).suffix.lower() == ".inp":
+            with tempfile.TemporaryDirectory() as folder:
+                copy = Path(folder, "mesh.inp")
+                copy.write_text(with_whole_sets(Path(path).read_text("utf-8")), "utf-8")
+                return meshio.read(copy)
+        return meshio.read(path)
+    except (Exception, SystemExit) as problem:  # meshio ends the interpreter on some files
+        raise CaseError(f"{path}: meshio cannot read it: {problem}") from problem
+
+
+def with_whole_sets(text):
+    """An Abaqus file whose sets stand in one piece: of a set that goes on under a second ``*ELSET`` or ``*NSET``
+    of its name, meshio keeps the last piece alone."""
+    pieces = {"": []}
+    here = pieces[""]
+    for number, line in enumerate(text.splitlines()):
+        if line.startswith("*") and not line.startswith("**"):
+            keyword = line.upper().replace(" ", "")
+            key = keyword if keyword.startswith(("*ELSET,", "*NSET,")) else number
+            goes_on = key in pieces
+            here = pieces.setdefault(key, [])
+            if goes_on:
+                continue
+        here.append(line)
+    return "\n".join(line for piece in pieces.values() for line in piece) + "\n"
+
+
+def refuse_other_cells(mesh):
+    """Cells that are no bricks with eight nodes are refused by their kind and number."""
+    for block in mesh.cells:
+        if block.type != "hexahedron" and block.type not in BESIDE:
+            raise CaseError(
+                f"the mesh has {len(block.data)} cells of the type {block.type}: bricks with eight nodes "
+                "(hexahedron) are needed"
+            )
+    if not any(block.type == "hexahedron" for block in mesh.cells):
+        raise CaseError("the mesh has no bricks (hexahedron)")
+
+
+def named(mesh):
+    """The sets of a mesh: masks of nodes by name, and of the cells of each block."""
+    nodes, cells = {}, {}
+    for name, chosen in mesh.point_sets.items():
+        nodes[name] = masked(chosen, len(mesh.points))
+    for name, chosen in mesh.cell_sets.items():
+        if name.startswith("gmsh:"):  # entities, not cells
+            continue
+        parts = zip(chosen, mesh.cells)
+        cells[name] = [masked([] if part is None else part, len(block.data)) for part, block in parts]
+    groups = mesh.cell_data.get("gmsh:physical")
+    for name, (tag, dimension) in mesh.field_data.items() if groups is not None else ():
+        cells[name] = [
+            (np.asarray(group) == tag) & (block.dim == dimension)
+            for group, block in zip(groups, mesh.cells)
+        ]
+    # this package's own way, in any format that keeps data
+    for name in NEEDED:
+        if name in mesh.point_data and name not in nodes:
+            nodes[name] = np.asarray(mesh.point_data[name]) != 0
+        if name in mesh.cell_data and name not in cells:
+            cells[name] = [np.asarray(part) != 0 for part in mesh.cell_data[name]]
+    return nodes, cells
+
+
+def take(name, given, mesh, nodes, cells):
+    """Makes the set ``name`` what ``given`` says."""
+    if isinstance(given, str):
+        if given not in nodes and given not in cells:
+            there = ", ".join(sorted({*nodes, *cells})) or "none"
+            raise CaseError(f"sets: {name} = {given!r}, but the mesh has no such set; it has: {there}")
+        found = nodes.get(given), cells.get(given)
+        nodes.pop(name, None), cells.pop(name, None)
+        for mine, theirs in zip((nodes, cells), found):
+            if theirs is not None:
+                mine[name] = theirs
+    elif name in ("disk", "bar"):
+        sizes = [len(block.data) if block.type == "hexahedron" else 0 for block in mesh.cells]
+        mask = masked(given, sum(sizes), f"sets: {name}")
+        parts = np.split(mask, np.cumsum(sizes)[:-1])
+        blocks = zip(parts, mesh.cells)
+        nodes.pop(name, None)
+        cells[name] = [
+            part if block.type == "hexahedron" else np.zeros(len(block.data), bool)
+            for part, block in blocks
+        ]
+    else:
+        cells.pop(name, None)
+        nodes[name] = masked(given, len(mesh.points), f"sets: {name}")
+
+
+def masked(chosen, count, what="a set"):
+    """Indices or a mask as a mask."""
+    chosen = np.asarray(chosen)
+    if chosen.dtype == bool:
+        if chosen.shape != (count,):
+            raise CaseError(f"{what} is a mask of the shape {chosen.shape}; ({count},) is needed")
+        return chosen
+    mask = np.zeros(count, bool)
+    chosen = chosen.astype(np.int64)
+    if chosen.size and not 0 <= chosen.min() <= chosen.max() < count:
+        raise CaseError(f"{what} has an index {chosen.max()} of {count}")
+    mask[chosen] = True
+    return mask
+
+
+mesh = Mesh()

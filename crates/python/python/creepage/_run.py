@@ -1,0 +1,392 @@
+"""The results of a run, read when they are asked for."""
+
+from __future__ import annotations
+
+import json
+import numbers
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from . import _creepage
+from ._errors import CaseError, LimitError
+from ._execute import execute, options
+
+
+class Field:
+    """A field over the records of a file, read when it is indexed.
+
+    ``field[i]`` is record i (negative from the end), ``field[i:j]`` an array of records, and
+    ``field[i, nodes]`` a part of them; bounds that are floats are times in seconds, both included:
+    ``field[1.2e-3:1.3e-3]``. Only the records asked for are read.
+
+    Attributes:
+        name, units: as in the file.
+        shape: (records, nodes or cells[, components]); without records for a field that is
+            constant in time.
+    """
+
+    def __init__(self, records, name, units, components, integer, on_cells, constant, part):
+        self._records = records
+        self._part = part
+        self.name, self.units = name, units
+        self.on_cells, self.constant = on_cells, constant
+        self.dtype = np.dtype(np.uint8 if integer else np.float64)
+        self._components = components
+        count = part.stop - part.start
+        self.shape = (count,) if components == 1 else (count, components)
+        if not constant:
+            self.shape = (records.steps, *self.shape)
+
+    def __len__(self):
+        return self.shape[0]
+
+    @property
+    def ndim(self):
+        return len(self.shape)
+
+    def _read(self, start, stop):
+        """Records ``start`` up to ``stop``, always with the axis of records."""
+        file = self._records._file
+        count = file.cells() if self.on_cells else len(self._records.points)
+        flat = file.read(self.name, self.on_cells, start, stop)
+        values = flat.reshape((-1, count, self._components))[:, self._part]
+        if self._components == 1:
+            values = values[..., 0]
+        return np.ascontiguousarray(values, self.dtype)
+
+    def __getitem__(self, index):
+        first, *rest = index if isinstance(index, tuple) else (index,)
+        if self.constant:
+            return self._read(0, 1)[0][index]
+        if first is Ellipsis:
+            return self._read(0, len(self))[index]
+        if isinstance(first, slice):
+            if any(isinstance(x, (float, np.floating)) for x in (first.start, first.stop)):
+                first = self._records.between(first.start, first.stop, first.step)
+            start, stop, step = first.indices(len(self))
+            chosen = range(start, stop, step)
+            if not chosen:
+                return np.empty((0, *self.shape[1:]), self.dtype)[(slice(None), *rest)]
+            low, high = min(chosen), max(chosen)
+            values = self._read(low, high + 1)
+            values = values[::step] if step > 0 else values[::-1][::-step]
+            return values[(slice(None), *rest)]
+        if isinstance(first, numbers.Integral):
+            step = self._records._index(first)
+            values = self._read(step, step + 1)[0]
+            return values[tuple(rest)] if rest else values
+        chosen = np.arange(len(self))[np.asarray(first)]
+        values = np.stack([self[int(i)] for i in chosen]) if chosen.size else self[0:0]
+        return values[(slice(None), *rest)]
+
+    def at(self, time):
+        """The record nearest to ``time`` (s)."""
+        return self[self._records.nearest(time)]
+
+    def window(self, start=None, stop=None):
+        """The records from ``start`` to ``stop`` (s), both included."""
+        return self[self._records.between(start, stop)]
+
+    def __array__(self, dtype=None, copy=None):
+        return np.asarray(self[...], dtype)
+
+    def __repr__(self):
+        return f"<{self.name} in {self.units}, shape {self.shape}>"
+
+
+class Side(Mapping):
+    """One surface of the contact: a mapping of its fields, with ``points`` (m, shape (n, 3)) and
+    ``quads`` (corners of its faces, shape (m, 4))."""
+
+    def __init__(self, records, part, cells):
+        self._records, self._part, self._cells = records, part, cells
+        self.points = records.points[part]
+        self.quads = records.cells[cells] - part.start
+
+    def __getitem__(self, name):
+        return self._records._field(name, self._part, self._cells)
+
+    def __iter__(self):
+        return iter(self._records)
+
+    def __len__(self):
+        return len(self._records)
+
+    @property
+    def times(self):
+        """Times of the records (s)."""
+        return self._records.times
+
+    def line(self, y=0.0):
+        """Nodes of the row along the rolling direction that is nearest to ``y`` (m), by rising x."""
+        off = np.abs(self.points[:, 1] - y)
+        row = np.flatnonzero(off <= off.min() + 1e-6 * np.ptp(self.points[:, 0]))
+        return row[np.argsort(self.points[row, 0])]
+
+
+class Records(Mapping):
+    """A VTKHDF file over time: a mapping of names to :class:`Field`.
+
+    Attributes:
+        points: reference coordinates (m), shape (n, 3).
+        cells: nodes of the cells, shape (m, 8) for bricks or (m, 4) for faces.
+        steps: number of records.
+        times: times of the records (s), shape (steps,).
+
+    It shows what was complete when it was opened; :meth:`Run.reload` shows what has come since.
+    """
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self._file = _creepage.Grid(self.path)
+        self._fields = {row[0]: row for row in self._file.fields()}
+        self.points = self._file.points().reshape(-1, 3)
+        self.cells = self._file.connectivity().reshape(self._file.cells(), -1)
+        self.times = self._file.times()
+        self.steps = len(self.times)
+        self._sides = None
+
+    def __getitem__(self, name):
+        return self._field(name, slice(0, len(self.points)), slice(0, len(self.cells)))
+
+    def _field(self, name, points, cells):
+        try:
+            name, units, components, integer, on_cells, constant = self._fields[name]
+        except KeyError:
+            raise KeyError(f"{name!r}; there are {', '.join(self._fields)}") from None
+        part = cells if on_cells else points
+        return Field(self, name, units, components, integer, on_cells, constant, part)
+
+    def __iter__(self):
+        return iter(self._fields)
+
+    def __len__(self):
+        return len(self._fields)
+
+    def _side(self, body):
+        if self._sides is None:
+            bodies = self["body"][:]
+            self._sides = []
+            for k in (0, 1):
+                mine = np.flatnonzero(bodies == k)
+                nodes = np.unique(self.cells[mine])
+                part = slice(int(nodes[0]), int(nodes[-1]) + 1)
+                self._sides.append(Side(self, part, slice(int(mine[0]), int(mine[-1]) + 1)))
+        return self._sides[body]
+
+    @property
+    def disk(self):
+        """The disk's part."""
+        return self._side(0)
+
+    @property
+    def bar(self):
+        """The bar's part."""
+        return self._side(1)
+
+    def _index(self, step):
+        count = self.steps
+        if not -count <= step < count:
+            raise IndexError(f"record {step} of {count}")
+        return int(step) % count
+
+    def nearest(self, time):
+        """Index of the record nearest to ``time`` (s)."""
+        return int(np.argmin(np.abs(self.times - time)))
+
+    def between(self, start=None, stop=None, step=None):
+        """Slice of the records from ``start`` to ``stop`` (s), both included."""
+        low = 0 if start is None else int(np.searchsorted(self.times, start, "left"))
+        high = self.steps if stop is None else int(np.searchsorted(self.times, stop, "right"))
+        return slice(low, high, step)
+
+    def to_pyvista(self, step=-1):
+        """The record ``step`` as a ``pyvista.UnstructuredGrid`` with all fields."""
+        import pyvista
+
+        corners = self.cells.shape[1]
+        kind = {8: pyvista.CellType.HEXAHEDRON, 4: pyvista.CellType.QUAD}[corners]
+        cells = np.insert(self.cells.astype(np.int64), 0, corners, axis=1)
+        grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), kind), self.points)
+        for name, field in self.items():
+            values = field[:] if field.constant else field[step]
+            (grid.cell_data if field.on_cells else grid.point_data)[name] = values
+        grid.field_data["time"] = [self.times[self._index(step)]]
+        return grid
+
+    def __repr__(self):
+        return f"<{self.path.name}: {self.steps} records of {', '.join(self._fields)}>"
+
+
+class History(Mapping):
+    """Scalars over time: a mapping of names to arrays of the shape (rows,)."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self._file = _creepage.History(self.path)
+        self._units = dict(self._file.columns())
+
+    def __getitem__(self, name):
+        if name not in self._units:
+            raise KeyError(f"{name!r}; there are {', '.join(self._units)}")
+        return self._file.read(name)
+
+    def __iter__(self):
+        return iter(self._units)
+
+    def __len__(self):
+        return len(self._units)
+
+    @property
+    def units(self) -> dict:
+        """Units of the columns, by name."""
+        return dict(self._units)
+
+    def to_pandas(self):
+        """A ``pandas.DataFrame`` over the time (s); units are in its ``attrs["units"]``."""
+        import pandas
+
+        columns = {name: self[name] for name in self if name != "time"}
+        frame = pandas.DataFrame(columns, index=pandas.Index(self["time"], name="time"))
+        frame.attrs["units"] = self.units
+        return frame
+
+    def __repr__(self):
+        return f"<{self.path.name}: {self._file.rows()} rows of {', '.join(self)}>"
+
+
+class Run:
+    """The results of a run, also of one that is under way or was made by the command line.
+
+    Files are opened when they are first asked for, and read as far as they are asked for.
+
+    Attributes:
+        path: its folder.
+    """
+
+    def __init__(self, path):
+        self.path = Path(path)
+        if not (self.path / "case.toml").is_file():
+            raise CaseError(f"{self.path} holds no run: there is no case.toml in it")
+        self._open = {}
+
+    def _file(self, name, kind):
+        if name not in self._open:
+            path = self.path / name
+            if not path.is_file():
+                raise CaseError(f"{path} does not exist: the run has not come so far")
+            self._open[name] = kind(path)
+        return self._open[name]
+
+    def reload(self):
+        """Forget what was opened, to see what a run under way has written since."""
+        self._open.clear()
+        return self
+
+    @property
+    def fields(self) -> Records:
+        """Both bodies over time: displacement (m), velocity (m/s), stress (Pa; xx yy zz xy yz xz)."""
+        return self._file("fields.vtkhdf", Records)
+
+    @property
+    def contact(self) -> Records:
+        """Both contact surfaces over time: pressure, shear (Pa), slip_velocity (m/s), slip (m), mu, state (0
+        open, 1 stick, 2 slip), gap (m), area (m2), velocity (m/s), displacement (m); one surface by
+        ``contact.disk`` and ``contact.bar``."""
+        return self._file("contact.vtkhdf", Records)
+
+    @property
+    def history(self) -> History:
+        """Scalars over time: energies (J), forces (N), torque (N m), creepage, patch."""
+        return self._file("history.h5", History)
+
+    @property
+    def probes(self) -> History:
+        """Chosen nodes at every step, of a case with output.probes."""
+        return self._file("probes.h5", History)
+
+    @property
+    def summary(self) -> dict:
+        """What ``creepage run --json`` prints; empty while the run goes on."""
+        path = self.path / "summary.json"
+        return json.loads(path.read_text("utf-8")) if path.is_file() else {}
+
+    @property
+    def case(self) -> dict:
+        """The case as resolved, every default written out."""
+        return json.loads(_creepage.from_toml((self.path / "case.toml").read_text("utf-8")))
+
+    def check(self, window=None, limits=None, *, pairing=None, strict=False) -> dict:
+        """Where and by how much the run violates the contact conditions.
+
+        Args:
+            window: (from, to) in seconds, either None [default: the run's evaluation window].
+            limits: limits of measures by name.
+            pairing: "stricter", "before" or "after": slip of which step goes with a traction.
+            strict: raise LimitError where a limit is exceeded.
+
+        Returns:
+            dict: window, steps, nodes, limits, metrics (value, limit, pass, where each), pass.
+        """
+        words = ["check", self.path, *options(window=_window(window), pairing=pairing)]
+        for name, value in (limits or {}).items():
+            words += ["--limit", f"{name}={float(value)!r}"]
+        document = execute(words)[1]
+        if strict and not document["pass"]:
+            broken = [
+                f"{name} = {metric['value']} (limit {metric['limit']})"
+                if metric["value"] is not None
+                else f"{name} ({metric.get('note', 'not known')})"
+                for name, metric in document["metrics"].items()
+                if metric.get("pass") is False
+            ]
+            raise LimitError("beyond a limit: " + ", ".join(broken), run=self)
+        return document
+
+    def figures(self, out=None, format=("svg", "png"), window=None) -> dict:
+        """Draw the figures of the run.
+
+        Args:
+            out: their folder [default: figures in the run's].
+            format: "svg", "png" or both.
+            window: (from, to) in seconds [default: the run's evaluation window].
+
+        Returns:
+            dict: lists of files by the name of the figure.
+        """
+        format = format if isinstance(format, str) else ",".join(format)
+        words = options(out=out, format=format, window=_window(window))
+        document = execute(["plot", self.path, *words])[1]
+        return {each["name"]: [Path(file) for file in each["files"]] for each in document["figures"]}
+
+    def report(self, out=None) -> Path:
+        """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path."""
+        return Path(execute(["report", self.path, *options(out=out)])[1]["page"])
+
+    def to_pyvista(self, step=-1, what="fields"):
+        """A record as a ``pyvista.UnstructuredGrid``.
+
+        Args:
+            step: index of the record.
+            what: "fields" (both bodies) or "contact" (both surfaces).
+        """
+        if what not in ("fields", "contact"):
+            raise ValueError(f'what = {what!r}; "fields" or "contact" is needed')
+        return getattr(self, what).to_pyvista(step)
+
+    def __fspath__(self):
+        return os.fspath(self.path)
+
+    def __repr__(self):
+        return f"<run {self.path}: {self.summary.get('status', 'under way')}>"
+
+
+def _window(window):
+    """A span of time in the words of the command line."""
+    if window is None:
+        return None
+    start, stop = window
+    return ":".join("" if t is None else repr(float(t)) for t in (start, stop))

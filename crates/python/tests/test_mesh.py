@@ -1,0 +1,108 @@
+"""Meshes of other programs."""
+
+import creepage
+import numpy as np
+import pytest
+
+from conftest import ROOT
+
+meshio = pytest.importorskip("meshio")
+
+
+def two_bricks():
+    """A brick on a brick, with sets of every kind that meshio knows."""
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    points = np.concatenate([cube, cube - [0, 0, 1]]) * 1e-3
+    return meshio.Mesh(
+        points,
+        [("hexahedron", [range(8), range(8, 16)]), ("quad", [[0, 3, 2, 1]]), ("line", [[0, 1]])],
+        point_sets={"hub": [4, 5, 6, 7], "top": [12, 13, 14, 15], "low": [8, 9, 10, 11]},
+        cell_sets={"disk": [[0], [], []], "tread": [[], [0], []]},
+    )
+
+
+def written(path):
+    found = meshio.read(path)
+    return found, found.point_data, found.cell_data
+
+
+def test_sets_of_a_mesh_become_arrays_of_zeros_and_ones(tmp_path):
+    keys = creepage.mesh.from_meshio(
+        two_bricks(), {"bar": [1], "clamp": "low"}, out=tmp_path / "mesh.vtu", unit="mm"
+    )
+    assert keys == {"file": str(tmp_path / "mesh.vtu"), "unit": "mm"}
+    found, points, cells = written(keys["file"])
+    assert np.array_equal(found.points, two_bricks().points)
+    assert [(block.type, len(block.data)) for block in found.cells] == [("hexahedron", 2), ("quad", 1)]
+    assert [list(part) for part in cells["disk"]] == [[1, 0], [0]]
+    assert [list(part) for part in cells["bar"]] == [[0, 1], [0]]
+    assert [list(part) for part in cells["tread"]] == [[0, 0], [1]]
+    assert list(np.flatnonzero(points["clamp"])) == [8, 9, 10, 11]
+
+
+def test_a_written_mesh_reads_as_itself(tmp_path):
+    first = creepage.mesh.from_meshio(two_bricks(), {"bar": [1], "clamp": "low"}, out=tmp_path / "a.vtu")
+    again = creepage.mesh.from_meshio(first["file"], out=tmp_path / "b.vtu")
+    (one, *ours), (other, *theirs) = written(first["file"]), written(again["file"])
+    assert np.array_equal(one.points, other.points)
+    for data, same in zip(ours, theirs):
+        for name in same:
+            assert np.array_equal(np.hstack(data[name]), np.hstack(same[name])), name
+
+
+def test_what_cannot_be_a_mesh_is_refused_by_name(tmp_path):
+    out = tmp_path / "mesh.vtu"
+    mesh = two_bricks()
+    for sets, said in [
+        ({}, "no set bar, clamp; it has: disk, hub, low, top, tread"),
+        ({"bar": "rail"}, "bar = 'rail'.*it has"),
+        ({"rail": "bar"}, "it may have disk, bar"),
+        ({"clamp": [16]}, "index 16 of 16"),
+        ({"clamp": np.ones(3, bool)}, r"shape \(3,\)"),
+    ]:
+        with pytest.raises(creepage.CaseError, match=said):
+            creepage.mesh.from_meshio(mesh, sets, out=out)
+    tets = meshio.Mesh(mesh.points, [("tetra", [[0, 1, 2, 4]]), *mesh.cells])
+    with pytest.raises(creepage.CaseError, match="1 cells of the type tetra"):
+        creepage.mesh.from_meshio(tets, out=out)
+    with pytest.raises(creepage.CaseError, match="meshio cannot read"):
+        creepage.mesh.from_meshio(tmp_path / "none.msh", out=out)
+    assert not out.exists()
+
+
+def test_sets_that_an_abaqus_file_continues_are_whole(tmp_path):
+    file = tmp_path / "mesh.inp"
+    mesh = two_bricks()
+    nodes = [f"{i}, {x!r}, {y!r}, {z!r}" for i, (x, y, z) in enumerate(mesh.points.tolist(), 1)]
+    bricks = ["1, 1, 2, 3, 4, 5, 6, 7, 8", "2, 9, 10, 11, 12, 13, 14, 15, 16"]
+    sets = ["*ELSET, ELSET=disk", "1,", "*ELSET, ELSET=bar", "2,", "*NSET, NSET=low", "9, 10", "*NSET, NSET=low", "11, 12"]
+    lines = ["*HEADING", "two bricks", "*NODE", *nodes, "*ELEMENT, TYPE=C3D8", *bricks, *sets]
+    file.write_text("\n".join(lines) + "\n")
+    names = {name: "low" for name in ("hub", "tread", "top", "clamp")}
+    keys = creepage.mesh.from_meshio(file, names, out=tmp_path / "mesh.vtu")
+    found, points, cells = written(keys["file"])
+    assert np.array_equal(found.points, mesh.points)
+    assert list(np.flatnonzero(points["clamp"])) == [8, 9, 10, 11]
+    assert [list(part) for part in cells["bar"]] == [[0, 1]]
+
+
+SMALL = ROOT / "meshes" / "small.msh"
+# what the small mesh is of
+OF_SMALL = {
+    "disk": {"radius": 0.1, "hub_radius": 0.05, "width": 0.02},
+    "bar": {"length": 0.1, "width": 0.02, "height": 0.02, "start": -0.05},
+    "load": {"normal": 2e3},
+    "drive": {"speed": 16.0, "creepage": 2e-3, "ramp": 1e-4},
+    "friction": {"static": 0.5},
+    "time": {"roll": 4e-4},
+    "mesh": {"zone": {"size": 2e-3, "length": 0.024, "width": 0.008, "depth": 0.004, "start": -0.012}},
+}
+
+
+@pytest.mark.skipif(not SMALL.is_file(), reason="there is no mesh file in meshes")
+@pytest.mark.parametrize("other", ["small.msh", "small-2.2.msh", "small.inp", "small.vtu"])
+def test_a_mesh_through_meshio_is_to_the_bit_that_of_a_file_read_natively(tmp_path, other):
+    through = creepage.mesh.from_meshio(SMALL.with_name(other), out=tmp_path / "through.vtu")
+    for name, keys in (("file", {"file": str(SMALL)}), ("meshio", through)):
+        creepage.mesh(OF_SMALL, tmp_path / f"{name}.vtu", mesh=keys)
+    assert (tmp_path / "file.vtu").read_bytes() == (tmp_path / "meshio.vtu").read_bytes()

@@ -1,0 +1,124 @@
+"""Runs: the command line's own, by another door."""
+
+import json
+import subprocess
+import sys
+
+import creepage
+import h5py
+import numpy as np
+import pytest
+
+from conftest import SHORT, SMALL
+
+SETS = [f"--set={key}={value}" for key, value in SHORT.items()]
+
+
+def command_line(*words):
+    return subprocess.run(
+        [sys.executable, "-m", "creepage", *map(str, words)], capture_output=True, text=True
+    )
+
+
+def datasets(path):
+    """Every dataset of a file."""
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, x: found.update({name: x[()]}) if isinstance(x, h5py.Dataset) else None)
+    return found
+
+
+def assert_same_bits(a, b):
+    for name in ("fields.vtkhdf", "contact.vtkhdf", "history.h5"):
+        ours, theirs = datasets(a / name), datasets(b / name)
+        assert ours.keys() == theirs.keys()
+        for key, values in ours.items():
+            assert values.tobytes() == theirs[key].tobytes(), f"{name}: {key}"
+
+
+def test_a_run_from_python_has_the_bits_and_the_case_of_the_command_line(small, tmp_path):
+    done = command_line("run", SMALL, *SETS, "--out", tmp_path / "run", "--threads", 2, "--json")
+    assert done.returncode == 0, done.stderr
+    assert_same_bits(small.path, tmp_path / "run")
+    assert (small.path / "case.toml").read_text() == (tmp_path / "run" / "case.toml").read_text()
+    theirs = json.loads(done.stdout)
+    assert theirs["contact"] == small.summary["contact"]
+
+
+def test_a_case_may_be_a_dict_with_sections_or_dotted_keys(small, tmp_path):
+    case = {
+        "name": "small",
+        "extends": str(SMALL),
+        "title": small.case["title"],
+        "time.roll": np.float64(1.2e-3),
+        "output": {"fields_interval": 5e-6},
+    }
+    run = creepage.run(case, tmp_path / "run", mesh={"zone": {"size": 0.8e-3}})
+    assert run.case == small.case
+    assert_same_bits(small.path, run.path)
+
+
+def test_bad_input_has_the_message_of_the_command_line(tmp_path):
+    with pytest.raises(creepage.CaseError) as caught:
+        creepage.run(SMALL, tmp_path / "run", **{"mesh.zone.size": -1.0})
+    said = command_line("run", SMALL, "--set", "mesh.zone.size=-1.0", "--out", tmp_path / "run")
+    assert said.returncode == caught.value.code == 2
+    assert str(caught.value).strip() == said.stderr.strip()
+    assert "mesh.zone.size" in caught.value.message and caught.value.help
+    assert isinstance(caught.value, ValueError)
+
+
+def test_a_run_is_not_replaced_unasked(small):
+    with pytest.raises(creepage.CaseError, match="already holds a run"):
+        creepage.run(SMALL, small.path, **SHORT)
+
+
+def test_a_blow_up_ends_with_its_diagnosis_and_readable_results(tmp_path):
+    with pytest.raises(creepage.RunError, match="time.factor") as caught:
+        creepage.run(SMALL, tmp_path / "run", time={"factor": 1.9}, output={"history_interval": 1})
+    assert caught.value.code == 3
+    assert caught.value.run.summary["status"] == "failed"
+    assert caught.value.run.contact["pressure"][0].max() > 0
+
+
+def test_progress_is_told_by_stages(tmp_path):
+    heard = []
+    creepage.run(SMALL, tmp_path / "run", progress=heard.append, **SHORT)
+    stages = [told["stage"] for told in heard]
+    assert stages[0] == "mesh" and stages[-1] == "roll"
+    rolled = [told["step"] for told in heard if told["stage"] == "roll"]
+    assert rolled == sorted(rolled) and heard[-1]["end_time"] == pytest.approx(1.2e-3 / 38.89)
+
+
+def test_what_progress_raises_ends_the_run_in_order(tmp_path):
+    def enough(told):
+        if told["stage"] == "roll":
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        creepage.run(SMALL, tmp_path / "run", progress=enough, **SHORT)
+    assert creepage.Run(tmp_path / "run").summary["status"] == "interrupted"
+
+
+INTERRUPT = """
+import os, signal, sys, threading, creepage
+def told(progress):
+    if progress["stage"] == "roll" and progress["step"] > 100:
+        os.kill(os.getpid(), signal.SIGINT)
+case, out, *_ = sys.argv[1:]
+try:
+    creepage.run(case, out, progress=told, **{"time.roll": 1.2e-3, "output.fields_interval": 5e-6})
+except KeyboardInterrupt as caught:
+    print(caught.code, caught.run.summary["status"], (caught.run.path / "checkpoint.h5").exists())
+"""
+
+
+def test_ctrl_c_raises_after_a_checkpoint_and_the_run_goes_on_to_the_same_bits(small, tmp_path):
+    out = tmp_path / "run"
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPT, SMALL, out], capture_output=True, text=True
+    )
+    assert done.stdout.split() == ["130", "interrupted", "True"], done.stderr
+    run = creepage.run(SMALL, out, resume=True, **SHORT)
+    assert run.summary["status"] == "completed"
+    assert_same_bits(small.path, run.path)

@@ -1,0 +1,83 @@
+//! `cargo xtask wheel`: the wheel of the Python package; its tests, and the notebooks.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use crate::validate::{Outcome, execute, missing, python, root, target};
+
+/// Builds the wheel and says where it is.
+pub fn wheel() -> ExitCode {
+    let root = root();
+    match python(&root).and_then(|python| build(&root, &python)) {
+        Ok(wheel) => {
+            println!("{}", wheel.display());
+            ExitCode::SUCCESS
+        }
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Builds the wheel, installs it in the virtual environment of the checks, and runs the tests of the
+/// package and the notebooks there.
+pub fn tests(root: &Path) -> Outcome {
+    let python = match python(root) {
+        Ok(python) => python,
+        Err(problem) => return missing(&problem, "the Python package"),
+    };
+    let wheel = match build(root, &python) {
+        Ok(wheel) => wheel,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            return Outcome::Failed;
+        }
+    };
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    let install = ["--force-reinstall", "--no-deps"];
+    if execute(Command::new(&python).args(pip).args(install).arg(wheel)) != Outcome::Passed {
+        return Outcome::Failed;
+    }
+    let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
+    let tests = execute(Command::new(&python).args(pytest).current_dir(root.join("crates/python")));
+    if tests != Outcome::Passed {
+        return tests;
+    }
+    let mut command = Command::new(&python);
+    command.args(pytest).arg("--nbmake").arg(root.join("notebooks")).current_dir(root);
+    if !draws(&python) {
+        eprintln!(
+            "warning: there is no libEGL to draw with; notebooks/first-run.ipynb was skipped"
+        );
+        command.args(["--ignore-glob", "*first-run.ipynb"]);
+    }
+    execute(&mut command)
+}
+
+/// Whether VTK can draw without a display.
+fn draws(python: &Path) -> bool {
+    let ask = "import ctypes.util, sys; sys.exit(ctypes.util.find_library('EGL') is None)";
+    Command::new(python).args(["-c", ask]).status().is_ok_and(|status| status.success())
+}
+
+/// Builds the wheel into the target folder, the only one in its folder.
+fn build(root: &Path, python: &Path) -> Result<PathBuf, String> {
+    let folder = target(root).join("wheel");
+    if let Err(error) = std::fs::remove_dir_all(&folder)
+        && error.kind() != std::io::ErrorKind::NotFound
+    {
+        return Err(format!("{}: {error}", folder.display()));
+    }
+    let maturin = ["-m", "maturin", "build", "--release", "--quiet", "--manifest-path"];
+    let mut command = Command::new(python);
+    command.args(maturin).arg(root.join("crates/python/Cargo.toml"));
+    command.arg("--interpreter").arg(python).arg("--out").arg(&folder);
+    if execute(&mut command) != Outcome::Passed {
+        return Err("maturin could not build the wheel".into());
+    }
+    let files = std::fs::read_dir(&folder).map_err(|error| error.to_string())?;
+    let mut wheels = files.filter_map(|file| Some(file.ok()?.path()));
+    let is_wheel = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "whl");
+    wheels.find(is_wheel).ok_or_else(|| format!("there is no wheel in {}", folder.display()))
+}
