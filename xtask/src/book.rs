@@ -126,7 +126,8 @@ fn set_out(root: &Path, stage: &Path) -> io::Result<()> {
             // Chapters lie in docs/ itself, so that one step up is the root.
             let Some(outside) = link.strip_prefix("../") else { continue };
             let file = outside.split('#').next().unwrap_or_default().trim_end_matches('/');
-            let inside = format!("source/{file}.txt");
+            // mdBook takes everything with `.md` in it for a chapter
+            let inside = format!("source/{}.txt", file.replace(".md", "-md"));
             rewritten = rewritten.replace(&format!("]({link})"), &format!("]({inside})"));
             if taken.insert(file.to_owned()) {
                 let to = docs.join(&inside);

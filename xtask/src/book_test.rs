@@ -26,6 +26,9 @@ use crate::book::chapters;
 use crate::markdown::{Block, code_spans, parse};
 use crate::shell::commands;
 
+/// Programs that the documents are about.
+const PROGRAMS: [&str; 4] = ["cargo", "creepage", "pip", "python"];
+
 /// Programs that no checkout holds. That their lines are right is not tested.
 const FOREIGN: [&str; 11] =
     ["cat", "cd", "curl", "git", "jupyter", "ls", "paraview", "pip", "printf", "rustup", "sbatch"];
@@ -117,7 +120,11 @@ fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>
         }
         for (line, text) in &document.prose {
             for span in code_spans(text).filter(|span| is_whole_command(span)) {
-                let (at, text) = (format!("{name}:{line}"), span.to_owned());
+                // a command's name, perhaps with an option, tells of the command
+                let of_it = span.starts_with("creepage ")
+                    && span.split(' ').skip(2).all(|word| word.starts_with("--"));
+                let text = format!("{span}{}", if of_it { " --help" } else { "" });
+                let at = format!("{name}:{line}");
                 scripts.push(Script { at, kind: Kind::Elsewhere, text });
             }
         }
@@ -148,7 +155,10 @@ fn kind(block: &Block) -> Result<Option<Kind>, String> {
 
 /// Whether a line calls one of the programs that the documents are about.
 fn is_command(line: &str) -> bool {
-    ["creepage ", "cargo ", "python ", "pip "].iter().any(|program| line.starts_with(program))
+    let mut words = line.split_whitespace();
+    let program = words.next().is_some_and(|word| PROGRAMS.contains(&word));
+    // `creepage = 2.4e-3` is a key of a case
+    program && !line.starts_with(' ') && words.next().is_some_and(|word| word != "=")
 }
 
 /// Whether inline code is a command without anything to fill in.
@@ -159,7 +169,7 @@ fn is_whole_command(span: &str) -> bool {
         all_capitals || word.contains(['[', '<', '|', '*']) || word.contains("...")
     };
     let parts = || span.split(|c: char| c.is_whitespace() || c == '/' || c == '=' || c == '.');
-    is_command(span) && !span.contains("...") && !parts().any(to_fill_in)
+    is_command(span) && !span.contains("...") && !span.ends_with(" --") && !parts().any(to_fill_in)
 }
 
 /// What is wrong with a script that is not run.
@@ -230,7 +240,7 @@ fn cargo_finds(root: &Path, words: &[&str]) -> Result<(), String> {
         let [kind, name] = *pair else { continue };
         let files = match kind {
             "--example" => vec![format!("examples/{name}.rs")],
-            "--test" => vec![format!("tests/{name}.rs"), format!("tests/{name}/main.rs")],
+            "--test" => vec![format!("tests/{name}.rs"), format!("{name}.rs")],
             "--bench" => {
                 vec![format!("benches/{name}.rs"), format!("{name}.rs"), format!("src/{name}.rs")]
             }
