@@ -22,7 +22,7 @@ pub(crate) fn limits(case: &Case, model: &Model) -> Limits {
         penetration: guards.penetration * case.mesh.zone.size,
         parted: case.longest_parted().unwrap_or(f64::INFINITY),
         least_force: LEAST_FORCE * case.load.normal,
-        friction: guards.friction,
+        friction: case.largest_friction().unwrap_or(f64::INFINITY),
         track: along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]),
     }
 }

@@ -139,6 +139,7 @@ fn write_defaults(case: &mut Case) {
     case.preload.tolerance = Some(case.preload_tolerance());
     case.preload.max_iterations = Some(case.preload_iterations());
     case.guards.parted = case.longest_parted();
+    case.guards.friction = case.largest_friction();
     case.evaluate.last = Some(case.evaluate_last());
     case.output.fields_interval = Some(case.fields_interval());
 }

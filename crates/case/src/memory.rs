@@ -65,10 +65,10 @@ mod tests {
 
     #[test]
     fn what_the_machine_cannot_hold_is_refused_with_both_numbers_and_the_rest_is_not() {
-        assert!(fits(1_000_000, 950.0, 951.0).is_ok());
-        let error = fits(1_000_000, 950.0, 500.0).unwrap_err();
+        assert!(fits(2_000_000, 950.0, 1901.0).is_ok());
+        let error = fits(2_000_000, 950.0, 500.0).unwrap_err();
         let said = error.to_string();
-        for words in ["1000000 elements", "1.0 GB", "0.5 GB that are free", "mesh.zone.size"] {
+        for words in ["2000000 elements", "1.9 GB", "0.5 GB that are free", "mesh.zone.size"] {
             assert!(said.contains(words), "{words} is not in {said}");
         }
         assert_eq!((error.exit_code(), error.key()), (2, Some("mesh.zone.size")));

@@ -446,13 +446,15 @@ pub struct Guards {
     /// `preload.method = "none"`, where the disk may bounce.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parted: Option<f64>,
-    /// Largest coefficient of friction that the law may give (dimensionless). Default 5.
-    pub friction: f64,
+    /// Largest coefficient of friction that the law may give (dimensionless). Default 5; none with
+    /// `friction.law = "prakash_clifton"`, whose friction lags behind a pressure that may go to zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
 }
 
 impl Default for Guards {
     fn default() -> Self {
-        Self { hourglass: 0.5, penetration: 0.5, parted: None, friction: 5.0 }
+        Self { hourglass: 0.5, penetration: 0.5, parted: None, friction: None }
     }
 }
 
@@ -549,6 +551,12 @@ impl Case {
     pub fn longest_parted(&self) -> Option<f64> {
         let preloaded = self.preload.method != PreloadMethod::None;
         self.guards.parted.or(preloaded.then_some(1e-4))
+    }
+
+    /// Largest coefficient of friction (dimensionless), if there is a limit.
+    pub fn largest_friction(&self) -> Option<f64> {
+        let lags = self.friction.law == FrictionLaw::PrakashClifton;
+        self.guards.friction.or((!lags).then_some(5.0))
     }
 
     /// Interval between field snapshots (s).

@@ -105,7 +105,7 @@ mod tests {
             "  disk        27 400 elements      30 534 nodes   sets: hub 1 176, tread 2 352",
             "  largest aspect ratio            25.0",
             "  bound by elements              184.7 ns     element 16 514 at (67.7, 9.0, 12.1) mm",
-            "  disk                           160 MB       only 99 MB are free",
+            "  disk                             160 MB     only 99 MB are free",
             "  rolling takes about           3.84 s        on this machine",
         ] {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
