@@ -1,23 +1,40 @@
-//! Every relative link of the documents leads to something.
+//! Every relative link of the documents leads to something, with its anchor.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::markdown::{self, anchors, parse};
+
 /// Links of the Markdown files below `root` that lead nowhere, as `file:line: link`.
 pub fn broken(root: &Path) -> io::Result<Vec<String>> {
-    let mut documents = Vec::new();
-    find(root, &mut documents)?;
-    documents.sort();
+    let mut files = Vec::new();
+    find(root, &mut files)?;
+    files.sort();
+    let mut documents = BTreeMap::new();
+    for file in files {
+        let document = parse(&fs::read_to_string(&file)?);
+        documents.insert(file.canonicalize()?, (file, document));
+    }
     let mut broken = Vec::new();
-    for document in documents {
-        let text = fs::read_to_string(&document)?;
-        let folder = document.parent().unwrap_or(root);
-        let name = document.strip_prefix(root).unwrap_or(&document).display().to_string();
-        for (line, link) in links(&text) {
+    for (document_path, (file, document)) in &documents {
+        let folder = file.parent().unwrap_or(root);
+        let name = file.strip_prefix(root).unwrap_or(file).display().to_string();
+        for (line, link) in links(document) {
+            let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
             // A link from the root of the host is about the repository.
-            let from = if link.starts_with('/') { root } else { folder };
-            if !from.join(link.trim_start_matches('/')).exists() {
+            let from = if path.starts_with('/') { root } else { folder };
+            let target = match path {
+                "" => Ok(document_path.clone()),
+                path => from.join(path.trim_start_matches('/')).canonicalize(),
+            };
+            let leads = target.is_ok_and(|target| {
+                // Anchors of other files than documents are their viewers' business.
+                let known = documents.get(&target).map(|(_, document)| anchors(document));
+                anchor.is_empty() || known.is_none_or(|known| known.iter().any(|a| a == anchor))
+            });
+            if !leads {
                 broken.push(format!("{name}:{line}: {link}"));
             }
         }
@@ -41,28 +58,18 @@ fn find(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
     Ok(())
 }
 
-/// Relative links of a Markdown text with their lines, without anchors and titles.
-fn links(text: &str) -> Vec<(usize, String)> {
+/// Relative links of a document with their lines, with anchors, without titles.
+pub fn links(document: &markdown::Document) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    let mut fenced = false;
-    for (i, line) in text.lines().enumerate() {
-        if line.trim_start().starts_with("```") {
-            fenced = !fenced;
-            continue;
-        }
-        if fenced {
-            continue;
-        }
-        // Between backticks stands code: every second piece.
-        let prose: String = line.split('`').step_by(2).collect::<Vec<_>>().join("`");
+    for (number, line) in &document.prose {
+        let prose = markdown::without_code(line);
         for opening in ["](", "src=\"", "href=\""] {
             let closing = if opening == "](" { ')' } else { '"' };
             for rest in prose.split(opening).skip(1) {
                 let target = rest.split(closing).next().unwrap_or_default();
                 let target = target.split_whitespace().next().unwrap_or_default();
-                let target = target.split('#').next().unwrap_or_default();
                 if !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:") {
-                    found.push((i + 1, target.to_owned()));
+                    found.push((*number, target.to_owned()));
                 }
             }
         }
@@ -81,9 +88,8 @@ mod tests {
         let text = "[a](docs/a.md#part) ![p](p.png \"title\") [w](https://example.org)\n\
                     [here](#below) `[code](none.md)`\n```\n[fenced](none.md)\n```\n\
                     <img src=\"q.png\">\n";
-        let found: Vec<_> = links(text).into_iter().collect();
-        let wanted = [(1, "docs/a.md"), (1, "p.png"), (6, "q.png")];
-        assert_eq!(found, wanted.map(|(line, link)| (line, link.to_owned())));
+        let wanted = [(1, "docs/a.md#part"), (1, "p.png"), (2, "#below"), (6, "q.png")];
+        assert_eq!(links(&parse(text)), wanted.map(|(line, link)| (line, link.to_owned())));
     }
 
     #[test]
@@ -91,9 +97,16 @@ mod tests {
         let root = std::env::temp_dir().join(format!("creepage-links-{}", std::process::id()));
         fs::create_dir_all(root.join("docs")).unwrap();
         fs::write(root.join("README.md"), "[a](docs/a.md)\n[b](docs/b.md)\n").unwrap();
-        fs::write(root.join("docs/a.md"), "[up](../README.md)\n").unwrap();
+        fs::write(
+            root.join("docs/a.md"),
+            "# Part\n[up](../README.md)\n[in](#part) [out](#whole)\n[x](a.md#parts)\n",
+        )
+        .unwrap();
         let broken = broken(&root).unwrap();
         fs::remove_dir_all(&root).unwrap();
-        assert_eq!(broken, ["README.md:2: docs/b.md"]);
+        assert_eq!(
+            broken,
+            ["README.md:2: docs/b.md", "docs/a.md:3: #whole", "docs/a.md:4: a.md#parts"]
+        );
     }
 }

@@ -1,8 +1,12 @@
-//! Chores: `cargo xtask validate`, `cargo xtask kill-loop`, `cargo xtask wheel`.
+//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `wheel`.
 
+mod book;
+mod book_test;
 mod kernels;
 mod kill_loop;
 mod links;
+mod markdown;
+mod shell;
 mod validate;
 mod wheel;
 
@@ -23,6 +27,14 @@ enum Chore {
     /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
     /// the case files, the kernels' instructions, a smoke run with the checks of its files, the Python package
     Validate,
+    /// Build the documents as a book, target/book/html, and check its links and its equations
+    Book,
+    /// Run the commands of the documents in a copy of the checkout, and check the long ones
+    BookTest {
+        /// Run the long ones, too
+        #[arg(long)]
+        all: bool,
+    },
     /// Build the wheel of the Python package into target/wheel
     Wheel,
     /// Kill runs at random moments, resume them, and compare every bit: `--help` after it for more
@@ -37,6 +49,9 @@ enum Chore {
 fn main() -> ExitCode {
     match Args::parse().chore {
         Chore::Validate => validate::validate(),
+        Chore::Book => validate::alone(validate::book),
+        Chore::BookTest { all: false } => validate::alone(validate::book_test),
+        Chore::BookTest { all: true } => validate::alone(validate::all_of_the_book),
         Chore::Wheel => wheel::wheel(),
         Chore::KillLoop { options } => kill_loop::kill_loop(&options),
     }

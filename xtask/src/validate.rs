@@ -8,18 +8,26 @@ use std::time::Instant;
 /// How a step ended.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
+    /// All is well.
     Passed,
+    /// Something is wrong, and has been told.
     Failed,
+    /// This machine lacks what the step needs.
     Skipped,
 }
 
 /// A check of the project, given its root folder.
-type Step = fn(&Path) -> Outcome;
+pub type Step = fn(&Path) -> Outcome;
+
+/// Runs one step.
+pub fn alone(step: Step) -> ExitCode {
+    if step(&root()) == Outcome::Passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
 
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 12] = [
+    let steps: [(&str, Step); 14] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -32,6 +40,8 @@ pub fn validate() -> ExitCode {
         ("sweep through Dask", dask),
         ("full and read-only disks", disks),
         ("Python package", crate::wheel::tests),
+        ("book", book),
+        ("commands of the book", book_test),
     ];
     let mut report = Vec::new();
     for (name, step) in steps {
@@ -74,13 +84,9 @@ fn links(root: &Path) -> Outcome {
     match crate::links::broken(root) {
         Ok(broken) if broken.is_empty() => Outcome::Passed,
         Ok(broken) => {
-            broken.iter().for_each(|link| eprintln!("{link} does not exist"));
-            Outcome::Failed
+            told(&broken.iter().map(|link| format!("{link} does not exist")).collect::<Vec<_>>())
         }
-        Err(error) => {
-            eprintln!("error: a document cannot be read: {error}");
-            Outcome::Failed
-        }
+        Err(error) => told(&[format!("a document cannot be read: {error}")]),
     }
 }
 
@@ -188,24 +194,70 @@ fn disks(root: &Path) -> Outcome {
     check_with_python(root, "check_disk.py", &[binary, root.to_path_buf()])
 }
 
+/// The documents as a book, without a dead link.
+pub fn book(root: &Path) -> Outcome {
+    use crate::book::{Problem, book};
+    match book(root, &target(root)) {
+        Ok(page) => {
+            println!("{}", page.display());
+            Outcome::Passed
+        }
+        Err(Problem::Faults(faults)) => told(&faults),
+        Err(Problem::NoBuilder(problem)) => missing(&problem, "the book"),
+    }
+}
+
+/// The commands of the book, but for the long ones.
+pub fn book_test(root: &Path) -> Outcome {
+    commands_of_the_book(root, false)
+}
+
+/// All commands of the book; this takes hours.
+pub fn all_of_the_book(root: &Path) -> Outcome {
+    commands_of_the_book(root, true)
+}
+
+fn commands_of_the_book(root: &Path, all: bool) -> Outcome {
+    if Command::new("bash").arg("--version").output().is_err() {
+        return missing("there is no bash", "the test of the book's commands");
+    }
+    let python = match python(root) {
+        Ok(python) => python.parent().map(Path::to_owned),
+        Err(problem) => return missing(&problem, "the test of the book's commands"),
+    };
+    if cargo(root, &["build", "--release"], &[]) == Outcome::Failed {
+        return Outcome::Failed;
+    }
+    let programs = crate::book_test::Programs { release: target(root).join("release"), python };
+    let scratch = target(root).join("book-test");
+    match &crate::book_test::test(root, &scratch, &programs, all)[..] {
+        [] => Outcome::Passed,
+        faults => told(faults),
+    }
+}
+
+fn told(faults: &[String]) -> Outcome {
+    faults.iter().for_each(|fault| eprintln!("error: {fault}"));
+    Outcome::Failed
+}
+
+/// Something is missing on this machine; the continuous integration must have it.
+pub fn missing(problem: &str, what: &str) -> Outcome {
+    if env::var_os("CI").is_some() {
+        return told(&[problem.to_owned()]);
+    }
+    eprintln!("warning: {problem}; {what} was skipped");
+    Outcome::Skipped
+}
+
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous
 /// integration.
 fn check_with_python(root: &Path, script: &str, arguments: &[PathBuf]) -> Outcome {
     let script = root.join("tests/python").join(script);
     match python(root) {
         Ok(python) => execute(Command::new(python).arg(script).args(arguments).current_dir(root)),
-        Err(problem) => without_python(&problem, &script.display().to_string()),
+        Err(problem) => missing(&problem, &script.display().to_string()),
     }
-}
-
-/// What becomes of a check that has no Python: the continuous integration must have it.
-pub fn without_python(problem: &str, what: &str) -> Outcome {
-    if env::var_os("CI").is_some() {
-        eprintln!("error: {problem}");
-        return Outcome::Failed;
-    }
-    eprintln!("warning: {problem}; {what} was skipped");
-    Outcome::Skipped
 }
 
 /// The interpreter of a virtual environment under the target folder with the requirements of

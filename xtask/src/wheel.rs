@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-use crate::validate::{Outcome, execute, python, root, target, without_python};
+use crate::validate::{Outcome, execute, missing, python, root, target};
 
 /// Builds the wheel and says where it is.
 pub fn wheel() -> ExitCode {
@@ -25,7 +25,7 @@ pub fn wheel() -> ExitCode {
 pub fn tests(root: &Path) -> Outcome {
     let python = match python(root) {
         Ok(python) => python,
-        Err(problem) => return without_python(&problem, "the Python package"),
+        Err(problem) => return missing(&problem, "the Python package"),
     };
     let wheel = match build(root, &python) {
         Ok(wheel) => wheel,

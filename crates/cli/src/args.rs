@@ -38,6 +38,10 @@ pub struct Args {
     /// Say more (-vv still more)
     #[arg(short, long, global = true, action = ArgAction::Count)]
     pub verbose: u8,
+    /// Read the command line, and the case or sweep that it runs, and stop there: how the commands of
+    /// the documents are checked
+    #[arg(long, global = true, hide = true)]
+    pub check_args: bool,
     /// The program that holds this command.
     #[arg(skip)]
     pub embedded: Option<Embedded>,

@@ -67,6 +67,9 @@ impl From<RunError> for Failure {
 
 /// Runs the command and returns the exit code.
 pub fn dispatch(args: &Args) -> Result<u8, Failure> {
+    if args.check_args {
+        return check_args(args);
+    }
     match &args.command {
         Command::Run(options) => run(args, options),
         Command::Mesh(options) => mesh(args, options),
@@ -83,6 +86,16 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         Command::Slider(options) => crate::slider::command(args, options),
         Command::Verify(options) => crate::verify::command(args, options),
         Command::Bench(options) => bench(args, options),
+    }
+}
+
+/// Reads what a command would compute from, and computes nothing.
+fn check_args(args: &Args) -> Result<u8, Failure> {
+    match &args.command {
+        Command::Run(options) => load(args, &options.case, &options.sets).map(|_| 0),
+        Command::Mesh(options) => load(args, &options.case, &options.sets).map(|_| 0),
+        Command::Sweep(options) => crate::sweep::load(options).map(|_| 0),
+        _ => Ok(0),
     }
 }
 

@@ -59,12 +59,18 @@ pub struct SweepArgs {
     collect: Option<Vec<PathBuf>>,
 }
 
-/// Runs the command.
-pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
+/// Reads the sweep file and everything that it names.
+pub fn load(options: &SweepArgs) -> Result<Sweep, Failure> {
     let mut sweep = Sweep::load(&options.sweep)?;
     if options.deterministic {
         sweep.sets.push(("deterministic".into(), true.into()));
     }
+    Ok(sweep)
+}
+
+/// Runs the command.
+pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
+    let sweep = load(options)?;
     let folder = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&sweep.name));
     if let Some(elsewhere) = &options.collect {
         if let Some(missing) = elsewhere.iter().find(|folder| !folder.is_dir()) {

@@ -1,5 +1,8 @@
 //! The JSON Schema and the table of keys agree.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use serde_json::Value;
 
 use crate::json_schema;
@@ -53,4 +56,52 @@ fn every_key_of_the_schema_tells_unit_default_and_range() {
             assert_eq!(at.get("type"), Some(&Value::from("number")), "{}", key.path);
         }
     }
+}
+
+/// The folder of the project's cases.
+fn cases() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases")
+}
+
+#[test]
+fn the_committed_schema_is_the_one_that_creepage_schema_prints() {
+    let file = cases().join("case.schema.json");
+    let committed = fs::read_to_string(&file).unwrap().replace("\r\n", "\n");
+    let now = serde_json::to_string_pretty(&json_schema()).unwrap() + "\n";
+    assert!(committed == now, "renew it: creepage schema > cases/case.schema.json");
+}
+
+/// TOML files below a folder.
+fn toml_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            toml_files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "toml") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn the_first_line_of_every_case_of_the_project_leads_editors_to_the_schema() {
+    let mut files = Vec::new();
+    toml_files(&cases(), &mut files);
+    let mut led = 0;
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        if text.contains("[[axis]]") {
+            continue; // a sweep, whose keys are others
+        }
+        let first = text.lines().next().unwrap_or_default();
+        let schema = first.strip_prefix("#:schema ").unwrap_or_default();
+        let target = file.parent().unwrap().join(schema);
+        assert!(
+            target.is_file() && target.ends_with("case.schema.json"),
+            "{}: the first line is {first:?}",
+            file.display()
+        );
+        led += 1;
+    }
+    assert!(led > 5);
 }
