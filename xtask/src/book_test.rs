@@ -6,7 +6,7 @@
 //! |---|---|---|
 //! | `sh run`, or `sh run exit=1` | run, with this exit code | run |
 //! | `sh long` | checked | run |
-//! | `sh elsewhere` | checked | checked: it needs what a checkout does not have |
+//! | `sh elsewhere` | checked | checked: it needs what a checkout lacks, or changes the machine |
 //!
 //! Blocks are run in the order of the book, in one copy of the checkout, so that later chapters find
 //! the runs of earlier ones. `creepage`, also as `cargo run --release --`, is the program just built;
