@@ -101,7 +101,8 @@ def test_what_progress_raises_ends_the_run_in_order(tmp_path):
 
 
 INTERRUPT = """
-import os, signal, sys, threading, creepage
+import os, signal, sys, creepage
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
 def told(progress):
     if progress["stage"] == "roll":
         os.kill(os.getpid(), signal.SIGINT)
