@@ -307,7 +307,8 @@ fn execute(
     programs: &Programs,
     text: &str,
 ) -> std::io::Result<(i32, String)> {
-    let folders = programs.python.iter().chain([&programs.release]).cloned();
+    // the Python package brings a `creepage` of its own
+    let folders = std::iter::once(&programs.release).chain(&programs.python).cloned();
     let before = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths(folders.chain(std::env::split_paths(&before)))
         .map_err(std::io::Error::other)?;

@@ -1,5 +1,6 @@
 //! Commands and options.
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -45,6 +46,9 @@ pub struct Args {
     /// The program that holds this command.
     #[arg(skip)]
     pub embedded: Option<Embedded>,
+    /// The program, and its first arguments, that does the runs of a sweep; empty for this one.
+    #[arg(skip)]
+    pub program: Vec<OsString>,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,

@@ -28,13 +28,15 @@ pub use commands::Failure;
 pub use embedded::{Embedded, Told};
 
 /// Runs the command that `words` write, the first of which is the program's name, for the terminal; returns
-/// the exit code.
-pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
+/// the exit code. `program` and its first arguments do the runs of a sweep; where it is empty, the program
+/// that calls this.
+pub fn main(words: impl IntoIterator<Item = OsString>, program: Vec<OsString>) -> u8 {
     let words: Vec<_> = words.into_iter().collect();
-    let args = match Args::try_parse_from(&words) {
+    let mut args = match Args::try_parse_from(&words) {
         Ok(args) => args,
         Err(error) => return usage(&error, &words),
     };
+    args.program = program;
     set_up_messages(&args);
     match commands::dispatch(&args) {
         Ok(code) => code,

@@ -109,7 +109,8 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
     }
     let program = match &args.embedded {
         Some(embedded) => embedded.program.clone(),
-        None => vec![this_program()?],
+        None if args.program.is_empty() => vec![this_program()?],
+        None => args.program.clone(),
     };
     let budget = Budget { jobs, threads, memory_mb: options.memory };
     say(&format!(

@@ -178,10 +178,11 @@ fn plain_reports() {
     });
 }
 
-/// Runs the command line for the terminal; `words` begin with the program's name. Returns the exit code.
+/// Runs the command line for the terminal; `words` begin with the program's name, `program` does the runs of a
+/// sweep. Returns the exit code.
 #[pyfunction]
-pub fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
-    py.detach(|| cli::main(words))
+pub fn main(py: Python<'_>, words: Vec<OsString>, program: Vec<OsString>) -> u8 {
+    py.detach(|| cli::main(words, program))
 }
 
 /// JSON text as TOML text.

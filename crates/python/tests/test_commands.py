@@ -1,5 +1,8 @@
 """The other commands."""
 
+import subprocess
+import sys
+
 import creepage
 import pytest
 
@@ -41,6 +44,9 @@ def test_a_sweep_runs_in_processes_of_its_own(tmp_path):
     assert heard[-1]["completed"] == 2
     assert [run["parameters"]["friction.static"] for run in found["runs"]] == [0.1, 0.3]
     assert creepage.Run(tmp_path / "out" / found["runs"][1]["run"]).case["friction"]["static"] == 0.3
+    words = [sys.executable, "-m", "creepage", "sweep", sweep, "--out", tmp_path / "again", "--quiet"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_warnings_of_a_case_are_python_warnings(tmp_path):

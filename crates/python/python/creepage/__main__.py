@@ -3,11 +3,12 @@
 import sys
 
 from . import _creepage
+from ._execute import PROGRAM
 
 
 def main() -> None:
     """Run the command line and end with its exit code."""
-    sys.exit(_creepage.main(["creepage", *sys.argv[1:]]))
+    sys.exit(_creepage.main(["creepage", *sys.argv[1:]], PROGRAM))
 
 
 if __name__ == "__main__":
