@@ -22,7 +22,7 @@ const BLOCK_ELEMENTS: [usize; 2] = [512, 16384];
 const FULL: usize = 4;
 
 /// Elements per block for `elements` of a body and a formulation; a multiple of the batch.
-pub(crate) fn block_size(elements: usize, full: bool) -> usize {
+fn block_size(elements: usize, full: bool) -> usize {
     let [least, most] = BLOCK_ELEMENTS;
     let size = elements.div_ceil(BLOCKS).next_multiple_of(FULL * BATCH).clamp(least, most);
     if full { size / FULL } else { size }
