@@ -124,12 +124,16 @@ def main():
     parser.add_argument("file", nargs="+", help="files to write: .msh, .inp")
     parser.add_argument("--small", action="store_true", help="a small disk, for tests")
     parser.add_argument("--size", type=float, help="element size where contact passes (m)")
+    parser.add_argument("--matching", action="store_true",
+                        help="elements of the bar as long as those of the disk where contact passes")
     parser.add_argument("--msh", type=float, default=4.1, help="version of .msh: 4.1 or 2.2")
     args = parser.parse_args()
     p = dict(SMALL if args.small else REFERENCE)
     if args.size:
         p["bar_size"] *= args.size / p["size"]
         p["size"] = args.size
+    if args.matching:
+        p["bar_size"] = p["size"]
 
     gmsh.initialize()
     gmsh.option.setNumber("General.Verbosity", 2)

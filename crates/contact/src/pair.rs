@@ -22,7 +22,7 @@ pub(crate) struct Pair {
     pub xi: f64,
     pub eta: f64,
     pub gap: f64,
-    /// Normal and tangential stiffness (N/m), kept from closing to opening.
+    /// Normal and tangential stiffness (N/m), in motion kept from closing to opening.
     pub stiffness: [f64; 2],
     /// Weights with which the corners of the face take the reaction.
     pub weights: [f64; 4],
@@ -170,13 +170,20 @@ pub(crate) struct Pass<'a> {
 }
 
 impl Pass<'_> {
-    /// Normal and tangential stiffness (N/m) of a slave on a master face.
-    pub fn stiffness(&self, slave: usize, face: &MasterFace) -> [f64; 2] {
-        let (own, other) = (self.slave.mass_per_area[slave], face.mass_per_area);
+    /// Normal and tangential stiffness (N/m) of a slave whose foot is the mean of the corners of a
+    /// master face with `weights`.
+    ///
+    /// What the face's element gives is interpolated between its means at the corners: with a
+    /// value for each face, a foot by an edge would decide by round-off which of two it gets.
+    pub fn stiffness(&self, slave: usize, face: &MasterFace, weights: &[f64; 4]) -> [f64; 2] {
+        let mean = |values: &[f64]| -> f64 {
+            weights.iter().zip(face.local).map(|(weight, n)| weight * values[n as usize]).sum()
+        };
+        let (own, other) = (self.slave.mass_per_area[slave], mean(&self.master.mass_per_area));
         let reduced = own * other / (own + other);
-        [self.normal, self.tangential].map(|form| {
-            form.per_pass(face.scaled_stiffness, reduced, self.stability) * self.slave.area[slave]
-        })
+        let scaled = mean(&self.master.scaled_stiffness);
+        [self.normal, self.tangential]
+            .map(|form| form.per_pass(scaled, reduced, self.stability) * self.slave.area[slave])
     }
 
     /// Follows the pair to `positions`; `motion` is absent where only normal springs act.
@@ -215,8 +222,9 @@ impl Pass<'_> {
             }
             return;
         }
-        if !before.is_closed() {
-            pair.stiffness = self.stiffness(pair.slave as usize, face);
+        // equilibrium knows no history: the time loop starts from its displacements alone
+        if !before.is_closed() || motion.is_none() {
+            pair.stiffness = self.stiffness(pair.slave as usize, face, &pair.weights);
         }
         pair.normal = foot.point.normal;
         self.press(pair, &before, node, face, motion);

@@ -101,7 +101,7 @@ impl ContactSums {
 /// In each pass every slave node that has penetrated the other surface is pushed out by a spring
 /// and a damper along the master's normal and held by a friction spring (Eqs 10 and 11 of
 /// Vollebregt 2017) in its tangent plane; the face's corners take the reaction by their shape
-/// functions. A pair keeps the stiffness of the face on which it closed until it opens, so that
+/// functions. In motion a pair keeps the stiffness with which it closed until it opens, so that
 /// its springs give back what they stored.
 #[derive(Debug)]
 pub struct PenaltyContact {
@@ -319,8 +319,10 @@ impl PenaltyContact {
                 let face = &self.sides[master].faces[face];
                 for node in self.sides[slave].faces[its].local {
                     let node = node as usize;
-                    let [normal, tangential] = pass.stiffness(node, face);
-                    let k = normal.max(tangential);
+                    // the largest is that at a corner
+                    let corners = [0, 1, 2, 3].map(|c| [0, 1, 2, 3].map(|d| f64::from(c == d)));
+                    let of_corners = corners.map(|corner| pass.stiffness(node, face, &corner));
+                    let k = of_corners.as_flattened().iter().fold(0.0, |k: f64, &it| k.max(it));
                     own[slave][node] = own[slave][node].max(k);
                     let slave_area = self.sides[slave].area[node];
                     for corner in face.local {

@@ -1,4 +1,5 @@
 use super::{K, Rig, SETTINGS};
+use crate::plates::plate;
 use crate::vector::{Vec3, add, cross, norm};
 use crate::{ContactError, Coulomb, PenaltyContact, PenaltySettings, Stiffness};
 use mesh::{Mesh, Padded, Surface};
@@ -64,6 +65,42 @@ fn separated_plates_do_not_feel_one_another() {
         assert_eq!((sums.closed, sums.normal_force), (0, 0.0));
         assert!(rig.force.iter().all(|f| *f == Padded::ZERO));
     }
+}
+
+/// Plates with the same cells, of which those below are unequally deep; the upper one is moved by `x`
+/// and pressed in equilibrium, after it was pressed at all the `x` before.
+fn on_unequal_elements(x: &[f64]) -> f64 {
+    let settings = PenaltySettings { normal: Stiffness::Scale(0.1), ..SETTINGS };
+    let (mut mesh, surface) = plate([0.0, 0.0], [8e-3, 8e-3], [8, 8], 0.0, 1e-3, true);
+    for node in mesh.nodes.iter_mut().filter(|node| node[2] < 0.0) {
+        let phase: f64 = 900.0 * node[0] + 400.0 * node[1];
+        node[2] *= 1.0 + 0.4 * phase.sin();
+    }
+    let upper = plate([2e-3, 2e-3], [6e-3, 6e-3], [4, 4], 0.0, 1e-3, false);
+    let mut rig = Rig::new(upper, (mesh, surface), &settings, Coulomb { mu: 0.3 });
+    let mut found = f64::NAN;
+    for &x in x {
+        let moved = Padded::new([x, x, -DEPTH]);
+        rig.displacement[..rig.upper].fill(moved);
+        rig.contact.expect_jump();
+        let sums =
+            rig.contact.apply_frictionless(&rig.reference, &rig.displacement, &mut rig.force);
+        found = sums.normal_force;
+    }
+    found
+}
+
+#[test]
+fn force_in_equilibrium_changes_little_where_nodes_cross_the_edges_of_unequal_faces() {
+    let (behind, ahead) = (on_unequal_elements(&[-1e-8]), on_unequal_elements(&[1e-8]));
+    assert!((behind / ahead - 1.0).abs() < 1e-5, "{behind} {ahead}");
+}
+
+#[test]
+fn force_in_equilibrium_is_that_of_the_positions_alone() {
+    let straight = on_unequal_elements(&[4e-4]);
+    let over_other_faces = on_unequal_elements(&[1.5e-3, -7e-4, 4e-4]);
+    assert!((over_other_faces / straight - 1.0).abs() < 1e-12);
 }
 
 #[test]
