@@ -92,6 +92,7 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
             [0, 1, 2].map(|i| v[i] + DT * m * force[i])
         };
         let trial = Trial { velocity: &step, inverse_mass: &inverse_mass };
+        contact.follow(&motion);
         contact.apply(&motion, &trial, &mut force);
         let moved: Vec<_> = (0..16).map(|n| step(n, force[n as usize].xyz())).collect();
         for ((v, u), moved) in velocity.iter_mut().zip(&mut displacement).zip(moved) {

@@ -16,8 +16,15 @@ pub struct Trial<'a> {
 
 /// Enforcement of contact and friction in explicit dynamics.
 pub trait Contact: Send + Debug {
-    /// Adds the contact forces (N) of the step from `x^n = X + u^n` to `force`, which holds all other
-    /// forces on the nodes of the contact surfaces.
+    /// Follows the surfaces to `x^n = X + u^n`: all that a step needs of positions and velocities alone, and
+    /// may be done beside the internal force.
+    ///
+    /// # Panics
+    /// If a slice has fewer entries than the mesh has nodes.
+    fn follow(&mut self, motion: &Motion<'_>);
+
+    /// Adds the contact forces (N) of the step from `x^n`, to which the surfaces have been
+    /// [followed](Self::follow), to `force`, which holds all other forces on the nodes of the surfaces.
     ///
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
@@ -62,8 +69,12 @@ pub trait Contact: Send + Debug {
 const PASSES: [&str; 2] = ["pass_0", "pass_1"];
 
 impl Contact for PenaltyContact {
-    fn apply(&mut self, motion: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
-        self.apply(motion, force)
+    fn follow(&mut self, motion: &Motion<'_>) {
+        self.follow(motion);
+    }
+
+    fn apply(&mut self, _: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
+        self.load(force)
     }
 
     fn add_stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {

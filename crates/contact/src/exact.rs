@@ -68,6 +68,8 @@ pub struct ExactContact {
     rows: [Vec<Row>; 2],
     law: Box<dyn NodeFriction>,
     search: Search,
+    /// Whether the search was refreshed in the last step.
+    searched: bool,
     curvature: bool,
     /// Integration of mortar rows, and the mean that each slave follows.
     mortar: Option<(Mortar, Vec<Mean>)>,
@@ -110,6 +112,7 @@ impl ExactContact {
         Ok(Self {
             mortar: (settings.rows == Rows::Mortar).then(mortar),
             search: Search::new(&sides),
+            searched: false,
             slave,
             rows: [Vec::new(), Vec::new()],
             law,
@@ -132,7 +135,7 @@ impl ExactContact {
     }
 
     /// Follows a row to the positions of the step. Returns whether it may close.
-    fn follow(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
+    fn stand(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
         row.slipped = row.state == State::Slip;
         if row.sleep > 0 {
             row.sleep -= 1;
@@ -349,20 +352,13 @@ impl ExactContact {
 }
 
 impl Contact for ExactContact {
-    fn apply(
-        &mut self,
-        motion: &Motion<'_>,
-        trial: &Trial<'_>,
-        force: &mut [Padded],
-    ) -> ContactSums {
+    /// Finds the rows that may close, and sets them up.
+    fn follow(&mut self, motion: &Motion<'_>) {
         let positions =
             Positions { reference: motion.reference, displacement: motion.displacement };
-        let mut sums = ContactSums {
-            searched: self.search.is_due(&self.sides, &positions, &self.rows),
-            ..ContactSums::default()
-        };
         let own = self.slave;
-        if sums.searched {
+        self.searched = self.search.is_due(&self.sides, &positions, &self.rows);
+        if self.searched {
             self.search.refresh(&self.sides, &positions, &mut self.rows);
             self.rows[1 - own].clear();
             let most = self.rows[own].len();
@@ -371,19 +367,35 @@ impl Contact for ExactContact {
             self.slid.reserve(most.saturating_sub(self.slid.len()));
         }
         let mut rows = std::mem::take(&mut self.rows[own]);
-        let mut active = std::mem::take(&mut self.active);
-        active.clear();
+        self.active.clear();
         self.legs.clear();
-        self.slid.clear();
         self.integrated = 0;
+        for (i, row) in rows.iter_mut().enumerate() {
+            if self.stand(row, &positions, motion) {
+                self.active.push(i as u32);
+            }
+        }
+        self.rows[own] = rows;
+    }
+
+    fn apply(
+        &mut self,
+        motion: &Motion<'_>,
+        trial: &Trial<'_>,
+        force: &mut [Padded],
+    ) -> ContactSums {
+        let positions =
+            Positions { reference: motion.reference, displacement: motion.displacement };
+        let mut sums = ContactSums { searched: self.searched, ..ContactSums::default() };
+        let own = self.slave;
+        let mut rows = std::mem::take(&mut self.rows[own]);
+        let mut active = std::mem::take(&mut self.active);
+        self.slid.clear();
         self.now += 1;
 
-        // velocities without contact, rows that may close, the forces of the last step
-        for (i, row) in rows.iter_mut().enumerate() {
-            let was_closed = row.is_closed();
-            if !self.follow(row, &positions, motion) {
-                continue;
-            }
+        // velocities without contact, and what the law is told of the last step
+        active.retain(|&i| {
+            let row = &mut rows[i as usize];
             self.release(own, row.slave, trial, force, motion.dt);
             row.mobility = self.pace[own][row.slave as usize];
             for k in row.legs() {
@@ -394,17 +406,17 @@ impl Contact for ExactContact {
             // both ends held: nothing to enforce
             if row.mobility == 0.0 {
                 row.open();
-                continue;
+                return false;
             }
             let at = self.at(row, &positions, motion);
-            if was_closed {
+            if row.is_closed() {
                 let slip_speed = norm(row.slip_velocity);
                 self.slid.push(Slid { state: row.memory, slip_speed, at });
             } else {
                 row.memory = self.law.begin(&at);
             }
-            active.push(i as u32);
-        }
+            true
+        });
         self.law.advance_all(&mut self.slid, motion.dt);
         let mut advanced = self.slid.iter();
         for &i in &active {

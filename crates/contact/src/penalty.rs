@@ -9,13 +9,6 @@ use crate::touch::{Listed, State};
 use crate::vector::{Vec3, add, axpy, dot, scale};
 use crate::{BodyMaterial, ContactError, StabilityScale, Stiffness};
 use mesh::{Mesh, Padded, Surface};
-use rayon::prelude::*;
-
-/// Lists from this length on are worked on by several threads, in parts of `PART` pairs. Every
-/// pair is a computation of its own and forces are added in the order of the list, so the bits
-/// depend on neither number.
-const PARALLEL: usize = 128;
-const PART: usize = 32;
 
 /// Settings of [`PenaltyContact`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,6 +105,8 @@ pub struct PenaltyContact {
     /// What the law is told about the closed pairs of a pass, in their order.
     slid: Vec<Slid>,
     pub(crate) search: Search,
+    /// Whether the search was refreshed in the last step.
+    searched: bool,
     pub(crate) settings: PenaltySettings,
     stability: Option<StabilityScale>,
     /// [`PenaltyContact::nodal_stiffness_bound`] at the nodes of each side (N/m).
@@ -140,6 +135,7 @@ impl PenaltyContact {
         let sides = ContactSurface::both(mesh, surfaces)?;
         let mut contact = Self {
             search: Search::new(&sides),
+            searched: false,
             sides,
             pairs: [Vec::new(), Vec::new()],
             law,
@@ -162,9 +158,8 @@ impl PenaltyContact {
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
     pub fn apply(&mut self, motion: &Motion<'_>, force: &mut [Padded]) -> ContactSums {
-        let positions =
-            Positions { reference: motion.reference, displacement: motion.displacement };
-        self.step(&positions, Some(motion), force)
+        self.follow(motion);
+        self.load(force)
     }
 
     /// Adds the forces of the normal springs alone, without damper or friction; the friction
@@ -178,20 +173,20 @@ impl PenaltyContact {
         displacement: &[Padded],
         force: &mut [Padded],
     ) -> ContactSums {
-        self.step(&Positions { reference, displacement }, None, force)
+        self.update(&Positions { reference, displacement }, None);
+        self.load(force)
     }
 
-    fn step(
-        &mut self,
-        positions: &Positions<'_>,
-        motion: Option<&Motion<'_>>,
-        force: &mut [Padded],
-    ) -> ContactSums {
-        let mut sums = ContactSums {
-            searched: self.search.is_due(&self.sides, positions, &self.pairs),
-            ..ContactSums::default()
-        };
-        if sums.searched {
+    /// Follows the pairs to `x^n`, with their springs, dampers and friction.
+    pub(crate) fn follow(&mut self, motion: &Motion<'_>) {
+        let positions =
+            Positions { reference: motion.reference, displacement: motion.displacement };
+        self.update(&positions, Some(motion));
+    }
+
+    fn update(&mut self, positions: &Positions<'_>, motion: Option<&Motion<'_>>) {
+        self.searched = self.search.is_due(&self.sides, positions, &self.pairs);
+        if self.searched {
             self.search.refresh(&self.sides, positions, &mut self.pairs);
         }
         let mut pairs = std::mem::take(&mut self.pairs);
@@ -201,35 +196,34 @@ impl PenaltyContact {
         slid.reserve(most);
         for (slave, list) in pairs.iter_mut().enumerate() {
             let pass = self.pass(slave);
-            if list.len() < PARALLEL {
-                for pair in list.iter_mut() {
-                    pass.update(pair, positions, motion);
-                }
-            } else {
-                list.par_chunks_mut(PART).for_each(|part| {
-                    for pair in part {
-                        pass.update(pair, positions, motion);
-                    }
-                });
-            }
+            list.iter_mut().for_each(|pair| pass.update(pair, positions, motion));
+            let Some(motion) = motion else { continue };
             slid.clear();
-            if let Some(motion) = motion {
-                let closed = list.iter().filter(|pair| pair.is_closed());
-                slid.extend(closed.map(|pair| pass.slid(pair, positions, motion.time)));
-                pass.law.advance_all(&mut slid, motion.dt);
-                let closed = list.iter_mut().filter(|pair| pair.is_closed());
-                closed.zip(&slid).for_each(|(pair, slid)| pass.rub(pair, slid, motion.dt));
-            }
+            let closed = list.iter().filter(|pair| pair.is_closed());
+            slid.extend(closed.map(|pair| pass.slid(pair, positions, motion.time)));
+            pass.law.advance_all(&mut slid, motion.dt);
+            let closed = list.iter_mut().filter(|pair| pair.is_closed());
+            closed.zip(&slid).for_each(|(pair, slid)| pass.rub(pair, slid, motion.dt));
+        }
+        self.pairs = pairs;
+        self.slid = slid;
+    }
+
+    /// Adds the forces of the pairs to `force`.
+    pub(crate) fn load(&self, force: &mut [Padded]) -> ContactSums {
+        let mut sums = ContactSums { searched: self.searched, ..ContactSums::default() };
+        for (slave, list) in self.pairs.iter().enumerate() {
+            let sides = [&self.sides[slave], &self.sides[1 - slave]];
             // The forces that really reach the nodes of either side, for the sums.
             let (mut own, mut other) = ([0.0; 3], [0.0; 3]);
-            for pair in list.iter() {
+            for pair in list {
                 sums.friction_work += pair.friction_work;
                 sums.damping_work += pair.damping_work;
                 if !pair.is_closed() {
                     continue;
                 }
                 let on_slave = axpy(pair.friction, pair.normal_force, pair.normal);
-                scatter([pass.slave, pass.master], pair, on_slave, force);
+                scatter(sides, pair, on_slave, force);
                 own = add(own, on_slave);
                 for &weight in &pair.weights {
                     other = axpy(other, -weight, on_slave);
@@ -246,8 +240,6 @@ impl PenaltyContact {
             sums.force[1 - slave] = add(sums.force[1 - slave], other);
         }
         sums.sticking = sums.closed - sums.slipping;
-        self.pairs = pairs;
-        self.slid = slid;
         sums
     }
 

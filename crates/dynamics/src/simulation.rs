@@ -50,7 +50,7 @@ pub struct Setup {
 pub struct Timers {
     /// Internal force.
     pub internal_force: Duration,
-    /// Contact.
+    /// Contact. What one thread of it does beside the internal force counts by its share in the threads.
     pub contact: Duration,
     /// Quiet ends and the force on the hub.
     pub boundary: Duration,
@@ -140,12 +140,23 @@ impl Simulation {
         let time = n as f64 * dt;
         let start = Instant::now();
 
-        // internal force at u^n (viscous parts with v^{n-1/2})
-        let sums = self.solid.subtract_internal_force(
-            &self.displacement,
-            &self.velocity,
+        // internal force at u^n (viscous parts with v^{n-1/2}), and beside it what of contact needs no forces
+        let contact = &mut self.contact;
+        let (displacement, velocity) = (&self.displacement[..], &self.velocity[..]);
+        let inverse_mass = &self.inverse_mass[..];
+        let motion = Motion { reference: &[], displacement, velocity, inverse_mass, time, dt };
+        let (sums, following) = self.solid.subtract_internal_force_beside(
+            displacement,
+            velocity,
             &mut self.force,
             read,
+            |reference| {
+                let start = Instant::now();
+                if let Some(contact) = contact {
+                    contact.follow(&Motion { reference, ..motion });
+                }
+                start.elapsed()
+            },
         );
         let internal = Instant::now();
 
@@ -166,15 +177,7 @@ impl Simulation {
         });
         let contact = match &mut self.contact {
             Some(contact) => {
-                let motion = Motion {
-                    reference: self.solid.reference(),
-                    displacement: &self.displacement,
-                    velocity: &self.velocity,
-                    inverse_mass: &self.inverse_mass,
-                    time,
-                    dt,
-                };
-                let (velocity, inverse_mass) = (&self.velocity, &self.inverse_mass);
+                let motion = Motion { reference: self.solid.reference(), ..motion };
                 let trial = Trial {
                     velocity: &|node, force| {
                         let (v, w) = (velocity[node as usize].xyz(), inverse_mass[node as usize]);
@@ -237,9 +240,10 @@ impl Simulation {
         self.ledger.damping += contact.damping_ahead + viscous + quiet.dissipated_after;
         self.ledger.external += hub.after + quiet.external_after + given_after;
 
-        self.timers.internal_force += internal - start;
+        let following = following / rayon::current_num_threads() as u32;
+        self.timers.internal_force += (internal - start).saturating_sub(following);
         self.timers.boundary += bounded - internal;
-        self.timers.contact += contacted - bounded;
+        self.timers.contact += contacted - bounded + following;
         self.timers.nodes += moved - contacted;
         self.step += 1;
         let (drive, omega) = match &self.hub {

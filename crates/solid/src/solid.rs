@@ -232,7 +232,23 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
     ) -> ForceSums {
-        self.run(displacement, velocity, force, energies, self.viscous)
+        self.subtract_internal_force_beside(displacement, velocity, force, energies, |_| ()).0
+    }
+
+    /// The same, with work that does not need it done at the same time by one of the threads; it is given
+    /// the reference coordinates.
+    ///
+    /// # Panics
+    /// As [`subtract_internal_force`](Self::subtract_internal_force).
+    pub fn subtract_internal_force_beside<R: Send>(
+        &mut self,
+        displacement: &[Padded],
+        velocity: &[Padded],
+        force: &mut [Padded],
+        energies: bool,
+        beside: impl FnOnce(&[Padded]) -> R + Send,
+    ) -> (ForceSums, R) {
+        self.run(displacement, velocity, force, energies, self.viscous, beside)
     }
 
     /// `force -= f_int(u)` without viscous stresses, for bodies at rest (N).
@@ -245,7 +261,7 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
     ) -> ForceSums {
-        self.run(displacement, &[], force, energies, false)
+        self.run(displacement, &[], force, energies, false, |_| ()).0
     }
 
     /// `y += K x` with the stiffness of the undeformed state (N), for x so small (m) that the
@@ -253,18 +269,19 @@ impl Solid {
     pub fn add_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
         let negate = |y: &mut [Padded]| y.iter_mut().for_each(|y| *y = Padded(y.0.map(|c| -c)));
         negate(y);
-        self.run(x, &[], y, false, false);
+        self.run(x, &[], y, false, false, |_| ());
         negate(y);
     }
 
-    fn run(
+    fn run<R: Send>(
         &mut self,
         displacement: &[Padded],
         velocity: &[Padded],
         force: &mut [Padded],
         energies: bool,
         viscous: bool,
-    ) -> ForceSums {
+        beside: impl FnOnce(&[Padded]) -> R + Send,
+    ) -> (ForceSums, R) {
         let nodes = self.reference.len();
         assert!(displacement.len() >= nodes && force.len() >= nodes);
         assert!(!viscous || velocity.len() >= nodes);
@@ -294,13 +311,14 @@ impl Solid {
                 );
             }
         };
-        if rayon::current_num_threads() == 1 {
+        let reference = &self.reference;
+        let done_beside = if rayon::current_num_threads() == 1 {
             colours.iter().flatten().for_each(run);
+            beside(reference)
         } else {
-            for colour in colours {
-                colour.par_iter().for_each(run);
-            }
-        }
+            let force = || colours.iter().for_each(|colour| colour.par_iter().for_each(run));
+            rayon::join(force, || beside(reference)).1
+        };
         let mut total = [0.0; 3];
         if energies || viscous {
             for s in &self.sums {
@@ -309,7 +327,8 @@ impl Solid {
                 }
             }
         }
-        ForceSums { internal: total[0], hourglass: total[1], viscous_power: total[2] }
+        let sums = ForceSums { internal: total[0], hourglass: total[1], viscous_power: total[2] };
+        (sums, done_beside)
     }
 
     /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts: of a fully

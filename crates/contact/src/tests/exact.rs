@@ -76,6 +76,7 @@ impl Masses {
             velocity: &|n, f| axpy(velocity[n as usize].xyz(), self.dt * pace[n as usize], f),
             inverse_mass: pace,
         };
+        self.contact.follow(&motion);
         let sums = self.contact.apply(&motion, &trial, &mut self.force);
         for i in 0..self.force.len() {
             let v =
