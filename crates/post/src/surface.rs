@@ -37,7 +37,7 @@ impl Surface {
         let lacks = |what: &str| PostError::Lacks { path: path.into(), what: what.into() };
         let points = file.points()?;
         let connectivity = file.connectivity()?;
-        if connectivity.len() != 4 * file.cells() {
+        if file.cells().checked_mul(4) != Some(connectivity.len()) {
             return Err(lacks("its cells are not quads; a contact history has four-node faces"));
         }
         let faces = connectivity.as_chunks::<4>().0.to_vec();
