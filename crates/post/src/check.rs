@@ -11,7 +11,7 @@ use crate::frames::{ContactHistory, Pairing};
 use crate::limits::Limits;
 use crate::map::MapWriter;
 use crate::patch_series::PatchRow;
-use crate::statistics::mean_and_deviation;
+use crate::statistics::{mean_and_deviation, time_weights};
 use output::HistoryFile;
 use pass::Pass;
 use serde_json::{Value, json};
@@ -80,7 +80,7 @@ pub fn check(
         .map
         .map(|path| MapWriter::create(path, &history.surface, &paths.contact))
         .transpose()?;
-    let weights = weights(&history.times[records.clone()]);
+    let weights = time_weights(&history.times[records.clone()]);
     let first = records.start;
     history.stream_batches(records.clone(), |frames| {
         if let Some(map) = &mut map {
@@ -116,22 +116,8 @@ fn creepage(path: &Path, [from, to]: [f64; 2]) -> Option<Value> {
     let history = HistoryFile::open(path).ok()?;
     let (times, values) = (history.read("time").ok()?, history.read("creepage").ok()?);
     let inside = times.iter().zip(&values).filter(|(t, _)| (from..=to).contains(*t));
-    let [mean, deviation] = mean_and_deviation(inside.map(|(_, value)| *value))?;
+    let (times, values): (Vec<f64>, Vec<f64>) = inside.unzip();
+    let [mean, deviation] = mean_and_deviation(&times, values.into_iter())?;
     Some(json!({ "mean": mean, "deviation": deviation, "units": "1",
                  "about": "longitudinal creepage, from the history" }))
-}
-
-/// The time that each record stands for: half the way to its neighbours.
-fn weights(times: &[f64]) -> Vec<f64> {
-    let gap = |i: usize| times.get(i + 1).map(|next| next - times[i]);
-    (0..times.len())
-        .map(|i| {
-            let (before, after) = (i.checked_sub(1).and_then(gap), gap(i));
-            match (before, after) {
-                (Some(before), Some(after)) => 0.5 * (before + after),
-                (Some(only), None) | (None, Some(only)) => only,
-                (None, None) => 1.0,
-            }
-        })
-        .collect()
 }

@@ -145,9 +145,10 @@ fn normals(
     normals
 }
 
-/// Means and standard deviations over the records.
+/// Means and standard deviations over the time of the records.
 pub(crate) fn means(rows: &[PatchRow]) -> Value {
-    let of = |i: usize| mean_and_deviation(rows.iter().map(move |row| row.values[i]));
+    let times: Vec<f64> = rows.iter().map(|row| row.time).collect();
+    let of = |i: usize| mean_and_deviation(&times, rows.iter().map(move |row| row.values[i]));
     let entry = |(i, &(name, units, about)): (usize, &(&str, &str, &str))| {
         let [mean, deviation] = of(i)?;
         let value = json!({ "mean": mean, "deviation": deviation, "units": units, "about": about });

@@ -149,16 +149,36 @@ impl Spread {
     }
 }
 
-/// Mean and standard deviation of a series of numbers; those that are not finite are left out.
-pub(crate) fn mean_and_deviation(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
-    for value in values.filter(|value| value.is_finite()) {
-        count += 1.0;
+/// The time (s) that each record stands for: half the way to its neighbours.
+pub(crate) fn time_weights(times: &[f64]) -> Vec<f64> {
+    let gap = |i: usize| times.get(i + 1).map(|next| next - times[i]);
+    (0..times.len())
+        .map(|i| {
+            let (before, after) = (i.checked_sub(1).and_then(gap), gap(i));
+            match (before, after) {
+                (Some(before), Some(after)) => 0.5 * (before + after),
+                (Some(only), None) | (None, Some(only)) => only,
+                (None, None) => 1.0,
+            }
+        })
+        .collect()
+}
+
+/// Mean and standard deviation of the values of records at `times`, each of which counts with its
+/// [time](time_weights); those that are not finite are left out.
+pub(crate) fn mean_and_deviation(
+    times: &[f64],
+    values: impl Iterator<Item = f64>,
+) -> Option<[f64; 2]> {
+    let (mut sum, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    let weights = time_weights(times);
+    for (weight, value) in weights.into_iter().zip(values).filter(|(_, value)| value.is_finite()) {
+        sum += weight;
         let away = value - mean;
-        mean += away / count;
-        squares += away * (value - mean);
+        mean += weight / sum * away;
+        squares += weight * away * (value - mean);
     }
-    (count > 0.0).then(|| [mean, (squares / count).sqrt()])
+    (sum > 0.0).then(|| [mean, (squares / sum).sqrt()])
 }
 
 #[cfg(test)]
@@ -197,6 +217,23 @@ mod tests {
         spread.end_record(0.5);
         assert!((spread.deviation_of_rms().unwrap() - 1.0).abs() < 1e-15);
         assert!((spread.deviation_of_largest().unwrap() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_span_recorded_densely_weighs_no_more_than_its_time() {
+        // 1 over the first second, 3 over the last three
+        let dense = (0..100).map(|i| f64::from(i) * 0.01 + 0.005);
+        let times: Vec<f64> = dense.chain([1.5, 2.5, 3.5]).collect();
+        let value = |t: &f64| if *t < 1.0 { 1.0 } else { 3.0 };
+        let [mean, deviation] = mean_and_deviation(&times, times.iter().map(value)).unwrap();
+        // the border between the two lies half-way from the last record of one to the first of the other
+        let share = 1.2425 / 4.0;
+        let exact = 3.0 - 2.0 * share;
+        assert!((mean - exact).abs() < 2e-2, "{mean} {exact}");
+        assert!((deviation - 2.0 * (share * (1.0 - share)).sqrt()).abs() < 2e-2, "{deviation}");
+        let [even, _] =
+            mean_and_deviation(&[0.0, 1.0, 2.0], [1.0, f64::NAN, 4.0].into_iter()).unwrap();
+        assert!((even - 2.5).abs() < 1e-15);
     }
 
     #[test]
