@@ -57,7 +57,9 @@ def test_what_cannot_be_a_mesh_is_refused_by_name(tmp_path):
         ({}, "no set bar, clamp; it has: disk, hub, low, top, tread"),
         ({"bar": "rail"}, "bar = 'rail'.*it has"),
         ({"rail": "bar"}, "it may have disk, bar"),
-        ({"clamp": [16]}, "index 16 of 16"),
+        ({"clamp": [16]}, "has the index 16; there are 16"),
+        ({"clamp": [0, -1]}, "has the index -1"),
+        ({"clamp": [0.5]}, "float64 numbers"),
         ({"clamp": np.ones(3, bool)}, r"shape \(3,\)"),
     ]:
         with pytest.raises(creepage.CaseError, match=said):

@@ -183,9 +183,12 @@ def masked(chosen, count, what="a set"):
             raise CaseError(f"{what} is a mask of the shape {chosen.shape}; ({count},) is needed")
         return chosen
     mask = np.zeros(count, bool)
+    if chosen.size and chosen.dtype.kind not in "iu":
+        raise CaseError(f"{what} holds {chosen.dtype} numbers; indices or a mask are needed")
     chosen = chosen.astype(np.int64)
-    if chosen.size and not 0 <= chosen.min() <= chosen.max() < count:
-        raise CaseError(f"{what} has an index {chosen.max()} of {count}")
+    outside = chosen[(chosen < 0) | (chosen >= count)]
+    if outside.size:
+        raise CaseError(f"{what} has the index {outside[0]}; there are {count}, counted from 0")
     mask[chosen] = True
     return mask
 
