@@ -298,6 +298,12 @@ impl PenaltyContact {
 
     fn stiffness_bounds(&self, mesh: &Mesh) -> [Vec<f64>; 2] {
         const SIZES: f64 = 4.0;
+        const CORNERS: [[f64; 4]; 4] = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ];
         let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
         let displacement = vec![Padded::ZERO; reference.len()];
         let positions = Positions { reference: &reference, displacement: &displacement };
@@ -311,10 +317,9 @@ impl PenaltyContact {
                 let face = &self.sides[master].faces[face];
                 for node in self.sides[slave].faces[its].local {
                     let node = node as usize;
-                    // the largest is that at a corner
-                    let corners = [0, 1, 2, 3].map(|c| [0, 1, 2, 3].map(|d| f64::from(c == d)));
-                    let of_corners = corners.map(|corner| pass.stiffness(node, face, &corner));
-                    let k = of_corners.as_flattened().iter().fold(0.0, |k: f64, &it| k.max(it));
+                    // the largest over the face is that at a corner
+                    let at_corners = CORNERS.iter().map(|it| pass.stiffness(node, face, it));
+                    let k = at_corners.flatten().fold(0.0, f64::max);
                     own[slave][node] = own[slave][node].max(k);
                     let slave_area = self.sides[slave].area[node];
                     for corner in face.local {
