@@ -226,11 +226,11 @@ mod tests {
         let times: Vec<f64> = dense.chain([1.5, 2.5, 3.5]).collect();
         let value = |t: &f64| if *t < 1.0 { 1.0 } else { 3.0 };
         let [mean, deviation] = mean_and_deviation(&times, times.iter().map(value)).unwrap();
-        // the border between the two lies half-way from the last record of one to the first of the other
-        let share = 1.2425 / 4.0;
+        // the border between the two lies half-way from 0.995 s to 1.5 s; ends count as their neighbours
+        let share = 1.2475 / 4.0;
         let exact = 3.0 - 2.0 * share;
-        assert!((mean - exact).abs() < 2e-2, "{mean} {exact}");
-        assert!((deviation - 2.0 * (share * (1.0 - share)).sqrt()).abs() < 2e-2, "{deviation}");
+        assert!((mean - exact).abs() < 1e-12, "{mean} {exact}");
+        assert!((deviation - 2.0 * (share * (1.0 - share)).sqrt()).abs() < 1e-12, "{deviation}");
         let [even, _] =
             mean_and_deviation(&[0.0, 1.0, 2.0], [1.0, f64::NAN, 4.0].into_iter()).unwrap();
         assert!((even - 2.5).abs() < 1e-15);
