@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Replays every write of a run and opens each state that a kill could have left, with h5py.
 
-Usage: check_tears.py LOG NAME [NAME...]
+Usage: check_tears.py [--openings FROM:TO] LOG NAME [NAME...]
 
 LOG is what strace saw of a run (Linux):
 `strace -f -y -xx -s 16777216 -e trace=pwrite64,write,openat,ftruncate,rename -o LOG creepage run ...`
 NAME is a result file such as contact.vtkhdf. States between two system calls are counted apart from
 those within one: a kill can end a call between two pages, but only in the time in which the system
-copies a page. Ends with 1 where a state between two calls cannot be read.
+copies a page. Ends with 1 where a state between two calls cannot be read. A snapshot takes two openings of its file;
+--openings looks at states between two of them alone, since states of a long file take long to read.
 """
 
+import argparse
 import re
 import sys
 import tempfile
@@ -70,12 +72,14 @@ def readable(path):
     return None
 
 
-def replay(log, name, path):
+def replay(log, name, path, openings):
     image, live, opened = bytearray(), False, 0
     states, between, within = 0, [], []
 
     def check(found, what):
         nonlocal states
+        if opened not in openings:
+            return
         states += 1
         path.write_bytes(image)
         error = readable(path)
@@ -112,9 +116,20 @@ def replay(log, name, path):
 
 
 def main():
-    log, names = sys.argv[1], sys.argv[2:]
+    def span(text):
+        first, end = text.split(":")
+        return range(int(first), int(end))
+
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--openings", type=span, default=range(sys.maxsize), metavar="FROM:TO")
+    parser.add_argument("log")
+    parser.add_argument("names", nargs="+")
+    given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        problems = [replay(log, name, Path(folder) / "state.h5") for name in names]
+        state = Path(folder) / "state.h5"
+        problems = [replay(given.log, name, state, given.openings) for name in given.names]
     return 1 if any(problems) else 0
 
 

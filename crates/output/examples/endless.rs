@@ -1,6 +1,6 @@
 //! Appends snapshots and history rows until it is killed, at full speed or with a pause after each,
 //! to try what a kill leaves and what a reader finds meanwhile:
-//! `cargo run --release -p creepage-output --example endless -- DIR [PAUSE_MS]`.
+//! `cargo run --release -p creepage-output --example endless -- DIR [PAUSE_MS [QUADS]]`.
 //!
 //! Every number follows from its step and place ([`value`]), so that a reader can check them all.
 
@@ -11,14 +11,15 @@ use output::{
 use std::path::Path;
 use std::time::Duration;
 
-/// Quads of the strip; its point count is even, its cell count a prime.
+/// Quads of the strip unless others are asked for; its point count is even, its cell count a prime.
 pub const QUADS: usize = 5_003;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
-    let folder = arguments.next().ok_or("usage: endless DIR [PAUSE_MS]")?;
+    let folder = arguments.next().ok_or("usage: endless DIR [PAUSE_MS [QUADS]]")?;
     let pause = arguments.next().map_or(Ok(0), |text| text.parse())?;
-    write_forever(Path::new(&folder), Duration::from_millis(pause))?;
+    let quads = arguments.next().map_or(Ok(QUADS), |text| text.parse())?;
+    write_forever(Path::new(&folder), Duration::from_millis(pause), quads)?;
     Ok(())
 }
 
@@ -27,8 +28,9 @@ pub fn value(step: usize, place: usize) -> f64 {
     ((step * 7_919 + place * 104_729) % 1_000_003) as f64 + step as f64 * 1_048_576.0
 }
 
-/// Writes to `strip.vtkhdf` and `history.h5` in `folder` and does not return but by an error.
-pub fn write_forever(folder: &Path, pause: Duration) -> Result<(), OutputError> {
+/// Writes a strip of `count` quads to `strip.vtkhdf`, and `history.h5`, in `folder` and does not return
+/// but by an error.
+pub fn write_forever(folder: &Path, pause: Duration, count: usize) -> Result<(), OutputError> {
     let provenance = Provenance {
         creepage_version: "0".into(),
         case_hash: "none".into(),
@@ -36,10 +38,10 @@ pub fn write_forever(folder: &Path, pause: Duration) -> Result<(), OutputError> 
         attributes: Vec::new(),
     };
     let points: Vec<[f64; 3]> =
-        (0..2 * (QUADS + 1)).map(|i| [(i / 2) as f64, (i % 2) as f64, 0.0]).collect();
+        (0..2 * (count + 1)).map(|i| [(i / 2) as f64, (i % 2) as f64, 0.0]).collect();
     let quads: Vec<[u32; 4]> =
-        (0..QUADS as u32).map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1]).collect();
-    let body = vec![1u8; QUADS];
+        (0..count as u32).map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1]).collect();
+    let body = vec![1u8; count];
     let grid = GridSpec {
         points: &points,
         cells: Cells::Quads(&quads),
@@ -64,7 +66,7 @@ pub fn write_forever(folder: &Path, pause: Duration) -> Result<(), OutputError> 
         let vector: Vec<[f64; 3]> =
             (0..n).map(|i| [0, 1, 2].map(|c| value(step, 3 * i + c))).collect();
         let tensor: Vec<[f64; 6]> =
-            (0..QUADS).map(|i| [0, 1, 2, 3, 4, 5].map(|c| value(step, 6 * i + c))).collect();
+            (0..count).map(|i| [0, 1, 2, 3, 4, 5].map(|c| value(step, 6 * i + c))).collect();
         let label: Vec<u8> = (0..n).map(|i| value(step, i) as u64 as u8).collect();
         strip.append(
             step as f64,

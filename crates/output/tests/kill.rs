@@ -18,7 +18,7 @@ const FOLDER: &str = "CREEPAGE_TEST_KILL_FOLDER";
 fn after_a_kill_at_any_instant_every_counted_snapshot_is_whole() {
     if let Some(folder) = std::env::var_os(FOLDER) {
         // This is the process to be killed.
-        endless::write_forever(Path::new(&folder), Duration::ZERO).unwrap();
+        endless::write_forever(Path::new(&folder), Duration::ZERO, endless::QUADS).unwrap();
     }
     let mut steps = 0;
     for kill in 0..KILLS {
