@@ -6,6 +6,7 @@
 //! break this; what they ever found, and their corpus, is replayed by the tests of this crate.
 
 mod hdf5;
+mod keywords;
 mod mesh;
 mod text;
 
@@ -27,13 +28,14 @@ pub struct Target {
 }
 
 /// All kinds.
-pub const TARGETS: [Target; 9] = [
+pub const TARGETS: [Target; 10] = [
     Target { name: "case", read: text::case },
     Target { name: "sweep", read: text::sweep },
     Target { name: "formula", read: text::formula },
     Target { name: "table", read: text::table },
     Target { name: "import", read: text::import },
     Target { name: "mesh", read: mesh::mesh },
+    Target { name: "keywords", read: keywords::keywords },
     Target { name: "grid", read: hdf5::grid },
     Target { name: "history", read: hdf5::history },
     Target { name: "checkpoint", read: hdf5::checkpoint },

@@ -85,7 +85,7 @@ const SMALL: &str = "[load]\nnormal = 100e3\n[drive]\nspeed = 38.89\ncreepage = 
                      [friction]\nstatic = 0.5\n";
 
 /// The message for people, with its excerpt of the text.
-fn told(error: &dyn miette::Diagnostic) {
+pub(crate) fn told(error: &dyn miette::Diagnostic) {
     let mut text = String::new();
     let _ = miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor())
         .render_report(&mut text, error);

@@ -6,6 +6,7 @@ use super::units::Units;
 use mesh::import::{Fault, Foreign, ImportError, Labels, Set, write_abaqus};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
+use toml::Value;
 
 /// A keyword file as Creepage takes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,6 +148,9 @@ impl Model {
                 let (from, what) = ("the contact".into(), format!("segment set {side}"));
                 ImportError { line: Some(contact.line), fault: Fault::Unknown { from, what } }
             })?;
+            if segments.is_empty() {
+                return Err(syntax(contact.line, format!("segment set {side} has no segments")));
+            }
             let mut faces = Vec::new();
             for segment in segments {
                 let mut face = [0; 4];
@@ -155,7 +159,7 @@ impl Model {
                 }
                 faces.push(face);
             }
-            let on_disk = faces.first().is_some_and(|f| nodes[0].contains(&f[0]));
+            let on_disk = nodes[0].contains(&faces[0][0]);
             let name = if on_disk { "tread" } else { "top" };
             if sets.insert(name.into(), Set { faces, ..Set::default() }).is_some() {
                 let what = "the two surfaces of the contact lie on one body";
@@ -380,10 +384,12 @@ fn case(
     let mut t = String::new();
     // writing to a String cannot fail
     let mut say = |line: String| _ = writeln!(t, "{line}");
+    // a comment ends with its line
+    let name = title.replace(char::is_control, " ");
     say(format!(
-        "# From {title} by `creepage import-k`; SI units. docs/ls-dyna.md says what became of each card."
+        "# From {name} by `creepage import-k`; SI units. docs/ls-dyna.md says what became of each card."
     ));
-    say(format!("\ntitle = {:?}", format!("from {title}")));
+    say(format!("\ntitle = {}", Value::String(format!("from {title}"))));
     say("\n[disk]                    # measured on the mesh".into());
     say(format!("radius = {}\nhub_radius = {}", six(shape.radius), six(shape.hub_radius)));
     say(format!("width = {}\ncrown_radius = {}", six(shape.disk_width), crown(shape.disk_crown)));
@@ -396,7 +402,8 @@ fn case(
     say("\n[mesh.zone]               # the fine part of the bar's top".into());
     say(format!("size = {}\nstart = {}", six(zone.size), six(zone.start)));
     say(format!("length = {}\nwidth = {}", six(zone.length), six(zone.width)));
-    say(format!("depth = {}", six(zone.size)));
+    let depth = zone.size.min(shape.radius - shape.hub_radius).min(shape.height);
+    say(format!("depth = {}", six(depth)));
     for (body, material) in ["disk", "bar"].iter().zip(&materials) {
         say(format!("\n[{body}.material]          # *MAT_ELASTIC: E, PR, RO"));
         say(format!(

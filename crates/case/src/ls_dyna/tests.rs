@@ -184,3 +184,21 @@ fn a_keyword_file_cut_off_anywhere_never_panics() {
         let _ = import(&DECK[..DECK.len() * part / 80]);
     }
 }
+
+#[test]
+fn a_surface_without_segments_is_refused_by_its_set() {
+    let start = DECK.find("*SET_SEGMENT").unwrap();
+    let end = start + DECK[start..].find("\n*").unwrap();
+    let head: String = DECK[start..end].lines().take(2).map(|line| format!("{line}\n")).collect();
+    let text = DECK.replacen(&DECK[start..=end], &head, 1);
+    let error = import(&text).unwrap_err();
+    assert!(error.to_string().contains("segment set 101 has no segments"), "{error}");
+}
+
+#[test]
+fn no_file_name_breaks_the_case() {
+    let units = Units::parse("mm-ton-s").unwrap();
+    let name = "a\"b\\\nc\u{202e}.k";
+    let made = translate(DECK.as_bytes(), units, name, "mesh.inp").unwrap();
+    assert_eq!(case(&made).title, Some(format!("from {name}")));
+}

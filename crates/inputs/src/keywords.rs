@@ -1,0 +1,28 @@
+//! LS-DYNA keyword files.
+
+use std::hint::black_box;
+
+use case::Case;
+use case::ls_dyna::{Units, translate};
+use mesh::import::{SetNames, Unit, bodies, read_abaqus};
+
+use crate::text::{in_a_folder, told, write};
+
+/// A keyword file, up to the case and the mesh made of it, both read again.
+pub fn keywords(data: &[u8]) {
+    let Some(units) = Units::parse("mm-ton-s") else { return };
+    match translate(data, units, "model.k", "mesh.inp") {
+        Ok(made) => in_a_folder(|folder| {
+            write(&folder.join("mesh.inp"), made.mesh.as_bytes());
+            if let Err(error) = Case::from_text(&made.case, &folder.join("case.toml"), &[]) {
+                told(&error);
+            }
+            let read = read_abaqus(made.mesh.as_bytes());
+            let found = read.and_then(|mesh| bodies(&mesh, &SetNames::default(), Unit::Metre));
+            if let Err(error) = found {
+                black_box((error.to_string(), error.fault.remedy()));
+            }
+        }),
+        Err(error) => drop(black_box((error.to_string(), error.fault.remedy()))),
+    }
+}
