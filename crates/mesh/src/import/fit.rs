@@ -60,7 +60,8 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
         let all = mesh.bodies[body].surfaces[ours].faces.clone();
         let inside = |f: &&Face| in_zone(&middle(mesh, f), body, shape);
         let faces: Vec<Face> = all.iter().filter(inside).copied().collect();
-        let area: f64 = faces.iter().map(|f| face_area(mesh, f)).sum();
+        // the sum over no face is -0
+        let area = 0.0 + faces.iter().map(|f| face_area(mesh, f)).sum::<f64>();
         let covered = area / (zone.length * zone.width);
         edges[body] = (area / faces.len() as f64).sqrt();
         // a row of elements may stick out or be missing at each side
