@@ -8,7 +8,7 @@ use crate::folder::has_run;
 use crate::schema::Case;
 use miette::Diagnostic;
 use output::summary::Status;
-use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile, OutputError};
+use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile, OutputError, prove_readable};
 use serde_json::Value;
 use solid::Level;
 use thiserror::Error;
@@ -37,7 +37,9 @@ pub enum ResumeError {
     },
     /// There are checkpoints, but none to go on from.
     #[error("no checkpoint in {} can be used: {reasons}", folder.display())]
-    #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
+    #[diagnostic(help(
+        "begin the run anew with --force; that replaces its results, look at them first"
+    ))]
     Unusable {
         /// The folder.
         folder: PathBuf,
@@ -167,20 +169,25 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
     Ok((checkpoint, state, level))
 }
 
-/// Whether the result files hold all that belongs to the checkpoint.
+/// Whether the result files hold all that belongs to the checkpoint and can be extended.
 fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
     let lengths = checkpoint.lengths;
-    let check = |name: &str, found: Result<usize, OutputError>, wanted: u64| match found {
-        Ok(found) if found as u64 >= wanted => Ok(()),
-        Ok(found) => Err(format!("{name} holds {found} of the {wanted} records before it")),
-        Err(error) => Err(error.to_string()),
+    let steps = |path: &Path| GridFile::open(path).map(|file| file.steps());
+    let rows = |path: &Path| HistoryFile::open(path).map(|file| file.rows());
+    let check = |name: &str, count: &dyn Fn(&Path) -> Result<usize, OutputError>, wanted: u64| {
+        let path = folder.join(name);
+        match prove_readable(&path).and_then(|()| count(&path)) {
+            Ok(found) if found as u64 >= wanted => Ok(()),
+            Ok(found) => Err(format!("{name} holds {found} of the {wanted} records before it")),
+            Err(error) => Err(error.to_string()),
+        }
     };
-    for (name, wanted) in [("fields.vtkhdf", lengths.fields), ("contact.vtkhdf", lengths.contact)] {
-        check(name, GridFile::open(folder.join(name)).map(|file| file.steps()), wanted)?;
-    }
-    let tables = [("history.h5", lengths.history), ("probes.h5", lengths.probes)];
-    for (name, wanted) in tables.into_iter().filter(|(_, wanted)| *wanted > 0) {
-        check(name, HistoryFile::open(folder.join(name)).map(|file| file.rows()), wanted)?;
+    check("fields.vtkhdf", &steps, lengths.fields)?;
+    check("contact.vtkhdf", &steps, lengths.contact)?;
+    check("history.h5", &rows, lengths.history)?;
+    // Only of cases with probes.
+    if lengths.probes > 0 || folder.join("probes.h5").exists() {
+        check("probes.h5", &rows, lengths.probes)?;
     }
     Ok(())
 }

@@ -128,7 +128,7 @@ impl Checkpoint {
         }
         let mut arrays = Vec::new();
         let (mut step, mut lengths) = (None, Lengths::default());
-        for name in file.all_names() {
+        for name in file.all_names()? {
             let array = Array {
                 units: file.text(&name, "units")?,
                 components: file.shape(&name)?.get(1).copied().unwrap_or(1),

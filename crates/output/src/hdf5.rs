@@ -4,6 +4,7 @@
 //! compression that VTK's build reads; no locks because a viewer holding the file must not make an
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
+use crate::caught::caught;
 use crate::checkpoint::Numbers;
 use crate::room::Room;
 use crate::{OutputError, Provenance};
@@ -292,9 +293,7 @@ pub(crate) struct Appender {
 
 impl Appender {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
-        let file = H5File::options()
-            .no_locking()
-            .open_rw(path)
+        let file = caught(|| H5File::options().no_locking().open_rw(path))
             .map_err(|error| append_error(path, error))?;
         Ok(Self { path: path.to_owned(), file: Some(file), room: None })
     }
@@ -316,13 +315,14 @@ impl Appender {
             open(&self.file)?.dataset_writer(name)?.append(data)?;
             room.map_or(Ok(()), |room| Ok(room.announce()?))
         };
-        write(self.room.take()).map_err(|error| append_error(&self.path, error))
+        let room = self.room.take();
+        caught(|| write(room)).map_err(|error| append_error(&self.path, error))
     }
 
     /// Cuts a dataset off behind its first `rows` rows.
     fn cut(&mut self, name: &str, rows: usize) -> Result<(), OutputError> {
         let mut found = 0;
-        let mut write = || -> H5Result<()> {
+        let write = || -> H5Result<()> {
             let dataset = open(&self.file)?.dataset_writer(name)?;
             let mut shape = dataset.shape();
             if let Some(length) = shape.first_mut() {
@@ -331,7 +331,7 @@ impl Appender {
             }
             if found > rows { dataset.set_extent(&shape) } else { Ok(()) }
         };
-        write().map_err(|error| append_error(&self.path, error))?;
+        caught(write).map_err(|error| append_error(&self.path, error))?;
         if found < rows {
             let reason = format!("`{name}` has {found} rows, fewer than the {rows} that it must");
             return Err(read_error(&self.path, reason));
@@ -346,10 +346,11 @@ impl Appender {
         name: &str,
         value: i64,
     ) -> Result<(), OutputError> {
-        open(&self.file)
-            .and_then(|file| set_count(file, group, name, value))
-            .and_then(|()| self.file.take().map_or(Ok(()), H5File::close_no_sync))
-            .map_err(|error| append_error(&self.path, error))
+        let close = || {
+            set_count(open(&self.file)?, group, name, value)?;
+            self.file.take().map_or(Ok(()), H5File::close_no_sync)
+        };
+        caught(close).map_err(|error| append_error(&self.path, error))
     }
 }
 
@@ -361,7 +362,7 @@ fn open(file: &Option<H5File>) -> H5Result<&H5File> {
 impl Drop for Appender {
     fn drop(&mut self) {
         if let Some(file) = self.file.take() {
-            let _ = file.close_no_sync();
+            let _ = caught(|| file.close_no_sync());
         }
     }
 }
@@ -378,9 +379,7 @@ pub(crate) struct Source {
 
 impl Source {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
-        let file = H5File::options()
-            .no_locking()
-            .open(path)
+        let file = caught(|| H5File::options().no_locking().open(path))
             .map_err(|error| read_error(path, error.to_string()))?;
         let length =
             std::fs::metadata(path).map_err(|error| read_error(path, error.to_string()))?;
@@ -417,22 +416,22 @@ impl Source {
         &self.path
     }
 
-    fn check<T>(&self, result: H5Result<T>) -> Result<T, OutputError> {
-        result.map_err(|error| read_error(&self.path, error.to_string()))
+    fn read<T>(&self, read: impl FnOnce() -> H5Result<T>) -> Result<T, OutputError> {
+        caught(read).map_err(|error| read_error(&self.path, error.to_string()))
     }
 
     pub fn root_text(&self, name: &str) -> Result<String, OutputError> {
-        self.check(self.file.attr_string(name))
+        self.read(|| self.file.attr_string(name))
     }
 
     /// Names of the root attributes.
     pub fn root_names(&self) -> Result<Vec<String>, OutputError> {
-        self.check(self.file.attr_names())
+        self.read(|| self.file.attr_names())
     }
 
     /// Names of all datasets with the groups that they are in.
-    pub fn all_names(&self) -> Vec<String> {
-        self.file.dataset_names()
+    pub fn all_names(&self) -> Result<Vec<String>, OutputError> {
+        self.read(|| Ok(self.file.dataset_names()))
     }
 
     /// All numbers of a dataset of [`Creator::plain`].
@@ -450,23 +449,22 @@ impl Source {
                 _ => Ok(Numbers::Whole(dataset.read_raw()?)),
             }
         };
-        self.check(read())
+        self.read(read)
     }
 
     /// Names of the datasets directly in a group, sorted.
     pub fn names(&self, group: &[&str]) -> Result<Vec<String>, OutputError> {
-        let mut names = self.check(descend(&self.file, group).and_then(|g| g.dataset_names()))?;
+        let mut names = self.read(|| descend(&self.file, group)?.dataset_names())?;
         names.sort();
         Ok(names)
     }
 
     pub fn text(&self, dataset: &str, attribute: &str) -> Result<String, OutputError> {
-        let read = || self.file.dataset(dataset)?.attr(attribute)?.read_string();
-        self.check(read())
+        self.read(|| self.file.dataset(dataset)?.attr(attribute)?.read_string())
     }
 
     pub fn shape(&self, dataset: &str) -> Result<Vec<usize>, OutputError> {
-        Ok(self.check(self.file.dataset(dataset))?.shape())
+        self.read(|| Ok(self.file.dataset(dataset)?.shape()))
     }
 
     /// Length along the first dimension.
@@ -476,13 +474,13 @@ impl Source {
 
     /// Whether the dataset cannot grow.
     pub fn is_fixed(&self, dataset: &str) -> Result<bool, OutputError> {
-        let limits = self.check(self.file.dataset(dataset).and_then(|d| d.max_shape()))?;
+        let limits = self.read(|| self.file.dataset(dataset)?.max_shape())?;
         Ok(limits.first().is_none_or(|limit| limit.is_some()))
     }
 
     /// Whether the elements are bytes, which only integer fields are.
     pub fn is_bytes(&self, dataset: &str) -> Result<bool, OutputError> {
-        Ok(self.check(self.file.dataset(dataset))?.element_size() == 1)
+        self.read(|| Ok(self.file.dataset(dataset)?.element_size() == 1))
     }
 
     /// Rows `start..start + count` as `f64`, whatever number type is stored.
@@ -510,7 +508,7 @@ impl Source {
                 _ => dataset.read_numeric_slice_as::<f64>(&starts, &counts),
             }
         };
-        self.check(read())
+        self.read(read)
     }
 }
 

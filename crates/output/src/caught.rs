@@ -1,0 +1,59 @@
+//! Panics of the HDF5 library, as errors.
+//!
+//! It checks most of what it reads, but not all that a damaged index of chunks can claim (its parameters are
+//! not accessible, so that they cannot be judged before), and then panics. Such a file is refused like any
+//! other damaged one.
+
+use rust_hdf5::Hdf5Error;
+use std::any::Any;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::sync::Once;
+
+thread_local! {
+    /// Whether this thread is within [`caught`].
+    static WITHIN: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What `call`, which only calls the library, returns, or the panic that ended it, of which nothing is shown.
+///
+/// Asserted to be safe on unwinding: what the library shares between calls are cells, which unwinding
+/// releases, and caches behind locks, which it no longer uses once they are poisoned.
+pub(crate) fn caught<T>(call: impl FnOnce() -> Result<T, Hdf5Error>) -> Result<T, Hdf5Error> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let before = take_hook();
+        set_hook(Box::new(move |panic| {
+            if !WITHIN.get() {
+                before(panic);
+            }
+        }));
+    });
+    WITHIN.set(true);
+    let result = catch_unwind(AssertUnwindSafe(call));
+    WITHIN.set(false);
+    result.unwrap_or_else(|panic| {
+        let reason = text(panic.as_ref());
+        Err(Hdf5Error::InvalidState(format!("damaged: the HDF5 library broke off ({reason})")))
+    })
+}
+
+fn text(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a reason")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::caught;
+
+    #[test]
+    fn a_panic_becomes_an_error_with_its_text() {
+        let bitmap: Vec<u8> = Vec::new();
+        let error = caught(|| Ok(bitmap[std::hint::black_box(0)])).map_err(|e| e.to_string());
+        assert!(error.is_err_and(|text| text.contains("the len is 0 but the index is 0")));
+        let error = caught::<()>(|| panic!("page {}", 7)).map_err(|e| e.to_string());
+        assert!(error.is_err_and(|text| text.contains("broke off (page 7)")));
+        assert_eq!(caught(|| Ok(3)).ok(), Some(3));
+    }
+}
