@@ -8,7 +8,7 @@ use crate::folder::has_run;
 use crate::schema::Case;
 use miette::Diagnostic;
 use output::summary::Status;
-use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile, OutputError, prove_readable};
+use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile, OutputError, prove_indexes};
 use serde_json::Value;
 use solid::Level;
 use thiserror::Error;
@@ -176,7 +176,7 @@ fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
     let rows = |path: &Path| HistoryFile::open(path).map(|file| file.rows());
     let check = |name: &str, count: &dyn Fn(&Path) -> Result<usize, OutputError>, wanted: u64| {
         let path = folder.join(name);
-        match prove_readable(&path).and_then(|()| count(&path)) {
+        match prove_indexes(&path).and_then(|()| count(&path)) {
             Ok(found) if found as u64 >= wanted => Ok(()),
             Ok(found) => Err(format!("{name} holds {found} of the {wanted} records before it")),
             Err(error) => Err(error.to_string()),

@@ -115,6 +115,16 @@ fn a_bad_mesh_ends_with_code_2_file_line_element_or_set_and_remedy() {
 }
 
 #[test]
+fn what_has_no_meaning_beside_a_mesh_file_is_not_judged() {
+    let mesh = fs::read(meshes().join("small.msh")).unwrap();
+    let (dir, path) = folder("m.msh", &mesh, "coarsest = 1e-4");
+    let text = fs::read_to_string(&path).unwrap().replace("depth = 0.004", "depth = 0.5");
+    fs::write(dir.path().join("case.toml"), text).unwrap();
+    let output = creepage(&["mesh", &path]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
 fn keys_of_a_mesh_file_without_one_and_files_that_are_not_there_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("case.toml");

@@ -45,7 +45,7 @@ pub use free::{free_space, room_left};
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
 pub use history::{Column, History};
 pub use json::write_json_atomically;
-pub use reader::{FieldInfo, GridFile, HistoryFile, prove_readable};
+pub use reader::{FieldInfo, GridFile, HistoryFile, prove_indexes};
 pub use vtu::write_vtu;
 
 /// Where a file comes from: the root attributes of every HDF5 file of a run.

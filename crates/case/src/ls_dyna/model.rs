@@ -402,7 +402,6 @@ fn case(
     say("\n[mesh.zone]               # the fine part of the bar's top".into());
     say(format!("size = {}\nstart = {}", six(zone.size), six(zone.start)));
     say(format!("length = {}\nwidth = {}", six(zone.length), six(zone.width)));
-    say(format!("depth = {}", six(zone.size)));
     for (body, material) in ["disk", "bar"].iter().zip(&materials) {
         say(format!("\n[{body}.material]          # *MAT_ELASTIC: E, PR, RO"));
         say(format!(
