@@ -311,12 +311,9 @@ impl Appender {
     }
 
     pub fn append<T: H5Type>(&mut self, name: &str, data: &[T]) -> Result<(), OutputError> {
-        let write = |room: Option<Room>| -> H5Result<()> {
-            open(&self.file)?.dataset_writer(name)?.append(data)?;
-            room.map_or(Ok(()), |room| Ok(room.announce()?))
-        };
-        let room = self.room.take();
-        caught(|| write(room)).map_err(|error| append_error(&self.path, error))
+        caught(|| open(&self.file)?.dataset_writer(name)?.append(data))
+            .and_then(|()| self.room.take().map_or(Ok(()), |room| Ok(room.announce()?)))
+            .map_err(|error| append_error(&self.path, error))
     }
 
     /// Cuts a dataset off behind its first `rows` rows.
