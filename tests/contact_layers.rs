@@ -11,8 +11,8 @@ fn hourglass(run: &Results) -> f64 {
 
 #[test]
 fn full_contact_layers_carry_the_load_and_halve_the_hourglass_energy() {
-    let one_point = small(&[]);
-    let full = small(&["element.contact_layers='full'", "element.layers=3"]);
+    let one_point = small(&["element.contact_layers='one-point'"]);
+    let full = small(&["element.layers=3"]);
     assert_eq!(full.summary["status"], "completed");
     let balance = full.number("/energy/balance_error");
     assert!(balance < 1e-3, "{balance:e}");
@@ -27,7 +27,7 @@ fn full_contact_layers_carry_the_load_and_halve_the_hourglass_energy() {
 
 #[test]
 fn one_and_two_threads_and_the_resolved_case_give_the_same_bits() {
-    let sets = ["element.contact_layers='full'", "time.roll=0.0004", "preload.tolerance=1e-6"];
+    let sets = ["time.roll=0.0004", "preload.tolerance=1e-6"];
     let case = load(&project("tests/small.toml"), &sets);
     let first = run(&case, 2);
     assert_eq!(first.differing(&run(&case, 1)), Vec::<&str>::new());

@@ -4,8 +4,9 @@
 
 Takes 1.401 to 1.449 ms (docs/verdict.md), the bar's nodes on y = 0 or nearest it with y > 0, and a grid that moves with the
 disk (-7 to 7 mm); records are interpolated to 97 instants. Prints per run the largest slip speed, its mean, the mean over
-the grid of its standard deviation in time, and the share of its rms that fluctuates; then for successive runs
-the rms difference over the rms of the second: over place and time, and of the means in time. --plot draws
+the grid of its standard deviation in time, and the share of its rms that fluctuates; and how much of the slip
+alternates from node to node, over the whole patch: the rms of (s1 - s2 + s3 - s4)/4 over the faces in contact, over the
+rms of s at their nodes. It is the amplitude of the hourglass mode of the elements below. Then for successive runs the rms difference over the rms of the second: over place and time, and of the means in time. --plot draws
 the slip speed: mean in time, and a band of one standard deviation.
 """
 
@@ -56,6 +57,29 @@ def rms(values):
     return np.sqrt((values**2).mean())
 
 
+def alternating(run):
+    """Amplitude of slip that alternates from node to node over all slip, on the side where the conditions are enforced."""
+    with h5py.File(run / "contact.vtkhdf") as file:
+        root = file["VTKHDF"]
+        steps, data = root["Steps"], root["PointData"]
+        side = file.attrs.get("enforced_on", "disk")
+        side = side.decode() if isinstance(side, bytes) else side
+        faces = root["Connectivity"][:].reshape(-1, 4)
+        faces = faces[root["CellData"]["body"][: len(faces)].ravel() == ["disk", "bar"].index(side)]
+        nodes = len(root["Points"])
+        squares = np.zeros(2)
+        for k, time in enumerate(steps["Values"][:]):
+            if not TIMES[0] - MARGIN <= time <= TIMES[-1] + MARGIN:
+                continue
+            begin = steps["PointDataOffsets"]["slip_velocity"][k]
+            slip = data["slip_velocity"][begin : begin + nodes][faces]
+            touching = (data["state"][begin : begin + nodes].ravel()[faces] > 0).all(axis=1)
+            signs = np.array([1.0, -1.0, 1.0, -1.0])[:, None]
+            mode = (slip[touching] * signs).sum(axis=1) / 4
+            squares += (mode**2).sum(), (slip[touching] ** 2).sum() / 4
+    return np.sqrt(squares[0] / squares[1])
+
+
 def draw(path, runs, found):
     import matplotlib
 
@@ -89,7 +113,8 @@ def main():
         share = rms(slip - slip.mean(axis=0)) / rms(slip)
         print(
             f"{run.name}: |s| up to {slip.max():.2f}, mean {slip.mean():.4f}, sd in time"
-            f" {slip.std(axis=0).mean():.4f} m/s, fluctuating share {share:.2f}"
+            f" {slip.std(axis=0).mean():.4f} m/s, fluctuating share {share:.2f}, alternating"
+            f" {alternating(run):.2f}"
         )
     for i in range(len(runs) - 1):
         both = list(zip(found[i], found[i + 1]))

@@ -87,9 +87,10 @@ pub struct Element {
     /// Flanagan-Belytschko hourglass stiffness coefficient of the one-point element
     /// (dimensionless). Default 0.05.
     pub hourglass: f64,
-    /// Integration of the elements below the fine zone of each contact surface: `"one-point"`, as
-    /// everywhere else, or `"full"` (2x2x2 points, no hourglass modes, two to three times the time
-    /// of each such element). Default `"one-point"`.
+    /// Integration of the elements below the fine zone of each contact surface: `"full"` (2x2x2
+    /// points, no hourglass modes, two to three times the time of each such element), or
+    /// `"one-point"`, as everywhere else: slip that alternates from node to node is then a soft mode
+    /// of the mesh, which falling friction feeds. Default `"full"`.
     pub contact_layers: ContactLayers,
     /// Layers of elements below each surface that `contact_layers` speaks of (count). Default 2
     /// with `contact_layers = "full"`, refused with `"one-point"`.
@@ -106,7 +107,7 @@ impl Default for Element {
     fn default() -> Self {
         Self {
             hourglass: 0.05,
-            contact_layers: ContactLayers::OnePoint,
+            contact_layers: ContactLayers::default(),
             layers: None,
             volumetric: None,
         }
@@ -118,9 +119,9 @@ impl Default for Element {
 #[serde(rename_all = "kebab-case")]
 pub enum ContactLayers {
     /// One point and hourglass stiffness.
-    #[default]
     OnePoint,
     /// 2x2x2 Gauss points.
+    #[default]
     Full,
 }
 

@@ -50,7 +50,10 @@ fn unknown_missing_and_wrong_keys_end_with_code_2() {
         ("material.poisson = 0.5", ["material.poisson = 0.5", "less than 0.5"]),
         ("mesh.zone.length = 0.3", ["mesh.zone.length = 0.3", "bar.length"]),
         ("element.contact_layers = \"two\"", ["one-point", "full"]),
-        ("element.layers = 2", ["element.layers is not used", "contact_layers"]),
+        (
+            "element = { contact_layers = \"one-point\", layers = 2 }",
+            ["element.layers is not used", "contact_layers"],
+        ),
         ("disk.lift = 1e-3", ["disk.lift", "does not touch"]),
         ("= 3", ["case.toml:5", "TOML"]),
     ] {

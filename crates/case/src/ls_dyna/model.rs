@@ -447,6 +447,8 @@ fn case(
              have one point"
                 .into(),
         );
+    } else {
+        say("contact_layers = \"one-point\"   # ELFORM 1".into());
     }
     say("\n[damping]                 # Q2 and Q1".into());
     say(format!("bulk_linear = {}\nbulk_quadratic = {}", six(bulk[0][1]), six(bulk[0][0])));

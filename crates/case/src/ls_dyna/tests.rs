@@ -2,7 +2,7 @@
 
 use super::{Translation, Units, translate};
 use crate::Case;
-use crate::schema::{Crown, FrictionLaw, Stiffness};
+use crate::schema::{ContactLayers, Crown, FrictionLaw, Stiffness};
 use mesh::import::{ImportError, SetNames, Unit, bodies, read_abaqus};
 use std::fs;
 use std::path::Path;
@@ -46,6 +46,7 @@ fn the_cards_of_the_small_model_become_the_keys_of_the_table() {
     assert_eq!(case.contact.penalty.damping, 0.1);
     assert!(!case.contact.curvature);
     assert_eq!(case.element.hourglass, 0.05);
+    assert_eq!(case.element.contact_layers, ContactLayers::OnePoint);
     assert_eq!((case.damping.bulk_linear, case.damping.bulk_quadratic), (0.06, 1.5));
     assert_eq!((case.time.factor, case.time.duration), (Some(0.67), Some(2.5e-4)));
     assert!((case.mesh.zone.size - 2e-3).abs() < 1e-4, "{:?}", case.mesh.zone);

@@ -12,7 +12,7 @@ use miette::Diagnostic;
 
 use crate::folder::{self, FolderError};
 use crate::hertz::hertz;
-use crate::schema::{Crown, DriveMode, Stiffness};
+use crate::schema::{ContactLayers, Crown, DriveMode, Stiffness};
 use crate::{Case, CaseError};
 
 const SHORT: &str = "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 2.4e-3\n\
@@ -84,6 +84,8 @@ fn every_case_of_the_project_loads() {
         "gmsh.toml",
         "zhao-li/a-coulomb.toml",
         "zhao-li/b-falling.toml",
+        "zhao-li/b-as-published.toml",
+        "zhao-li/c-memory.toml",
         "zhao-li/d-coulomb-low.toml",
         "zhao-li/control-weak.toml",
     ] {
@@ -93,6 +95,25 @@ fn every_case_of_the_project_loads() {
     let weak = Case::load(&cases.join("zhao-li/control-weak.toml"), &[]).unwrap();
     assert_eq!(weak.friction.decay, Some(0.05));
     assert_eq!(weak.friction.dynamic, Some(0.32));
+}
+
+#[test]
+fn all_reference_cases_but_the_published_one_have_two_fully_integrated_layers() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    for name in [
+        "quick",
+        "zhao-li/a-coulomb",
+        "zhao-li/b-falling",
+        "zhao-li/c-memory",
+        "zhao-li/d-coulomb-low",
+    ] {
+        let case = Case::load(&cases.join(name).with_extension("toml"), &[]).unwrap();
+        assert_eq!(case.element.contact_layers, ContactLayers::Full, "{name}");
+        assert_eq!(case.element.layers, Some(2), "{name}");
+    }
+    let published = Case::load(&cases.join("zhao-li/b-as-published.toml"), &[]).unwrap();
+    assert_eq!(published.element.contact_layers, ContactLayers::OnePoint);
+    assert_eq!(published.contact.penalty.tangential, Stiffness::Factor(0.1));
 }
 
 #[test]
