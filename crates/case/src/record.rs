@@ -116,7 +116,7 @@ pub(crate) struct Recorder {
     effective_radius: f64,
     speed: f64,
     hertz_pressure: f64,
-    evaluate_from: f64,
+    evaluate: [f64; 2],
     pub(crate) means: Means,
     pub(crate) wall: Duration,
 }
@@ -233,7 +233,7 @@ impl Recorder {
             effective_radius: basis.effective_radius,
             speed: case.drive.speed,
             hertz_pressure: basis.hertz_pressure,
-            evaluate_from: case.evaluate_from(),
+            evaluate: case.evaluation_window(),
             means: Means::default(),
             wall: Duration::ZERO,
         })
@@ -323,7 +323,7 @@ impl Recorder {
         self.means.most_sweeps = self.means.most_sweeps.max(report.contact.sweeps);
         self.means.integrated += report.contact.integrated as u64;
         self.means.manifold += report.contact.manifold as u64;
-        let inside = report.time >= self.evaluate_from;
+        let inside = (self.evaluate[0]..=self.evaluate[1]).contains(&report.time);
         if inside {
             for (mean, f) in self.means.force.iter_mut().zip([tangential, lateral, normal]) {
                 mean.add(f);

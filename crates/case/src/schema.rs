@@ -522,9 +522,10 @@ impl Case {
         }
     }
 
-    /// Time of rolling at which the evaluation window begins (s).
-    pub fn evaluate_from(&self) -> f64 {
-        (self.duration() - self.evaluate_last() / self.drive.speed).max(0.0)
+    /// The evaluation window, over which means are taken: from and to (s of rolling).
+    pub fn evaluation_window(&self) -> [f64; 2] {
+        let to = self.duration();
+        [(to - self.evaluate_last() / self.drive.speed).max(0.0), to]
     }
 
     /// Rolled distance at the end over which means are taken (m).

@@ -687,10 +687,10 @@ pub fn warnings(case: &Case) -> Vec<String> {
         ),
     );
     warn(
-        case.drive.ramp > case.evaluate_from(),
+        case.drive.ramp > case.evaluation_window()[0],
         format!(
             "the evaluation window begins at {:.3} ms, before the drive's ramp ends at {:.3} ms",
-            1e3 * case.evaluate_from(),
+            1e3 * case.evaluation_window()[0],
             1e3 * case.drive.ramp
         ),
     );

@@ -168,9 +168,10 @@ fn contact_means(means: &Means) -> Contact {
 /// The evaluation window: what it spans, means that the contract's `contact` does not name, and
 /// standard deviations.
 fn window(case: &Case, means: &Means) -> serde_json::Value {
+    let [from, to] = case.evaluation_window();
     json!({
-        "from": case.evaluate_from(),
-        "to": case.duration(),
+        "from": from,
+        "to": to,
         "stick_border": means.stick_border.mean(),
         "peak_shear": means.peak_shear.mean(),
         "torque": means.torque.mean(),

@@ -87,11 +87,13 @@ pub fn basis(run: &Path, options: &BasisArgs) -> Result<(RunPaths, Basis), Failu
     for (name, value) in &options.scales {
         basis.set(name, *value)?;
     }
-    // A run in progress has no summary yet; Hertz's contact follows from its case. Other codes'
-    // cases need not be cases of this program.
-    if basis.scale("approach").is_none()
+    // A run in progress has no summary yet; Hertz's contact and the evaluation window follow from its
+    // case. Other codes' cases need not be cases of this program, nor name a window.
+    if (basis.summary.is_none() || basis.scale("approach").is_none())
         && let Ok(case) = case::Case::load(&paths.case, &[])
     {
+        let named = basis.case.as_ref().is_some_and(|case| case.contains_key("evaluate"));
+        basis.window = basis.window.or(named.then(|| case.evaluation_window()));
         let hertz = case::hertz::hertz(&case);
         for (name, value) in [
             ("peak_pressure", hertz.p0),

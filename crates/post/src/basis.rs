@@ -54,7 +54,8 @@ pub struct Basis {
     pub bound: Bound,
     /// How contact is enforced, as the case says.
     pub enforcement: Option<String>,
-    /// The evaluation window (s), where the run has one.
+    /// The evaluation window (s), where the run has one; its summary states it, a run in progress
+    /// has none yet.
     pub window: Option<[f64; 2]>,
     /// Scales by their names in [`SCALES`].
     pub scales: BTreeMap<&'static str, Scale>,
@@ -76,6 +77,9 @@ pub struct RunPaths {
 }
 
 impl RunPaths {
+    /// Name of the contact history in a run's folder.
+    pub const CONTACT: &str = "contact.vtkhdf";
+
     /// The files of a run given by its folder or by its contact history.
     ///
     /// # Errors
@@ -83,7 +87,7 @@ impl RunPaths {
     pub fn of(run: &Path) -> Result<Self, PostError> {
         let none = || PostError::NoContactFile { path: run.into() };
         let folder = if run.is_dir() { run } else { run.parent().ok_or_else(none)? };
-        let contact = if run.is_dir() { run.join("contact.vtkhdf") } else { run.into() };
+        let contact = if run.is_dir() { run.join(Self::CONTACT) } else { run.into() };
         if !contact.is_file() {
             return Err(none());
         }
@@ -204,11 +208,6 @@ impl Basis {
             if let Some(value) = self.number(key) {
                 self.offer(name, value, &format!("case, {key}"));
             }
-        }
-        if let (Some(speed), Some(last), Some(roll)) =
-            (self.scale("speed"), self.number("evaluate.last"), self.number("time.roll"))
-        {
-            self.window = Some([(roll - last).max(0.0) / speed, roll / speed]);
         }
         let steel = |key, default| match self.number(&format!("material.{key}")) {
             // the defaults of a case file, for cases as their authors write them

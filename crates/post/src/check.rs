@@ -10,11 +10,11 @@ use crate::conditions::IN_CONTACT;
 use crate::frames::{ContactHistory, Pairing};
 use crate::limits::Limits;
 use crate::map::MapWriter;
+use crate::means::Sources;
 use crate::patch_series::PatchRow;
-use crate::statistics::{mean_and_deviation, time_weights};
-use output::HistoryFile;
+use crate::window::Window;
 use pass::Pass;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::Path;
 
 pub(crate) use scales::Scales;
@@ -68,21 +68,17 @@ pub fn check(
     options: &CheckOptions<'_>,
 ) -> Result<Checked, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
-    let span = options.window.or(basis.window).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let records = match history.window(span) {
-        // a run that ended, or has come, only to before its evaluation window
-        Err(_) if options.window.is_none() => 0..history.times.len(),
-        found => found?,
-    };
+    let window = Window::settle(options.window, basis, &history)?;
+    let records = window.records.clone();
     let scales = Scales::settle(basis, &history, &records)?;
     let mut pass = Pass::new(&history, basis, scales);
     let mut map = options
         .map
         .map(|path| MapWriter::create(path, &history.surface, &paths.contact))
         .transpose()?;
-    let weights = time_weights(&history.times[records.clone()]);
+    let weights = window.weights(&history.times);
     let first = records.start;
-    history.stream_batches(records.clone(), |frames| {
+    history.stream_batches(records, |frames| {
         if let Some(map) = &mut map {
             for frame in &frames {
                 map.write(&history.surface, frame, &pass.judge, &pass.scales)?;
@@ -103,21 +99,7 @@ pub fn check(
             ),
         });
     }
-    let times = [history.times[records.start], history.times[records.end - 1]];
-    let (mut document, holds) = pass.document(basis, options, times, records.len());
-    if let Some(creepage) = creepage(&paths.folder.join("history.h5"), times) {
-        document["patch"]["creepage"] = creepage;
-    }
+    let patch = Sources::of(paths, basis, &window).patch(&pass.patch, &weights);
+    let (document, holds) = pass.document(basis, options, &window, patch);
     Ok(Checked { document, pass: holds, patch: pass.patch })
-}
-
-/// Mean and deviation of the creepage that the history holds for the window.
-fn creepage(path: &Path, [from, to]: [f64; 2]) -> Option<Value> {
-    let history = HistoryFile::open(path).ok()?;
-    let (times, values) = (history.read("time").ok()?, history.read("creepage").ok()?);
-    let inside = times.iter().zip(&values).filter(|(t, _)| (from..=to).contains(*t));
-    let (times, values): (Vec<f64>, Vec<f64>) = inside.unzip();
-    let [mean, deviation] = mean_and_deviation(&times, values.into_iter())?;
-    Some(json!({ "mean": mean, "deviation": deviation, "units": "1",
-                 "about": "longitudinal creepage, from the history" }))
 }

@@ -12,8 +12,10 @@ use crate::PostError;
 use crate::basis::{Basis, RunPaths};
 use crate::check::Scales;
 use crate::frames::{ContactHistory, Frame};
+use crate::means::Sources;
 use crate::patch_series;
 use crate::vector::{Vec3, axpy};
+use crate::window::Window;
 use figure::{Figure, colour};
 use std::ops::Range;
 
@@ -41,6 +43,14 @@ pub(crate) struct Instant {
     centre: f64,
 }
 
+/// Means over the window that figures state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FigureMeans {
+    pub normal_force: Option<f64>,
+    pub creepage: Option<f64>,
+    pub traction_coefficient: Option<f64>,
+}
+
 /// What every figure is drawn from.
 pub(crate) struct Scene<'a> {
     pub history: &'a ContactHistory,
@@ -49,6 +59,10 @@ pub(crate) struct Scene<'a> {
     /// The body whose nodes are drawn: the bar where there are two.
     pub body: u8,
     pub records: Range<usize>,
+    /// From and to (s).
+    pub window: [f64; 2],
+    /// Means over the window, as far as the run holds them.
+    pub means: FigureMeans,
     pub instants: Vec<Instant>,
 }
 
@@ -63,14 +77,21 @@ pub fn figures(
     window: Option<[f64; 2]>,
 ) -> Result<Vec<Named>, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
-    let span = window.or(basis.window).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let records = match history.window(span) {
-        Err(_) if window.is_none() => 0..history.times.len(),
-        found => found?,
-    };
+    let window = Window::settle(window, basis, &history)?;
+    let records = window.records.clone();
     let scales = Scales::settle(basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
-    let mut scene = Scene { history: &history, basis, scales, body, records, instants: Vec::new() };
+    let sources = Sources::of(paths, basis, &window);
+    let mean = |name| sources.of_run(name).map(|([mean, _], _)| mean);
+    let means = FigureMeans {
+        normal_force: mean("normal_force"),
+        creepage: mean("creepage"),
+        traction_coefficient: mean("traction_coefficient"),
+    };
+    let window = window.shown(&history.times);
+    let instants = Vec::new();
+    let mut scene =
+        Scene { history: &history, basis, scales, body, records, window, means, instants };
     for index in scene.instant_indices() {
         let frame = history.record(index)?;
         let centre = scene.centre(&frame);

@@ -20,6 +20,7 @@ mod import;
 mod law;
 mod limits;
 mod map;
+mod means;
 mod page;
 mod patch_series;
 mod roughness;
@@ -28,6 +29,7 @@ mod surface;
 mod sweep;
 mod tally;
 mod vector;
+mod window;
 
 pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
 pub use check::{CheckOptions, Checked, Report, check};

@@ -2,11 +2,9 @@
 
 use crate::conditions::IN_CONTACT;
 use crate::frames::Frame;
-use crate::statistics::mean_and_deviation;
 use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
 use contact::patch;
-use serde_json::{Value, json};
 
 /// Measures of the patch, in the order of a row: name, unit, meaning.
 pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
@@ -143,16 +141,4 @@ fn normals(
         corners.iter().for_each(|&node| normals[node] = axpy(normals[node], 0.5, area));
     }
     normals
-}
-
-/// Means and standard deviations over the time of the records.
-pub(crate) fn means(rows: &[PatchRow]) -> Value {
-    let times: Vec<f64> = rows.iter().map(|row| row.time).collect();
-    let of = |i: usize| mean_and_deviation(&times, rows.iter().map(move |row| row.values[i]));
-    let entry = |(i, &(name, units, about)): (usize, &(&str, &str, &str))| {
-        let [mean, deviation] = of(i)?;
-        let value = json!({ "mean": mean, "deviation": deviation, "units": units, "about": about });
-        Some((name.to_owned(), value))
-    };
-    PATCH_MEASURES.iter().enumerate().filter_map(entry).collect::<serde_json::Map<_, _>>().into()
 }

@@ -149,30 +149,38 @@ impl Spread {
     }
 }
 
-/// The time (s) that each record stands for: half the way to its neighbours.
-pub(crate) fn time_weights(times: &[f64]) -> Vec<f64> {
+/// The part (s) of a span from `from` to `to` that each of the records at `times` stands for: half
+/// the way to its neighbours, behind the first and the last as far as before them.
+///
+/// In a span without length the nearest record stands for everything, as a lone record does.
+pub(crate) fn time_weights(times: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
+    let alone = |index: usize| (0..times.len()).map(|i| f64::from(u8::from(i == index))).collect();
     let gap = |i: usize| times.get(i + 1).map(|next| next - times[i]);
-    (0..times.len())
-        .map(|i| {
-            let (before, after) = (i.checked_sub(1).and_then(gap), gap(i));
-            match (before, after) {
-                (Some(before), Some(after)) => 0.5 * (before + after),
-                (Some(only), None) | (None, Some(only)) => only,
-                (None, None) => 1.0,
-            }
-        })
-        .collect()
+    if times.len() < 2 {
+        return alone(0);
+    }
+    if from >= to {
+        let away = |i: &usize| (times[*i] - from).abs();
+        return alone((0..times.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0));
+    }
+    let weight = |(i, time): (usize, &f64)| {
+        let (before, after) = (i.checked_sub(1).and_then(gap), gap(i));
+        let [before, after] =
+            [before.or(after), after.or(before)].map(|gap| 0.5 * gap.unwrap_or(0.0));
+        (after.min(to - time) + before.min(time - from)).max(0.0)
+    };
+    times.iter().enumerate().map(weight).collect()
 }
 
-/// Mean and standard deviation of the values of records at `times`, each of which counts with its
+/// Mean and standard deviation of the values of records that count with `weights`, such as their
 /// [time](time_weights); those that are not finite are left out.
 pub(crate) fn mean_and_deviation(
-    times: &[f64],
+    weights: &[f64],
     values: impl Iterator<Item = f64>,
 ) -> Option<[f64; 2]> {
     let (mut sum, mut mean, mut squares) = (0.0, 0.0, 0.0);
-    let weights = time_weights(times);
-    for (weight, value) in weights.into_iter().zip(values).filter(|(_, value)| value.is_finite()) {
+    let counts = |(weight, value): &(&f64, f64)| **weight > 0.0 && value.is_finite();
+    for (weight, value) in weights.iter().zip(values).filter(counts) {
         sum += weight;
         let away = value - mean;
         mean += weight / sum * away;
@@ -225,15 +233,36 @@ mod tests {
         let dense = (0..100).map(|i| f64::from(i) * 0.01 + 0.005);
         let times: Vec<f64> = dense.chain([1.5, 2.5, 3.5]).collect();
         let value = |t: &f64| if *t < 1.0 { 1.0 } else { 3.0 };
-        let [mean, deviation] = mean_and_deviation(&times, times.iter().map(value)).unwrap();
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        let weights = time_weights(&times, all);
+        let [mean, deviation] = mean_and_deviation(&weights, times.iter().map(value)).unwrap();
         // the border between the two lies half-way from 0.995 s to 1.5 s; ends count as their neighbours
         let share = 1.2475 / 4.0;
         let exact = 3.0 - 2.0 * share;
         assert!((mean - exact).abs() < 1e-12, "{mean} {exact}");
         assert!((deviation - 2.0 * (share * (1.0 - share)).sqrt()).abs() < 1e-12, "{deviation}");
-        let [even, _] =
-            mean_and_deviation(&[0.0, 1.0, 2.0], [1.0, f64::NAN, 4.0].into_iter()).unwrap();
+        let weights = time_weights(&[0.0, 1.0, 2.0], all);
+        let [even, _] = mean_and_deviation(&weights, [1.0, f64::NAN, 4.0].into_iter()).unwrap();
         assert!((even - 2.5).abs() < 1e-15);
+        assert_eq!(mean_and_deviation(&[], [].into_iter()), None);
+    }
+
+    #[test]
+    fn the_weights_of_unevenly_spaced_records_sum_to_the_window_that_they_are_clipped_to() {
+        let times = [0.0, 1.0, 1.5, 1.75, 2.0, 4.0];
+        for (window, weights) in [
+            ([0.75, 1.8], [0.0, 0.5, 0.375, 0.175, 0.0, 0.0]),
+            ([1.9, 3.5], [0.0, 0.0, 0.0, 0.0, 1.1, 0.5]),
+            ([-9.0, 9.0], [1.0, 0.75, 0.375, 0.25, 1.125, 2.0]),
+            ([1.6, 1.6], [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+            ([6.0, 7.0], [0.0; 6]),
+        ] {
+            let found = time_weights(&times, window);
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-14;
+            assert!(found.iter().zip(&weights).all(near), "{window:?}: {found:?}");
+        }
+        assert_eq!(time_weights(&[3.0], [0.0, 1.0]), [1.0]);
+        assert!(time_weights(&[], [0.0, 1.0]).is_empty());
     }
 
     #[test]

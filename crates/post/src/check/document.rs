@@ -7,21 +7,22 @@ use crate::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERA
 use crate::frames::Pairing;
 use crate::law::Law;
 use crate::limits::{Limit, MEASURES, Measure};
-use crate::patch_series;
 use crate::surface::body_name;
 use crate::tally::{Statistic, Switches};
+use crate::window::Window;
 use serde_json::{Map, Value, json};
 
 impl Pass<'_> {
-    /// The document, and whether every limit holds.
+    /// The document with the means of the patch, and whether every limit holds.
     pub fn document(
         &self,
         basis: &Basis,
         options: &CheckOptions<'_>,
-        window: [f64; 2],
-        steps: usize,
+        window: &Window,
+        patch: Value,
     ) -> (Value, bool) {
         let (own, stated) = self.history.pairing;
+        let times = &self.history.times;
         let reported = match options.report {
             Report::Stated if stated => Report::Only(own),
             Report::Stated => Report::Stricter,
@@ -56,8 +57,9 @@ impl Pass<'_> {
         });
         let document = json!({
             "name": basis.name,
-            "window": window,
-            "steps": steps,
+            "window": window.shown(times),
+            "recorded": [times[window.records.start], times[window.records.end - 1]],
+            "steps": window.records.len(),
             "nodes": self.history.surface.points.len(),
             "node_times": self.node_times,
             "limits": limits,
@@ -80,7 +82,7 @@ impl Pass<'_> {
                 "in_contact": IN_CONTACT, "in_adhesion": IN_ADHESION,
                 "law_error": LAW_TOLERANCE, "direction": DIRECTION_TOLERANCE,
             },
-            "patch": patch_series::means(&self.patch),
+            "patch": patch,
             "notes": notes,
         });
         (document, pass)

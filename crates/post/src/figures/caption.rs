@@ -3,26 +3,22 @@
 use super::Scene;
 use crate::basis::number_at;
 use crate::law::Law;
-use serde_json::Value;
 
 /// The caption of a figure: the case's numbers, then what the figure shows.
 pub(super) fn caption(scene: &Scene<'_>, text: &str) -> String {
     let basis = scene.basis;
-    let summary = |pointer: &str| {
-        basis.summary.as_ref().and_then(|s| s.pointer(pointer)).and_then(Value::as_f64)
-    };
     let mut parts = Vec::new();
     let asked = basis.case.as_ref().and_then(|case| number_at(case, "load.normal"));
-    if let Some(load) = summary("/contact/normal_force").filter(|f| *f != 0.0).or(asked) {
+    if let Some(load) = scene.means.normal_force.or(asked) {
         parts.push(format!("N = {:.1} kN", 1e-3 * load));
     }
     if let Some(speed) = basis.scale("speed") {
         parts.push(format!("V = {speed:.2} m/s"));
     }
-    if let Some(creepage) = basis.scale("creepage") {
+    if let Some(creepage) = scene.means.creepage.or(basis.scale("creepage")) {
         parts.push(format!("creepage {:.3}\u{b7}10\u{207b}\u{b3}", 1e3 * creepage));
     }
-    if let Some(traction) = summary("/contact/traction_coefficient").filter(|t| *t != 0.0) {
+    if let Some(traction) = scene.means.traction_coefficient {
         parts.push(format!("T/N = {traction:.4}"));
     }
     match basis.law {

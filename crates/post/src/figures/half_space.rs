@@ -3,7 +3,6 @@
 use super::Scene;
 use crate::basis::number_at;
 use crate::law::Law;
-use serde_json::Value;
 
 /// Shear along y = 0 by CONTACT (E. A. H. Vollebregt, Apache-2.0) for steady rolling of the
 /// reference wheel; the file's head says for which numbers.
@@ -45,8 +44,7 @@ pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
     if (poisson? - POISSON).abs() > 1e-6 || (shape / table_shape - 1.0).abs() > 0.01 {
         return None;
     }
-    let traction = basis.summary.as_ref()?.pointer("/contact/traction_coefficient");
-    let wanted = traction.and_then(Value::as_f64)?.abs() / law.mu;
+    let wanted = scene.means.traction_coefficient?.abs() / law.mu;
     let away = |of: f64| (of / MU - wanted).abs();
     let (of, column) = TRACTIONS.into_iter().min_by(|a, b| away(a.0).total_cmp(&away(b.0)))?;
     if away(of) > NEAR {

@@ -55,7 +55,6 @@ const COLUMNS: usize = 1200;
 pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
     let history = HistoryFile::open(path).ok()?;
     let time = history.read("time").ok().filter(|time| time.len() > 1)?;
-    let window = [scene.records.start, scene.records.end - 1].map(|i| scene.history.times[i]);
     let mut panels = Vec::new();
     for (label, lines) in PANELS {
         let series = lines.iter().filter_map(|(column, label, factor, colour)| {
@@ -65,7 +64,8 @@ pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
             let draw = Draw::Line(*colour);
             Some(Series { label: (*label).into(), points: thin(&points, COLUMNS), draw })
         });
-        let marks = window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
+        let marks =
+            scene.window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
         panels.push(Panel {
             title: String::new(),
             x: Axis::linear("t (ms)"),

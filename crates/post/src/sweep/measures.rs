@@ -54,6 +54,20 @@ macro_rules! patch {
     };
 }
 
+/// Places of a mean over the evaluation window: what the table of the sweep holds, and for runs of
+/// other codes what their check found.
+macro_rules! mean {
+    ($section:literal, $name:literal, $patch:literal) => {
+        &[
+            (
+                concat!("/summary/", $section, "/", $name),
+                concat!("/summary/window/deviation/", $name),
+            ),
+            patch!($patch),
+        ]
+    };
+}
+
 /// All of them, in the order of figures and tables.
 pub(crate) const MEASURES: [SweepMeasure; 20] = [
     measure(
@@ -61,37 +75,13 @@ pub(crate) const MEASURES: [SweepMeasure; 20] = [
         "MPa",
         1e-6,
         true,
-        &[patch!("peak_pressure"), ("/summary/contact/peak_pressure", "")],
+        mean!("contact", "peak_pressure", "peak_pressure"),
     ),
-    measure(
-        "creepage",
-        "10\u{207b}\u{b3}",
-        1e3,
-        true,
-        &[patch!("creepage"), ("/summary/contact/creepage", "")],
-    ),
-    measure(
-        "T/N",
-        "",
-        1.0,
-        true,
-        &[patch!("traction_coefficient"), ("/summary/contact/traction_coefficient", "")],
-    ),
-    measure("peak shear", "MPa", 1e-6, true, &[patch!("peak_shear")]),
-    measure(
-        "half length",
-        "mm",
-        1e3,
-        true,
-        &[patch!("half_length"), ("/summary/contact/patch_half_length", "")],
-    ),
-    measure(
-        "stick fraction",
-        "",
-        1.0,
-        true,
-        &[patch!("stick_fraction"), ("/summary/contact/stick_fraction", "")],
-    ),
+    measure("creepage", "10\u{207b}\u{b3}", 1e3, true, mean!("contact", "creepage", "creepage")),
+    measure("T/N", "", 1.0, true, mean!("contact", "traction_coefficient", "traction_coefficient")),
+    measure("peak shear", "MPa", 1e-6, true, mean!("window", "peak_shear", "peak_shear")),
+    measure("half length", "mm", 1e3, true, mean!("contact", "patch_half_length", "half_length")),
+    measure("stick fraction", "", 1.0, true, mean!("contact", "stick_fraction", "stick_fraction")),
     measure("power of friction", "kW", 1e-3, false, &[patch!("power")]),
     measure(
         "slip_roughness",
@@ -118,12 +108,15 @@ pub(crate) const MEASURES: [SweepMeasure; 20] = [
 ];
 
 impl SweepMeasure {
-    /// The measure of a run, times `factor`; `None` where the run has none.
+    /// The measure of a run, times `factor`; `None` where the run has none, and for means over the
+    /// evaluation window where it did not come to its end.
     pub fn of(&self, run: Run<'_>) -> Option<Point> {
         let number = |pointer: &str| {
             run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
         };
-        self.places.iter().find_map(|(value, deviation)| {
+        let whole =
+            |place: &&(&str, &str)| run.completed() || place.0.starts_with("/check/metrics/");
+        self.places.iter().filter(whole).find_map(|(value, deviation)| {
             let value = number(value)?;
             let deviation = (!deviation.is_empty()).then(|| number(deviation)).flatten();
             let scaled = deviation.map(|deviation| self.factor * deviation);

@@ -3,9 +3,10 @@
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};
 use crate::check::Scales;
-use crate::figures::Scene;
+use crate::figures::{FigureMeans, Scene};
 use crate::frames::ContactHistory;
 use crate::vector::norm;
+use crate::window::Window;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
@@ -23,8 +24,8 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
     let paths = RunPaths::of(run)?;
     let mut basis = Basis::read(&paths)?;
     let history = ContactHistory::open(&paths.contact)?;
-    let span = basis.window.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let records = history.window(span).unwrap_or(0..history.times.len());
+    let window = Window::settle(None, &basis, &history)?;
+    let records = window.records.clone();
     let scales = Scales::settle(&mut basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
     let scene = Scene {
@@ -33,6 +34,8 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
         scales,
         body,
         records: records.clone(),
+        window: window.shown(&history.times),
+        means: FigureMeans::default(),
         instants: Vec::new(),
     };
     let line = scene.centreline(body);

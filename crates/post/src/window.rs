@@ -1,0 +1,61 @@
+//! The span of time over which a run is judged and averaged: one for every number of a document.
+
+use crate::PostError;
+use crate::basis::Basis;
+use crate::frames::ContactHistory;
+use crate::statistics::time_weights;
+use std::ops::Range;
+
+/// The window and the records of the contact history in it.
+#[derive(Clone, Debug)]
+pub(crate) struct Window {
+    /// From and to (s), both included; infinite where nothing bounds it.
+    pub span: [f64; 2],
+    /// Indices of the records.
+    pub records: Range<usize>,
+    /// Whether it is the one over which the run took the means of its summary.
+    pub of_summary: bool,
+}
+
+/// Part of a time by which two ends of windows may differ and be one: round-off.
+const SAME: f64 = 1e-9;
+
+impl Window {
+    /// The window that was asked for, else the run's evaluation window, else the whole file; the
+    /// whole file too where a run ended, or has come, only to before its evaluation window.
+    ///
+    /// # Errors
+    /// A window that was asked for and holds no record.
+    pub fn settle(
+        asked: Option<[f64; 2]>,
+        basis: &Basis,
+        history: &ContactHistory,
+    ) -> Result<Self, PostError> {
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        let span = asked.or(basis.window).unwrap_or(all);
+        match history.window(span) {
+            Err(_) if asked.is_none() => {
+                Ok(Self { span: all, records: 0..history.times.len(), of_summary: false })
+            }
+            found => {
+                let same = |of_run: [f64; 2]| {
+                    let slack = SAME * of_run[1].abs();
+                    span.iter().zip(of_run).all(|(end, own)| (end - own).abs() <= slack)
+                };
+                let of_summary = basis.summary.is_some() && basis.window.is_some_and(same);
+                Ok(Self { span, records: found?, of_summary })
+            }
+        }
+    }
+
+    /// From and to (s) as documents show them: an end that nothing bounds is that of the records.
+    pub fn shown(&self, times: &[f64]) -> [f64; 2] {
+        let ends = [times[self.records.start], times[self.records.end - 1]];
+        [0, 1].map(|i| if self.span[i].is_finite() { self.span[i] } else { ends[i] })
+    }
+
+    /// The time (s) in the window that each of its records stands for.
+    pub fn weights(&self, times: &[f64]) -> Vec<f64> {
+        time_weights(times, self.span)[self.records.clone()].to_vec()
+    }
+}
