@@ -20,7 +20,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 ROOT_ATTRIBUTES = ("creepage_version", "case_hash", "created")
 FIELDS = {
     "cell": {"required": {"body": 1}, "optional": {"stress": 6}},
-    "point": {"required": {"displacement": 3, "velocity": 3}, "optional": {}},
+    "point": {"required": {"displacement": 3, "deformation": 3, "velocity": 3}, "optional": {}},
 }
 CONTACT = {
     "cell": {"required": {"body": 1}, "optional": {}},

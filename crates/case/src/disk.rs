@@ -48,7 +48,7 @@ impl Disk {
             || case.checkpoint.steps.is_some()
             || case.checkpoint.time.is_some();
         Self {
-            fields: mesh + FIELDS * snapshots * 8.0 * (6.0 * nodes + stress * elements),
+            fields: mesh + FIELDS * snapshots * 8.0 * (9.0 * nodes + stress * elements),
             contact: CONTACT * records * CONTACT_NODE * zone,
             history: 8.0 * (HISTORY * rows + PROBE * probes * steps),
             checkpoints: if kept { 2.0 * 8.0 * CHECKPOINT * nodes } else { 0.0 },

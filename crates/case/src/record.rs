@@ -6,12 +6,13 @@ use crate::probes::Probes;
 use crate::run_error::RunError;
 use crate::schema::{Case, Window};
 use contact::{NodalContact, patch};
-use dynamics::{Simulation, StepReport};
-use mesh::Face;
+use dynamics::{Hub, Simulation, StepReport};
+use mesh::{Face, Padded};
 use output::{
     BackgroundWriter, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Lengths, Provenance,
     RunFiles, StaticField, TransientGrid, Values,
 };
+use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -110,6 +111,8 @@ pub(crate) struct Recorder {
     rows: Vec<f64>,
     probes: Option<Probes>,
     stress: bool,
+    /// Nodes that move with the hub but for their deformation.
+    disk: Range<usize>,
     points: [Vec<[f64; 3]>; 2],
     centreline: Vec<usize>,
     line: Vec<(f64, bool)>,
@@ -228,6 +231,7 @@ impl Recorder {
             history_every: case.output.history_interval,
             rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.len()),
             stress: case.output.stress,
+            disk: model.mesh.bodies[DISK].nodes.clone(),
             points,
             centreline,
             effective_radius: basis.effective_radius,
@@ -444,9 +448,20 @@ impl Recorder {
     }
 
     fn write_fields(&mut self, simulation: &Simulation) -> Result<(), RunError> {
-        let stress = self.stress;
+        let (stress, disk) = (self.stress, &self.disk);
+        let rigid = simulation.hub().map(Hub::rigid_motion);
+        let reference = simulation.solid().reference();
+        let deformation = |(node, u): (usize, &Padded)| match &rigid {
+            Some(motion) if disk.contains(&node) => {
+                let (u, carried) = (u.xyz(), motion(reference[node].xyz()));
+                [0, 1, 2].map(|i| u[i] - carried[i])
+            }
+            _ => u.xyz(),
+        };
         Ok(self.writer.append_fields_with(simulation.time(), |snapshot| {
-            snapshot.vectors(simulation.displacement().iter().map(|u| u.xyz()));
+            let displacement = simulation.displacement();
+            snapshot.vectors(displacement.iter().map(|u| u.xyz()));
+            snapshot.vectors(displacement.iter().enumerate().map(deformation));
             snapshot.vectors(simulation.velocity().iter().map(|v| v.xyz()));
             if stress {
                 let solid = simulation.solid();
@@ -528,6 +543,12 @@ fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<Transi
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
     let mut specs = vec![
         FieldSpec::at_points("displacement", "m", 3, "displacement from the undeformed state"),
+        FieldSpec::at_points(
+            "deformation",
+            "m",
+            3,
+            "displacement less the body's rigid motion (the hub's for the disk, none for the bar)",
+        ),
         FieldSpec::at_points("velocity", "m/s", 3, "velocity over the last step"),
     ];
     if case.output.stress {

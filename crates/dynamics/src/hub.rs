@@ -139,6 +139,12 @@ impl Hub {
         sum
     }
 
+    /// The displacement (m) of any reference position (m) that moves with the hub as one rigid body.
+    pub fn rigid_motion(&self) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+        let (placement, centre) = (Placement::new(self.state), self.centre);
+        move |x| placement.displacement([0, 1, 2].map(|i| x[i] - centre[i]))
+    }
+
     /// Moves the hub from t^n to t^{n+1} under `load` (force in x and z, torque about y: N, N,
     /// N m) and takes its nodes along.
     pub(crate) fn step(

@@ -288,7 +288,8 @@ class Run:
 
     @property
     def fields(self) -> Records:
-        """Both bodies over time: displacement (m), velocity (m/s), stress (Pa; xx yy zz xy yz xz)."""
+        """Both bodies over time: displacement (m), deformation (m; displacement less the body's rigid motion),
+        velocity (m/s), stress (Pa; xx yy zz xy yz xz)."""
         return self._file("fields.vtkhdf", Records)
 
     @property
