@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::schema::Case;
+use contact::patch::PatchShape;
 
 /// Patch and pressure of Hertz's elliptic contact, or of its line contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,14 +25,24 @@ impl Hertz {
     }
 }
 
+/// Sum of the curvatures across the rolling direction (1/m).
+fn across(case: &Case) -> f64 {
+    case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature()
+}
+
+/// What the patch of a case is: a rectangle where both bodies are flat across, as those of a slice are.
+pub fn patch_shape(case: &Case) -> PatchShape {
+    if across(case) > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
+}
+
 /// Hertz's contact of a case's disk on its bar under `load.normal`.
 pub fn hertz(case: &Case) -> Hertz {
     let compliance = |m: crate::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
     let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
     let along = 1.0 / case.disk.radius;
-    let across = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
+    let across = across(case);
     let load = case.load.normal;
-    if across <= 0.0 {
+    if patch_shape(case) == PatchShape::Rectangle {
         let width = case.disk.width.min(case.bar.width);
         return line(load / width, along, modulus, width);
     }

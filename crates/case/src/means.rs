@@ -19,14 +19,19 @@ impl Mean {
         }
     }
 
-    /// The mean; zero without samples.
-    pub(crate) fn mean(&self) -> f64 {
-        self.mean
+    /// Number of samples.
+    pub(crate) fn count(&self) -> u64 {
+        self.count as u64
     }
 
-    /// The standard deviation; zero without samples.
-    pub(crate) fn deviation(&self) -> f64 {
-        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
+    /// The mean; none without samples.
+    pub(crate) fn mean(&self) -> Option<f64> {
+        (self.count > 0.0).then_some(self.mean)
+    }
+
+    /// The standard deviation; none without samples.
+    pub(crate) fn deviation(&self) -> Option<f64> {
+        (self.count > 0.0).then(|| (self.squares / self.count).sqrt())
     }
 }
 

@@ -1,11 +1,13 @@
 //! What a run writes while it rolls, and when.
 
+use crate::hertz::patch_shape;
 use crate::means::Means;
 use crate::model::{BAR, DISK, Model, rows};
 use crate::probes::Probes;
 use crate::run_error::RunError;
 use crate::schema::{Case, Window};
-use contact::{NodalContact, patch};
+use contact::NodalContact;
+use contact::patch::{self, PatchShape};
 use dynamics::{Hub, Simulation, StepReport};
 use mesh::{Face, Padded};
 use output::{
@@ -38,8 +40,12 @@ const HISTORY: [(&str, &str, &str); 38] = [
     ("drive_force", "N", "force that the drive supplies in x"),
     ("hub_x", "m", "displacement of the hub in x"),
     ("hub_z", "m", "displacement of the hub in z"),
-    ("patch_half_length", "m", "half axis in x of the fit to the pressure on the bar"),
-    ("patch_half_width", "m", "half axis in y of the fit"),
+    (
+        "patch_half_length",
+        "m",
+        "half axis in x of the fit to the pressure on the bar; NaN where none fits",
+    ),
+    ("patch_half_width", "m", "half axis in y of the fit, or half the width of a line contact"),
     ("patch_x", "m", "centre of the fit in x, relative to the hub"),
     ("peak_pressure", "Pa", "largest pressure of the fit"),
     ("peak_pressure_raw", "Pa", "largest nodal pressure on the bar"),
@@ -47,7 +53,11 @@ const HISTORY: [(&str, &str, &str); 38] = [
     ("patch_area", "m2", "area of the bar's nodes in contact"),
     ("stick_fraction", "1", "share of that area that sticks"),
     ("slip_fraction", "1", "share of that area that slips"),
-    ("stick_border", "m", "rear end of the longest stick zone on y = 0, relative to patch_x"),
+    (
+        "stick_border",
+        "m",
+        "rear end of the longest stick zone on y = 0 from patch_x; NaN without one",
+    ),
     ("closed_pairs", "1", "pairs in contact, both passes"),
     ("slipping_pairs", "1", "pairs that slip, both passes"),
     ("max_penetration", "m", "largest penetration"),
@@ -115,6 +125,7 @@ pub(crate) struct Recorder {
     disk: Range<usize>,
     points: [Vec<[f64; 3]>; 2],
     centreline: Vec<usize>,
+    shape: PatchShape,
     line: Vec<(f64, bool)>,
     effective_radius: f64,
     speed: f64,
@@ -202,13 +213,7 @@ impl Recorder {
             )?,
         };
         let count = tables[DISK].nodes.len() + tables[BAR].nodes.len();
-        let size = case.mesh.zone.size;
-        // a slice has no nodes on y = 0; both of its sides are alike
-        let slice = case.mesh.plane_strain;
-        let middle = |y: f64| if slice { y > 0.0 } else { y.abs() < 0.5 * size };
-        let mut centreline: Vec<usize> =
-            (0..points[BAR].len()).filter(|&i| middle(points[BAR][i][1])).collect();
-        centreline.sort_by(|&i, &j| points[BAR][i][0].total_cmp(&points[BAR][j][0]));
+        let centreline = centreline(&points[BAR], case.mesh.zone.size);
         let steps_in = |interval: f64| (interval / simulation.dt()).round().max(1.0) as u64;
         let window = |w: &Window| {
             let step = |t: f64| (t / simulation.dt()).round() as u64;
@@ -234,6 +239,7 @@ impl Recorder {
             disk: model.mesh.bodies[DISK].nodes.clone(),
             points,
             centreline,
+            shape: patch_shape(case),
             effective_radius: basis.effective_radius,
             speed: case.drive.speed,
             hertz_pressure: basis.hertz_pressure,
@@ -359,7 +365,7 @@ impl Recorder {
             let e = report.energies.unwrap_or_default();
             let bar = &self.zones.tables[BAR];
             let hub = simulation.hub().map(|h| h.state).unwrap_or_default();
-            let fit = patch::fit(&self.points[BAR], &bar.pressure);
+            let fit = patch::fit(self.shape, &self.points[BAR], &bar.pressure);
             let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
             let shear = bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max);
             let cone = self.cone_excess();
@@ -537,6 +543,19 @@ impl Recorder {
         }
         best.1 - centre
     }
+}
+
+/// Nodes of the line along x that lies nearest to y = 0, by their x; where there is none on y = 0, as on a
+/// slice or an odd number of elements across, the one at y > 0 of two alike.
+fn centreline(points: &[[f64; 3]], size: f64) -> Vec<usize> {
+    let least = points.iter().map(|x| x[1].abs()).fold(f64::INFINITY, f64::min);
+    let slack = 0.1 * size;
+    let near = |i: usize, y: f64| (points[i][1] - y).abs() <= slack;
+    let y = if (0..points.len()).any(|i| near(i, least)) { least } else { -least };
+    let on_it = |&i: &usize| near(i, y);
+    let mut line: Vec<usize> = (0..points.len()).filter(on_it).collect();
+    line.sort_by(|&i, &j| points[i][0].total_cmp(&points[j][0]));
+    line
 }
 
 fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<TransientGrid, RunError> {

@@ -172,6 +172,7 @@ fn window(case: &Case, means: &Means) -> serde_json::Value {
     json!({
         "from": from,
         "to": to,
+        "reasons": reasons(means),
         "stick_border": means.stick_border.mean(),
         "peak_shear": means.peak_shear.mean(),
         "torque": means.torque.mean(),
@@ -195,4 +196,27 @@ fn window(case: &Case, means: &Means) -> serde_json::Value {
             "max_penetration": means.penetration.deviation(),
         },
     })
+}
+
+/// Why means of the patch have no value, or which rows of the history they leave out.
+fn reasons(means: &Means) -> serde_json::Map<String, serde_json::Value> {
+    let rows = means.area.count();
+    let fit = "Hertz's distribution fits the pressure of";
+    let stick = "something sticks on y = 0, and a fit has a centre, in";
+    let all = [
+        ("patch_half_length", &means.half_length, fit),
+        ("patch_half_width", &means.half_width, fit),
+        ("peak_pressure", &means.peak_pressure, fit),
+        ("stick_border", &means.stick_border, stick),
+    ];
+    let entry = |(key, mean, what): (&str, &crate::means::Mean, &str)| {
+        let text = match mean.count() {
+            _ if rows == 0 => "the evaluation window holds no row of the history".to_owned(),
+            0 => format!("{what} none of {rows} rows of the history"),
+            some if some < rows => format!("{what} {some} of {rows} rows of the history"),
+            _ => return None,
+        };
+        Some((key.to_owned(), json!(text)))
+    };
+    all.into_iter().filter_map(entry).collect()
 }

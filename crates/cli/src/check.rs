@@ -94,6 +94,7 @@ pub fn basis(run: &Path, options: &BasisArgs) -> Result<(RunPaths, Basis), Failu
     {
         let named = basis.case.as_ref().is_some_and(|case| case.contains_key("evaluate"));
         basis.window = basis.window.or(named.then(|| case.evaluation_window()));
+        basis.shape = case::hertz::patch_shape(&case);
         let hertz = case::hertz::hertz(&case);
         for (name, value) in [
             ("peak_pressure", hertz.p0),

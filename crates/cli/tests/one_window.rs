@@ -150,3 +150,35 @@ fn a_window_that_is_asked_for_has_the_means_of_the_history_over_exactly_its_time
     }
     assert_eq!(found["patch"]["traction_coefficient"]["from"], "history");
 }
+
+#[test]
+fn means_that_do_not_exist_are_dashes_with_the_reason_everywhere() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    // the patch lies on fewer nodes than a fit needs
+    let set = ["--set", "time.roll=0.001", "--set", "load.normal=100"];
+    let said =
+        String::from_utf8(creepage(folder, &[&["run", CASE, "--out", "r"], &set[..]].concat()));
+    let line = |page: &str, label: &str| {
+        let found = page.lines().find(|line| line.trim_start().starts_with(label));
+        found.unwrap_or_else(|| panic!("no {label} in\n{page}")).to_owned()
+    };
+    let said = said.unwrap();
+    for label in ["patch half length", "patch half width", "peak pressure", "stick border"] {
+        let line = line(&said, label);
+        assert!(line.contains("  -  (") && line.contains("none of"), "{line}");
+    }
+    let table = String::from_utf8(creepage(folder, &["check", "r"])).unwrap();
+    for label in ["half length (fit)", "half width (fit)", "peak pressure (fit)"] {
+        let line = line(&table, label);
+        assert!(line.contains("  -  (") && line.contains("none of"), "{line}");
+    }
+    let found = document(folder, &["check", "r", "--json"]);
+    assert_eq!(found["patch"]["half_length"]["mean"], Value::Null);
+    assert!(found["patch"]["half_length"]["note"].as_str().unwrap().contains("none of"));
+    creepage(folder, &["report", "r"]);
+    let page = fs::read_to_string(folder.join("r/report.html")).unwrap();
+    let row = &page[page.find("<td>half length (fit)</td>").unwrap()..];
+    assert!(row[..row.find("</tr>").unwrap()].contains("none of"));
+    assert!(!page.contains("NaN") && !page.contains("null"));
+}

@@ -6,12 +6,22 @@ const FITTED: f64 = 0.2;
 /// Fewer nodes than this determine nothing.
 const LEAST: usize = 5;
 
+/// What the patch is, by the curvatures of the two bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PatchShape {
+    /// An ellipse: point contact.
+    #[default]
+    Ellipse,
+    /// A rectangle: line contact of bodies that are both flat across, a slice among them.
+    Rectangle,
+}
+
 /// Hertz's distribution fitted to nodal pressures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFit {
     /// Semi-axis in x (m).
     pub a: f64,
-    /// Semi-axis in y (m).
+    /// Semi-axis in y, or half the rectangle's width (m).
     pub b: f64,
     /// Peak pressure of the fitted distribution (Pa).
     pub p0: f64,
@@ -37,12 +47,13 @@ pub struct PatchAreas {
 /// Fits `p^2 = p0^2 (1 - (x-xc)^2/a^2 - (y-yc)^2/b^2)` to the nodes with `p > 0.2 p_max` at
 /// `points` (m) by linear least squares in `p^2`.
 ///
-/// Nodes in one or two rows along x belong to a slice of a line contact: they get
-/// `p^2 = p0^2 (1 - (x-xc)^2/a^2)`, and `b` is half the distance of the rows.
+/// A rectangle gets `p^2 = p0^2 (1 - (x-xc)^2/a^2)` over all of its width: `p0` is the root mean square
+/// across it, peaks at the edges of a narrower body included, and `b` half the width over which nodes
+/// take part. Nodes in one or two rows along x are a rectangle whatever `shape` says.
 ///
 /// `None` where the nodes do not determine that: fewer than five, or a distribution that does not fall
-/// off on all sides.
-pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
+/// off on all sides (of a rectangle: before and behind).
+pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
     let peak = pressure.iter().copied().fold(0.0, f64::max);
     let used = || points.iter().zip(pressure).filter(move |&(_, &p)| p > FITTED * peak);
     let count = used().count();
@@ -61,7 +72,10 @@ pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
         })
     };
     let in_rows = samples().all(|(_, t, _)| t.abs() > 1.0 - 1e-6) || extent[1] < 1e-9 * extent[0];
-    let ([c, cx, cxx], [cy, cyy]) = if in_rows {
+    let rectangle = in_rows || shape == PatchShape::Rectangle;
+    let [low, high] =
+        used().fold([f64::MAX, f64::MIN], |[a, b], (x, _)| [a.min(x[1]), b.max(x[1])]);
+    let ([c, cx, cxx], [cy, cyy]) = if rectangle {
         (least_squares(samples().map(|(s, _, q)| ([1.0, s, s * s], q)))?, [0.0, -1.0])
     } else {
         let [c, cx, cy, cxx, cyy] =
@@ -75,10 +89,10 @@ pub fn fit(points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
     // NaN fails the test too.
     (top > 0.0).then(|| PatchFit {
         a: (-top / cxx).sqrt() * extent[0],
-        b: if in_rows { extent[1] } else { (-top / cyy).sqrt() * extent[1] },
+        b: if rectangle { 0.5 * (high - low) } else { (-top / cyy).sqrt() * extent[1] },
         p0: top.sqrt() * peak,
         xc: mean[0] - cx / (2.0 * cxx) * extent[0],
-        yc: mean[1] - cy / (2.0 * cyy) * extent[1],
+        yc: if rectangle { 0.5 * (low + high) } else { mean[1] - cy / (2.0 * cyy) * extent[1] },
     })
 }
 
@@ -169,7 +183,7 @@ mod tests {
     #[test]
     fn fit_recovers_a_hertz_ellipse_exactly() {
         let (points, pressure) = hertz(1e-3);
-        let found = fit(&points, &pressure).unwrap();
+        let found = fit(PatchShape::Ellipse, &points, &pressure).unwrap();
         assert!((found.a / 7.162e-3 - 1.0).abs() < 1e-11, "{found:?}");
         assert!((found.b / 5.387e-3 - 1.0).abs() < 1e-11);
         assert!((found.p0 / 1.2376e9 - 1.0).abs() < 1e-11);
@@ -189,7 +203,7 @@ mod tests {
                 pressure.push(p0 * (1.0 - ((x - xc) / a).powi(2)).max(0.0).sqrt());
             }
         }
-        let found = fit(&points, &pressure).unwrap();
+        let found = fit(PatchShape::Ellipse, &points, &pressure).unwrap();
         assert!((found.a / a - 1.0).abs() < 1e-11, "{found:?}");
         assert!((found.p0 / p0 - 1.0).abs() < 1e-11);
         assert!((found.xc - xc).abs() < 1e-13);
@@ -197,14 +211,42 @@ mod tests {
     }
 
     #[test]
+    fn a_line_contact_gets_its_width_and_the_semi_ellipse_along_it_whatever_happens_at_its_edges() {
+        let (a, half_width, xc) = (7.125e-3, 20.8e-3, -0.2e-3);
+        let mut points = Vec::new();
+        let mut pressure = Vec::new();
+        for i in -10..=10 {
+            for j in -30_i32..=30 {
+                let (x, y) = (f64::from(i) * 1e-3, f64::from(j) * 1.04e-3);
+                points.push([x, y, 0.0]);
+                // where the narrower body ends its edge presses half as much again
+                let edge = if j.abs() == 20 { 1.5 } else { 1.0 };
+                let inside = if j.abs() <= 20 { edge * 350e6 } else { 0.0 };
+                pressure.push(inside * (1.0 - ((x - xc) / a).powi(2)).max(0.0).sqrt());
+            }
+        }
+        let found = fit(PatchShape::Rectangle, &points, &pressure).unwrap();
+        assert!((found.a / a - 1.0).abs() < 5e-3, "{found:?}");
+        assert!((found.b - half_width).abs() < 1e-15 && found.yc.abs() < 1e-15, "{found:?}");
+        assert!(found.p0 > 350e6 && found.p0 < 375e6, "{found:?}");
+        assert!((found.xc - xc).abs() < 2e-5);
+        // an ellipse is what it is not
+        let ellipse = fit(PatchShape::Ellipse, &points, &pressure);
+        assert!(ellipse.is_none_or(|e| (e.b / half_width - 1.0).abs() > 0.1), "{ellipse:?}");
+    }
+
+    #[test]
     fn fit_refuses_what_is_no_ellipse() {
-        assert_eq!(fit(&[], &[]), None);
+        assert_eq!(fit(PatchShape::Ellipse, &[], &[]), None);
         let row: Vec<[f64; 3]> = (0..9).map(|i| [f64::from(i), 0.0, 0.0]).collect();
-        assert_eq!(fit(&row, &[1.0; 9]), None);
+        assert_eq!(fit(PatchShape::Ellipse, &row, &[1.0; 9]), None);
         let (points, _) = hertz(1e-3);
         let bowl: Vec<f64> = points.iter().map(|x| 1.0 + x[0] * x[0] + x[1] * x[1]).collect();
-        assert_eq!(fit(&points, &bowl), None);
-        assert_eq!(fit(&points, &vec![f64::NAN; points.len()]), None);
+        assert_eq!(fit(PatchShape::Ellipse, &points, &bowl), None);
+        for shape in [PatchShape::Ellipse, PatchShape::Rectangle] {
+            assert_eq!(fit(shape, &points, &vec![f64::NAN; points.len()]), None);
+            assert_eq!(fit(shape, &points, &bowl), None);
+        }
     }
 
     #[test]

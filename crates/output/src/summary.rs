@@ -75,31 +75,32 @@ pub struct Energy {
     pub balance_error: f64,
 }
 
-/// Means over the evaluation window, in the body frame of the bar.
+/// Means over the evaluation window, in the body frame of the bar; none (null) where nothing gives one,
+/// such as a pressure that no distribution of Hertz fits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Normal force (N).
-    pub normal_force: f64,
+    pub normal_force: Option<f64>,
     /// Force along the rolling direction (N).
-    pub tangential_force: f64,
+    pub tangential_force: Option<f64>,
     /// Force across the rolling direction (N).
-    pub lateral_force: f64,
+    pub lateral_force: Option<f64>,
     /// Tangential over normal force (dimensionless).
-    pub traction_coefficient: f64,
+    pub traction_coefficient: Option<f64>,
     /// Relative difference of rolling and circumferential speed (dimensionless).
-    pub creepage: f64,
+    pub creepage: Option<f64>,
     /// Half axis of the patch along x (m).
-    pub patch_half_length: f64,
-    /// Half axis of the patch along y (m).
-    pub patch_half_width: f64,
+    pub patch_half_length: Option<f64>,
+    /// Half axis of the patch along y, or half the width of a line contact (m).
+    pub patch_half_width: Option<f64>,
     /// Area of the patch (m2).
-    pub patch_area: f64,
+    pub patch_area: Option<f64>,
     /// Largest pressure (Pa).
-    pub peak_pressure: f64,
+    pub peak_pressure: Option<f64>,
     /// Share of the patch's area that sticks (dimensionless).
-    pub stick_fraction: f64,
+    pub stick_fraction: Option<f64>,
     /// Share of the patch's area that slips (dimensionless).
-    pub slip_fraction: f64,
+    pub slip_fraction: Option<f64>,
 }
 
 /// Files of a run, relative to its folder.

@@ -2,6 +2,7 @@
 
 use crate::PostError;
 use crate::law::Law;
+use contact::patch::PatchShape;
 use contact::{Coulomb, Exponential};
 use output::HistoryFile;
 use serde_json::Value;
@@ -57,6 +58,8 @@ pub struct Basis {
     /// The evaluation window (s), where the run has one; its summary states it, a run in progress
     /// has none yet.
     pub window: Option<[f64; 2]>,
+    /// What the patch is; an ellipse where nothing is known.
+    pub shape: PatchShape,
     /// Scales by their names in [`SCALES`].
     pub scales: BTreeMap<&'static str, Scale>,
     /// `summary.json`, where there is one.
@@ -115,6 +118,7 @@ impl Basis {
             bound: Bound::Used,
             enforcement: None,
             window: None,
+            shape: PatchShape::default(),
             scales: BTreeMap::new(),
             summary,
             case,
@@ -232,6 +236,10 @@ impl Basis {
             if let Some(value) = at(&format!("/half_space/{name}")) {
                 self.offer(name, value, "summary, half_space");
             }
+        }
+        // a line contact has no approach
+        if at("/half_space/approach") == Some(0.0) {
+            self.shape = PatchShape::Rectangle;
         }
         if let Some(dt) = at("/dt") {
             self.offer("dt", dt, "summary");

@@ -82,11 +82,10 @@ pub fn figures(
     let scales = Scales::settle(basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
     let sources = Sources::of(paths, basis, &window);
-    let mean = |name| sources.of_run(name).map(|([mean, _], _)| mean);
     let means = FigureMeans {
-        normal_force: mean("normal_force"),
-        creepage: mean("creepage"),
-        traction_coefficient: mean("traction_coefficient"),
+        normal_force: sources.mean("normal_force"),
+        creepage: sources.mean("creepage"),
+        traction_coefficient: sources.mean("traction_coefficient"),
     };
     let window = window.shown(&history.times);
     let instants = Vec::new();
@@ -160,7 +159,8 @@ impl Scene<'_> {
 
     pub fn centre(&self, frame: &Frame) -> f64 {
         let p0 = self.scales.peak_pressure;
-        let row = patch_series::measure(&self.history.surface, frame, self.body, p0);
+        let row =
+            patch_series::measure(&self.history.surface, frame, self.body, p0, self.basis.shape);
         if row.values[2].is_finite() { row.values[2] } else { 0.0 }
     }
 

@@ -22,11 +22,32 @@ fn name_in_run(measure: &str) -> String {
     }
 }
 
+/// Why a measure has no mean where the run itself does not say.
+fn why_none(measure: &str) -> &'static str {
+    match measure {
+        "half_length" | "half_width" | "centre" | "peak_pressure" => {
+            "Hertz's distribution fits the pressure of no record"
+        }
+        "stick_fraction" | "slip_fraction" => "the file has no field state",
+        _ => "no record has a value",
+    }
+}
+
 /// Where means over a window come from.
 pub(crate) struct Sources<'a> {
     summary: Option<&'a Value>,
     /// The history with the weight of each of its rows.
     history: Option<(HistoryFile, Vec<f64>)>,
+}
+
+/// What a source says of a measure.
+#[derive(Default)]
+struct Found {
+    /// Mean and deviation.
+    mean: Option<[f64; 2]>,
+    from: &'static str,
+    /// Why there is none, or what it leaves out.
+    note: Option<String>,
 }
 
 impl<'a> Sources<'a> {
@@ -42,22 +63,31 @@ impl<'a> Sources<'a> {
         Self { summary, history }
     }
 
-    /// Mean, deviation and origin of a measure of the patch or of the creepage, as far as the run
-    /// itself holds them.
-    pub fn of_run(&self, measure: &str) -> Option<([f64; 2], &'static str)> {
+    /// Mean of a measure of the patch or of the creepage, where the run itself holds one.
+    pub fn mean(&self, measure: &str) -> Option<f64> {
+        self.of_run(measure)?.mean.map(|[mean, _]| mean)
+    }
+
+    /// What the run itself says of a measure; nothing where it holds no such number.
+    fn of_run(&self, measure: &str) -> Option<Found> {
         let name = name_in_run(measure);
         self.in_summary(&name).or_else(|| {
             let (history, weights) = self.history.as_ref()?;
             let values = history.read(&name).ok()?;
-            Some((mean_and_deviation(weights, values.into_iter())?, "history"))
+            let mean = mean_and_deviation(weights, values.into_iter());
+            Some(Found { mean, from: "history", note: None })
         })
     }
 
-    fn in_summary(&self, name: &str) -> Option<([f64; 2], &'static str)> {
+    fn in_summary(&self, name: &str) -> Option<Found> {
         let summary = self.summary?;
-        let number = |section: &str| summary.pointer(&format!("/{section}/{name}"))?.as_f64();
-        let mean = number("contact").or_else(|| number("window"))?;
-        Some(([mean, number("window/deviation")?], "summary"))
+        let at = |section: &str| summary.pointer(&format!("/{section}/{name}"));
+        let number = |section: &str| at(section).and_then(Value::as_f64);
+        at("contact").or_else(|| at("window"))?;
+        let mean = number("contact").or_else(|| number("window"));
+        let note = at("window/reasons").and_then(Value::as_str).map(str::to_owned);
+        let mean = mean.zip(number("window/deviation")).map(<[f64; 2]>::from);
+        Some(Found { mean, from: "summary", note })
     }
 
     /// Means and standard deviations of all measures of the patch, those that the run does not hold
@@ -65,18 +95,23 @@ impl<'a> Sources<'a> {
     pub fn patch(&self, rows: &[PatchRow], weights: &[f64]) -> Value {
         let of_records = |i: usize| {
             let values = rows.iter().map(|row| row.values[i]);
-            Some((mean_and_deviation(weights, values)?, "contact records"))
+            let mean = mean_and_deviation(weights, values);
+            Found { mean, from: "contact records", note: None }
         };
-        let entry = |(name, units, about): (&str, &str, &str), found: Option<_>| {
-            let ([mean, deviation], from): ([f64; 2], &str) = found?;
-            let value = json!({ "mean": mean, "deviation": deviation, "units": units,
-                                "about": about, "from": from });
-            Some((name.to_owned(), value))
+        let entry = |(name, units, about): (&str, &str, &str), found: Found| {
+            let [mean, deviation] = [0, 1].map(|i| found.mean.map(|both| both[i]));
+            let mut entry = json!({ "mean": mean, "deviation": deviation, "units": units,
+                                    "about": about, "from": found.from });
+            let silent = found.mean.is_none().then(|| why_none(name).to_owned());
+            if let Some(note) = found.note.or(silent) {
+                entry["note"] = json!(note);
+            }
+            (name.to_owned(), entry)
         };
-        let measured = PATCH_MEASURES.iter().enumerate().filter_map(|(i, measure)| {
-            entry(*measure, self.of_run(measure.0).or_else(|| of_records(i)))
+        let measured = PATCH_MEASURES.iter().enumerate().map(|(i, measure)| {
+            entry(*measure, self.of_run(measure.0).unwrap_or_else(|| of_records(i)))
         });
-        let creepage = entry(CREEPAGE, self.of_run(CREEPAGE.0));
+        let creepage = self.of_run(CREEPAGE.0).map(|found| entry(CREEPAGE, found));
         measured.chain(creepage).collect::<Map<_, _>>().into()
     }
 }

@@ -214,7 +214,15 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
     );
     for PatchLine { label, key, factor, unit } in PATCH_TABLE {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));
+        let note = checked.pointer(&format!("/patch/{key}/note")).and_then(Value::as_str);
         let Some(mean) = at("mean") else {
+            if let Some(note) = note {
+                let _ = writeln!(
+                    out,
+                    "<tr><td>{label}</td><td class=\"n\">\u{2013}</td><td colspan=\"3\">{}</td></tr>",
+                    escape(note)
+                );
+            }
             continue;
         };
         let reference = match key {
@@ -228,10 +236,11 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
         let _ = writeln!(
             out,
             "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td>\
-             <td class=\"n\">{}</td></tr>",
+             <td class=\"n\">{}</td>{}</tr>",
             digits(factor * mean, 4),
             at("deviation").map(|d| digits(factor * d, 2)).unwrap_or_default(),
-            reference.unwrap_or_default()
+            reference.unwrap_or_default(),
+            note.map(|note| format!("<td>{}</td>", escape(note))).unwrap_or_default()
         );
     }
     out.push_str("</table>\n");

@@ -4,12 +4,12 @@ use crate::conditions::IN_CONTACT;
 use crate::frames::Frame;
 use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
-use contact::patch;
+use contact::patch::{self, PatchShape};
 
 /// Measures of the patch, in the order of a row: name, unit, meaning.
 pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
-    ("half_length", "m", "half axis along x of the ellipse fitted to the pressure"),
-    ("half_width", "m", "half axis along y of that fit"),
+    ("half_length", "m", "half axis along x of Hertz's distribution fitted to the pressure"),
+    ("half_width", "m", "half axis along y of that fit, or half the width of a line contact"),
     ("centre", "m", "x of its centre"),
     ("peak_pressure", "Pa", "peak pressure of that fit"),
     ("peak_pressure_raw", "Pa", "largest nodal pressure"),
@@ -78,7 +78,13 @@ pub struct PatchRow {
 /// resolves fractions of an element; positions are those of the moment. Forces are sums of
 /// pressure along the normals of the deformed surface and of shear, over all nodes under pressure;
 /// they are those on the disk, turned around where `body` is the bar.
-pub(crate) fn measure(surface: &Surface, frame: &Frame, body: u8, p0: f64) -> PatchRow {
+pub(crate) fn measure(
+    surface: &Surface,
+    frame: &Frame,
+    body: u8,
+    p0: f64,
+    shape: PatchShape,
+) -> PatchRow {
     let of_body = |&row: &usize| surface.body[row] == body;
     let rows: Vec<usize> = (0..surface.points.len()).filter(of_body).collect();
     let position = |row: usize| match &frame.motion {
@@ -87,7 +93,7 @@ pub(crate) fn measure(surface: &Surface, frame: &Frame, body: u8, p0: f64) -> Pa
     };
     let points: Vec<Vec3> = rows.iter().map(|&row| position(row)).collect();
     let pressure: Vec<f64> = rows.iter().map(|&row| frame.pressure[row]).collect();
-    let fit = patch::fit(&points, &pressure);
+    let fit = patch::fit(shape, &points, &pressure);
     let normals = normals(surface, frame, body, position);
     let mut force = [0.0; 3];
     let (mut area, mut stick, mut slip, mut power) = (0.0, 0.0, 0.0, 0.0);

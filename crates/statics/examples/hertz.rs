@@ -117,7 +117,8 @@ fn main() {
                 (table.nodes.iter().map(at).collect(), table.pressure)
             }
         };
-        let fit = contact::patch::fit(&points, &pressure).unwrap();
+        let fit =
+            contact::patch::fit(contact::patch::PatchShape::Ellipse, &points, &pressure).unwrap();
         let peak = pressure.iter().copied().fold(0.0, f64::max);
         let hub = found.displacement[supports.tied[0].nodes[0] as usize][2];
         println!(

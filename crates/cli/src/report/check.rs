@@ -122,13 +122,17 @@ fn patch(out: &mut String, document: &Value) {
     heading(out, "Patch, mean and standard deviation");
     for post::PatchLine { label, key, factor, unit } in post::PATCH_TABLE {
         let at = |part: &str| number(document, &format!("/patch/{key}/{part}"));
+        let note = word(document, &format!("/patch/{key}/note"));
+        let note = if note.is_empty() { String::new() } else { format!("  ({note})") };
         if let Some(mean) = at("mean") {
             let line = format!(
                 "  {label:<22}{:>11} {unit:<5}+- {}",
                 digits(Some(mean * factor), 4),
                 digits(at("deviation").map(|d| d * factor), 2)
             );
-            let _ = writeln!(out, "{}", line.trim_end());
+            let _ = writeln!(out, "{}{note}", line.trim_end());
+        } else if !note.is_empty() {
+            let _ = writeln!(out, "  {label:<22}{:>11}{note}", "-");
         }
     }
 }

@@ -87,7 +87,12 @@ fn contact(out: &mut String, summary: &Value) {
     let _ = writeln!(out, "\n{title:<44}{:>12}{:>12}{:>8}", "deviation", "half-space", "ratio");
     let rows = CONTACT.iter().map(|q| ("contact", q)).chain(WINDOW.iter().map(|q| ("window", q)));
     for (section, &(label, key, factor, unit)) in rows {
+        let reason = word(summary, &format!("/window/reasons/{key}"));
+        let reason = if reason.is_empty() { String::new() } else { format!("  ({reason})") };
         let Some(mean) = at(&format!("/{section}/{key}")) else {
+            if !reason.is_empty() {
+                let _ = writeln!(out, "  {label:<24}{:>12}{reason}", "-");
+            }
             continue;
         };
         let deviation = at(&format!("/window/deviation/{key}"));
@@ -100,7 +105,7 @@ fn contact(out: &mut String, summary: &Value) {
             shown(reference),
             reference.map(|r| format!("{:.3}", mean / r)).unwrap_or_default(),
         );
-        let _ = writeln!(out, "{}", line.trim_end());
+        let _ = writeln!(out, "{}{reason}", line.trim_end());
     }
     let share = |pointer| format!("{} %", digits(scaled(at(pointer), 100.0), 3));
     let _ = writeln!(

@@ -9,6 +9,7 @@ use crate::patch_series::{self, PatchRow};
 use crate::surface::{Surface, body_name};
 use crate::tally::{SideTally, Tally};
 use crate::vector::{Vec3, norm};
+use contact::patch::PatchShape;
 
 /// A part of the interface on which the tangential conditions are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +57,7 @@ pub(super) struct Pass<'a> {
     pub patch: Vec<PatchRow>,
     pub node_times: usize,
     pub without_foot: usize,
+    shape: PatchShape,
     pair: Option<Pair>,
     previous: Option<Record>,
 }
@@ -88,6 +90,7 @@ impl<'a> Pass<'a> {
             patch: Vec::new(),
             node_times: 0,
             without_foot: 0,
+            shape: basis.shape,
             pair,
             previous: None,
         }
@@ -136,8 +139,11 @@ impl<'a> Pass<'a> {
             scope.spawn(|_| {
                 let body = surface.bodies().last().copied().unwrap_or(0);
                 let p0 = scales.peak_pressure;
+                let shape = self.shape;
                 let rows = records[first..].iter();
-                patch.extend(rows.map(|r| patch_series::measure(surface, &r.frame, body, p0)));
+                patch.extend(
+                    rows.map(|r| patch_series::measure(surface, &r.frame, body, p0, shape)),
+                );
             });
         });
         for (record, slip) in records[first..].iter_mut().zip(slips) {

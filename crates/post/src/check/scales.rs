@@ -29,7 +29,7 @@ impl Scales {
         if basis.scale("peak_pressure").is_none() || basis.scale("half_length").is_none() {
             let last = history.record(records.end - 1)?;
             let body = surface.bodies().last().copied().unwrap_or(0);
-            let row = patch_series::measure(surface, &last, body, 0.0);
+            let row = patch_series::measure(surface, &last, body, 0.0, basis.shape);
             let [a, b, _, fitted, raw, ..] = row.values;
             let top = if fitted.is_finite() { fitted } else { raw };
             basis.offer("peak_pressure", top, "pressure of the last record");
