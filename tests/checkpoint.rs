@@ -259,7 +259,7 @@ fn results_shorter_than_the_newest_checkpoint_send_the_run_to_the_one_before() {
     // as if a power cut had taken the last records: the newest checkpoint wants more than there is
     let path = out.join(CHECKPOINTS[0]);
     let mut checkpoint = Checkpoint::read(&path).unwrap();
-    checkpoint.lengths.history += 1_000;
+    checkpoint.results.history.records += 1_000;
     let older = fs::read(out.join(CHECKPOINTS[1])).unwrap();
     checkpoint.write(&out).unwrap();
     fs::write(out.join(CHECKPOINTS[1]), older).unwrap();

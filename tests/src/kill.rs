@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use case::folder::RUN_FILES;
 use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile};
 
+use crate::chance::Chance;
 use crate::{project, results, timeless};
 
 /// What to kill, and how often.
@@ -197,25 +198,4 @@ pub fn open_all(out: &Path) -> Result<usize, String> {
 
 fn text(error: impl std::fmt::Display) -> String {
     error.to_string()
-}
-
-/// Random numbers (Steele, Lea and Flood 2014, `splitmix64`).
-struct Chance(u64);
-
-impl Chance {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, end: u64) -> u64 {
-        self.next() % end
-    }
-
-    /// From 0 to 1.
-    fn fraction(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
 }

@@ -1,6 +1,8 @@
 //! Runs a case in a folder of its own and reads back every number it left, for the tests.
 #![allow(clippy::unwrap_used)]
 
+pub mod chance;
+pub mod damage;
 pub mod kill;
 
 use std::collections::BTreeMap;
@@ -142,11 +144,12 @@ impl Results {
     }
 }
 
-/// A summary without what the clock, the memory and the number of threads put in.
+/// A summary without what the clock, the memory and the number of threads put in, and the sums that depend
+/// on it.
 pub fn timeless(summary: &Value) -> Value {
     let mut summary = summary.clone();
     let map = summary.as_object_mut().unwrap();
-    for key in ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads"] {
+    for key in case::sweep::collect::NOT_REPEATED {
         assert!(map.remove(key).is_some(), "{key}");
     }
     summary

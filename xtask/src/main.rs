@@ -1,4 +1,4 @@
-//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `wheel`.
+//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `soak`, `wheel`.
 
 mod book;
 mod book_test;
@@ -7,6 +7,7 @@ mod kill_loop;
 mod links;
 mod markdown;
 mod shell;
+mod soak;
 mod validate;
 mod wheel;
 
@@ -44,6 +45,11 @@ enum Chore {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<String>,
     },
+    /// Long trials of the whole program: all of them, or one
+    Soak {
+        #[command(subcommand)]
+        part: Option<soak::Part>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -54,5 +60,6 @@ fn main() -> ExitCode {
         Chore::BookTest { all: true } => validate::alone(validate::all_of_the_book),
         Chore::Wheel => wheel::wheel(),
         Chore::KillLoop { options } => kill_loop::kill_loop(&options),
+        Chore::Soak { part } => soak::soak(part),
     }
 }

@@ -27,7 +27,7 @@ pub fn alone(step: Step) -> ExitCode {
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 14] = [
+    let steps: [(&str, Step); 15] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -39,6 +39,7 @@ pub fn validate() -> ExitCode {
         ("report page", report_page),
         ("sweep through Dask", dask),
         ("full and read-only disks", disks),
+        ("damaged files", crate::soak::sample),
         ("Python package", crate::wheel::tests),
         ("book", book),
         ("commands of the book", book_test),
@@ -295,7 +296,13 @@ pub fn target(root: &Path) -> PathBuf {
     }
 }
 
-fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
+/// The program, once it is built.
+pub fn program(root: &Path) -> PathBuf {
+    target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX))
+}
+
+/// Runs cargo to its end.
+pub fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     execute(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
 }

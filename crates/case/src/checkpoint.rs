@@ -8,7 +8,7 @@ use crate::schema;
 use crate::start::Found;
 use contact::ContactState;
 use dynamics::{Energies, HubState, LEDGER_NUMBERS, Ledger, SimulationState, Timers, Watch};
-use output::{Array, Checkpoint, Lengths, Numbers, Provenance};
+use output::{Array, Checkpoint, Numbers, Provenance, Results};
 
 /// Attributes: what was found before rolling, as JSON, and the instruction set of the kernels.
 const FOUND: &str = "found";
@@ -66,7 +66,7 @@ impl Clock {
 }
 
 impl State {
-    /// The checkpoint; its lengths are the writer's to fill in.
+    /// The checkpoint; its results are the writer's to fill in.
     pub(crate) fn into_checkpoint(self, provenance: &Provenance, kernels: &str) -> Checkpoint {
         let simulation = self.simulation;
         let mut provenance = provenance.clone();
@@ -133,7 +133,7 @@ impl State {
             });
         }
         let step = simulation.step as u64;
-        Checkpoint { provenance, step, lengths: Lengths::default(), arrays }
+        Checkpoint { provenance, step, results: Results::default(), arrays }
     }
 
     /// The reverse; says what is missing.

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::derived;
 use crate::postmortem::POSTMORTEM;
 use crate::schema::Case;
 use output::CHECKPOINTS;
@@ -18,7 +19,7 @@ pub const CASE_FILE: &str = "case.toml";
 /// Held locked while a run is written; stays behind, empty.
 const LOCK: &str = "run.lock";
 
-/// The files that a run writes; `--force` removes these and nothing else.
+/// The files that a run writes; `--force` removes these, what was made from them, and nothing else.
 pub const RUN_FILES: [&str; 10] = [
     CASE_FILE,
     "fields.vtkhdf",
@@ -123,8 +124,9 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
 
 /// Makes `folder` ready for a run: it exists, is writable and holds no run.
 ///
-/// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] are
-/// removed, so that notes and figures beside a run survive; [`CASE_FILE`] is the run's to replace.
+/// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] and the checks, pages
+/// and figures that this program made from them are removed, so that anything else beside a run survives;
+/// [`CASE_FILE`] is the run's to replace.
 pub fn prepare(folder: &Path, force: bool) -> Result<Held, FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
@@ -142,6 +144,7 @@ pub fn prepare(folder: &Path, force: bool) -> Result<Held, FolderError> {
             _ => {}
         }
     }
+    derived::remove(folder).map_err(unwritable)?;
     Ok(held)
 }
 

@@ -8,6 +8,7 @@ mod bench;
 mod bodies;
 mod check;
 mod checkpoint;
+pub mod derived;
 mod disk;
 pub mod error;
 pub mod folder;

@@ -90,7 +90,7 @@ impl Probes {
                 columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
             }
         }
-        let history = basis.history("probes.h5", &columns, |lengths| lengths.probes)?;
+        let history = basis.history("probes.h5", &columns, |results| &results.probes)?;
         Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
     }
 

@@ -11,8 +11,8 @@ use contact::patch::{self, PatchShape};
 use dynamics::{Hub, Simulation, StepReport};
 use mesh::{Face, Padded};
 use output::{
-    BackgroundWriter, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Lengths, Provenance,
-    RunFiles, StaticField, TransientGrid, Values,
+    BackgroundWriter, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Kept, Provenance,
+    Results, RunFiles, StaticField, TransientGrid, Values,
 };
 use std::ops::Range;
 use std::path::Path;
@@ -148,7 +148,7 @@ pub(crate) struct Basis<'a> {
     pub(crate) effective_radius: f64,
     pub(crate) hertz_pressure: f64,
     /// Where the run goes on with files that are there: what of them it keeps.
-    pub(crate) keeps: Option<Lengths>,
+    pub(crate) keeps: Option<Results>,
 }
 
 impl Basis<'_> {
@@ -158,11 +158,11 @@ impl Basis<'_> {
         grid: &GridSpec<'_>,
         fields: &[FieldSpec],
         provenance: &Provenance,
-        length: fn(&Lengths) -> u64,
+        of: fn(&Results) -> &Kept,
     ) -> Result<TransientGrid, RunError> {
         let path = self.folder.join(name);
         Ok(match &self.keeps {
-            Some(kept) => TransientGrid::reopen(path, grid, fields, length(kept) as usize)?,
+            Some(kept) => TransientGrid::reopen(path, grid, fields, of(kept))?,
             None => TransientGrid::create(path, grid, fields, provenance)?,
         })
     }
@@ -171,11 +171,11 @@ impl Basis<'_> {
         &self,
         name: &str,
         columns: &[Column],
-        length: fn(&Lengths) -> u64,
+        of: fn(&Results) -> &Kept,
     ) -> Result<History, RunError> {
         let path = self.folder.join(name);
         Ok(match &self.keeps {
-            Some(kept) => History::reopen(path, columns, length(kept) as usize)?,
+            Some(kept) => History::reopen(path, columns, of(kept))?,
             None => History::create(path, columns, &self.provenance)?,
         })
     }
@@ -209,7 +209,7 @@ impl Recorder {
             history: basis.history(
                 "history.h5",
                 &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
-                |lengths| lengths.history,
+                |results| &results.history,
             )?,
         };
         let count = tables[DISK].nodes.len() + tables[BAR].nodes.len();
@@ -273,7 +273,7 @@ impl Recorder {
         folder: &Path,
     ) -> Result<(), RunError> {
         let probes = self.probes.as_ref().map(Probes::file);
-        checkpoint.lengths.probes = probes.map_or(0, |history| history.rows() as u64);
+        checkpoint.results.probes = probes.map_or_else(Kept::default, History::kept);
         let beside = probes.map(|history| history.path().to_owned());
         Ok(self.writer.keep(checkpoint, folder, beside)?)
     }
@@ -579,7 +579,7 @@ fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<Transi
         cells: Cells::Hexahedra(&model.mesh.hexes),
         constant: &[body_field(&body)],
     };
-    basis.grid("fields.vtkhdf", &grid, &specs, &basis.provenance, |lengths| lengths.fields)
+    basis.grid("fields.vtkhdf", &grid, &specs, &basis.provenance, |results| &results.fields)
 }
 
 fn create_contact(
@@ -627,7 +627,7 @@ fn create_contact(
         ],
     };
     let fields = contact_fields(enforced_on.is_some());
-    basis.grid("contact.vtkhdf", &grid, &fields, &provenance, |lengths| lengths.contact)
+    basis.grid("contact.vtkhdf", &grid, &fields, &provenance, |results| &results.contact)
 }
 
 fn body_field(body: &[u8]) -> StaticField<'_> {

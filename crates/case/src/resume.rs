@@ -1,6 +1,5 @@
 //! Whether and from where `--resume` can go on.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::checkpoint::{KERNELS, State};
@@ -8,7 +7,9 @@ use crate::folder::has_run;
 use crate::schema::Case;
 use miette::Diagnostic;
 use output::summary::Status;
-use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile, OutputError, prove_indexes};
+use output::{
+    CHECKPOINTS, Checkpoint, OutputError, Results, as_long_as_written, prove, read_summary,
+};
 use serde_json::Value;
 use solid::Level;
 use thiserror::Error;
@@ -46,6 +47,15 @@ pub enum ResumeError {
         /// What is wrong with each.
         reasons: String,
     },
+    /// A file is not as the run left it, and there is no checkpoint to go on from.
+    #[error("the run in {} cannot be resumed: {reason}", folder.display())]
+    #[diagnostic(help("copy its files again, or begin the run anew with --force"))]
+    Damaged {
+        /// The folder.
+        folder: PathBuf,
+        /// The file and what is wrong with it.
+        reason: String,
+    },
 }
 
 /// Where a run goes on.
@@ -76,13 +86,15 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
     if let Some(difference) = difference(case, folder) {
         return Err(ResumeError::AnotherCase { folder: path(), difference });
     }
-    let summary = fs::read(folder.join("summary.json")).ok();
-    let summary = summary.and_then(|text| serde_json::from_slice::<Value>(&text).ok());
+    let damage =
+        |error: OutputError| ResumeError::Damaged { folder: path(), reason: error.to_string() };
+    let summary = read_summary(folder);
     let complete = serde_json::to_value(Status::Completed).ok();
-    if let Some(summary) = summary
+    if let Ok(Some(summary)) = &summary
         && summary.get("status") == complete.as_ref()
     {
-        return Ok(Origin::Complete(summary));
+        as_long_as_written(folder, summary, |_| true).map_err(damage)?;
+        return Ok(Origin::Complete(summary.clone()));
     }
     let mut damaged = Vec::new();
     for name in CHECKPOINTS {
@@ -98,6 +110,8 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
         }
     }
     if damaged.is_empty() {
+        // what the summary of a run that can go on says is of no use
+        summary.map_err(damage)?;
         return Ok(Origin::Beginning("the run has no checkpoint yet".into()));
     }
     let reasons: Vec<_> =
@@ -122,10 +136,11 @@ fn difference(case: &Case, folder: &Path) -> Option<String> {
         [] => None,
         [some @ .., last] if some.len() < 4 => {
             let all = [some, std::slice::from_ref(last)].concat().join(", ");
-            Some(format!("{all} differ{}", if keys.len() == 1 { "s" } else { "" }))
+            Some(format!("{all} differ{} (case.toml)", if keys.len() == 1 { "s" } else { "" }))
         }
         keys => {
-            Some(format!("{} and {} further keys differ", keys[..3].join(", "), keys.len() - 3))
+            let (some, more) = (keys[..3].join(", "), keys.len() - 3);
+            Some(format!("{some} and {more} further keys differ (case.toml)"))
         }
     }
 }
@@ -169,25 +184,17 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
     Ok((checkpoint, state, level))
 }
 
-/// Whether the result files hold all that belongs to the checkpoint and can be extended.
+/// Whether the result files hold all that belongs to the checkpoint, unchanged, and can be extended.
 fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
-    let lengths = checkpoint.lengths;
-    let steps = |path: &Path| GridFile::open(path).map(|file| file.steps());
-    let rows = |path: &Path| HistoryFile::open(path).map(|file| file.rows());
-    let check = |name: &str, count: &dyn Fn(&Path) -> Result<usize, OutputError>, wanted: u64| {
-        let path = folder.join(name);
-        match prove_indexes(&path).and_then(|()| count(&path)) {
-            Ok(found) if found as u64 >= wanted => Ok(()),
-            Ok(found) => Err(format!("{name} holds {found} of the {wanted} records before it")),
-            Err(error) => Err(error.to_string()),
-        }
-    };
-    check("fields.vtkhdf", &steps, lengths.fields)?;
-    check("contact.vtkhdf", &steps, lengths.contact)?;
-    check("history.h5", &rows, lengths.history)?;
+    let Results { fields, contact, history, probes } = &checkpoint.results;
+    let mut files =
+        vec![("fields.vtkhdf", fields), ("contact.vtkhdf", contact), ("history.h5", history)];
     // Only of cases with probes.
-    if lengths.probes > 0 || folder.join("probes.h5").exists() {
-        check("probes.h5", &rows, lengths.probes)?;
+    if !probes.sums.is_empty() {
+        files.push(("probes.h5", probes));
+    }
+    for (name, kept) in files {
+        prove(folder.join(name), kept).map_err(|error| error.to_string())?;
     }
     Ok(())
 }

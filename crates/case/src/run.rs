@@ -21,11 +21,10 @@ use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::{Start, restart, start};
-use crate::summary::{Ending, summary, without_rolling};
+use crate::summary::{Ending, summary, without_rolling, write as write_summary};
 use dynamics::Energies;
 use output::summary::Status;
-use output::{CHECKPOINTS, Provenance};
-use serde_json::json;
+use output::{CHECKPOINTS, LOG_END, Provenance};
 
 /// How the last line of the log begins where a run was refused after its mesh was made.
 pub(crate) const REFUSED: &str = "end: refused before rolling: ";
@@ -62,11 +61,20 @@ pub fn run(
 ) -> Result<serde_json::Value, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     // The whole run inside the pool: entering it costs microseconds, a step of a small case few more.
-    let result = pool.install(|| run_in_pool(case, options, stop, observe));
+    let mut result = pool.install(|| run_in_pool(case, options, stop, observe));
+    if let Err(RunError::Output(error)) = &result
+        && (options.resume && options.force)
+        && error.damaged().is_some()
+    {
+        // found only when the files were opened to be extended
+        tracing::warn!("{error}; the run begins at its start");
+        let anew = RunOptions { resume: false, ..options.clone() };
+        result = pool.install(|| run_in_pool(case, &anew, stop, observe));
+    }
     if let Err(error @ (RunError::Output(_) | RunError::Text { .. })) = &result {
         // as far as that is possible where files could not be written
         let _ = Log::append(options.out.join("run.log"))
-            .and_then(|mut log| log.say(&format!("end: Failed, {error}")));
+            .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));
     }
     result
 }
@@ -146,9 +154,9 @@ fn run_in_pool(
             match start(case, &model, cache, stop, observe, &mut |line| log.say(line)) {
                 Err(RunError::Preload(error)) => {
                     let summary = without_rolling(case, &model, options.threads, wall, &error);
-                    output::write_json_atomically(options.out.join("summary.json"), &summary)?;
-                    log.say(&format!("end: {:?} before rolling: {error}", summary.status))?;
-                    return Ok(json!(summary));
+                    let document = write_summary(&options.out, &summary)?;
+                    log.say(&format!("{LOG_END}{:?} before rolling: {error}", summary.status))?;
+                    return Ok(document);
                 }
                 Err(error) => {
                     log.say(&format!("{REFUSED}{error}"))?;
@@ -198,8 +206,12 @@ fn run_in_pool(
         },
         effective_radius: facts.radius.effective,
         hertz_pressure: hertz.p0,
-        keeps: resumed.as_ref().map(|(checkpoint, _)| checkpoint.lengths),
+        keeps: resumed.as_ref().map(|(checkpoint, _)| checkpoint.results.clone()),
     };
+    if resumed.is_some() {
+        // the word of an interruption or a stop holds no longer once the files change
+        ["summary.json", POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
+    }
     let mut recorder = Recorder::new(case, &model, &simulation, &basis)?;
     let nodes = model.mesh.nodes.len();
     drop(model); // the time loop has what it needs
@@ -210,8 +222,6 @@ fn run_in_pool(
     if let Some((_, state)) = resumed {
         recorder.restore(&state.recorder);
         (last, before) = (state.energies, state.wall);
-        // the word of an interruption or a stop holds no longer
-        ["summary.json", POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
     }
     let rolling = Instant::now();
     let first = simulation.steps() as u64;
@@ -294,12 +304,13 @@ fn run_in_pool(
         keeping,
     };
     let summary = summary(case, &simulation, &facts, &hertz, &ending);
-    output::write_json_atomically(options.out.join("summary.json"), &summary)?;
+    let document = write_summary(&options.out, &summary)?;
     if status == Status::Completed {
         remove_checkpoints(&options.out)?;
     }
-    log.say(&format!("end: {status:?} after {} steps, {:.1} s", summary.steps, summary.wall_s))?;
-    Ok(json!(summary))
+    let (steps, wall) = (summary.steps, summary.wall_s);
+    log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;
+    Ok(document)
 }
 
 /// Where a run that is to be resumed goes on; none for one that begins.

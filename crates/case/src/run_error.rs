@@ -73,12 +73,9 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Preload(#[from] crate::preload::PreloadError),
-    /// Results cannot be written.
+    /// Result files of a run that was to go on are damaged, or results cannot be written.
     #[error(transparent)]
-    #[diagnostic(help(
-        "the run has stopped; what was written before stays readable, and --resume goes on once the \
-         disk has room"
-    ))]
+    #[diagnostic(help("{}", output_help(.0)))]
     Output(#[from] output::OutputError),
     /// A file beside the results cannot be written.
     #[error("cannot write {}: {cause}{}", path.display(), output::room_left(path))]
@@ -125,7 +122,17 @@ impl RunError {
             | Self::Memory { .. } => 2,
             Self::Step { .. } | Self::Resume(_) | Self::Restore(_) | Self::NoLaw => 2,
             Self::Preload(error) if error.is_interruption() => 130,
+            Self::Output(error) if error.damaged().is_some() => 2,
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
         }
+    }
+}
+
+fn output_help(error: &output::OutputError) -> &'static str {
+    if error.damaged().is_some() {
+        "copy the files of the run again, or begin it anew with --force"
+    } else {
+        "the run has stopped; what was written before stays readable, and --resume goes on once the \
+         disk has room"
     }
 }

@@ -2,17 +2,20 @@
 
 use std::time::{Duration, Instant};
 
+use crate::folder::CASE_FILE;
 use crate::hertz::Hertz;
 use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
 use crate::postmortem::POSTMORTEM;
 use crate::preload::PreloadError;
+use crate::run_error::RunError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;
 use dynamics::{Energies, Simulation};
 use output::summary::{Contact, Energy, Files, Status, Summary};
-use serde_json::json;
+use serde_json::{Value, json};
+use std::path::Path;
 
 /// How a run ended.
 pub(crate) struct Ending {
@@ -146,6 +149,20 @@ pub(crate) fn without_rolling(
         stages: [("preload".to_owned(), wall_s)].into(),
         extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", error.remedy())))].into(),
     }
+}
+
+/// The files whose lengths and sums a summary holds.
+const SUMMED: [&str; 6] =
+    [CASE_FILE, "fields.vtkhdf", "contact.vtkhdf", "history.h5", "probes.h5", POSTMORTEM];
+
+/// Writes the summary of a run whose files are closed into its folder, with their sums; returns it.
+pub(crate) fn write(folder: &Path, summary: &Summary) -> Result<Value, RunError> {
+    let mut document = json!(summary);
+    if let Value::Object(entries) = &mut document {
+        output::seal(entries, &output::sums_of_files(folder, &SUMMED)?);
+    }
+    output::write_json_atomically(folder.join("summary.json"), &document)?;
+    Ok(document)
 }
 
 fn contact_means(means: &Means) -> Contact {

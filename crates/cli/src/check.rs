@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use miette::miette;
-use post::{Basis, CheckOptions, Limits, Pairing, PostError, Report, RunPaths};
+use output::OutputError;
+use post::{Basis, CheckOptions, Depth, Limits, Pairing, PostError, Report, RunPaths};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
@@ -32,6 +33,10 @@ pub struct CheckArgs {
     /// `after` it, or the `stricter` of both [default: what the file states, else stricter]
     #[arg(long, value_name = "stricter|before|after", value_parser = pairing)]
     pairing: Option<Report>,
+    /// Prove every bit of all files of the run by the checksums in its summary, also of those that
+    /// are not read for the check
+    #[arg(long)]
+    deep: bool,
     #[command(flatten)]
     pub basis: BasisArgs,
 }
@@ -50,7 +55,8 @@ pub struct BasisArgs {
 
 /// Runs the command.
 pub fn command(args: &Args, options: &CheckArgs) -> Result<u8, Failure> {
-    let (paths, mut basis) = basis(&options.run, &options.basis)?;
+    let depth = if options.deep { Depth::Every } else { Depth::Read };
+    let (paths, mut basis) = basis(&options.run, &options.basis, depth)?;
     let mut limits = Limits::for_enforcement(basis.enforcement.as_deref());
     for (name, value) in &options.limits {
         limits.set(name, *value)?;
@@ -73,9 +79,12 @@ pub fn command(args: &Args, options: &CheckArgs) -> Result<u8, Failure> {
     Ok(if found.pass { 0 } else { BEYOND })
 }
 
-/// The files of a run and what it is measured against.
-pub fn basis(run: &Path, options: &BasisArgs) -> Result<(RunPaths, Basis), Failure> {
+/// The files of a run, proven as far as asked, and what it is measured against.
+pub fn basis(run: &Path, options: &BasisArgs, depth: Depth) -> Result<(RunPaths, Basis), Failure> {
     let mut paths = RunPaths::of(run)?;
+    if let Some(warning) = post::prove(&paths, depth)? {
+        tracing::warn!("{warning}");
+    }
     if let Some(case) = &options.case {
         if !case.is_file() {
             let problem = format!("--case {}: there is no such file", case.display());
@@ -92,6 +101,9 @@ pub fn basis(run: &Path, options: &BasisArgs) -> Result<(RunPaths, Basis), Failu
     if (basis.summary.is_none() || basis.scale("approach").is_none())
         && let Ok(case) = case::Case::load(&paths.case, &[])
     {
+        if options.case.is_none() {
+            post::prove_case(&paths, &case.hash(), env!("CARGO_PKG_VERSION"))?;
+        }
         let named = basis.case.as_ref().is_some_and(|case| case.contains_key("evaluate"));
         basis.window = basis.window.or(named.then(|| case.evaluation_window()));
         basis.shape = case::hertz::patch_shape(&case);
@@ -159,6 +171,12 @@ fn map_file(text: &str) -> Result<PathBuf, String> {
 
 impl From<PostError> for Failure {
     fn from(error: PostError) -> Self {
-        Self { report: miette!("{error}"), code: BAD_INPUT }
+        let report = match &error {
+            PostError::Output(OutputError::Damaged { .. }) => {
+                miette!(help = "copy it again from where it is whole, or run it again", "{error}")
+            }
+            _ => miette!("{error}"),
+        };
+        Self { report, code: BAD_INPUT }
     }
 }

@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use figure::Format;
-use post::PostError;
+use post::{Depth, PostError};
 use serde_json::json;
 
 use crate::args::Args;
@@ -40,7 +40,7 @@ pub fn command(args: &Args, options: &PlotArgs) -> Result<u8, Failure> {
         let figures = figures.into_iter().map(|(stem, figure)| (stem, String::new(), figure));
         (sweep::name(&options.run), options.run.clone(), figures.collect::<Vec<_>>())
     } else {
-        let (paths, mut against) = basis(&options.run, &options.basis)?;
+        let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
         let figures = post::figures(&paths, &mut against, options.window)?;
         let figures =
             figures.into_iter().map(|n| (n.stem.to_owned(), n.about.to_owned(), n.figure));

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use post::{CheckOptions, Limits, PostError, Report};
+use post::{CheckOptions, Depth, Limits, PostError, Report};
 use serde_json::{Value, json};
 
 use crate::args::Args;
@@ -30,7 +30,7 @@ pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
     let (page, folder, pass) = if let Some(found) = sweep::read(&options.run)? {
         (sweep_page(&options.run, &found)?, options.run.clone(), None)
     } else {
-        let (paths, mut against) = basis(&options.run, &options.basis)?;
+        let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
         let wanted = CheckOptions {
             window: None,
             limits: Limits::for_enforcement(against.enforcement.as_deref()),

@@ -102,6 +102,43 @@ fn what_cannot_be_resumed_ends_with_code_2_and_a_remedy() {
     done(&out, &["--resume", "--force", "--set", "time.roll=0.001"]);
 }
 
+/// A result file that was cut short, emptied or changed is refused by its name, whichever it is; `--force`
+/// then begins the run anew.
+#[test]
+fn a_damaged_result_file_ends_resuming_with_code_2_and_its_name_and_force_begins_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let sets = [&LONG[..], &["--set", "output.probes.bar=[[0.0, 0.0]]"]].concat();
+    signalled(&out, "-TERM", &sets);
+    let cut = |bytes: &mut Vec<u8>, share: f64| {
+        bytes.truncate((share * bytes.len() as f64) as usize);
+    };
+    for name in ["fields.vtkhdf", "contact.vtkhdf", "history.h5", "probes.h5"] {
+        let whole = fs::read(out.join(name)).unwrap();
+        for share in [0.0, 0.5, 0.56, 0.8, 0.95, 0.99] {
+            let mut damaged = whole.clone();
+            cut(&mut damaged, share);
+            fs::write(out.join(name), damaged).unwrap();
+            for _ in 0..2 {
+                let output = creepage(&out, &[&["--resume"], &sets[..]].concat()).output().unwrap();
+                let said = said(&output);
+                assert_eq!(output.status.code(), Some(2), "{name} {share}: {said}");
+                assert!(said.contains(name), "{share}: {said}");
+            }
+        }
+        fs::write(out.join(name), whole).unwrap();
+    }
+    let history = out.join("history.h5");
+    let mut damaged = fs::read(&history).unwrap();
+    let time = damaged.windows(8).rposition(|number| number == 10_f64.to_le_bytes()).unwrap();
+    damaged[time] ^= 1;
+    fs::write(&history, damaged).unwrap();
+    let output = creepage(&out, &[&["--resume"], &sets[..]].concat()).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("history.h5"), "{}", said(&output));
+    done(&out, &["--resume", "--force", "--set", "time.roll=0.001"]);
+}
+
 /// The short form of `cargo xtask kill-loop`.
 #[track_caller]
 fn survives_kills(method: &[&str], seed: u64) {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use output::{
-    Array, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Lengths, Numbers, Provenance,
+    Array, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Numbers, Provenance, Results,
     StaticField, TransientGrid, Values,
 };
 use std::path::PathBuf;
@@ -73,7 +73,7 @@ fn main() {
     let checkpoint = Checkpoint {
         provenance,
         step: 7,
-        lengths: Lengths { fields: 1, contact: 1, history: 3, probes: 0 },
+        results: Results::default(),
         arrays: vec![
             array("nodes/displacement", Numbers::Real(vec![1.0, 2.0, 3.0])),
             array("contact/host", Numbers::Whole(vec![1, 2, 3])),

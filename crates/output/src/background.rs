@@ -111,7 +111,7 @@ impl BackgroundWriter {
     }
 
     /// Sends a checkpoint for `folder`. It is written once everything sent before is in the files and
-    /// on the disk, `beside` with them, and takes their lengths from them. Waits only for a
+    /// on the disk, `beside` with them, and takes their lengths and sums from them. Waits only for a
     /// checkpoint before that is not yet written.
     pub fn keep(
         &mut self,
@@ -284,9 +284,9 @@ fn keep(
 ) -> Result<(), OutputError> {
     let own = [files.fields.path(), files.contact.path(), files.history.path()];
     own.into_iter().chain(beside).try_for_each(sync_file)?;
-    checkpoint.lengths.fields = files.fields.steps() as u64;
-    checkpoint.lengths.contact = files.contact.steps() as u64;
-    checkpoint.lengths.history = files.history.rows() as u64;
+    checkpoint.results.fields = files.fields.kept();
+    checkpoint.results.contact = files.contact.kept();
+    checkpoint.results.history = files.history.kept();
     checkpoint.write(folder)
 }
 

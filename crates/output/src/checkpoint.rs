@@ -1,10 +1,11 @@
 //! Checkpoints: the whole state of a run at a step, from which it goes on with the same bits.
 //!
-//! `checkpoint.h5` holds named arrays with units, and the lengths of the run's result files at that
-//! step. It is written under another name, synced and renamed, and the one before stays as
+//! `checkpoint.h5` holds named arrays with units, and the lengths and sums of the run's result files at
+//! that step. It is written under another name, synced and renamed, and the one before stays as
 //! `checkpoint-1.h5`; the root attribute `sha256`, over all names and numbers, proves it whole.
 
 use crate::hdf5::{Creator, LayOut, Source, read_error};
+use crate::sums::Kept;
 use crate::{OutputError, Provenance};
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
@@ -20,8 +21,10 @@ const CHECKSUM: &str = "sha256";
 const STEP: &str = "step";
 /// Root attributes that are not further ones of the provenance.
 const OWN: [&str; 5] = ["creepage_version", "case_hash", "created", STEP, CHECKSUM];
-/// Dataset of the step and of [`Lengths`].
+/// Dataset of the step and the records of each of [`Results`].
 const LENGTHS: &str = "results/lengths";
+/// Dataset of their sums: for each file how many there are, then they.
+const SUMS: &str = "results/sums";
 
 /// An array of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,17 +50,17 @@ pub enum Numbers {
     Whole(Vec<u64>),
 }
 
-/// How much of each result file belongs to a checkpoint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Lengths {
-    /// Snapshots in `fields.vtkhdf`.
-    pub fields: u64,
-    /// Snapshots in `contact.vtkhdf`.
-    pub contact: u64,
-    /// Rows in `history.h5`.
-    pub history: u64,
-    /// Rows in `probes.h5`; zero where the run has none.
-    pub probes: u64,
+/// What of each result file belongs to a checkpoint.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Results {
+    /// Of `fields.vtkhdf`.
+    pub fields: Kept,
+    /// Of `contact.vtkhdf`.
+    pub contact: Kept,
+    /// Of `history.h5`.
+    pub history: Kept,
+    /// Of `probes.h5`; nothing where the run has none.
+    pub probes: Kept,
 }
 
 /// A checkpoint.
@@ -68,7 +71,7 @@ pub struct Checkpoint {
     /// Steps done.
     pub step: u64,
     /// What of the result files belongs to it.
-    pub lengths: Lengths,
+    pub results: Results,
     /// The state.
     pub arrays: Vec<Array>,
 }
@@ -81,9 +84,9 @@ impl Checkpoint {
         provenance.attributes.push((CHECKSUM.into(), self.checksum()));
         let mut file = Creator::new(&newest, &provenance)?;
         file.count(&[], STEP, self.step as i64)?;
-        let lengths = self.lengths_array();
+        let own = self.results.arrays(self.step);
         let mut groups = std::collections::BTreeSet::new();
-        for array in self.arrays.iter().chain([&lengths]) {
+        for array in self.arrays.iter().chain(&own) {
             let parts: Vec<&str> = array.name.split('/').collect();
             let Some((name, group)) = parts.split_last() else { continue };
             for depth in 1..=group.len() {
@@ -127,7 +130,7 @@ impl Checkpoint {
             provenance.attributes.push((name, text));
         }
         let mut arrays = Vec::new();
-        let (mut step, mut lengths) = (None, Lengths::default());
+        let (mut records, mut sums) = (None, None);
         for name in file.all_names()? {
             let array = Array {
                 units: file.text(&name, "units")?,
@@ -137,18 +140,18 @@ impl Checkpoint {
                 name,
             };
             match (array.name.as_str(), &array.values) {
-                (LENGTHS, Numbers::Whole(values)) => {
-                    let [at, fields, contact, history, probes] = values[..] else {
-                        return Err(refuse("its list of lengths has another length"));
-                    };
-                    step = Some(at);
-                    lengths = Lengths { fields, contact, history, probes };
-                }
+                (LENGTHS, Numbers::Whole(values)) => records = Some(values.clone()),
+                (SUMS, Numbers::Whole(values)) => sums = Some(values.clone()),
                 _ => arrays.push(array),
             }
         }
-        let step = step.ok_or_else(|| refuse("it has no list of lengths"))?;
-        let found = Self { provenance, step, lengths, arrays };
+        let records = records.ok_or_else(|| refuse("it has no list of lengths"))?;
+        let sums = sums.ok_or_else(|| {
+            refuse("it has no sums of the result files: another version of creepage wrote it")
+        })?;
+        let (step, results) = Results::from_numbers(&records, &sums)
+            .ok_or_else(|| refuse("its lists of lengths and sums do not fit together"))?;
+        let found = Self { provenance, step, results, arrays };
         if found.checksum() != file.root_text(CHECKSUM)? {
             return Err(refuse("its checksum does not match"));
         }
@@ -161,19 +164,6 @@ impl Checkpoint {
         attributes.iter().find(|(n, _)| n == name).map(|(_, text)| text.as_str())
     }
 
-    fn lengths_array(&self) -> Array {
-        let Lengths { fields, contact, history, probes } = self.lengths;
-        Array {
-            name: LENGTHS.into(),
-            units: "1".into(),
-            components: 1,
-            description: "steps done; snapshots in fields.vtkhdf and contact.vtkhdf; rows in \
-                          history.h5 and probes.h5"
-                .into(),
-            values: Numbers::Whole(vec![self.step, fields, contact, history, probes]),
-        }
-    }
-
     /// SHA-256 over everything, in an order that does not depend on that of arrays or attributes.
     fn checksum(&self) -> String {
         let mut sum = Sha256::new();
@@ -184,8 +174,8 @@ impl Checkpoint {
         for text in [creepage_version, case_hash, created].into_iter().chain(attributes) {
             text_into(&mut sum, text);
         }
-        let lengths = self.lengths_array();
-        let mut arrays: Vec<&Array> = self.arrays.iter().chain([&lengths]).collect();
+        let own = self.results.arrays(self.step);
+        let mut arrays: Vec<&Array> = self.arrays.iter().chain(&own).collect();
         arrays.sort_by(|a, b| a.name.cmp(&b.name));
         for array in arrays {
             for text in [&array.name, &array.units, &array.description] {
@@ -197,8 +187,56 @@ impl Checkpoint {
                 Numbers::Whole(values) => bytes(&mut sum, b'w', values, |x| x.to_le_bytes()),
             }
         }
-        sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        hexadecimal(&sum.finalize())
     }
+}
+
+impl Results {
+    fn files(&self) -> [&Kept; 4] {
+        [&self.fields, &self.contact, &self.history, &self.probes]
+    }
+
+    /// As arrays of a checkpoint of step `step`.
+    fn arrays(&self, step: u64) -> [Array; 2] {
+        let array = |name: &str, description: &str, values| Array {
+            name: name.into(),
+            units: "1".into(),
+            components: 1,
+            description: description.into(),
+            values: Numbers::Whole(values),
+        };
+        let records = self.files().map(|kept| kept.records);
+        let sums = self.files().into_iter().flat_map(|kept| {
+            [kept.sums.len() as u64].into_iter().chain(kept.sums.iter().map(|&sum| sum.into()))
+        });
+        let lengths = "steps done; snapshots in fields.vtkhdf and contact.vtkhdf; rows in \
+                       history.h5 and probes.h5";
+        let about = "for each of these files how many CRC-32 follow: of what does not change, then of \
+                     each growing dataset by name";
+        [
+            array(LENGTHS, lengths, [step].into_iter().chain(records).collect()),
+            array(SUMS, about, sums.collect()),
+        ]
+    }
+
+    /// The reverse, with the step.
+    fn from_numbers(lengths: &[u64], mut sums: &[u64]) -> Option<(u64, Self)> {
+        let &[step, ref records @ ..] = lengths else { return None };
+        let records: [u64; 4] = records.try_into().ok()?;
+        let mut files = records.map(|records| Kept { records, sums: Vec::new() });
+        for kept in &mut files {
+            let (&count, rest) = sums.split_first()?;
+            let (mine, rest) = rest.split_at_checked(usize::try_from(count).ok()?)?;
+            kept.sums = mine.iter().map(|&sum| sum as u32).collect();
+            sums = rest;
+        }
+        let [fields, contact, history, probes] = files;
+        Some((step, Self { fields, contact, history, probes }))
+    }
+}
+
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn text_into(sum: &mut Sha256, text: &str) {

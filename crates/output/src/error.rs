@@ -1,5 +1,5 @@
 use crate::room_left;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a file of a run could not be written or read, and what to do about it.
 #[derive(Debug, thiserror::Error)]
@@ -37,6 +37,14 @@ pub enum OutputError {
         /// What the system or the HDF5 library said.
         reason: String,
     },
+    /// A file is not as it was written.
+    #[error("{} is damaged: {reason}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What shows it.
+        reason: String,
+    },
     /// The data handed over do not have the shape that the file was created with.
     #[error("cannot write to {}: {problem}", path.display())]
     Shape {
@@ -51,4 +59,14 @@ pub enum OutputError {
          that it reported says why"
     )]
     Stopped,
+}
+
+impl OutputError {
+    /// The file, if what it holds is the reason.
+    pub fn damaged(&self) -> Option<&Path> {
+        match self {
+            Self::Read { path, .. } | Self::Damaged { path, .. } => Some(path),
+            _ => None,
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle, undo};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::sums::{Kept, Sums};
 use crate::{OutputError, Provenance};
 use std::path::{Path, PathBuf};
 
@@ -154,6 +155,7 @@ pub struct TransientGrid {
     points: usize,
     cells: usize,
     steps: usize,
+    sums: Sums,
 }
 
 impl TransientGrid {
@@ -164,27 +166,30 @@ impl TransientGrid {
         fields: &[FieldSpec],
         provenance: &Provenance,
     ) -> Result<Self, OutputError> {
-        let writer = Self::at(path.as_ref(), grid, fields);
+        let mut writer = Self::at(path.as_ref(), grid, fields);
         writer.check_grid(grid)?;
         let mut file = Creator::new(&writer.path, provenance)?;
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
         file.close_settled(|path| settle(path, &writer.growing(), &STEPS, COUNT))?;
+        writer.sums = Sums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }
 
     /// Goes on with a file at `path` that was created with the same grid and fields, cut off behind
-    /// its first `steps` snapshots.
+    /// the snapshots that are kept; [`prove`](crate::prove) says whether it still holds them.
     pub fn reopen(
         path: impl AsRef<Path>,
         grid: &GridSpec<'_>,
         fields: &[FieldSpec],
-        steps: usize,
+        kept: &Kept,
     ) -> Result<Self, OutputError> {
-        let writer = Self { steps, ..Self::at(path.as_ref(), grid, fields) };
+        let steps = kept.records as usize;
+        let mut writer = Self { steps, ..Self::at(path.as_ref(), grid, fields) };
         writer.check_grid(grid)?;
-        cut(&writer.path, &writer.growing(), &STEPS, COUNT, steps)?;
+        cut_to_go_on(&writer.path, &writer.growing(), &STEPS, COUNT, steps)?;
+        writer.sums = Sums::of_kept(kept, writer.names());
         Ok(writer)
     }
 
@@ -211,6 +216,11 @@ impl TransientGrid {
         all
     }
 
+    /// Their names.
+    fn names(&self) -> impl Iterator<Item = String> + use<> {
+        self.growing().into_iter().map(|dataset| dataset.name)
+    }
+
     fn at(path: &Path, grid: &GridSpec<'_>, fields: &[FieldSpec]) -> Self {
         let name = |field: &StaticField<'_>| (field.spec.name.clone(), field.spec.on_cells);
         Self {
@@ -220,44 +230,69 @@ impl TransientGrid {
             points: grid.points.len(),
             cells: grid.cells.count(),
             steps: 0,
+            sums: Sums::default(),
         }
     }
 
     /// Appends one snapshot: `values` in the order of the fields given to [`Self::create`].
     pub fn append(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.check_values(values)?;
+        // of the snapshots that are in the file, should this fail
+        let before = self.sums.clone();
         let appended = self.append_whole(time, values);
         match appended {
             Ok(()) => self.steps += 1,
-            Err(_) => undo(&self.path, &self.growing(), &STEPS, COUNT, self.steps),
+            Err(_) => {
+                self.sums = before;
+                undo(&self.path, &self.growing(), &STEPS, COUNT, self.steps);
+            }
         }
         appended
     }
 
-    fn append_whole(&self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
+    fn append_whole(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         let step = self.steps as i64;
         let mut file = Appender::open(&self.path)?;
         file.make_room(values.iter().map(Values::bytes).sum())?;
-        for (spec, value) in self.fields.iter().zip(values) {
+        let rows = [self.points, self.cells];
+        let Self { fields, constant_names, sums, .. } = self;
+        let index = |file: &mut Appender, sums: &mut Sums, name: &str, number: i64| {
+            // far below 2^53, where f64 is exact
+            sums.add(name, &[number as f64]);
+            file.append(name, &[number])
+        };
+        for (spec, value) in fields.iter().zip(values) {
             let name = data_path(&spec.name, spec.on_cells);
             match *value {
-                Values::Scalar(values) => file.append(&name, values)?,
-                Values::Vector(values) => file.append(&name, values.as_flattened())?,
-                Values::Tensor(values) => file.append(&name, values.as_flattened())?,
-                Values::Integer(values) => file.append(&name, values)?,
+                Values::Integer(values) => {
+                    sums.add_bytes(&name, values);
+                    file.append(&name, values)?;
+                }
+                Values::Scalar(values) => append_reals(&mut file, sums, &name, values)?,
+                Values::Vector(values) => {
+                    append_reals(&mut file, sums, &name, values.as_flattened())?;
+                }
+                Values::Tensor(values) => {
+                    append_reals(&mut file, sums, &name, values.as_flattened())?;
+                }
             }
-            let stride = self.count(spec.on_cells) as i64;
-            file.append(&offset_path(&spec.name, spec.on_cells), &[step * stride])?;
+            let first = step * rows[usize::from(spec.on_cells)] as i64;
+            index(&mut file, sums, &offset_path(&spec.name, spec.on_cells), first)?;
         }
-        for (name, on_cells) in &self.constant_names {
-            file.append(&offset_path(name, *on_cells), &[0i64])?;
+        for (name, on_cells) in constant_names {
+            index(&mut file, sums, &offset_path(name, *on_cells), 0)?;
         }
-        file.append("VTKHDF/Steps/Values", &[time])?;
-        file.append("VTKHDF/Steps/NumberOfParts", &[1i64])?;
+        append_reals(&mut file, sums, "VTKHDF/Steps/Values", &[time])?;
+        index(&mut file, sums, "VTKHDF/Steps/NumberOfParts", 1)?;
         for name in MESH_OFFSETS {
-            file.append(&format!("VTKHDF/Steps/{name}"), &[0i64])?;
+            index(&mut file, sums, &format!("VTKHDF/Steps/{name}"), 0)?;
         }
         file.close_with_count(&STEPS, COUNT, step + 1)
+    }
+
+    /// What a checkpoint needs to know of the snapshots written.
+    pub fn kept(&self) -> Kept {
+        self.sums.kept(self.steps)
     }
 
     /// Number of snapshots written.
@@ -443,6 +478,16 @@ impl TransientGrid {
         }
         file.count(&steps, COUNT, 0)
     }
+}
+
+fn append_reals(
+    file: &mut Appender,
+    sums: &mut Sums,
+    name: &str,
+    values: &[f64],
+) -> Result<(), OutputError> {
+    sums.add(name, values);
+    file.append(name, values)
 }
 
 /// Group of what belongs to the steps, and its attribute that counts them.

@@ -6,7 +6,8 @@
 
 use crate::caught::caught;
 use crate::checkpoint::Numbers;
-use crate::room::Room;
+use crate::free::free_space;
+use crate::room::{Room, end_of_file};
 use crate::{OutputError, Provenance};
 use rust_hdf5::{
     DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,
@@ -96,15 +97,14 @@ impl Creator {
     pub fn constant<T: H5Type>(&mut self, at: &LayOut<'_>, data: &[T]) -> Result<(), OutputError> {
         let rows = data.len() / at.components;
         let write = || -> H5Result<()> {
-            let builder =
-                descend(&self.file, at.group)?.new_dataset::<T>().shape(shape(rows, at.components));
-            let builder = if rows > ROWS_PER_CHUNK {
-                let chunk = rows.min(*CHUNK_ROWS.end());
-                builder.chunk(&shape(chunk, at.components)).deflate(DEFLATE_LEVEL)
-            } else {
-                builder
-            };
-            let dataset = builder.create(at.name)?;
+            // also where there is nothing to gain: compressed data carry a checksum
+            let chunk = rows.clamp(1, *CHUNK_ROWS.end());
+            let dataset = descend(&self.file, at.group)?
+                .new_dataset::<T>()
+                .shape(shape(rows, at.components))
+                .chunk(&shape(chunk, at.components))
+                .deflate(DEFLATE_LEVEL)
+                .create(at.name)?;
             dataset.write_raw(data)?;
             describe(&dataset, at)
         };
@@ -264,6 +264,28 @@ pub(crate) fn cut(
     file.close_with_count(group, count, snapshots as i64)
 }
 
+/// As [`cut`] at the beginning of a run that goes on: what fails other than for want of room fails because
+/// the file is damaged.
+pub(crate) fn cut_to_go_on(
+    path: &Path,
+    datasets: &[Growing],
+    group: &[&str],
+    count: &str,
+    snapshots: usize,
+) -> Result<(), OutputError> {
+    cut(path, datasets, group, count, snapshots).map_err(|error| match error {
+        OutputError::Append { path, reason } if !no_room(&path) => {
+            OutputError::Damaged { path, reason }
+        }
+        error => error,
+    })
+}
+
+/// Whether not even a page can be added to the disk of a file.
+fn no_room(path: &Path) -> bool {
+    free_space(path.parent().unwrap_or(Path::new("."))).is_some_and(|free| free < PAGE)
+}
+
 /// Cuts a file off behind its first snapshots where an append that failed has left more of some datasets;
 /// as far as that is possible, since its error is the one that matters.
 pub(crate) fn undo(
@@ -364,6 +386,31 @@ impl Drop for Appender {
     }
 }
 
+/// Readings of the end of a file that is being closed meanwhile.
+const ATTEMPTS: usize = 3;
+
+/// The length of a file, which must reach the end that its superblock names.
+fn whole(path: &Path) -> Result<u64, OutputError> {
+    let failed = |error: std::io::Error| read_error(path, error.to_string());
+    let mut attempts = 0;
+    loop {
+        let end = end_of_file(path).map_err(failed)?;
+        let length = std::fs::metadata(path).map_err(failed)?.len();
+        attempts += 1;
+        if length >= end {
+            return Ok(length);
+        }
+        // A closing that takes back room does so after it has written the new end.
+        if attempts == ATTEMPTS {
+            return Err(damaged(path, format!("it ends after {length} of its {end} bytes")));
+        }
+    }
+}
+
+pub(crate) fn damaged(path: &Path, reason: String) -> OutputError {
+    OutputError::Damaged { path: path.to_owned(), reason }
+}
+
 /// Bytes that deflate can make of one, at most.
 const MOST_PER_BYTE: u64 = 1032;
 
@@ -378,9 +425,8 @@ impl Source {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
         let file = caught(|| H5File::options().no_locking().open(path))
             .map_err(|error| read_error(path, error.to_string()))?;
-        let length =
-            std::fs::metadata(path).map_err(|error| read_error(path, error.to_string()))?;
-        Ok(Self { path: path.to_owned(), file, length: length.len() })
+        let length = whole(path)?;
+        Ok(Self { path: path.to_owned(), file, length })
     }
 
     /// A dataset to be read. A damaged shape could take all memory: refused is what does not go into
@@ -411,6 +457,25 @@ impl Source {
 
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Rows of a chunk of a dataset; all of them where it has none.
+    pub fn chunk_rows(&self, dataset: &str) -> Result<usize, OutputError> {
+        let dims = self.read(|| Ok(self.file.dataset(dataset)?.chunk_dims()))?;
+        match dims.as_ref().and_then(|dims| dims.first()) {
+            Some(rows) => Ok(*rows),
+            None => self.length(dataset),
+        }
+    }
+
+    /// Rows that a record of a growing dataset has: those of the points or cells of a grid, else one.
+    pub fn rows_per_record(&self, dataset: &str) -> Result<usize, OutputError> {
+        let count = match dataset.split('/').nth(1) {
+            Some("PointData") => "VTKHDF/NumberOfPoints",
+            Some("CellData") => "VTKHDF/NumberOfCells",
+            _ => return Ok(1),
+        };
+        Ok(self.rows(count, 0, 1)?.first().map_or(1, |count| (*count as usize).max(1)))
     }
 
     fn read<T>(&self, read: impl FnOnce() -> H5Result<T>) -> Result<T, OutputError> {

@@ -1,6 +1,7 @@
 //! Rows of scalars over time: one extendable 1-D dataset per column.
 
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut, settle, undo};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::sums::{Kept, Sums};
 use crate::{OutputError, Provenance};
 use std::path::{Path, PathBuf};
 
@@ -36,12 +37,17 @@ fn growing(columns: &[Column]) -> Vec<Growing> {
     columns.iter().map(dataset).collect()
 }
 
+fn names(columns: &[Column]) -> impl Iterator<Item = String> {
+    columns.iter().map(|column| column.name.clone())
+}
+
 /// Writer of `history.h5`.
 #[derive(Debug)]
 pub struct History {
     path: PathBuf,
     columns: Vec<Column>,
     rows: usize,
+    sums: Sums,
     scratch: Vec<f64>,
 }
 
@@ -75,19 +81,21 @@ impl History {
         }
         file.count(&[], COUNT, 0)?;
         file.close_settled(|path| settle(path, &growing(columns), &[], COUNT))?;
-        Ok(Self { path, columns: columns.to_vec(), rows: 0, scratch: Vec::new() })
+        let sums = Sums::of_new(&path, names(columns))?;
+        Ok(Self { path, columns: columns.to_vec(), rows: 0, sums, scratch: Vec::new() })
     }
 
-    /// Goes on with a history at `path` that was created with the same columns, cut off behind its
-    /// first `rows` rows.
+    /// Goes on with a history at `path` that was created with the same columns, cut off behind the rows
+    /// that are kept; [`prove`](crate::prove) says whether it still holds them.
     pub fn reopen(
         path: impl AsRef<Path>,
         columns: &[Column],
-        rows: usize,
+        kept: &Kept,
     ) -> Result<Self, OutputError> {
-        let path = path.as_ref().to_owned();
-        cut(&path, &growing(columns), &[], COUNT, rows)?;
-        Ok(Self { path, columns: columns.to_vec(), rows, scratch: Vec::new() })
+        let (path, rows) = (path.as_ref().to_owned(), kept.records as usize);
+        cut_to_go_on(&path, &growing(columns), &[], COUNT, rows)?;
+        let sums = Sums::of_kept(kept, names(columns));
+        Ok(Self { path, columns: columns.to_vec(), rows, sums, scratch: Vec::new() })
     }
 
     /// Appends any number of rows, row after row (length: rows times columns).
@@ -104,8 +112,11 @@ impl History {
         if rows.is_empty() {
             return Ok(());
         }
+        // of the rows that are in the file, should this fail
+        let before = self.sums.clone();
         let appended = self.append_whole(rows, width);
         if appended.is_err() {
+            self.sums = before;
             undo(&self.path, &growing(&self.columns), &[], COUNT, self.rows);
         }
         appended
@@ -119,6 +130,7 @@ impl History {
             self.scratch.clear();
             self.scratch.extend(rows.iter().skip(index).step_by(width));
             file.append(&column.name, &self.scratch)?;
+            self.sums.add(&column.name, &self.scratch);
         }
         file.close_with_count(&[], COUNT, (self.rows + count) as i64)?;
         self.rows += count;
@@ -128,6 +140,11 @@ impl History {
     /// Number of rows written.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// What a checkpoint needs to know of the rows written.
+    pub fn kept(&self) -> Kept {
+        self.sums.kept(self.rows)
     }
 
     /// The columns, in the order of a row.

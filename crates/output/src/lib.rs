@@ -32,20 +32,26 @@ mod free;
 mod grid;
 mod hdf5;
 mod history;
+mod integrity;
 mod json;
 mod reader;
 mod room;
 pub mod summary;
+mod sums;
 mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
-pub use checkpoint::{Array, CHECKPOINTS, Checkpoint, Lengths, Numbers};
+pub use checkpoint::{Array, CHECKPOINTS, Checkpoint, Numbers, Results};
 pub use error::OutputError;
 pub use free::{free_space, room_left};
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
 pub use history::{Column, History};
+pub use integrity::{
+    FileSum, LOG_END, as_long_as_written, as_written, read_summary, seal, sums_of_files,
+};
 pub use json::write_json_atomically;
-pub use reader::{FieldInfo, GridFile, HistoryFile, prove_indexes};
+pub use reader::{FieldInfo, GridFile, HistoryFile};
+pub use sums::{Kept, prove};
 pub use vtu::write_vtu;
 
 /// Where a file comes from: the root attributes of every HDF5 file of a run.

@@ -185,23 +185,16 @@ impl HistoryFile {
         self.source.root_text(attribute)
     }
 
+    /// All complete rows of a column, if there is one of this name.
+    pub fn column(&self, name: &str) -> Result<Option<Vec<f64>>, OutputError> {
+        let there = self.columns()?.iter().any(|column| column == name);
+        there.then(|| self.read(name)).transpose()
+    }
+
     /// All complete rows of a column.
     pub fn read(&self, column: &str) -> Result<Vec<f64>, OutputError> {
         self.source.rows(column, 0, self.rows)
     }
-}
-
-/// Proves that the index of chunks of every dataset of a result file can be read, and so extended: a power
-/// cut, or a kill while a large one is rewritten, can leave it torn.
-pub fn prove_indexes(path: impl AsRef<Path>) -> Result<(), OutputError> {
-    let source = Source::open(path.as_ref())?;
-    for name in source.all_names()? {
-        // Reading anything reads the whole index; the oldest is the surest to have reached the disk.
-        if source.length(&name)? > 0 {
-            source.rows(&name, 0, 1)?;
-        }
-    }
-    Ok(())
 }
 
 fn first(source: &Source, dataset: &str) -> Result<usize, OutputError> {

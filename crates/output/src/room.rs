@@ -45,6 +45,14 @@ impl Room {
     }
 }
 
+/// The end that the superblock of a file names.
+pub(crate) fn end_of_file(path: &Path) -> io::Result<u64> {
+    let mut image = [0; 48];
+    File::open(path)?.read_exact(&mut image)?;
+    let superblock = SuperblockV2V3::decode(&image).map_err(io::Error::other)?;
+    Ok(superblock.end_of_file_address)
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]

@@ -4,7 +4,8 @@
 
 use output::{
     Array, CHECKPOINTS, Cells, Checkpoint, Column, FieldSpec, GridFile, GridSpec, History,
-    HistoryFile, Lengths, Numbers, OutputError, Provenance, StaticField, TransientGrid, Values,
+    HistoryFile, Kept, Numbers, OutputError, Provenance, Results, StaticField, TransientGrid,
+    Values, prove,
 };
 use std::path::Path;
 
@@ -28,7 +29,12 @@ fn checkpoint(step: u64) -> Checkpoint {
     Checkpoint {
         provenance: provenance(),
         step,
-        lengths: Lengths { fields: 1, contact: 2, history: 3, probes: 4 },
+        results: Results {
+            fields: Kept { records: 1, sums: vec![1, u32::MAX] },
+            contact: Kept { records: 2, sums: vec![3] },
+            history: Kept { records: 3, sums: Vec::new() },
+            probes: Kept { records: 4, sums: vec![5, 6, 7] },
+        },
         arrays: vec![
             array(
                 "nodes/displacement",
@@ -153,11 +159,17 @@ fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
         for kept in [0, 1, 255, 256, 257, 599] {
             let path = folder.path().join("continued.vtkhdf");
             let mut writer = TransientGrid::create(&path, grid, fields, &provenance()).unwrap();
-            append(&mut writer, 0..600);
-            let mut writer = TransientGrid::reopen(&path, grid, fields, kept).unwrap();
+            append(&mut writer, 0..kept);
+            let then = writer.kept();
+            append(&mut writer, kept..600);
+            let whole = writer.kept();
+            prove(&path, &then).unwrap();
+            let mut writer = TransientGrid::reopen(&path, grid, fields, &then).unwrap();
             assert_eq!(GridFile::open(&path).unwrap().steps(), kept);
             assert_eq!(writer.steps(), kept);
             append(&mut writer, kept..600);
+            assert_eq!(writer.kept(), whole, "cut off at {kept}");
+            prove(&path, &whole).unwrap();
             assert_eq!(numbers(&path), numbers(&at_once), "cut off at {kept}");
         }
     });
@@ -173,8 +185,11 @@ fn a_history_cut_off_and_continued_holds_what_one_written_at_once_holds() {
     };
     for kept in [0, 3, 256, 300, 700] {
         let mut history = History::create(&path, &columns, &provenance()).unwrap();
-        history.append(&rows(0..700)).unwrap();
-        let mut history = History::reopen(&path, &columns, kept).unwrap();
+        history.append(&rows(0..kept)).unwrap();
+        let then = history.kept();
+        history.append(&rows(kept..700)).unwrap();
+        prove(&path, &then).unwrap();
+        let mut history = History::reopen(&path, &columns, &then).unwrap();
         assert_eq!(HistoryFile::open(&path).unwrap().rows(), kept);
         history.append(&rows(kept..710)).unwrap();
         let file = HistoryFile::open(&path).unwrap();
@@ -191,8 +206,103 @@ fn a_file_shorter_than_its_checkpoint_says_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("short.vtkhdf");
         append(&mut TransientGrid::create(&path, grid, fields, &provenance()).unwrap(), 0..3);
-        let error = TransientGrid::reopen(&path, grid, fields, 4).unwrap_err();
+        let kept = Kept { records: 4, sums: Vec::new() };
+        let error = TransientGrid::reopen(&path, grid, fields, &kept).unwrap_err();
         assert!(matches!(error, OutputError::Read { .. }), "{error}");
         assert!(error.to_string().contains("fewer than"), "{error}");
+    });
+}
+
+/// Damages a file in many ways, one at a time; what `prove` lets pass must read as before.
+#[track_caller]
+fn nothing_passes_changed<T: PartialEq + std::fmt::Debug>(
+    path: &Path,
+    kept: &Kept,
+    read: impl Fn(&Path) -> T,
+) {
+    let whole = std::fs::read(path).unwrap();
+    let expected = read(path);
+    let mut refused = 0;
+    for at in (0..whole.len()).step_by(37) {
+        let mut damaged = whole.clone();
+        damaged[at] ^= 0x10;
+        std::fs::write(path, &damaged).unwrap();
+        match prove(path, kept) {
+            Ok(()) => assert_eq!(read(path), expected, "byte {at} was changed unnoticed"),
+            Err(error) => {
+                assert!(error.damaged().is_some(), "{error}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(refused > whole.len() / 37 / 10, "only {refused} changes noticed");
+    for length in (0..whole.len()).step_by(211) {
+        std::fs::write(path, &whole[..length]).unwrap();
+        assert!(prove(path, kept).is_err(), "cut off at {length} unnoticed");
+        assert!(GridFile::open(path).is_err() && HistoryFile::open(path).is_err(), "{length}");
+    }
+}
+
+#[test]
+fn no_damage_of_a_grid_that_is_to_be_continued_passes_unnoticed() {
+    with_grid(|grid, fields| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("grid.vtkhdf");
+        let mut writer = TransientGrid::create(&path, grid, fields, &provenance()).unwrap();
+        append(&mut writer, 0..20);
+        nothing_passes_changed(&path, &writer.kept(), |path| {
+            let file = GridFile::open(path).unwrap();
+            let texts = ["creepage_version", "case_hash", "created", "facts"];
+            let texts = texts.map(|name| file.provenance(name).unwrap());
+            (numbers(path), file.points().unwrap(), file.connectivity().unwrap(), texts)
+        });
+    });
+}
+
+#[test]
+fn no_damage_of_a_history_that_is_to_be_continued_passes_unnoticed() {
+    let folder = tempfile::tempdir().unwrap();
+    let columns = ["time", "force"].map(|name| Column::new(name, "N", "a number"));
+    let path = folder.path().join("history.h5");
+    let mut history = History::create(&path, &columns, &provenance()).unwrap();
+    let rows: Vec<f64> = (0..600).map(f64::from).collect();
+    history.append(&rows).unwrap();
+    nothing_passes_changed(&path, &history.kept(), |path| {
+        let file = HistoryFile::open(path).unwrap();
+        let read = |name| (file.read(name).unwrap(), file.units(name).unwrap());
+        ["time", "force"].map(read)
+    });
+}
+
+/// By the checksums that readers verify anyway: those of headers and indexes, and Adler-32 of compressed data.
+#[test]
+fn no_reader_is_handed_a_changed_mesh_or_snapshot() {
+    with_grid(|grid, fields| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("grid.vtkhdf");
+        append(&mut TransientGrid::create(&path, grid, fields, &provenance()).unwrap(), 0..20);
+        let read = |path: &Path| -> Result<Vec<Vec<f64>>, OutputError> {
+            let file = GridFile::open(path)?;
+            let cells = file.connectivity()?.into_iter().map(f64::from).collect();
+            let mut all = vec![file.points()?.concat(), cells];
+            for field in file.fields() {
+                let steps = if field.constant { 0..1 } else { 0..file.steps() };
+                all.push(file.read_steps(&field.name, field.on_cells, steps)?);
+            }
+            Ok(all)
+        };
+        let expected = read(&path).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        let mut refused = 0;
+        for at in (0..whole.len()).step_by(23) {
+            let mut damaged = whole.clone();
+            damaged[at] ^= 0x04;
+            std::fs::write(&path, &damaged).unwrap();
+            match read(&path) {
+                Ok(found) => assert_eq!(found, expected, "byte {at} was changed unnoticed"),
+                Err(_) => refused += 1,
+            }
+        }
+        assert!(refused > 50, "only {refused} changes noticed");
     });
 }

@@ -1,10 +1,11 @@
 //! What a run is measured against: its friction law and the scales of its measures.
 
 use crate::PostError;
+use crate::frames::open_history;
 use crate::law::Law;
 use contact::patch::PatchShape;
 use contact::{Coulomb, Exponential};
-use output::HistoryFile;
+use output::read_summary;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -105,10 +106,10 @@ impl Basis {
     /// Unknown keys of the case are passed over: other codes and other versions write other ones.
     ///
     /// # Errors
-    /// A case or summary that is not TOML or JSON.
+    /// A case that is not TOML, a summary that is not what was written, a history that cannot be read.
     pub fn read(paths: &RunPaths) -> Result<Self, PostError> {
         let case = read_toml(&paths.case)?;
-        let summary = read_json(&paths.folder.join("summary.json"))?;
+        let summary = read_summary(&paths.folder)?;
         let mut basis = Self {
             name: paths
                 .folder
@@ -125,7 +126,7 @@ impl Basis {
         };
         basis.read_case();
         basis.read_summary();
-        basis.read_history(&paths.folder.join("history.h5"));
+        basis.read_history(&paths.folder.join("history.h5"))?;
         Ok(basis)
     }
 
@@ -259,20 +260,18 @@ impl Basis {
         }
     }
 
-    /// The time step and the creepage of a run in progress. A history that cannot be read is no
-    /// reason to refuse the contact history.
-    fn read_history(&mut self, path: &Path) {
-        let Ok(history) = HistoryFile::open(path) else {
-            return;
-        };
-        if let (Ok(time), Ok(step)) = (history.read("time"), history.read("step"))
+    /// The time step and the creepage of a run in progress.
+    fn read_history(&mut self, path: &Path) -> Result<(), PostError> {
+        let Some(history) = open_history(path)? else { return Ok(()) };
+        if let (Some(time), Some(step)) = (history.column("time")?, history.column("step")?)
             && let ([t0, .., t1], [n0, .., n1]) = (&time[..], &step[..])
         {
             self.offer("dt", (t1 - t0) / (n1 - n0), "history");
         }
-        if let Some(last) = history.read("creepage").ok().and_then(|c| c.last().copied()) {
+        if let Some(last) = history.column("creepage")?.and_then(|c| c.last().copied()) {
             self.offer("creepage", last, "history, last row");
         }
+        Ok(())
     }
 }
 
@@ -301,12 +300,4 @@ fn read_toml(path: &Path) -> Result<Option<toml::Table>, PostError> {
         reason: format!("is no TOML: {}", error.message()),
     };
     read_text(path)?.map(|text| text.parse().map_err(failed)).transpose()
-}
-
-fn read_json(path: &Path) -> Result<Option<Value>, PostError> {
-    let failed = |error: serde_json::Error| PostError::Text {
-        path: path.into(),
-        reason: format!("is no JSON: {error}"),
-    };
-    read_text(path)?.map(|text| serde_json::from_str(&text).map_err(failed)).transpose()
 }

@@ -99,7 +99,7 @@ pub fn check(
             ),
         });
     }
-    let patch = Sources::of(paths, basis, &window).patch(&pass.patch, &weights);
+    let patch = Sources::of(paths, basis, &window)?.patch(&pass.patch, &weights);
     let (document, holds) = pass.document(basis, options, &window, patch);
     Ok(Checked { document, pass: holds, patch: pass.patch })
 }

@@ -81,7 +81,7 @@ pub fn figures(
     let records = window.records.clone();
     let scales = Scales::settle(basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
-    let sources = Sources::of(paths, basis, &window);
+    let sources = Sources::of(paths, basis, &window)?;
     let means = FigureMeans {
         normal_force: sources.mean("normal_force"),
         creepage: sources.mean("creepage"),
@@ -129,11 +129,11 @@ pub fn figures(
             figure: maps::space_time(&scene, &band),
         },
     ];
-    if let Some(figure) = histories::histories(&scene, &paths.folder.join("history.h5")) {
+    if let Some(figure) = histories::histories(&scene, &paths.folder.join("history.h5"))? {
         let about = "forces, creepage, patch and energies over time";
         all.push(Named { stem: "histories", about, figure });
     }
-    if let Some(figure) = spectrum::spectrum(&scene, &paths.folder.join("probes.h5")) {
+    if let Some(figure) = spectrum::spectrum(&scene, &paths.folder.join("probes.h5"))? {
         let about = "spectrum of the slip velocity at the probe nodes";
         all.push(Named { stem: "spectrum", about, figure });
     }

@@ -4,7 +4,7 @@
 use crate::PostError;
 use crate::surface::Surface;
 use crate::vector::Vec3;
-use output::GridFile;
+use output::{GridFile, HistoryFile, OutputError};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -313,9 +313,21 @@ const ATTEMPTS: usize = 5;
 
 /// Opens a grid, again where the opening met the closing of a snapshot.
 pub(crate) fn open(path: &Path) -> Result<GridFile, PostError> {
+    open_by(path, |path| GridFile::open(path))
+}
+
+/// Opens a table over time in the same way; none where there is no such file.
+pub(crate) fn open_history(path: &Path) -> Result<Option<HistoryFile>, PostError> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    open_by(path, |path| HistoryFile::open(path)).map(Some)
+}
+
+fn open_by<T>(path: &Path, open: fn(&Path) -> Result<T, OutputError>) -> Result<T, PostError> {
     let mut failed = None;
     for _ in 0..ATTEMPTS {
-        match GridFile::open(path) {
+        match open(path) {
             Ok(file) => return Ok(file),
             Err(error) => failed = Some(error),
         }

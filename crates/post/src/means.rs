@@ -4,12 +4,15 @@
 //! to its summary; those stand wherever that window is meant. Over any other window the rows of the
 //! history give them, and where there is no history, or no such column, the records of contact.
 
+use crate::PostError;
 use crate::basis::{Basis, RunPaths};
+use crate::frames::open_history;
 use crate::patch_series::{PATCH_MEASURES, PatchRow};
 use crate::statistics::{mean_and_deviation, time_weights};
 use crate::window::Window;
-use output::HistoryFile;
 use serde_json::{Map, Value, json};
+use std::collections::HashMap;
+use std::path::Path;
 
 /// The creepage, which a run's history holds and its records of contact do not: name, unit, meaning.
 const CREEPAGE: (&str, &str, &str) = ("creepage", "1", "longitudinal creepage");
@@ -36,8 +39,8 @@ fn why_none(measure: &str) -> &'static str {
 /// Where means over a window come from.
 pub(crate) struct Sources<'a> {
     summary: Option<&'a Value>,
-    /// The history with the weight of each of its rows.
-    history: Option<(HistoryFile, Vec<f64>)>,
+    /// Columns of the history, by their names, and the weight of each of its rows.
+    history: Option<(HashMap<String, Vec<f64>>, Vec<f64>)>,
 }
 
 /// What a source says of a measure.
@@ -52,15 +55,15 @@ struct Found {
 
 impl<'a> Sources<'a> {
     /// Those of a run; the files beside a contact history of another name are not its own.
-    pub fn of(paths: &RunPaths, basis: &'a Basis, window: &Window) -> Self {
+    pub fn of(
+        paths: &RunPaths,
+        basis: &'a Basis,
+        window: &Window,
+    ) -> Result<Self, PostError> {
         let own = paths.contact.file_name().is_some_and(|name| name == RunPaths::CONTACT);
-        let history = own.then(|| HistoryFile::open(paths.folder.join("history.h5")).ok());
-        let history = history.flatten().and_then(|history| {
-            let weights = time_weights(&history.read("time").ok()?, window.span);
-            weights.iter().any(|weight| *weight > 0.0).then_some((history, weights))
-        });
         let summary = basis.summary.as_ref().filter(|_| own && window.of_summary);
-        Self { summary, history }
+        let history = if own { history(&paths.folder, window)? } else { None };
+        Ok(Self { summary, history })
     }
 
     /// Mean of a measure of the patch or of the creepage, where the run itself holds one.
@@ -72,9 +75,8 @@ impl<'a> Sources<'a> {
     fn of_run(&self, measure: &str) -> Option<Found> {
         let name = name_in_run(measure);
         self.in_summary(&name).or_else(|| {
-            let (history, weights) = self.history.as_ref()?;
-            let values = history.read(&name).ok()?;
-            let mean = mean_and_deviation(weights, values.into_iter());
+            let (columns, weights) = self.history.as_ref()?;
+            let mean = mean_and_deviation(weights, columns.get(&name)?.iter().copied());
             Some(Found { mean, from: "history", note: None })
         })
     }
@@ -114,4 +116,26 @@ impl<'a> Sources<'a> {
         let creepage = self.of_run(CREEPAGE.0).map(|found| entry(CREEPAGE, found));
         measured.chain(creepage).collect::<Map<_, _>>().into()
     }
+}
+
+/// What the history of the run in `folder` holds for the window; nothing where there is no history or
+/// none of its rows stands for a part of it.
+fn history(
+    folder: &Path,
+    window: &Window,
+) -> Result<Option<(HashMap<String, Vec<f64>>, Vec<f64>)>, PostError> {
+    let Some(history) = open_history(&folder.join("history.h5"))? else { return Ok(None) };
+    let Some(times) = history.column("time")? else { return Ok(None) };
+    let weights = time_weights(&times, window.span);
+    if !weights.iter().any(|weight| *weight > 0.0) {
+        return Ok(None);
+    }
+    let mut columns = HashMap::new();
+    for (measure, ..) in PATCH_MEASURES.into_iter().chain([CREEPAGE]) {
+        let name = name_in_run(measure);
+        if let Some(values) = history.column(&name)? {
+            columns.insert(name, values);
+        }
+    }
+    Ok(Some((columns, weights)))
 }

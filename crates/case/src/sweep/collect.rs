@@ -10,11 +10,12 @@ use super::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
 use super::points::Point;
 use super::table;
 
-/// Fields of a run's summary that the clock, the memory and the number of threads put in. All
+/// Fields of a run's summary that the clock, the memory and the number of threads put in, and sums that
+/// depend on these (files name the time of their making). All
 /// other numbers of a sweep are the same to the bit however often it was interrupted, wherever and
 /// on however many threads its runs ran, as long as program and kernels are the same.
-pub const NOT_REPEATED: [&str; 5] =
-    ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads"];
+pub const NOT_REPEATED: [&str; 7] =
+    ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads", "checksums", "sha256"];
 
 /// How far a run is.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +91,7 @@ fn entry(
         "parameters": run.parameters,
         "status": state.word(),
         "run": shown.display().to_string(),
-        "summary": read(&folder.join("summary.json")),
+        "summary": output::read_summary(folder).ok().flatten(),
         "check": read(&folder.join(CHECK)),
     });
     if let State::Failed(reason) = state {
@@ -107,7 +108,11 @@ pub fn state(folder: &Path, run: &Point) -> State {
     if case != run.case.to_toml() {
         return State::Undone(NOT_BEGUN);
     }
-    let Some(summary) = read(&folder.join("summary.json")) else {
+    let Ok(summary) = output::read_summary(folder) else {
+        // damaged: `--resume --force` begins it anew
+        return State::Undone("unfinished");
+    };
+    let Some(summary) = summary else {
         // A run that was refused says so last; one that was killed does not.
         return match last_words(folder) {
             Some(reason) => State::Failed(reason),

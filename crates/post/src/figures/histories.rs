@@ -2,8 +2,9 @@
 
 use super::Scene;
 use super::caption::caption;
+use crate::PostError;
+use crate::frames::open_history;
 use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
-use output::HistoryFile;
 use std::path::Path;
 
 /// A line: column, label, factor to the axis's unit, colour.
@@ -52,31 +53,31 @@ const PANELS: [(&str, &[Line]); 6] = [
 const COLUMNS: usize = 1200;
 
 /// The histories; `None` where there is no history.
-pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
-    let history = HistoryFile::open(path).ok()?;
-    let time = history.read("time").ok().filter(|time| time.len() > 1)?;
+pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
+    let Some(history) = open_history(path)? else { return Ok(None) };
+    let Some(time) = history.column("time")?.filter(|time| time.len() > 1) else { return Ok(None) };
     let mut panels = Vec::new();
     for (label, lines) in PANELS {
-        let series = lines.iter().filter_map(|(column, label, factor, colour)| {
-            let values = history.read(column).ok()?;
+        let mut series = Vec::new();
+        for (column, label, factor, colour) in lines.iter() {
+            let Some(values) = history.column(column)? else { continue };
             let points: Vec<_> =
                 time.iter().zip(values).map(|(t, value)| [1e3 * t, factor * value]).collect();
             let draw = Draw::Line(*colour);
-            Some(Series { label: (*label).into(), points: thin(&points, COLUMNS), draw })
-        });
-        let marks =
-            scene.window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
+            series.push(Series { label: (*label).into(), points: thin(&points, COLUMNS), draw });
+        }
+        let marks = scene.window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
         panels.push(Panel {
             title: String::new(),
             x: Axis::linear("t (ms)"),
             y: Axis::linear(label),
             fill: None,
-            series: series.collect(),
+            series,
             marks: marks.into(),
         });
     }
     panels.retain(|panel| !panel.series.is_empty());
     let text = "Histories of the run; dashed lines: the window of the other figures.";
     let size = [1000, 260 * panels.len().div_ceil(2) as u32 + 50];
-    Some(Figure { size, columns: 2, panels, caption: caption(scene, text) })
+    Ok(Some(Figure { size, columns: 2, panels, caption: caption(scene, text) }))
 }

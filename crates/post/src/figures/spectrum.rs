@@ -2,9 +2,10 @@
 
 use super::Scene;
 use super::caption::caption;
+use crate::PostError;
 use crate::conditions::IN_CONTACT;
+use crate::frames::open_history;
 use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
-use output::HistoryFile;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -12,14 +13,14 @@ const COLOURS: [[u8; 3]; 6] =
     [colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
 
 /// The spectra; `None` where the run has no probes or none of them was in contact.
-pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
-    let probes = HistoryFile::open(path).ok()?;
-    let time = probes.read("time").ok().filter(|time| time.len() > 64)?;
+pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
+    let Some(probes) = open_history(path)? else { return Ok(None) };
+    let Some(time) = probes.column("time")?.filter(|time| time.len() > 64) else { return Ok(None) };
     let dt = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let mut series = Vec::new();
     for k in 0.. {
-        let column = |name: &str| probes.read(&format!("probe{k}_{name}")).ok();
-        let (Some(pressure), Some(slip)) = (column("pressure"), column("slip_velocity_x")) else {
+        let column = |name: &str| probes.column(&format!("probe{k}_{name}"));
+        let (Some(pressure), Some(slip)) = (column("pressure")?, column("slip_velocity_x")?) else {
             break;
         };
         let touches = |p: &f64| *p > IN_CONTACT * scene.scales.peak_pressure;
@@ -41,7 +42,7 @@ pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
         });
     }
     if series.is_empty() {
-        return None;
+        return Ok(None);
     }
     let mut marks = Vec::new();
     if let Some(speed) = scene.basis.scale("speed") {
@@ -63,12 +64,12 @@ pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Option<Figure> {
     let text = "Spectrum of the slip velocity along x at the probe nodes while they are in \
                 contact, from every step (Welch, 1024 steps). V/h: nodes that meet; c_s/h: shear waves \
                 over an element.";
-    Some(Figure {
+    Ok(Some(Figure {
         size: [760, 500],
         columns: 1,
         panels: vec![panel],
         caption: caption(scene, text),
-    })
+    }))
 }
 
 /// Steps per segment of a long record.
