@@ -9,6 +9,8 @@
 //! [`check`](check()) goes through a contact history record by record and gives the document of
 //! `creepage check`; memory does not grow with the number of records beyond a few numbers each.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod basis;
 mod check;
 mod conditions;
@@ -45,4 +47,4 @@ pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use page::{run_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};
-pub use sweep::{Sample, SweepVerdict, Trend, sweep_figures, sweep_verdicts, trend};
+pub use sweep::{Sample, SweepVerdict, Trend, Verdict, sweep_figures, sweep_verdicts, trend};

@@ -14,7 +14,8 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 pub use figures::sweep_figures;
-pub use trend::{Sample, Trend, trend};
+pub(crate) use trend::RULE;
+pub use trend::{Sample, Trend, Verdict, trend};
 pub use verdict::{SweepVerdict, sweep_verdicts};
 
 pub(crate) use measures::{MEASURES, Point, SweepMeasure};

@@ -62,7 +62,7 @@ fn planted_trends_get_their_verdicts_and_a_failed_run_is_no_point() {
         matches!(of("adhesion_slip").trend, Trend::Vanishes { exponent } if (exponent - 0.5).abs() < 1e-9)
     );
     assert!(matches!(of("switching_rate").trend, Trend::Grows { .. }));
-    assert_eq!(of("violating_fraction").trend.word(), "cannot be said");
+    assert_eq!(of("violating_fraction").trend.word(), "cannot be told");
     assert!(found.iter().all(|v| v.measure != "wrong_direction"), "nobody measured it");
 }
 
@@ -94,7 +94,7 @@ fn two_axes_have_a_map_a_line_for_each_value_of_the_other_and_a_verdict_for_each
     let pressure: Vec<_> = pressure.collect();
     assert_eq!(pressure.len(), 4);
     // h = 2, 1, 0.5 mm: 40, 10, 2.5 MPa away from the limit, power 2; one value has two points only
-    assert_eq!(pressure[1].trend.word(), "cannot be said");
+    assert_eq!(pressure[1].trend.word(), "cannot be told");
     let Trend::Reached { limit, exponent } = pressure[3].trend else {
         panic!("{:?}", pressure[3]);
     };
@@ -131,7 +131,8 @@ fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_re
     for part in [
         "4 runs over contact.penalty.tangential; 3 completed",
         "failed: the energy grew &lt;12 times&gt;",
-        "reaches a plateau",
+        "<td>settles</td>",
+        "Cannot be told (scatter): the values differ by no more than the scatter",
         "three points determine the fit",
         "id=\"measures-contact-penalty-tangential\"",
     ] {

@@ -2,7 +2,7 @@
 
 use super::{digits, escape, head};
 use crate::PostError;
-use crate::sweep::{MEASURES, Sweep, SweepVerdict, shown, sweep_figures, sweep_verdicts};
+use crate::sweep::{MEASURES, RULE, Sweep, SweepVerdict, shown, sweep_figures, sweep_verdicts};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -42,16 +42,17 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
 
 /// What the trends say, for each axis and each value of the others.
 fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
-    out.push_str("<h2>What reaches a plateau, and what does not</h2>\n");
+    out.push_str("<h2>What settles, and what does not</h2>\n");
     if verdicts.is_empty() {
         out.push_str(
             "<p>No axis of numbers has two runs that completed: nothing can be said.</p>\n",
         );
         return;
     }
-    out.push_str(
-        "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to each measure; what the words mean: \
-         docs/checks.md of Creepage, Verdicts on a sweep.</p>\n",
+    let _ = writeln!(
+        out,
+        "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to each measure, r growing as the axis is \
+         refined. {RULE} More: docs/checks.md of Creepage, Verdicts on a sweep.</p>"
     );
     let section = |a: &SweepVerdict, b: &SweepVerdict| a.axis == b.axis && a.others == b.others;
     for verdicts in verdicts.chunk_by(section) {
@@ -60,11 +61,11 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
         let _ = writeln!(out, "<h3>{axis}{others}</h3>");
         let most = verdicts.iter().map(|verdict| verdict.points).max().unwrap_or(0);
         if most < 3 {
-            let _ = writeln!(out, "<p>Cannot be said: {most} points; three are the least.</p>");
+            let _ = writeln!(out, "<p>Cannot be told: {most} points; three are the least.</p>");
             continue;
         }
         out.push_str(
-            "<table>\n<tr><th>measure</th><th class=\"n\">points</th><th>plateau</th>\
+            "<table>\n<tr><th>measure</th><th class=\"n\">points</th><th>verdict</th>\
              <th>trend</th></tr>\n",
         );
         for verdict in verdicts {

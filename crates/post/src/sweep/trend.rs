@@ -1,4 +1,4 @@
-//! Whether a measure reaches a plateau along an axis.
+//! Whether a measure settles along an axis.
 //!
 //! The trend fitted to the points is v(r) = v_inf + c r^-q with r = x, or r = 1/x for axes that are
 //! refined towards zero, so that r grows with refinement. This is the form of Richardson's
@@ -56,16 +56,44 @@ pub enum Trend {
         /// Change of v from the last point but one to the last.
         step: f64,
     },
-    /// The points do not tell.
+    /// Its scatter over the window hides any change.
+    Hidden {
+        /// Mean over all points.
+        mean: f64,
+        /// Largest less smallest value.
+        range: f64,
+        /// Mean standard deviation over the window.
+        scatter: f64,
+    },
+    /// The points do not tell for another reason.
     Unclear {
         /// Why.
         reason: String,
     },
 }
 
+/// What is said of a trend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Refining further would not change it.
+    Settles,
+    /// It would.
+    DoesNot,
+    /// The points do not tell.
+    CannotBeTold,
+}
+
+/// The rule of the verdicts, for people.
+pub const RULE: &str = "Settles: the values differ by at most 2 % of the largest, or q is at least \
+    0.25 and the last value is within 5 % of v\u{221e}; and the scatter, the standard deviation over \
+    the records of the window, is at most 5 %. Does not settle: q is at most 0.1, the last value is \
+    farther from v\u{221e}, or v\u{221e} is zero. Cannot be told (scatter): the values differ by no more \
+    than the scatter, or the scatter is above 5 % where the values alone would say that it settles. \
+    Cannot be told: fewer than three points, no trend that the fit follows, or q in between.";
+
 /// Changes below this share of the largest size are no changes.
 const FLAT: f64 = 0.02;
-/// A limit is reached within this share of it.
+/// A limit is reached within this share of it, and no scatter beyond this share lets anything settle.
 const REACHED: f64 = 0.05;
 /// A fit holds where its root mean square residual is below this share of the range of values.
 const RESIDUAL: f64 = 0.08;
@@ -82,16 +110,17 @@ const STEEPEST: f64 = 6.0;
 /// The trend of a measure along an axis, refined towards zero or upwards.
 ///
 /// 1. Fewer than three points say nothing about a limit.
-/// 2. *Flat*: the range of the values is below `FLAT` of the largest, or below the mean deviation
-///    over the window.
+/// 2. *Flat*: the range of the values is below `FLAT` of the largest, and the mean deviation over the
+///    window below `REACHED` of it. *Hidden*: otherwise, where the range is below that deviation.
 /// 3. A measure that turns back by more than `TURN` of its range, and by more than the mean
 ///    deviation, has no trend that a fit could tell.
 /// 4. Otherwise the fit must hold: its root mean square residual is below `RESIDUAL` of the range,
 ///    or below the mean deviation. Three points determine the fit and cannot contradict it, which
 ///    the words say.
 /// 5. q >= `SETTLES`: a limit. It is zero where |v_inf| is below `REACHED` of the range or has the
-///    other sign than the last value; it is *reached* where the last point is within `REACHED` of it
-///    or within its deviation. q <= `GOES_ON`: none. In between the points do not tell.
+///    other sign than the last value; it is *reached* where the last point is within `REACHED` of it.
+///    Where the deviation of the last point exceeds `REACHED` of the limit and is no less than what is
+///    left, the limit is *hidden*. q <= `GOES_ON`: none. In between the points do not tell.
 pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     let mut points: Vec<Sample> = samples
         .iter()
@@ -111,9 +140,12 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     let range = values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min);
     let largest = values().fold(0.0, |most: f64, v| most.max(v.abs()));
     let noise = points.iter().map(|p| p.deviation).sum::<f64>() / n as f64;
-    if range <= (FLAT * largest).max(noise) {
-        let mean = values().sum::<f64>() / n as f64;
+    let mean = values().sum::<f64>() / n as f64;
+    if range <= FLAT * largest && noise <= REACHED * largest {
         return Trend::Flat { mean, range };
+    }
+    if range <= noise {
+        return Trend::Hidden { mean, range, scatter: noise };
     }
     let way = points[n - 1].value - points[0].value;
     let against = |pair: &[Sample]| -(pair[1].value - pair[0].value) * way.signum();
@@ -148,7 +180,10 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
         return Trend::Vanishes { exponent: -log_slope(&points[n - 3..]) };
     }
     let away = (last.value - limit).abs();
-    if away <= (REACHED * limit.abs()).max(last.deviation) {
+    let near = REACHED * limit.abs();
+    if last.deviation > near && last.deviation >= away {
+        Trend::Hidden { mean, range, scatter: last.deviation }
+    } else if away <= near {
         Trend::Reached { limit, exponent }
     } else {
         Trend::Approaches { limit, exponent, left: away / limit.abs() }
@@ -156,14 +191,24 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
 }
 
 impl Trend {
-    /// In short: whether there is a plateau.
-    pub fn word(&self) -> &'static str {
+    /// Whether it settles.
+    pub fn verdict(&self) -> Verdict {
         match self {
-            Self::Flat { .. } | Self::Reached { .. } => "reaches a plateau",
-            Self::Approaches { .. } => "heads for a plateau, not reached",
-            Self::Vanishes { .. } => "falls to zero",
-            Self::Grows { .. } => "does not",
-            Self::Unclear { .. } => "cannot be said",
+            Self::Flat { .. } | Self::Reached { .. } => Verdict::Settles,
+            Self::Approaches { .. } | Self::Vanishes { .. } | Self::Grows { .. } => {
+                Verdict::DoesNot
+            }
+            Self::Hidden { .. } | Self::Unclear { .. } => Verdict::CannotBeTold,
+        }
+    }
+
+    /// The verdict in words.
+    pub fn word(&self) -> &'static str {
+        match (self.verdict(), self) {
+            (Verdict::Settles, _) => "settles",
+            (Verdict::DoesNot, _) => "does not settle",
+            (Verdict::CannotBeTold, Self::Hidden { .. }) => "cannot be told (scatter)",
+            (Verdict::CannotBeTold, _) => "cannot be told",
         }
     }
 
@@ -203,7 +248,13 @@ impl Trend {
                 with(*step),
                 digits(*slope, 2)
             ),
-            Self::Unclear { reason } => format!("Cannot be said: {reason}."),
+            Self::Hidden { mean, range, scatter } => format!(
+                "Cannot be told: about {}, values {} apart, and a scatter of {} that would hide a change.",
+                with(*mean),
+                with(*range),
+                with(*scatter)
+            ),
+            Self::Unclear { reason } => format!("Cannot be told: {reason}."),
         }
     }
 }
@@ -310,7 +361,7 @@ mod tests {
             matches!(found, Trend::Grows { slope, .. } if (slope - 0.5).abs() < 1e-9),
             "{found:?}"
         );
-        assert_eq!(found.word(), "does not");
+        assert_eq!(found.word(), "does not settle");
     }
 
     #[test]
@@ -323,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_is_flat_and_what_scatters_cannot_be_said() {
+    fn what_stays_settles_and_what_scatters_cannot_be_told() {
         let found = trend(&sampled(|x| 5.0 + 0.01 * x.ln().sin(), &DECADES), false);
         assert!(matches!(found, Trend::Flat { .. }), "{found:?}");
         let zigzag = [1.0, 3.0, 0.5, 2.5, 1.0];
@@ -332,23 +383,52 @@ mod tests {
             .zip(zigzag)
             .map(|(&x, value)| Sample { x, value, deviation: 0.0 })
             .collect();
-        assert_eq!(trend(&points, false).word(), "cannot be said");
+        assert_eq!(trend(&points, false).word(), "cannot be told");
         let turns = sampled(|x| 1.0 + 0.3 / x - 0.1 * (x - 100.0).max(0.0) / 900.0, &DECADES);
         assert!(matches!(trend(&turns[..4], false), Trend::Reached { .. }));
         let mut back = turns;
         back[4].value += 0.4;
         let found = trend(&back, false);
         assert!(found.sentence(5, "").contains("turns back"), "{found:?}");
-        // the same differences within the fluctuation over the window are none
-        let noisy: Vec<Sample> = points.iter().map(|p| Sample { deviation: 3.0, ..*p }).collect();
-        assert!(matches!(trend(&noisy, false), Trend::Flat { .. }));
+    }
+
+    fn scattering(values: &[f64], deviation: f64) -> Vec<Sample> {
+        let points = DECADES.iter().zip(values);
+        points.map(|(&x, &value)| Sample { x, value, deviation }).collect()
+    }
+
+    #[test]
+    fn a_scatter_that_would_hide_a_change_is_no_plateau() {
+        // wrong directions of a sweep of the mesh: they differ by 34.16 degrees
+        let found = trend(&scattering(&[70.78, 36.62, 53.7], 40.0), false);
+        assert_eq!(found.word(), "cannot be told (scatter)");
+        let said = found.sentence(3, "degrees");
+        assert!(
+            said.contains("34.16 degrees apart") && said.contains("scatter of 40.00"),
+            "{said}"
+        );
+        // values that agree, out of records that do not
+        let found = trend(&scattering(&[50.0, 50.1, 50.2], 20.0), false);
+        assert_eq!(found.word(), "cannot be told (scatter)");
+        assert_eq!(trend(&scattering(&[50.0, 50.1, 50.2], 1.0), false).word(), "settles");
+        // a limit that the fit gives, but 30 % of scatter about it
+        let way: Vec<f64> = DECADES.iter().map(|x| 10.0 - 8.0 * x.powf(-0.8) * 0.1584).collect();
+        assert_eq!(trend(&scattering(&way, 0.1), false).word(), "settles");
+        assert_eq!(trend(&scattering(&way, 3.0), false).word(), "cannot be told (scatter)");
+    }
+
+    #[test]
+    fn a_change_beyond_the_scatter_has_its_verdict() {
+        let log: Vec<f64> = DECADES.iter().map(|x| 3.0 + 0.4 * x.ln()).collect();
+        assert_eq!(trend(&scattering(&log, 0.2), false).word(), "does not settle");
+        assert_eq!(trend(&scattering(&log, 0.2), false).verdict(), Verdict::DoesNot);
     }
 
     #[test]
     fn two_points_say_nothing_and_repeated_ones_neither() {
         let found = trend(&sampled(|x| x, &[1.0, 2.0]), false);
-        assert_eq!(found.sentence(2, ""), "Cannot be said: 2 points; three are the least.");
-        assert_eq!(trend(&sampled(|x| x, &[1.0, 1.0, 2.0]), false).word(), "cannot be said");
-        assert_eq!(trend(&[], false).word(), "cannot be said");
+        assert_eq!(found.sentence(2, ""), "Cannot be told: 2 points; three are the least.");
+        assert_eq!(trend(&sampled(|x| x, &[1.0, 1.0, 2.0]), false).word(), "cannot be told");
+        assert_eq!(trend(&[], false).word(), "cannot be told");
     }
 }

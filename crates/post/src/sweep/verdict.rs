@@ -2,7 +2,7 @@
 
 use super::{MEASURES, Sample, Sweep, Trend, trend};
 use crate::PostError;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// What is said of a measure along an axis.
@@ -20,6 +20,21 @@ pub struct SweepVerdict {
     pub points: usize,
     /// The trend.
     pub trend: Trend,
+}
+
+impl SweepVerdict {
+    /// The verdict as a document: which measure along which axis, whether it settles, and why.
+    pub fn document(&self) -> Value {
+        json!({
+            "axis": self.axis,
+            "others": self.others,
+            "measure": self.measure,
+            "unit": self.unit,
+            "points": self.points,
+            "verdict": self.trend.word(),
+            "why": self.trend.sentence(self.points, self.unit),
+        })
+    }
 }
 
 /// Keys that are refined towards zero; others are followed upwards.
