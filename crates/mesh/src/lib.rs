@@ -3,6 +3,8 @@
 //! SI units; `x` is the rolling direction, `y` lateral, `z` up. The apex of the bar's top is
 //! `z = 0`; the undeformed disk touches it at the origin with its centre at `(0, 0, R)`.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod bar;
 mod check;
 mod disk;

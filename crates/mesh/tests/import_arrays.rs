@@ -284,6 +284,36 @@ fn a_tread_that_does_not_go_round_the_disk_is_refused() {
 }
 
 #[test]
+fn a_wheel_on_another_axis_is_told_by_that_axis_and_not_as_a_hole() {
+    for (turned, expected) in [(2, 'z'), (0, 'x')] {
+        let mut mesh = foreign();
+        // a quarter turn that takes y there
+        let other = 2 - turned;
+        for p in &mut mesh.points {
+            let mut q = *p;
+            (q[turned], q[1]) = (p[1], -p[turned]);
+            q[other] = p[other];
+            *p = q;
+        }
+        let found = fault(&mesh);
+        assert!(
+            matches!(found, Fault::Axis { key: "mesh.sets.tread", axis, .. } if axis == expected),
+            "{found}"
+        );
+        assert!(found.remedy().contains(&format!("its {expected} becomes y")), "{found:?}");
+    }
+}
+
+#[test]
+fn a_node_without_a_place_is_to_be_given_one() {
+    let mut mesh = foreign();
+    mesh.points[7][1] = f64::NAN;
+    let found = fault(&mesh);
+    assert!(matches!(found, Fault::NotFinite { node: 7, .. }), "{found}");
+    assert!(found.remedy().contains("the node three finite coordinates"), "{}", found.remedy());
+}
+
+#[test]
 fn a_top_in_two_pieces_and_a_face_inside_the_bar_are_refused() {
     let mut mesh = foreign();
     let points = mesh.points.clone();

@@ -223,6 +223,16 @@ fn what_is_not_read_is_refused_by_line_with_what_to_do() {
 }
 
 #[test]
+fn elements_nested_without_end_are_refused_by_line() {
+    let text = format!("<?xml version=\"1.0\"?>\n{}", "<a>".repeat(100_000));
+    for text in [text.clone(), text.clone() + &"</a>".repeat(100_000), text + "<AppendedData>_"] {
+        let error = read_vtu(text.as_bytes()).unwrap_err();
+        assert_eq!(error.line, Some(2), "{error}");
+        assert!(error.to_string().contains("32 deep"), "{error}");
+    }
+}
+
+#[test]
 fn malformed_texts_are_refused_by_line() {
     let cube = CUBE_2.as_bytes();
     let nowhere = line_of(cube, "$EndNodes");

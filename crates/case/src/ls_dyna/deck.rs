@@ -218,6 +218,11 @@ impl Deck {
                 Ok(())
             }
             "DEFINE_CURVE" => self.curve(card),
+            _ if name.starts_with("INCLUDE") => {
+                let remedy = "put the included lines into the file itself: without them the model \
+                              lacks what they hold";
+                Err(unsupported(card.line, format!("*{name}"), remedy))
+            }
             _ => {
                 let remedy = "leave the card out if the model does without it; the cards that are \
                               read: docs/ls-dyna.md";

@@ -161,6 +161,14 @@ fn what_is_not_read_is_refused_by_its_line() {
 }
 
 #[test]
+fn lines_in_another_file_are_to_be_put_in_and_not_left_out() {
+    let error = import(&DECK.replacen("*TITLE", "*INCLUDE", 1)).unwrap_err();
+    assert!(error.fault.remedy().contains("put the included lines"), "{}", error.fault.remedy());
+    let error = import(&DECK.replacen("*TITLE", "*PART_INERTIA", 1)).unwrap_err();
+    assert!(error.fault.remedy().contains("leave the card out"), "{}", error.fault.remedy());
+}
+
+#[test]
 fn what_a_disk_on_a_bar_lacks_is_named() {
     for (keyword, lines) in [
         ("*CONSTRAINED_NODAL_RIGID_BODY", 3),

@@ -57,8 +57,13 @@ pub(super) fn check(
     }
 
     let loops = loops(&border);
+    if sheet == Sheet::Band
+        && let Some(axis) = another_axis(imported, &loops)
+    {
+        return Err(at_face(inside[0], Fault::Axis { key, name, axis }));
+    }
     let (rims, holes): (Vec<_>, Vec<_>) = match sheet {
-        Sheet::Band => loops.into_iter().partition(|l| winding(imported, l) != 0),
+        Sheet::Band => loops.into_iter().partition(|l| winding(imported, l, Y) != 0),
         Sheet::Patch => {
             let longest = loops.iter().map(Vec::len).max();
             let first = loops.iter().position(|l| Some(l.len()) == longest);
@@ -114,10 +119,22 @@ fn loops(border: &BTreeMap<[u32; 2], [u32; 2]>) -> Vec<Vec<[u32; 2]>> {
     found.into_values().collect()
 }
 
-/// How often a border goes about the axis of the disk, the middle of its extent in x and z.
-fn winding(imported: &Imported, border: &[[u32; 2]]) -> i64 {
+/// Axes by their places among the coordinates.
+const Y: usize = 1;
+
+/// The axis, other than y, that a band goes round with two borders.
+fn another_axis(imported: &Imported, loops: &[Vec<[u32; 2]>]) -> Option<char> {
+    let rims = |axis| loops.iter().filter(|l| winding(imported, l, axis) != 0).count();
+    let others = [(0, 'x'), (2, 'z')].into_iter();
+    let mut others = others.filter(|(axis, _)| rims(Y) == 0 && rims(*axis) == 2);
+    others.next().map(|(_, name)| name)
+}
+
+/// How often a border goes about the disk's middle, seen along an axis.
+fn winding(imported: &Imported, border: &[[u32; 2]], axis: usize) -> i64 {
     let mesh = &imported.mesh;
-    let middle = [0, 2].map(|axis| {
+    let plane = [(axis + 2) % 3, (axis + 1) % 3];
+    let middle = plane.map(|axis| {
         let along = mesh.nodes[mesh.bodies[0].nodes.clone()].iter().map(|p| p[axis]);
         let (low, high) = along
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -125,7 +142,7 @@ fn winding(imported: &Imported, border: &[[u32; 2]]) -> i64 {
     });
     let arm = |n: u32| {
         let p = mesh.nodes[n as usize];
-        [p[0] - middle[0], p[2] - middle[1]]
+        [p[plane[0]] - middle[0], p[plane[1]] - middle[1]]
     };
     let turn: f64 = border
         .iter()

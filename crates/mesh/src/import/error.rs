@@ -230,6 +230,18 @@ pub enum Fault {
         /// Element of a face beyond the end.
         element: u64,
     },
+    /// The tread goes round another axis than the disk's.
+    #[error(
+        "set `{name}` ({key}) goes round an axis along {axis}: the axis of the disk must be along y"
+    )]
+    Axis {
+        /// Key of the case that names it.
+        key: &'static str,
+        /// Its name.
+        name: String,
+        /// The axis that it goes round.
+        axis: char,
+    },
     /// A contact surface is in several pieces.
     #[error("set `{name}` ({key}) is in several pieces: a face of element {element} is apart")]
     Pieces {
@@ -366,7 +378,10 @@ impl Fault {
                     .into()
             }
             Self::Repeated { .. } => "number nodes and elements without repetition".into(),
-            Self::NotFinite { .. } | Self::Collapsed { .. } | Self::Inverted { .. } => {
+            Self::NotFinite { .. } => {
+                "give the node three finite coordinates in the program that made the mesh".into()
+            }
+            Self::Collapsed { .. } | Self::Inverted { .. } => {
                 "mend the element in the program that made the mesh".into()
             }
             Self::Coincident { .. } | Self::FaceShared { .. } | Self::Hanging { .. } => {
@@ -398,6 +413,10 @@ impl Fault {
             Self::Hole { .. } | Self::Open { .. } | Self::Pieces { .. } | Self::Fold { .. } => {
                 "put all faces of the running surface into the set and no others".into()
             }
+            Self::Axis { axis, .. } => format!(
+                "turn the mesh so that its {axis} becomes y: x is the rolling direction, z up, the \
+                 disk touches the bar's top at the origin with its axis along y"
+            ),
             Self::Size { key, found, .. } => {
                 format!("set {key} = {found}, or mesh the body in its size")
             }

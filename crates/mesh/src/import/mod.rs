@@ -14,6 +14,7 @@ mod file;
 mod fit;
 mod foreign;
 mod gmsh;
+mod nesting;
 mod order;
 mod parts;
 mod text;

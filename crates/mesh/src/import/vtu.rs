@@ -7,6 +7,7 @@
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
+use super::nesting::{DEEPEST, too_deep};
 use super::text::{number, utf8};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -34,6 +35,10 @@ pub fn read_vtu(bytes: &[u8]) -> Result<Foreign, ImportError> {
         }
         None => head,
     };
+    if let Some(line) = too_deep(head) {
+        let what = format!("elements of the file lie more than {DEEPEST} deep in one another");
+        return Err(Fault::Syntax { what }.at(line));
+    }
     let document = Document::parse(head).map_err(|error| {
         Fault::Syntax { what: format!("the file is no well-formed XML: {error}") }
             .at(error.pos().row as usize)
