@@ -1,9 +1,11 @@
 //! What `creepage sweep`, `plot` and `report` put beside the files of a run, and `--force` removes with it.
 
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
+use files::input;
+use files::output::{PAGE, PNG, SVG, wrote};
 use serde_json::Value;
 
 /// Folder of the figures.
@@ -21,44 +23,28 @@ pub const FIGURE_NAMES: [&str; 8] = [
     "spectrum",
 ];
 
-/// Tells by the beginning of a file whether this program wrote it.
-type Ours = fn(&[u8]) -> bool;
-
-/// Bytes of a file that are looked at; a check is far shorter.
-const BEGINNING: u64 = 1 << 20;
+/// Whether this program wrote the file.
+type Ours = fn(&Path) -> bool;
 
 /// Every file that may be there.
 fn files() -> Vec<(PathBuf, Ours)> {
     let mut files: Vec<(PathBuf, Ours)> = vec![
         ("check.json".into(), is_check),
         ("check.json.partial".into(), |_| true),
-        ("report.html".into(), is_page),
+        ("report.html".into(), |path| wrote(path, &PAGE).unwrap_or(false)),
     ];
     for name in FIGURE_NAMES {
         let place = |extension| Path::new(FIGURES).join(format!("{name}.{extension}"));
-        files.push((place("svg"), is_svg));
-        files.push((place("png"), |bytes| bytes.starts_with(b"\x89PNG\r\n")));
+        files.push((place("svg"), |path| wrote(path, &SVG).unwrap_or(false)));
+        files.push((place("png"), |path| wrote(path, &PNG).unwrap_or(false)));
     }
     files
 }
 
-fn has(bytes: &[u8], words: &str) -> bool {
-    bytes.windows(words.len()).any(|part| part == words.as_bytes())
-}
-
-fn is_check(bytes: &[u8]) -> bool {
-    let found = serde_json::from_slice::<Value>(bytes);
+fn is_check(path: &Path) -> bool {
+    let bytes = input::bytes(path, input::DOCUMENT).unwrap_or_default();
+    let found = serde_json::from_slice::<Value>(&bytes);
     found.is_ok_and(|check| check["metrics"].is_object() && !check["limits_for"].is_null())
-}
-
-fn is_page(bytes: &[u8]) -> bool {
-    let bytes = &bytes[..bytes.len().min(1024)];
-    bytes.starts_with(b"<!DOCTYPE html>") && has(bytes, "<link rel=\"icon\" href=\"data:,\">")
-}
-
-fn is_svg(bytes: &[u8]) -> bool {
-    let bytes = &bytes[..bytes.len().min(1024)];
-    bytes.starts_with(b"<svg") && has(bytes, "@font-face")
 }
 
 /// Removes these files from `folder`, and the folder of figures if nothing is left in it. What does not look
@@ -66,12 +52,7 @@ fn is_svg(bytes: &[u8]) -> bool {
 pub(crate) fn remove(folder: &Path) -> io::Result<()> {
     for (name, is_ours) in files() {
         let path = folder.join(name);
-        let mut bytes = Vec::new();
-        match File::open(&path) {
-            Ok(file) => file.take(BEGINNING).read_to_end(&mut bytes)?,
-            Err(_) => continue,
-        };
-        if is_ours(&bytes) {
+        if path.is_file() && is_ours(&path) {
             fs::remove_file(&path)?;
         }
     }
@@ -101,7 +82,8 @@ mod tests {
             fs::write(at(name), text).unwrap();
         }
         let png = at("figures/space-time.png");
-        fs::write(&png, b"\x89PNG\r\n\x1a\n").unwrap();
+        let chunk = [b"\x89PNG\r\n\x1a\n", files::output::PNG_MARK].concat();
+        fs::write(&png, chunk).unwrap();
         remove(folder.path()).unwrap();
         assert!(!png.exists());
         for (name, text) in foreign {

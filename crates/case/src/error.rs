@@ -2,14 +2,16 @@
 
 use std::path::PathBuf;
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
+
+use crate::excerpt::Excerpt;
 
 /// Why a case could not be loaded.
 #[derive(Debug, Error, Diagnostic)]
 pub enum CaseError {
     /// A file that cannot be read at all.
-    #[error("{}: {problem}", path.display())]
+    #[error("{}: {problem}", files::printable(&path.display().to_string()))]
     #[diagnostic(help("{remedy}"))]
     File {
         /// The file.
@@ -34,7 +36,7 @@ pub struct KeyError {
     /// The key, dotted; empty for malformed TOML.
     pub key: String,
     #[source_code]
-    pub(crate) source_code: Option<NamedSource<String>>,
+    pub(crate) source_code: Option<Excerpt>,
     #[label("{label}")]
     pub(crate) span: Option<SourceSpan>,
     pub(crate) label: String,

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use files::output::among;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -12,6 +13,7 @@ use crate::derived;
 use crate::postmortem::POSTMORTEM;
 use crate::schema::Case;
 use output::CHECKPOINTS;
+pub use output::VTKHDF;
 
 /// The resolved case of a run.
 pub const CASE_FILE: &str = "case.toml";
@@ -44,6 +46,26 @@ pub enum FolderError {
         path: PathBuf,
         /// Whether files of a run are among its content.
         run: bool,
+    },
+    /// What is to be replaced is no run of this program.
+    #[error(
+        "{} holds {file}, but no run of this program: that file is not replaced", path.display()
+    )]
+    #[diagnostic(help("choose another folder with --out DIR, or move the file away"))]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+        /// The file.
+        file: &'static str,
+    },
+    /// What is to be replaced is read by the same command.
+    #[error("{} is what is read: it is not replaced", path.display())]
+    #[diagnostic(help(
+        "choose another folder with --out DIR, or go on with the run with --resume"
+    ))]
+    Input {
+        /// The file.
+        path: PathBuf,
     },
     /// Another process writes the run in the folder.
     #[error("another process is at work in {}", path.display())]
@@ -78,6 +100,28 @@ pub fn default_folder(case: &Case) -> PathBuf {
 /// Whether a run has been begun in `folder`.
 pub fn has_run(folder: &Path) -> bool {
     RUN_FILES.iter().any(|file| folder.join(file).exists())
+}
+
+/// Whether the files of a run in `folder` are of a run of this program, and not a case that somebody
+/// wrote there: a run leaves its lock behind, and its name in its results.
+pub fn is_run(folder: &Path) -> bool {
+    let ours = |file: &&str| output::is_ours(&folder.join(file));
+    has_run(folder) && (folder.join(LOCK).exists() || RUN_FILES.iter().any(ours))
+}
+
+/// Whether a file is one of a run's own, which nothing but the run may replace.
+pub fn is_of_a_run(path: &Path) -> bool {
+    let named = path.file_name().is_some_and(|name| RUN_FILES.iter().any(|file| name == *file));
+    named && path.parent().is_some_and(|folder| folder.join(LOCK).exists())
+}
+
+/// Refuses to replace the run in `folder` where one of its files is among `inputs`.
+pub fn spare(folder: &Path, inputs: &[PathBuf]) -> Result<(), FolderError> {
+    let files = RUN_FILES.map(|file| folder.join(file));
+    match among(inputs, &files) {
+        Some(path) => Err(FolderError::Input { path: path.to_path_buf() }),
+        None => Ok(()),
+    }
 }
 
 /// A folder in which no other process writes a run as long as this lives.
@@ -131,6 +175,11 @@ pub fn prepare(folder: &Path, force: bool) -> Result<Held, FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
     check(folder, force)?;
+    if let Some(file) = RUN_FILES.iter().find(|file| folder.join(file).exists())
+        && !is_run(folder)
+    {
+        return Err(FolderError::Foreign { path: folder.to_path_buf(), file });
+    }
     fs::create_dir_all(folder).map_err(unwritable)?;
     let held = hold(folder)?;
     // looked at again: another process may just have been here

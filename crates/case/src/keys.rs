@@ -171,7 +171,8 @@ pub const KEYS: &[Key] = &[
         "mesh.file",
         Text,
         "",
-        "give the path of a .msh, .inp or .vtu file in quotes, relative to this file",
+        "give the path of a .msh, .inp or .vtu file in quotes, relative to the case file; with --set, \
+         to the working directory",
     ),
     key("mesh.sha256", Text, "", "leave it out: it is written into the case of a run"),
     key("mesh.unit", Word(&["m", "cm", "mm", "in"]), "", "choose one of the words"),

@@ -4,29 +4,28 @@
 //! case can still show the line.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use miette::{NamedSource, SourceSpan};
+use files::input::{self, Kind};
+use files::printable;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
+use crate::excerpt::Excerpt;
 use crate::friction::{self, USES};
 use crate::keys;
-
-/// A case file larger than this is taken for something else.
-const LARGEST_FILE: u64 = 4 << 20;
 
 /// A chain of `extends` longer than this is taken for a mistake.
 const LONGEST_CHAIN: usize = 16;
 
-/// A line longer than this is not shown, and a message no longer than this: both are to be read.
-const LONGEST_LINE: usize = 300;
+/// A message is no longer than this: it is to be read.
 const LONGEST_MESSAGE: usize = 1000;
+
+/// The name of a text that is no file, but an option.
+const SET: &str = "--set";
 
 /// A text that keys came from: a file, or one `--set` option.
 #[derive(Clone, Debug)]
@@ -81,7 +80,7 @@ impl Layers {
     }
 
     fn add_file(&mut self, path: &Path, chain: &mut Vec<PathBuf>) -> Result<(), CaseError> {
-        let text = read_text(path)?;
+        let text = read_text(path, input::CASE)?;
         chain.push(path.canonicalize().unwrap_or_else(|_| path.to_path_buf()));
         self.add_text(text, path, chain)
     }
@@ -137,10 +136,10 @@ impl Layers {
 
     /// Lays one `--set KEY=VALUE` over everything before.
     pub fn add_set(&mut self, set: &str) -> Result<(), CaseError> {
-        let name = "--set".to_owned();
+        let name = SET.to_owned();
         let refuse = |problem: &str, layers: &Self| {
             layers.error_in(
-                Source { name: "--set".into(), text: set.into() },
+                Source { name: SET.into(), text: set.into() },
                 0..set.len(),
                 "",
                 &format!("--set {set}: {problem}"),
@@ -176,33 +175,57 @@ impl Layers {
         Ok(())
     }
 
+    /// The files that were read, and the table that they name.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let sources = self.sources.iter().filter(|source| source.name != SET);
+        let mut files: Vec<PathBuf> = sources.map(|source| PathBuf::from(&source.name)).collect();
+        if let Some(table) = get(&self.table, "friction.table").and_then(Value::as_str) {
+            let (folder, _) = self.paths_from(self.origins.get("friction.table"));
+            files.push(folder.join(table));
+        }
+        files
+    }
+
+    /// The folder that a path is relative to, by where it was written, and that in words.
+    pub fn paths_from(&self, origin: Option<&Origin>) -> (&Path, &'static str) {
+        match origin.map(|origin| self.sources[origin.source].name.as_str()) {
+            Some(file) if file != SET => {
+                (Path::new(file).parent().unwrap_or(Path::new("")), "relative to this file")
+            }
+            _ => (Path::new(""), "relative to the working directory"),
+        }
+    }
+
     fn parse(
         &mut self,
         name: String,
         text: String,
     ) -> Result<(Table, BTreeMap<String, Origin>), CaseError> {
         let source = Source { name, text };
-        let malformed = |layers: &Self, error: toml::de::Error| {
+        // What is no TOML may be any file that can be read: of it a place is told, and no text.
+        let malformed = |error: toml::de::Error| {
             let span = error.span().unwrap_or(0..0);
             let written = source.text.get(span.clone()).unwrap_or_default();
             let number = written.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c))
                 && toml::from_str::<Table>(&format!("x = \"{written}\"")).is_ok();
             let problem = error.message().trim().replace('\n', "; ");
-            if number && (problem.contains("overflow") || problem.contains("integer")) {
-                let problem = format!("the number {written} is too large to be held");
-                let remedy = "give a number in the range of its key: see `creepage schema`";
-                return layers.error_in(source.clone(), span, "", &problem, remedy);
-            }
-            layers.error_in(
-                source.clone(),
-                span,
-                "",
-                &format!("not well-formed TOML: {problem}"),
-                "a case file is TOML: sections [in.brackets], lines `key = value`, text in quotes",
-            )
+            let (problem, remedy) =
+                if number && (problem.contains("overflow") || problem.contains("integer")) {
+                    let problem = format!("the number {written} is too large to be held");
+                    (problem, "give a number in the range of its key: see `creepage schema`")
+                } else {
+                    let column = column(&source.text, span.start);
+                    let problem = format!("not well-formed TOML at column {column}: {problem}");
+                    (
+                        problem,
+                        "a case file is TOML: sections [in.brackets], lines `key = value`, text in \
+                         quotes",
+                    )
+                };
+            CaseError::Key(Box::new(key_error_at(&source, span, "", &problem, remedy)))
         };
-        let table = toml::from_str::<Table>(&source.text).map_err(|e| malformed(self, e))?;
-        let spans = DeTable::parse(&source.text).map_err(|e| malformed(self, e))?;
+        let table = toml::from_str::<Table>(&source.text).map_err(&malformed)?;
+        let spans = DeTable::parse(&source.text).map_err(&malformed)?;
         let mut origins = BTreeMap::new();
         record(spans.get_ref(), "", self.sources.len(), &mut origins);
         self.sources.push(source);
@@ -306,7 +329,7 @@ impl Layers {
     }
 }
 
-/// An error with an excerpt of the text that it is about.
+/// An error with the line of the text that it is about, which is well-formed.
 pub fn key_error_in(
     source: Source,
     span: Range<usize>,
@@ -314,73 +337,57 @@ pub fn key_error_in(
     message: &str,
     remedy: &str,
 ) -> KeyError {
+    let (source_code, at) = Excerpt::of(&source.name, &source.text, span.clone()).unzip();
+    KeyError { span: at, source_code, ..key_error_at(&source, span, key, message, remedy) }
+}
+
+/// An error that names the place in a text and shows nothing of it: it may be any file that can be read.
+pub fn key_error_at(
+    source: &Source,
+    span: Range<usize>,
+    key: &str,
+    message: &str,
+    remedy: &str,
+) -> KeyError {
     let start = span.start.min(source.text.len());
     let line = source.text.as_bytes()[..start].iter().filter(|&&byte| byte == b'\n').count() + 1;
-    let message = if source.name == "--set" {
-        if message.starts_with("--set") { message.into() } else { format!("--set: {message}") }
+    let message = if source.name == SET {
+        if message.starts_with(SET) { message.into() } else { format!("{SET}: {message}") }
     } else {
         format!("{}:{line}: {message}", source.name)
-    };
-    let (span, source_code) = match excerpt(&source.text, start..span.end) {
-        Some(span) => (Some(span), Some(NamedSource::new(source.name, source.text))),
-        None => (None, None),
     };
     KeyError {
         message: shortened(message),
         key: key.into(),
-        span,
+        span: None,
         label: "here".into(),
-        source_code,
+        source_code: None,
         help: Some(remedy.into()),
         others: Vec::new(),
     }
 }
 
+/// The place of a byte in its line, in characters from 1.
+fn column(text: &str, at: usize) -> usize {
+    let before = text.get(..at).unwrap_or(text);
+    before.chars().rev().take_while(|&c| c != '\n').count() + 1
+}
+
+/// A message that can be read: printable, and not without end.
 fn shortened(message: String) -> String {
+    let message = printable(&message);
     match message.char_indices().nth(LONGEST_MESSAGE) {
         Some((end, _)) => format!("{}...", &message[..end]),
         None => message,
     }
 }
 
-/// What to point at in a text, unless it stands in a line too long to be shown.
-fn excerpt(text: &str, span: Range<usize>) -> Option<SourceSpan> {
-    let bytes = text.as_bytes();
-    let before = bytes[..span.start].iter().rev().take_while(|&&byte| byte != b'\n').count();
-    let after = bytes[span.start..].iter().take_while(|&&byte| byte != b'\n').count();
-    let length = span.end.saturating_sub(span.start);
-    (before + after.max(length) <= LONGEST_LINE).then(|| SourceSpan::new(span.start.into(), length))
-}
-
-/// Reads a file of at most [`LARGEST_FILE`] bytes as UTF-8.
-pub fn read_text(path: &Path) -> Result<String, CaseError> {
-    let refuse = |problem: String, remedy: &str| CaseError::File {
+/// Reads a file as UTF-8.
+pub fn read_text(path: &Path, kind: Kind) -> Result<String, CaseError> {
+    input::text(path, kind).map_err(|error| CaseError::File {
         path: path.to_path_buf(),
-        problem,
-        remedy: remedy.into(),
-    };
-    if path.is_dir() {
-        return Err(refuse("is a folder, not a case file".into(), "name the .toml file in it"));
-    }
-    let mut bytes = Vec::new();
-    let read = File::open(path)
-        .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
-        .map_err(|cause| match cause.kind() {
-            io::ErrorKind::NotFound => {
-                refuse("there is no such file".into(), "check the path of the case file")
-            }
-            _ => refuse(format!("cannot be read: {cause}"), "check that you may read it"),
-        })?;
-    if read as u64 > LARGEST_FILE {
-        return Err(refuse("is larger than 4 MiB".into(), "name a case file"));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        refuse(
-            format!("is not UTF-8 text (line {line}, byte {at})"),
-            "a case file is TOML, saved as UTF-8",
-        )
+        problem: error.problem(),
+        remedy: error.remedy(),
     })
 }
 

@@ -4,6 +4,8 @@
 //! ([`load`]), checked against the table of keys ([`keys`]) and against itself, and resolved so
 //! that every default is written out. [`mod@run`] then takes the resolved case to its results.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod bench;
 mod bodies;
 mod check;
@@ -11,6 +13,7 @@ mod checkpoint;
 pub mod derived;
 mod disk;
 pub mod error;
+mod excerpt;
 pub mod folder;
 mod forms;
 mod friction;
@@ -27,6 +30,7 @@ mod memory;
 mod mesh_file;
 pub mod mesh_report;
 mod model;
+mod name;
 mod numbers;
 mod postmortem;
 pub mod preload;
@@ -47,9 +51,10 @@ mod tests;
 
 pub use bench::{BlockElement, bench, bench_block};
 pub use error::{CaseError, KeyError};
+pub use excerpt::Excerpt;
 pub use friction::OwnLaw;
 pub use json_schema::json_schema;
-pub use load::error_at_key;
+pub use load::{error_at_key, inputs};
 pub use mesh_file::MeshFileError;
 pub use mesh_report::mesh_report;
 pub use progress::{Progress, Stage};

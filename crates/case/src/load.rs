@@ -1,6 +1,6 @@
 //! From files and options to a resolved case.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
@@ -8,6 +8,7 @@ use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::mesh_file;
+use crate::name;
 use crate::preload::store::hexadecimal;
 use crate::schema::{
     Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing, Time,
@@ -51,6 +52,15 @@ impl Case {
     pub fn warnings(&self) -> Vec<String> {
         sense::warnings(self)
     }
+}
+
+/// The files that a case is made of: its own, those that it extends, its mesh. `source` is where it
+/// was read, and may be no file.
+pub fn inputs(case: &Case, source: &Path) -> Vec<PathBuf> {
+    let mut files = vec![source.to_path_buf()];
+    files.extend(Layers::read(source).map(|layers| layers.files()).unwrap_or_default());
+    files.extend(case.mesh.file.as_ref().map(PathBuf::from));
+    files
 }
 
 /// An error found after loading, told at the place where a key was written; `text` is the case where it is
@@ -147,6 +157,6 @@ fn write_defaults(case: &mut Case) {
 /// The file's stem, with whatever a folder's name should not have replaced.
 fn name_from(path: &Path) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();
-    let name: String = stem.chars().map(|c| if sense::in_a_name(c) { c } else { '-' }).collect();
-    if name.trim_matches('.').is_empty() { "case".into() } else { name }
+    let name: String = stem.chars().map(|c| if name::may_hold(c) { c } else { '-' }).collect();
+    if name.trim_matches(['.', ' ']).is_empty() { "case".into() } else { name }
 }

@@ -1,5 +1,9 @@
 //! Memory: what a run needs, what the machine has, what was used.
 
+use std::path::Path;
+
+use files::input;
+
 use crate::run_error::RunError;
 use crate::schema::Case;
 
@@ -43,7 +47,7 @@ fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), Run
 
 /// Memory that the machine has free (MB); infinite where the system does not tell.
 pub(crate) fn free_mb() -> f64 {
-    let table = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let table = input::text(Path::new("/proc/meminfo"), input::LOG).unwrap_or_default();
     let line = table.lines().find_map(|l| l.strip_prefix("MemAvailable:"));
     let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
     kib.map_or(f64::INFINITY, |k| k * 1024.0 / 1e6)
@@ -51,7 +55,7 @@ pub(crate) fn free_mb() -> f64 {
 
 /// Largest resident memory of this process so far (MB); zero where the system does not tell.
 pub(crate) fn peak_rss_mb() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let status = input::text(Path::new("/proc/self/status"), input::LOG).unwrap_or_default();
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
     let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
     kib.map_or(0.0, |k| k * 1024.0 / 1e6)

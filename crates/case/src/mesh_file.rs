@@ -1,8 +1,8 @@
 //! A mesh in a file of its own.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use files::input;
 use mesh::Mesh;
 use mesh::import::{Format, ImportError, SetNames, Shape, Unit, bodies, fit};
 use sha2::{Digest, Sha256};
@@ -26,8 +26,8 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
         return Ok(());
     };
     let origin = layers.origins.get(KEY);
-    let folder = origin.map(|origin| Path::new(&layers.sources[origin.source].name));
-    let path = folder.and_then(Path::parent).unwrap_or(Path::new("")).join(&file);
+    let (folder, relative) = layers.paths_from(origin);
+    let path = folder.join(&file);
     let refused = |problem: &str, remedy: &str| {
         Err(layers.error(origin, KEY, &format!("\"{file}\": {problem}"), remedy))
     };
@@ -38,7 +38,7 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
         Ok(bytes) => bytes,
         Err(problem) => {
             let problem = format!("{}: {problem}", path.display());
-            return refused(&problem, "give the path of a mesh file, relative to this file");
+            return refused(&problem, &format!("give the path of a mesh file, {relative}"));
         }
     };
     let found = hexadecimal(&Sha256::digest(bytes));
@@ -58,13 +58,7 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
-    if path.is_dir() {
-        return Err("is a folder".into());
-    }
-    fs::read(path).map_err(|cause| match cause.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file".into(),
-        _ => format!("cannot be read: {cause}"),
-    })
+    input::bytes(path, input::MESH).map_err(|error| error.problem())
 }
 
 /// A mesh file that cannot be used.
@@ -103,7 +97,7 @@ pub(crate) fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, RunErro
         .and_then(|foreign| bodies(&foreign, &names(case), unit(case)))
         .and_then(|imported| fit(imported, &shape(case)))
         .map_err(|ImportError { line, fault }| {
-            let (problem, remedy) = (fault.to_string(), fault.remedy());
+            let (problem, remedy) = (files::printable(&fault.to_string()), fault.remedy());
             RunError::MeshFile(MeshFileError { path: path.clone(), line, problem, remedy })
         })?;
     Ok(Some((imported.mesh, imported.notes)))

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::checkpoint::{KERNELS, State};
-use crate::folder::has_run;
+use crate::folder::is_run;
 use crate::schema::Case;
+use files::input;
 use miette::Diagnostic;
 use output::summary::Status;
 use output::{
@@ -80,7 +81,7 @@ pub(crate) struct Point {
 /// Where the run of `case` in `folder` goes on.
 pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> {
     let path = || folder.to_path_buf();
-    if !has_run(folder) {
+    if !is_run(folder) {
         return Err(ResumeError::NoRun { folder: path() });
     }
     if let Some(difference) = difference(case, folder) {
@@ -117,6 +118,11 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
     let reasons: Vec<_> =
         damaged.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();
     Err(ResumeError::Unusable { folder: path(), reasons: reasons.join("; ") })
+}
+
+/// Whether the run in `folder` is of `case`.
+pub(crate) fn is_of(case: &Case, folder: &Path) -> bool {
+    is_run(folder) && difference(case, folder).is_none()
 }
 
 /// What differs between `case` and that of the run in `folder`.

@@ -11,6 +11,7 @@ use crate::folder;
 use crate::friction::{FrictionLaw, OwnLaw};
 use crate::guards::READING;
 use crate::hertz::hertz;
+use crate::load::inputs;
 use crate::log::Log;
 use crate::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 use crate::model::Model;
@@ -89,7 +90,7 @@ fn run_in_pool(
     if case.friction.law == FrictionLaw::Python && options.law.is_none() {
         return Err(RunError::NoLaw);
     }
-    let resumes = options.resume && folder::has_run(&options.out);
+    let resumes = options.resume && folder::is_run(&options.out);
     let held = if resumes { Some(folder::hold(&options.out)?) } else { None };
     let (origin, why) = match origin(case, options)? {
         Some(Origin::Complete(summary)) => return Ok(complete(&options.out, summary)),
@@ -99,6 +100,10 @@ fn run_in_pool(
     };
     let replaces = options.force || why.is_some();
     if origin.is_none() {
+        // The same case begun anew from its own folder reads what it then writes.
+        if options.force && !(options.resume && resume::is_of(case, &options.out)) {
+            folder::spare(&options.out, &inputs(case, &options.source))?;
+        }
         // A mesh that is refused must cost no earlier run its results.
         folder::check(&options.out, replaces)?;
     }

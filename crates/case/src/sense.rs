@@ -6,6 +6,7 @@ use crate::friction::{self, DYNAMIC, USES, Uses};
 use crate::hertz::hertz;
 use crate::keys::{self, number};
 use crate::layers::{Layers, Origin, key_error_in};
+use crate::name;
 use crate::schema::{
     Case, ContactLayers, Crown, DriveMode, Enforcement, Friction, FrictionMode, LoadMode, Material,
     PreloadMethod, Stiffness, Time,
@@ -26,11 +27,6 @@ const MANY_STEPS: f64 = 1e7;
 const SOFTEST: f64 = 5e5;
 const LIGHTEST: f64 = 20.0;
 const HEAVIEST: f64 = 2.5e4;
-
-/// Whether a character may stand in a case's name, which becomes a folder's.
-pub fn in_a_name(c: char) -> bool {
-    c.is_alphanumeric() || "-_. +".contains(c)
-}
 
 /// Findings about a case as a whole.
 struct Findings<'a> {
@@ -83,16 +79,8 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
 }
 
 fn check_name(case: &Case, found: &mut Findings) {
-    let name = &case.name;
-    let fine = !name.trim_matches(['.', ' ']).is_empty()
-        && name.len() <= 100
-        && name.chars().all(in_a_name);
-    found.require(
-        fine,
-        &["name"],
-        || format!("name = {name:?} cannot name a folder"),
-        "use letters, digits, '-', '_', '+' and '.'",
-    );
+    let refused = name::refused(&case.name);
+    found.require(refused.is_none(), &["name"], || refused.unwrap_or_default(), name::REMEDY);
 }
 
 fn check_choices(case: &Case, found: &mut Findings) {

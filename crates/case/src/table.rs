@@ -1,12 +1,11 @@
 //! A friction table in a file of its own, taken into the case.
 
-use std::path::Path;
-
 use contact::{Table, TableError};
+use files::input;
 use toml::Value;
 
 use crate::error::CaseError;
-use crate::layers::{Layers, Source, get, key_error_in, read_text};
+use crate::layers::{Layers, Source, get, key_error_at, key_error_in, read_text};
 
 const KEY: &str = "friction.table";
 const REMEDY: &str = "two columns: slip velocity (m/s), rising from 0, and coefficient, with a comma between; \
@@ -19,27 +18,27 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
         return Ok(());
     };
     let origin = layers.origins.get(KEY);
-    let folder = origin.map(|origin| Path::new(&layers.sources[origin.source].name));
-    let path = folder.and_then(Path::parent).unwrap_or(Path::new("")).join(&file);
-    let text = read_text(&path).map_err(|error| match error {
+    let (folder, relative) = layers.paths_from(origin);
+    let path = folder.join(&file);
+    let text = read_text(&path, input::TABLE).map_err(|error| match error {
         CaseError::File { problem, .. } => layers.error(
             origin,
             KEY,
             &format!("\"{file}\": {}: {problem}", path.display()),
-            "give the path of a CSV file, relative to this file",
+            &format!("give the path of a CSV file, {relative}"),
         ),
         other => other,
     })?;
-    let points = read(&text).map_err(|(line, problem)| {
+    let points = read(&text).map_err(|Mistake { line, problem, points }| {
         let source = Source { name: path.display().to_string(), text: text.clone() };
         let message = format!("{KEY}: {problem}");
-        CaseError::Key(Box::new(key_error_in(
-            source,
-            line_span(&text, line),
-            KEY,
-            &message,
-            REMEDY,
-        )))
+        let span = line_span(&text, line);
+        // A file without a point may be any that can be read: nothing of it is shown.
+        CaseError::Key(Box::new(if points {
+            key_error_in(source, span, KEY, &message, REMEDY)
+        } else {
+            key_error_at(&source, span, KEY, &message, REMEDY)
+        }))
     })?;
     let value = points.map(|point| Value::from(point.to_vec())).collect::<Vec<_>>();
     if let Some(Value::Table(friction)) = layers.table.get_mut("friction") {
@@ -65,8 +64,16 @@ fn line_span(text: &str, line: usize) -> std::ops::Range<usize> {
     start..start + length
 }
 
-/// The points of a CSV file, or the line of a mistake and the mistake.
-fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, (usize, String)> {
+/// A mistake in a table.
+struct Mistake {
+    line: usize,
+    problem: String,
+    /// Whether there were points before it: then the file is a table.
+    points: bool,
+}
+
+/// The points of a CSV file.
+fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, Mistake> {
     let mut points = Vec::new();
     let mut lines = Vec::new();
     let mut headed = false;
@@ -84,7 +91,12 @@ fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, (usize, String)> {
                 lines.push(i + 1);
             }
             [None, None] if points.is_empty() && !headed => headed = true,
-            _ => return Err((i + 1, format!("'{row}' is not a slip velocity and a coefficient"))),
+            _ => {
+                let points = !points.is_empty();
+                let what = if points { format!("'{row}'") } else { "this line".into() };
+                let problem = format!("{what} is not a slip velocity and a coefficient");
+                return Err(Mistake { line: i + 1, problem, points });
+            }
         }
     }
     let table = Table::new(points).map_err(|error| {
@@ -92,7 +104,8 @@ fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, (usize, String)> {
             TableError::Range { number, .. } | TableError::Order { number, .. } => number,
             TableError::Start { .. } | TableError::Empty => 1,
         };
-        (lines.get(number - 1).copied().unwrap_or(1), error.to_string())
+        let line = lines.get(number - 1).copied().unwrap_or(1);
+        Mistake { line, problem: error.to_string(), points: !lines.is_empty() }
     })?;
     Ok(table.points().to_vec().into_iter())
 }
@@ -102,11 +115,12 @@ mod tests {
     use super::*;
 
     fn points_of(text: &str) -> Vec<[f64; 2]> {
-        read(text).map(Iterator::collect).unwrap()
+        read(text).map(Iterator::collect).unwrap_or_else(|m| panic!("{}", m.problem))
     }
 
     fn mistake(text: &str) -> (usize, String) {
-        read(text).map(|_| ()).unwrap_err()
+        let Mistake { line, problem, .. } = read(text).map(|_| ()).unwrap_err();
+        (line, problem)
     }
 
     #[test]
@@ -123,7 +137,7 @@ mod tests {
             ("0,0.5\n1,-0.1\n", 2, "at least 0"),
             ("0,0.5\n1,x\n", 2, "'1,x'"),
             ("0,0.5\n1\n", 2, "'1'"),
-            ("s,mu\nspeed,mu\n", 2, "'speed,mu'"),
+            ("s,mu\nspeed,mu\n", 2, "this line is not"),
             ("\n\n1,0.5\n", 3, "starts at"),
             ("", 1, "empty"),
         ] {

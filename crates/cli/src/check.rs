@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use files::output::among;
 use miette::miette;
 use output::OutputError;
 use post::{Basis, CheckOptions, Depth, Limits, Pairing, PostError, Report, RunPaths};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
+use crate::outputs::{claim_grid, of_the_run};
 use crate::report;
 
 /// Exit code: a measure beyond its limit.
@@ -62,7 +64,11 @@ pub fn command(args: &Args, options: &CheckArgs) -> Result<u8, Failure> {
         limits.set(name, *value)?;
     }
     if let Some(map) = &options.map {
-        refuse_own_file(map, &paths)?;
+        let inputs = inputs(&paths);
+        if among(&inputs, std::slice::from_ref(map)).is_some() {
+            return Err(of_the_run("--map", map));
+        }
+        claim_grid("--map", map, &inputs)?;
     }
     let wanted = CheckOptions {
         window: options.window,
@@ -120,18 +126,10 @@ pub fn basis(run: &Path, options: &BasisArgs, depth: Depth) -> Result<(RunPaths,
     Ok((paths, basis))
 }
 
-/// The map must not replace what it is made from.
-fn refuse_own_file(map: &Path, paths: &RunPaths) -> Result<(), Failure> {
-    let same = |other: &Path| match (map.canonicalize(), other.canonicalize()) {
-        (Ok(map), Ok(other)) => map == other,
-        _ => false,
-    };
+/// What a command reads of a run.
+pub fn inputs(paths: &RunPaths) -> Vec<PathBuf> {
     let own = case::folder::RUN_FILES.map(|file| paths.folder.join(file));
-    if same(&paths.contact) || own.iter().any(|file| same(file)) {
-        let problem = format!("--map {}: this is a file of the run itself", map.display());
-        return Err(PostError::Asked(problem).into());
-    }
-    Ok(())
+    own.into_iter().chain([paths.contact.clone(), paths.case.clone()]).collect()
 }
 
 pub fn window(text: &str) -> Result<[f64; 2], String> {

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 
 use crate::args::{Args, BenchArgs, Command, MeshArgs, RunArgs};
 use crate::embedded::Told;
+use crate::outputs::claim_grid;
 use crate::progress::Watch;
 use crate::report;
 
@@ -147,7 +148,7 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
 fn mesh(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
     let case = load(args, &options.case, &options.sets)?;
     if let Some(out) = &options.out {
-        check_mesh_file(out)?;
+        claim_grid("--out", out, &case::inputs(&case, &options.case))?;
     }
     let found = case::mesh_report(&case, options.out.as_deref())
         .map_err(|error| placed(error, args, &options.case, &options.sets))?;
@@ -157,22 +158,6 @@ fn mesh(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
         report::print_mesh(&found);
     }
     Ok(0)
-}
-
-/// Refuses a file that could not be written, before the mesh is made.
-fn check_mesh_file(out: &Path) -> Result<(), Failure> {
-    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let refuse = |problem: String| Failure {
-        report: miette!(help = "choose another file with --out FILE", "{problem}"),
-        code: BAD_INPUT,
-    };
-    match folder {
-        _ if out.is_dir() => Err(refuse(format!("{} is a folder, not a file", out.display()))),
-        Some(folder) if !folder.is_dir() => {
-            Err(refuse(format!("{}: there is no folder {}", out.display(), folder.display())))
-        }
-        _ => Ok(()),
-    }
 }
 
 fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {

@@ -9,6 +9,7 @@ use serde_json::json;
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
+use crate::outputs::claim_grid;
 
 /// Options of `import-contact`.
 #[derive(Debug, clap::Args)]
@@ -35,6 +36,8 @@ pub fn command(args: &Args, options: &ImportArgs) -> Result<u8, Failure> {
     let out = &options.out;
     let files =
         ImportFiles { nodes: &options.nodes, faces: &options.faces, values: &options.values, out };
+    let tables = [&options.nodes, &options.faces, &options.values].map(PathBuf::clone);
+    claim_grid("--out", out, &tables)?;
     let Imported { nodes, faces, steps, rows } = import_contact(&files)?;
     let out = out.display();
     if args.json {

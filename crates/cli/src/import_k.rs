@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use case::Case;
 use case::ls_dyna::{Units, translate};
+use files::input;
 use miette::miette;
 use serde_json::json;
 
@@ -36,8 +37,8 @@ fn units(text: &str) -> Result<Units, String> {
 /// Runs the command.
 pub fn command(args: &Args, options: &ImportKArgs) -> Result<u8, Failure> {
     let file = options.file.display();
-    let bytes = fs::read(&options.file).map_err(|cause| Failure {
-        report: miette!(help = "name an LS-DYNA keyword file", "{file}: {cause}"),
+    let bytes = input::bytes(&options.file, input::MESH).map_err(|error| Failure {
+        report: miette!(help = "name an LS-DYNA keyword file", "{error}"),
         code: BAD_INPUT,
     })?;
     let name = options.file.file_name().unwrap_or_default().to_string_lossy();

@@ -1,6 +1,8 @@
 //! The command line as a library: what [`main`] does for a terminal, [`command`] does for a program that
 //! holds it.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod args;
 mod check;
 mod commands;
@@ -8,6 +10,7 @@ mod convergence_plot;
 mod embedded;
 mod import_contact;
 mod import_k;
+mod outputs;
 mod plot;
 mod progress;
 mod report;

@@ -4,12 +4,14 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use post::{CheckOptions, Depth, Limits, PostError, Report};
+use files::output::PAGE;
+use post::{CheckOptions, Depth, Limits, PostError, Report, SweepVerdict};
 use serde_json::{Value, json};
 
 use crate::args::Args;
-use crate::check::{BasisArgs, basis};
+use crate::check::{BasisArgs, basis, inputs};
 use crate::commands::Failure;
+use crate::outputs::claim;
 use crate::sweep_folder as sweep;
 
 /// Options of `report`.
@@ -27,10 +29,17 @@ pub struct ReportArgs {
 
 /// Runs the command.
 pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
-    let (page, folder, pass) = if let Some(found) = sweep::read(&options.run)? {
-        (sweep_page(&options.run, &found)?, options.run.clone(), None)
+    let place = |folder: &Path| options.out.clone().unwrap_or_else(|| folder.join("report.html"));
+    let (page, out, more) = if let Some(found) = sweep::read(&options.run)? {
+        let out = place(&options.run);
+        claim("--out", &out, &PAGE, &[options.run.join("sweep.json")])?;
+        let verdicts = post::sweep_verdicts(&options.run, &found)?;
+        let verdicts: Vec<Value> = verdicts.iter().map(SweepVerdict::document).collect();
+        (sweep_page(&options.run, &found)?, out, json!({ "pass": null, "verdicts": verdicts }))
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
+        let out = place(&paths.folder);
+        claim("--out", &out, &PAGE, &inputs(&paths))?;
         let wanted = CheckOptions {
             window: None,
             limits: Limits::for_enforcement(against.enforcement.as_deref()),
@@ -40,23 +49,35 @@ pub fn command(args: &Args, options: &ReportArgs) -> Result<u8, Failure> {
         let checked = post::check(&paths, &mut against, &wanted)?;
         let figures = post::figures(&paths, &mut against, None)?;
         let page = post::run_page(&against, &paths.folder, &checked.document, &figures)?;
-        (page, paths.folder, Some(checked.pass))
+        (page, out, json!({ "pass": checked.pass }))
     };
-    let out = options.out.clone().unwrap_or_else(|| folder.join("report.html"));
     fs::write(&out, page).map_err(|error| {
         PostError::Asked(format!("--out {}: cannot write the page: {error}", out.display()))
     })?;
     if args.json {
-        args.print_json(&json!({ "page": out.display().to_string(), "pass": pass }));
+        let mut document = json!({ "page": out.display().to_string() });
+        if let (Value::Object(document), Value::Object(more)) = (&mut document, more) {
+            document.extend(more);
+        }
+        args.print_json(&document);
     } else if !args.quiet {
         let _ = writeln!(std::io::stdout(), "{}", out.display());
     }
     Ok(0)
 }
 
+/// Refuses a folder where the page of a sweep would replace what this program did not write.
+pub fn claim_sweep(folder: &Path) -> Result<(), Failure> {
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    claim("", &folder.join("report.html"), &PAGE, &[])
+}
+
 /// Writes the page of a sweep into its folder.
 pub fn write_sweep(folder: &Path, results: &Value) -> Result<PathBuf, Failure> {
     let out = folder.join("report.html");
+    claim_sweep(folder)?;
     fs::write(&out, sweep_page(folder, results)?).map_err(|error| {
         PostError::Asked(format!("{}: cannot write the page: {error}", out.display()))
     })?;

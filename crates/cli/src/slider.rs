@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
+use files::output::SLIDER;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::miette;
 use serde_json::{Value, json};
@@ -17,6 +18,7 @@ use slider::{BlowUp, Method, Outcome, Parameters, Threshold, figures, tables};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD, stop_flag};
+use crate::outputs::claim;
 use csv_file::{CsvFile, Unwritable};
 use settings::{SettingError, Settings, Sources};
 
@@ -66,6 +68,10 @@ pub fn command(args: &Args, options: &SliderArgs) -> Result<u8, Failure> {
         figures::drawable(&parameters).map_err(|e| sources.out_of_range(&e))?;
     }
     let method = sources.method().unwrap_or(Method::Implicit);
+    if let Some(csv) = &options.csv {
+        let inputs: Vec<PathBuf> = options.config.iter().cloned().chain(sources.table()).collect();
+        claim("--csv", csv, &SLIDER, &inputs)?;
+    }
     let out = simulate(args, &parameters, method, options.csv.as_deref())?;
     let mut document = document(&parameters, method, &out);
     let mut drawn = Vec::new();

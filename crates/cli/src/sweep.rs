@@ -9,6 +9,7 @@ use std::sync::atomic::Ordering;
 use case::sweep::plan::{self, Existing};
 use case::sweep::{Budget, Plan, Sweep, SweepError, collect, schedule};
 use figure::Format;
+use files::output::PLAN;
 use miette::{Report, miette};
 use post::PostError;
 use serde_json::Value;
@@ -16,9 +17,10 @@ use serde_json::Value;
 use crate::args::{Args, threads};
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, all_cores, stop_flag};
 use crate::embedded::Told;
+use crate::outputs::claim;
 use crate::progress::SweepWatch;
 use crate::report;
-use crate::report_page::write_sweep;
+use crate::report_page::{claim_sweep, write_sweep};
 
 /// Exit code: a run failed.
 const FAILED: u8 = 1;
@@ -80,6 +82,12 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         let plan = plan::open(&sweep, &folder)?;
         return finish(args, &plan, collect(&plan, elsewhere)?);
     }
+    if let Some(path) = &options.plan {
+        one_line(&folder)?;
+        claim("--plan", path, &PLAN, &sweep.inputs())?;
+    } else {
+        claim_sweep(&folder)?;
+    }
     let stop = stop_flag(args)?;
     let mut say = |line: &str| args.say(&format!("{}: {line}", sweep.name));
     let existing = match (options.force, options.resume, &options.plan) {
@@ -131,6 +139,21 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         return Ok(INTERRUPTED);
     }
     Ok(code)
+}
+
+/// A plan has one command a line, in UTF-8: its folder must be written so.
+fn one_line(folder: &Path) -> Result<(), Failure> {
+    match folder.to_str() {
+        Some(text) if !text.chars().any(char::is_control) => Ok(()),
+        _ => Err(Failure {
+            report: miette!(
+                help =
+                    "choose a folder without line ends and other control characters with --out DIR",
+                "--plan: the folder {folder:?} cannot stand in a line of commands"
+            ),
+            code: BAD_INPUT,
+        }),
+    }
 }
 
 fn this_program() -> Result<OsString, Failure> {

@@ -1,8 +1,8 @@
 //! The document of a sweep, found by its folder.
 
-use std::fs;
 use std::path::Path;
 
+use files::input;
 use post::PostError;
 use serde_json::Value;
 
@@ -11,11 +11,12 @@ use crate::commands::Failure;
 /// What `sweep.json` in `folder` holds; `None` where there is none.
 pub fn read(folder: &Path) -> Result<Option<Value>, Failure> {
     let path = folder.join("sweep.json");
-    if !path.is_file() {
-        return Ok(None);
-    }
     let failed = |reason: String| Failure::from(PostError::Text { path: path.clone(), reason });
-    let text = fs::read_to_string(&path).map_err(|error| failed(error.to_string()))?;
+    let text = match input::text(&path, input::DOCUMENT) {
+        Ok(text) => text,
+        Err(error) if error.is_missing() => return Ok(None),
+        Err(error) => return Err(failed(error.problem())),
+    };
     serde_json::from_str(&text).map(Some).map_err(|error| failed(format!("is no JSON: {error}")))
 }
 

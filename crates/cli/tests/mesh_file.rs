@@ -145,6 +145,34 @@ fn keys_of_a_mesh_file_without_one_and_files_that_are_not_there_are_refused() {
 }
 
 #[test]
+fn a_mesh_nested_without_end_ends_with_code_2() {
+    let deep = format!("{}{}", "<a>".repeat(100_000), "</a>".repeat(100_000));
+    refused("m.vtu", deep.as_bytes(), "", &["m.vtu:1", "deep in one another"]);
+}
+
+#[test]
+fn the_hint_for_a_path_says_what_the_path_is_relative_to() {
+    let (dir, path) = folder("m.msh", b"", "");
+    let said = |args: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+            .args(args)
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    for set in ["mesh.file=none.msh", "friction.table=none.csv"] {
+        let by_option = said(&["mesh", &path, "--set", "friction.law=table", "--set", set]);
+        assert!(by_option.contains("relative to the working directory"), "{by_option}");
+    }
+    let text = fs::read_to_string(&path).unwrap().replace("m.msh", "none.msh");
+    fs::write(&path, text).unwrap();
+    let in_file = said(&["mesh", &path]);
+    assert!(in_file.contains("relative to this file"), "{in_file}");
+}
+
+#[test]
 fn a_keyword_file_becomes_a_case_that_loads_and_is_not_written_over() {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("small").display().to_string();

@@ -72,6 +72,33 @@ fn sigterm_and_ctrl_c_write_a_checkpoint_and_the_resumed_run_has_the_same_bits()
 }
 
 #[test]
+fn a_run_goes_on_from_its_own_case_file_and_is_not_replaced_from_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    done(&out, &["--set", "time.roll=0.001"]);
+    let case = out.join("case.toml");
+    let again = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+        command.arg("run").arg(&case).arg("--out").arg(&out).args(more);
+        command.output().unwrap()
+    };
+    let files =
+        || ["case.toml", "summary.json", "history.h5"].map(|f| fs::read(out.join(f)).unwrap());
+    let before = files();
+    let changed = ["--resume", "--force", "--set", "friction.static=0.2"];
+    for more in [&["--force"][..], &changed] {
+        let output = again(more);
+        assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+        assert!(said(&output).contains("case.toml is what is read"), "{}", said(&output));
+        assert!(files() == before, "{more:?} replaced the run");
+    }
+    for more in [&["--resume"][..], &["--resume", "--force"]] {
+        let output = again(more);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    }
+}
+
+#[test]
 fn what_cannot_be_resumed_ends_with_code_2_and_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");

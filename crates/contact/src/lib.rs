@@ -5,6 +5,8 @@
 //! pass `i` the nodes of side `i` are slaves and the faces of the other side are masters; the
 //! forces of both passes of penalty contact add. SI units.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod enforcement;
 mod error;
 mod exact;

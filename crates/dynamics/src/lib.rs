@@ -5,6 +5,8 @@
 //! pass (with mass damping) and the hub, with the energy ledger in the form that the scheme
 //! conserves.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod dashpots;
 mod guard;
 mod hub;

@@ -5,6 +5,8 @@
 //! cells (a map), series of points, and vertical marks, all named in a legend above the plot, where
 //! it can cover nothing.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod axis;
 mod contour;
 mod draw;

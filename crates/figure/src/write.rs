@@ -2,6 +2,8 @@
 
 use crate::draw::{self, Joints};
 use crate::{Figure, font};
+use files::input;
+use files::output::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -17,6 +19,9 @@ pub enum FigureError {
         /// What the system says.
         cause: std::io::Error,
     },
+    /// What is there is not ours to replace.
+    #[error("cannot write the figure {}; {}", .0, .0.remedy())]
+    Refused(#[from] OutputRefused),
     /// The drawing library failed.
     #[error("cannot draw the figure {path}: {cause}")]
     Draw {
@@ -26,6 +31,9 @@ pub enum FigureError {
         cause: String,
     },
 }
+
+/// A figure is made of no file.
+const NO_INPUT: &[PathBuf] = &[];
 
 /// Pixels per point: fine enough that rounding to pixels does not show in print.
 const SVG_UNIT: u32 = 4;
@@ -41,6 +49,14 @@ pub enum Format {
 }
 
 impl Format {
+    /// How its files are known.
+    fn made(self) -> &'static Made {
+        match self {
+            Self::Svg => &output::SVG,
+            Self::Png => &output::PNG,
+        }
+    }
+
     /// The ending of its files.
     pub fn extension(self) -> &'static str {
         match self {
@@ -74,6 +90,7 @@ impl Figure {
         let path = folder.join(format!("{stem}.{}", format.extension()));
         let failed = |path: &Path, cause| FigureError::Write { path: path.into(), cause };
         std::fs::create_dir_all(folder).map_err(|cause| failed(folder, cause))?;
+        output::check(&path, format.made(), NO_INPUT)?;
         match format {
             Format::Svg => {
                 std::fs::write(&path, self.svg(&path)?).map_err(|cause| failed(&path, cause))?;
@@ -81,8 +98,13 @@ impl Figure {
             Format::Png => {
                 // the encoder names no cause when the file cannot be made
                 std::fs::write(&path, []).map_err(|cause| failed(&path, cause))?;
-                let backend = BitMapBackend::new(&path, self.pixels(PNG_UNIT));
-                draw_on(self, backend, PNG_UNIT, Joints::Open, &path)?;
+                let bare = folder.join(format!(".{stem}.partial.png"));
+                let backend = BitMapBackend::new(&bare, self.pixels(PNG_UNIT));
+                let drawn = draw_on(self, backend, PNG_UNIT, Joints::Open, &path)
+                    .and_then(|()| Ok(input::bytes(&bare, input::RESULTS)));
+                let _ = std::fs::remove_file(&bare);
+                let image = drawn?.map_err(|error| failed(&path, std::io::Error::other(error)))?;
+                std::fs::write(&path, marked(&image)).map_err(|cause| failed(&path, cause))?;
             }
         }
         Ok(path)
@@ -111,7 +133,7 @@ impl Figure {
         let text = text.replacen(&page, &points, 1);
         let head = text.find("<svg").and_then(|at| Some(at + text[at..].find('>')? + 1));
         let (head, rest) = text.split_at(head.unwrap_or(0));
-        Ok(format!("{head}\n{}{rest}", font::style_sheet()))
+        Ok(format!("{head}\n{XML_MARK}\n{}{rest}", font::style_sheet()))
     }
 
     /// As the backend writes it, with its size in pixels.
@@ -126,6 +148,16 @@ impl Figure {
     fn pixels(&self, unit: u32) -> (u32, u32) {
         (self.size[0] * unit, self.size[1] * unit)
     }
+}
+
+/// A PNG with the mark of this program in a chunk `tEXt`, behind the first, which has 13 bytes.
+fn marked(image: &[u8]) -> Vec<u8> {
+    const HEAD: usize = 8 + 12 + 13;
+    let (head, rest) = image.split_at(HEAD.min(image.len()));
+    let chunk = [b"tEXt", output::PNG_MARK].concat();
+    let length = (output::PNG_MARK.len() as u32).to_be_bytes();
+    let check = crc32fast::hash(&chunk).to_be_bytes();
+    [head, &length, &chunk, &check, rest].concat()
 }
 
 fn draw_on<DB: DrawingBackend>(
@@ -172,7 +204,25 @@ mod tests {
         }
         let png = std::fs::read(png).unwrap();
         assert_eq!(&png[1..4], b"PNG");
+        assert_eq!(std::fs::read_dir(folder.path().join("new")).unwrap().count(), 2);
         assert_eq!(png[16..24], [0, 0, 3, 32, 0, 0, 2, 88]); // 800 x 600
+    }
+
+    #[test]
+    fn a_figure_replaces_a_figure_of_this_program_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let paths = figure().write(folder.path(), "one").unwrap();
+        let first = paths.clone().map(|path| std::fs::read(path).unwrap());
+        figure().write(folder.path(), "one").unwrap();
+        assert_eq!(first, paths.clone().map(|path| std::fs::read(path).unwrap()));
+        for (path, format) in paths.iter().zip([Format::Svg, Format::Png]) {
+            for theirs in [&b"<svg><!-- mine --></svg>"[..], b"\x89PNG\r\n\x1a\nmine"] {
+                std::fs::write(path, theirs).unwrap();
+                let error = figure().write_as(folder.path(), "one", format).unwrap_err();
+                assert!(error.to_string().contains("not a figure that this program"), "{error}");
+                assert_eq!(std::fs::read(path).unwrap(), theirs);
+            }
+        }
     }
 
     #[test]

@@ -257,6 +257,7 @@ fn bytes<T: Copy>(sum: &mut Sha256, kind: u8, values: &[T], of: impl Fn(T) -> [u
 }
 
 /// Brings the content of a result file to the disk.
+#[expect(clippy::disallowed_methods, reason = "a file of the run itself, of which nothing is read")]
 pub(crate) fn sync_file(path: &Path) -> Result<(), OutputError> {
     File::open(path)
         .and_then(|file| file.sync_all())
@@ -264,6 +265,7 @@ pub(crate) fn sync_file(path: &Path) -> Result<(), OutputError> {
 }
 
 /// Brings renamings to the disk, where the system can.
+#[expect(clippy::disallowed_methods, reason = "a folder, of which nothing is read")]
 fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }

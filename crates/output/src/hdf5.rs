@@ -9,6 +9,7 @@ use crate::checkpoint::Numbers;
 use crate::free::free_space;
 use crate::room::{Room, end_of_file};
 use crate::{OutputError, Provenance};
+use files::input;
 use rust_hdf5::{
     DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,
 };
@@ -315,6 +316,7 @@ pub(crate) struct Appender {
 
 impl Appender {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
+        regular(path).map_err(|reason| OutputError::Append { path: path.to_owned(), reason })?;
         let file = caught(|| H5File::options().no_locking().open_rw(path))
             .map_err(|error| append_error(path, error))?;
         Ok(Self { path: path.to_owned(), file: Some(file), room: None })
@@ -423,6 +425,7 @@ pub(crate) struct Source {
 
 impl Source {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
+        regular(path).map_err(|reason| read_error(path, reason))?;
         let file = caught(|| H5File::options().no_locking().open(path))
             .map_err(|error| read_error(path, error.to_string()))?;
         let length = whole(path)?;
@@ -572,6 +575,11 @@ impl Source {
         };
         self.read(read)
     }
+}
+
+/// Refuses what is no regular file: the library would wait for a pipe, and read a device for ever.
+fn regular(path: &Path) -> Result<(), String> {
+    input::regular(path, input::RESULTS).map_err(|error| error.problem())
 }
 
 fn create_error(path: &Path, error: Hdf5Error) -> OutputError {

@@ -4,13 +4,14 @@
 use crate::OutputError;
 use crate::checkpoint::hexadecimal;
 use crate::hdf5::damaged;
+use files::input::{self, Fault, InputError};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::fs;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
 
 /// Key of the summary: [`FileSum`] by the name of each file.
 const SUMS: &str = "checksums";
@@ -32,11 +33,11 @@ pub struct FileSum {
 
 impl FileSum {
     /// Of the file at `path`.
-    fn of(path: &Path) -> io::Result<Self> {
-        let mut file = File::open(path)?;
+    fn of(path: &Path) -> Result<Self, Fault> {
+        let mut file = input::open(path, input::RESULTS).map_err(|error| error.fault)?;
         let (mut sum, mut bytes, mut block) = (Sha256::new(), 0, vec![0; 1 << 18]);
         loop {
-            match file.read(&mut block)? {
+            match file.read(&mut block).map_err(Fault::Unreadable)? {
                 0 => return Ok(Self { bytes, sha256: hexadecimal(&sum.finalize()) }),
                 count => {
                     sum.update(&block[..count]);
@@ -57,8 +58,8 @@ pub fn sums_of_files(
         let path = folder.join(name);
         match FileSum::of(&path) {
             Ok(sum) => drop(sums.insert((*name).to_owned(), sum)),
-            Err(error) if error.kind() == ErrorKind::NotFound => {}
-            Err(error) => return Err(unreadable(&path, error)),
+            Err(Fault::Missing) => {}
+            Err(fault) => return Err(unreadable(path, fault)),
         }
     }
     Ok(sums)
@@ -88,16 +89,16 @@ fn own_sum(summary: &Map<String, Value>) -> String {
 /// A summary that is not what was written, or gone although the run's log says that it ended.
 pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
     let path = folder.join("summary.json");
-    let text = match fs::read(&path) {
+    let text = match input::bytes(&path, input::DOCUMENT) {
         Ok(text) => text,
-        Err(error) if error.kind() == ErrorKind::NotFound => {
+        Err(error) if error.is_missing() => {
             return if log_says_it_ended(folder) {
                 Err(damaged(&path, "it is gone, though run.log says that the run ended".into()))
             } else {
                 Ok(None)
             };
         }
-        Err(error) => return Err(unreadable(&path, error)),
+        Err(error) => return Err(unreadable(path, error.fault)),
     };
     let summary: Value = serde_json::from_slice(&text)
         .map_err(|error| damaged(&path, format!("it is no JSON: {error}")))?;
@@ -113,7 +114,7 @@ pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
 }
 
 fn log_says_it_ended(folder: &Path) -> bool {
-    let log = fs::read(folder.join("run.log")).unwrap_or_default();
+    let log = input::bytes(&folder.join("run.log"), input::LOG).unwrap_or_default();
     let log = String::from_utf8_lossy(&log);
     let last = log.lines().next_back().and_then(|line| line.strip_prefix(LOG_END));
     last.and_then(|how| how.split_once(' ')).is_some_and(|(_, rest)| rest.starts_with("after "))
@@ -145,7 +146,7 @@ pub fn as_long_as_written(
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 return Err(damaged(&path, "it is gone".into()));
             }
-            Err(error) => return Err(unreadable(&path, error)),
+            Err(error) => return Err(unreadable(path, Fault::Unreadable(error))),
         }
     }
     Ok(true)
@@ -162,13 +163,14 @@ pub fn as_written(
         match FileSum::of(&path) {
             Ok(found) if found == sum => {}
             Ok(_) => return Err(damaged(&path, "it is not what was written (sha256)".into())),
-            Err(error) if error.kind() == ErrorKind::NotFound => {}
-            Err(error) => return Err(unreadable(&path, error)),
+            Err(Fault::Missing) => {}
+            Err(fault) => return Err(unreadable(path, fault)),
         }
     }
     Ok(())
 }
 
-fn unreadable(path: &Path, error: io::Error) -> OutputError {
-    OutputError::Read { path: path.to_owned(), reason: error.to_string() }
+fn unreadable(path: PathBuf, fault: Fault) -> OutputError {
+    let reason = InputError { path: path.clone(), kind: input::RESULTS, fault }.problem();
+    OutputError::Read { path, reason }
 }

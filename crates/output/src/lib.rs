@@ -24,6 +24,8 @@
 //! Contents depend on the data alone, apart from the `created` attribute: the same run gives the
 //! same bits.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod background;
 mod caught;
 mod checkpoint;
@@ -34,6 +36,7 @@ mod hdf5;
 mod history;
 mod integrity;
 mod json;
+mod made;
 mod reader;
 mod room;
 pub mod summary;
@@ -50,6 +53,7 @@ pub use integrity::{
     FileSum, LOG_END, as_long_as_written, as_written, read_summary, seal, sums_of_files,
 };
 pub use json::write_json_atomically;
+pub use made::{VTKHDF, is_ours};
 pub use reader::{FieldInfo, GridFile, HistoryFile};
 pub use sums::{Kept, prove};
 pub use vtu::write_vtu;

@@ -2,6 +2,7 @@
 
 use crate::grid::{GridSpec, Values};
 use crate::{Cells, OutputError};
+use files::output::XML_MARK;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -21,8 +22,11 @@ fn write(path: &Path, grid: &GridSpec<'_>) -> std::io::Result<()> {
     };
     let cells = connectivity.len() / corners;
     let mut body = Appended::default();
-    let mut header = String::from(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
+    let mut header = String::from("<?xml version=\"1.0\"?>\n");
+    header += XML_MARK;
+    header += "\n";
+    header.push_str(
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
          byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n",
     );
     header += &format!(

@@ -5,6 +5,7 @@ use crate::frames::open_history;
 use crate::law::Law;
 use contact::patch::PatchShape;
 use contact::{Coulomb, Exponential};
+use files::input::{self, Kind};
 use output::read_summary;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -286,11 +287,11 @@ pub(crate) fn number_at(table: &toml::Table, path: &str) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
 
-fn read_text(path: &Path) -> Result<Option<String>, PostError> {
-    match std::fs::read_to_string(path) {
+fn read_text(path: &Path, kind: Kind) -> Result<Option<String>, PostError> {
+    match input::text(path, kind) {
         Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(PostError::Text { path: path.into(), reason: error.to_string() }),
+        Err(error) if error.is_missing() => Ok(None),
+        Err(error) => Err(PostError::Text { path: path.into(), reason: error.problem() }),
     }
 }
 
@@ -299,5 +300,5 @@ fn read_toml(path: &Path) -> Result<Option<toml::Table>, PostError> {
         path: path.into(),
         reason: format!("is no TOML: {}", error.message()),
     };
-    read_text(path)?.map(|text| text.parse().map_err(failed)).transpose()
+    read_text(path, input::CASE)?.map(|text| text.parse().map_err(failed)).transpose()
 }

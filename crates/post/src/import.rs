@@ -1,8 +1,9 @@
 //! Contact histories of other codes, from CSV, in the layout that the checks read.
 
-use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use files::input;
 use output::{
     Cells, FieldSpec, GridSpec, OutputError, Provenance, StaticField, TransientGrid, Values,
 };
@@ -203,18 +204,18 @@ impl Record {
 struct Table {
     path: PathBuf,
     names: Vec<String>,
-    rows: csv::StringRecordsIntoIter<File>,
+    rows: csv::StringRecordsIntoIter<Box<dyn Read>>,
     line: u64,
 }
 
 impl Table {
     fn open(path: &Path) -> Result<Self, ImportError> {
         let failed = |cause: String| bad_input(path, &cause);
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_path(path)
-            .map_err(|error| failed(error.to_string()))?;
+        let file = input::open(path, input::CONTACT_TABLE);
+        let file = file.map_err(|error| failed(error.problem()))?;
+        let file: Box<dyn Read> = Box::new(input::by_line(file));
+        let mut reader =
+            csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(file);
         let names = reader.headers().map_err(|error| failed(error.to_string()))?;
         let names = names.iter().map(str::to_owned).collect();
         Ok(Self { path: path.into(), names, rows: reader.into_records(), line: 1 })

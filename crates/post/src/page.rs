@@ -9,6 +9,7 @@ use crate::basis::Basis;
 use crate::figures::Named;
 use crate::limits::MEASURES;
 use crate::patch_series::{PATCH_TABLE, PatchLine};
+use files::output::PAGE_MARK;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -63,7 +64,8 @@ pub fn run_page(
 fn head(name: &str) -> String {
     // an empty icon keeps browsers from asking a server for one
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{PAGE_MARK}\n\
+         <title>{}</title>\n\
          <link rel=\"icon\" href=\"data:,\">\n<style>{}{STYLE}</style>\n</head>\n<body>\n",
         escape(name),
         figure::font_face()

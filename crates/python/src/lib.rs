@@ -4,6 +4,8 @@
 //! Commands are those of the command line (crate `cli`), held by Python instead of a terminal: the same
 //! documents, messages and exit codes. Results are read through `output`.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod command;
 mod files;
 mod law;

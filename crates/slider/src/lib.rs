@@ -1,6 +1,8 @@
 //! The 1-D slider of Vollebregt (2017), section 6: a block on a belt, held by a spring, with
 //! friction that falls with slip velocity. Equation numbers are that paper's.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod exact;
 mod explicit;
 pub mod figures;

@@ -5,6 +5,8 @@
 //! integration, no drift. Chosen elements may be fully integrated instead. Everything runs in
 //! batches of eight elements; the vector width of the machine is chosen at run time.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod blocks;
 mod count;
 mod formulation;

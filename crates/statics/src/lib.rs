@@ -11,6 +11,8 @@
 //!   shift and rolling ([`Rolling`]) with exact contact conditions: no penalty, no inertia, the
 //!   finite bodies as meshed. One factorisation meets many right-hand sides.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod block;
 mod cg;
 mod coarse;

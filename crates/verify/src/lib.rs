@@ -5,6 +5,8 @@
 //! never comes from its result: it is round-off for what the method does exactly, and otherwise the
 //! uncertainty that the problem's own mesh convergence shows ([`Convergence`]).
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod convergence;
 mod problem;
 mod rolling_dynamic;

@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use files::input;
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -132,10 +133,10 @@ fn lock(path: &Path, stop: &AtomicBool) -> Option<File> {
 
 /// The entry, if there is one; why it is not to be trusted, if so.
 fn read(path: &Path, key: &str, nodes: usize) -> Result<Option<Preloaded>, String> {
-    let bytes = match fs::read(path) {
+    let bytes = match input::bytes(path, input::PRELOAD) {
         Ok(bytes) => bytes,
-        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(cause) => return Err(cause.to_string()),
+        Err(error) if error.is_missing() => return Ok(None),
+        Err(error) => return Err(error.problem()),
     };
     let (content, checksum) =
         bytes.split_last_chunk::<CHECKSUM>().ok_or("it is cut off before its checksum")?;

@@ -1,9 +1,9 @@
 //! The results of a sweep, gathered from its runs wherever they ran.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use files::input;
 use serde_json::{Value, json};
 
 use super::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
@@ -104,7 +104,7 @@ const NOT_BEGUN: &str = "not begun";
 
 /// How far a run in `folder` is; one of another case has not begun.
 pub fn state(folder: &Path, run: &Point) -> State {
-    let case = fs::read_to_string(folder.join("case.toml")).unwrap_or_default();
+    let case = input::text(&folder.join("case.toml"), input::CASE).unwrap_or_default();
     if case != run.case.to_toml() {
         return State::Undone(NOT_BEGUN);
     }
@@ -131,12 +131,12 @@ pub fn state(folder: &Path, run: &Point) -> State {
 
 /// What a run that was refused after its mesh said at the end of its log.
 fn last_words(folder: &Path) -> Option<String> {
-    let log = fs::read_to_string(folder.join("run.log")).ok()?;
+    let log = input::text(&folder.join("run.log"), input::LOG).ok()?;
     let last = log.lines().next_back()?;
     last.strip_prefix(crate::run::REFUSED).map(str::to_owned)
 }
 
 /// A JSON document that is there and whole.
 fn read(path: &Path) -> Option<Value> {
-    serde_json::from_slice(&fs::read(path).ok()?).ok()
+    serde_json::from_slice(&input::bytes(path, input::DOCUMENT).ok()?).ok()
 }

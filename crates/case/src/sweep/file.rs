@@ -8,7 +8,7 @@ use crate::check::{self, raise};
 use crate::error::{CaseError, KeyError};
 use crate::keys::{self, Form, Key};
 use crate::layers::{Layers, get, join};
-use crate::sense;
+use crate::name;
 
 /// A `log` or `linear` axis with more points than this is a slip of a digit.
 const MOST_POINTS: i64 = 1000;
@@ -175,6 +175,12 @@ impl Sweep {
         Ok(())
     }
 
+    /// The files that the sweep is made of: its own, its base, and what these extend.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let base = Layers::read(&self.base).map(|layers| layers.files()).unwrap_or_default();
+        self.layers.files().into_iter().chain([self.base.clone()]).chain(base).collect()
+    }
+
     /// Every case key that the file gives, with its place in the file.
     fn given(&self) -> Vec<(String, &str)> {
         let sets = self.sets.iter().map(|(key, _)| (join("set", key), key.as_str()));
@@ -230,10 +236,8 @@ impl Reading<'_> {
         let name = self
             .text(table, "", "name")
             .unwrap_or_else(|| path.file_stem().unwrap_or_default().to_string_lossy().into_owned());
-        let plain = |c: char| sense::in_a_name(c) && c != ' ';
-        if name.is_empty() || name.len() > 60 || !name.chars().all(plain) {
-            let message = format!("name = {name:?} cannot name a folder");
-            self.refuse("name", &message, "use letters, digits, '-', '_' and '.'");
+        if let Some(message) = name::refused(&name) {
+            self.refuse("name", &message, name::REMEDY);
         }
         let base = self.text(table, "", "base").unwrap_or_default();
         if !table.contains_key("base") {

@@ -14,6 +14,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use files::{InputError, input};
 use miette::Diagnostic;
 use serde_json::{Map, Value, json};
 use thiserror::Error;
@@ -93,6 +94,10 @@ pub enum SweepError {
     /// The sweep was asked to stop before its first run.
     #[error("interrupted before the first run began")]
     Interrupted,
+    /// A file of the sweep that is not one to be read.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Input(#[from] InputError),
     /// A file of the sweep cannot be read or written.
     #[error("{}: {cause}", path.display())]
     #[diagnostic(help("check that the folder is there, that you may write to it, and its room"))]
@@ -183,15 +188,14 @@ fn other_sweep(folder: &Path, sweep: &Sweep, plan: &Value) -> CaseError {
 
 fn read_plan(folder: &Path) -> Result<Option<Value>, SweepError> {
     let path = folder.join(PLAN);
-    match fs::read(&path) {
+    match input::bytes(&path, input::DOCUMENT) {
         Ok(bytes) => match serde_json::from_slice(&bytes) {
             Ok(plan) => Ok(Some(plan)),
             Err(error) => Err(SweepError::File { path, cause: error.into() }),
         },
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
         // A path through a file is told by the check of the folder.
-        Err(cause) if cause.kind() == io::ErrorKind::NotADirectory => Ok(None),
-        Err(cause) => Err(SweepError::File { path, cause }),
+        Err(error) if error.is_missing() => Ok(None),
+        Err(error) => Err(error.into()),
     }
 }
 
@@ -220,6 +224,7 @@ pub fn prepare(
     // Looked at again under the lock: another process may just have finished here.
     look(folder, sweep, &hash, existing)?;
     if existing == Existing::Replace {
+        spare(folder, sweep)?;
         clear(folder)?;
     }
     let kept = read_plan(folder)?;
@@ -320,6 +325,20 @@ fn smallest_step(
         smallest = smallest.min(case.time.factor.unwrap_or(Time::FACTOR) * limit);
     }
     Ok(smallest)
+}
+
+/// Refuses to replace a sweep that holds what this one is made of: its file, its base or what that extends.
+fn spare(folder: &Path, sweep: &Sweep) -> Result<(), SweepError> {
+    let place = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    let written = ["cases", "runs", "logs", "preload", PLAN, RESULTS[0], RESULTS[1]];
+    let lost = |path: &PathBuf| {
+        let path = path.canonicalize().unwrap_or_default();
+        written.iter().any(|name| path.starts_with(place.join(name)))
+    };
+    match sweep.inputs().into_iter().find(lost) {
+        Some(path) => Err(FolderError::Input { path }.into()),
+        None => Ok(()),
+    }
 }
 
 /// Removes what a sweep wrote, by its plan; notes and figures beside it survive.

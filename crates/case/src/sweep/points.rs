@@ -10,10 +10,10 @@ use super::file::{Mode, Sweep};
 use crate::check;
 use crate::error::CaseError;
 use crate::model::Model;
+use crate::name;
 use crate::preload::store::hexadecimal;
 use crate::run_error::RunError;
 use crate::schema::{Case, Time};
-use crate::sense;
 
 /// More runs than this is a slip of a digit.
 const MOST_RUNS: usize = 10_000;
@@ -66,7 +66,7 @@ impl Sweep {
             .zip(&indices)
             .map(|(axis, &i)| (axis.key.as_str(), &axis.values[i]))
             .collect();
-        let name = name(n, &chosen);
+        let name = run_name(n, &chosen);
         let mut sets: Vec<String> =
             self.sets.iter().map(|(key, value)| format!("{key}={value}")).collect();
         if self.step.is_some() {
@@ -150,13 +150,13 @@ impl Sweep {
 }
 
 /// The number of the run and what is special to it, as a folder's name.
-fn name(n: usize, chosen: &[(&str, &Value)]) -> String {
+fn run_name(n: usize, chosen: &[(&str, &Value)]) -> String {
     let mut name = String::new();
     for (key, value) in chosen {
         let short = key.rsplit('.').next().unwrap_or(key);
         name += &format!("-{short}-{}", shown(value));
     }
-    let fit = |c: &char| sense::in_a_name(*c) && *c != ' ' && c.is_ascii();
+    let fit = |c: &char| name::may_hold(*c) && *c != ' ' && c.is_ascii();
     let name: String = name.chars().filter(fit).take(LONGEST_NAME).collect();
     format!("{n:03}{name}")
 }

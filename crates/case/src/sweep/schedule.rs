@@ -14,6 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
+use files::input;
 use serde_json::Value;
 
 use super::collect::{State, collect_with, state};
@@ -263,7 +264,7 @@ impl Job {
 
 /// What a process said was wrong: the message of its report, or its last line.
 fn reason(log: &Path) -> String {
-    let text = fs::read_to_string(log).unwrap_or_default();
+    let text = input::text(log, input::LOG).unwrap_or_default();
     let message = text.lines().find_map(|line| line.trim_start().strip_prefix('\u{d7}'));
     let last = || text.lines().rev().find(|line| !line.trim().is_empty());
     message.or_else(last).unwrap_or("it left no results and said nothing").trim().to_owned()

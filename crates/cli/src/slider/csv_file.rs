@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use files::output::SLIDER_HEADING;
 use slider::{Parameters, State};
 
 /// A CSV file with a line per step; the first error is kept for the end.
@@ -24,10 +25,9 @@ pub struct Unwritable {
 impl CsvFile {
     /// A file with its heading.
     pub fn new(path: &Path) -> Result<Self, Unwritable> {
-        let header = "t_s,x_m,v_m_s,s_m_s,mu,friction_N,spring_N\n";
         let open = || -> std::io::Result<BufWriter<File>> {
             let mut out = BufWriter::new(File::create(path)?);
-            out.write_all(header.as_bytes())?;
+            out.write_all(SLIDER_HEADING)?;
             Ok(out)
         };
         let out = open().map_err(|cause| Unwritable { path: path.into(), cause })?;

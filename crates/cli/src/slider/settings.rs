@@ -3,9 +3,11 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use case::Excerpt;
 use clap::ValueEnum;
 use contact::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use files::{input, printable};
+use miette::{Diagnostic, SourceSpan};
 use serde::{Deserialize, Serialize};
 use slider::{Method, ParameterError, Parameters};
 use thiserror::Error;
@@ -140,7 +142,7 @@ impl LawName {
 pub struct SettingError {
     message: String,
     #[source_code]
-    source_code: Option<NamedSource<String>>,
+    source_code: Option<Excerpt>,
     #[label("here")]
     span: Option<SourceSpan>,
     #[help]
@@ -158,9 +160,9 @@ struct File {
 impl File {
     fn read(path: &Path) -> Result<Self, Box<SettingError>> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|cause| {
+        let text = input::text(path, input::CASE).map_err(|error| {
             Box::new(SettingError {
-                message: format!("{name}: cannot read the parameter file: {cause}"),
+                message: format!("{name}: cannot read the parameter file: {}", error.problem()),
                 source_code: None,
                 span: None,
                 help: "give the path of a TOML file with --config".into(),
@@ -173,7 +175,14 @@ impl File {
                 let help = "keys are the names of the options with _ for -, for example t_end = 5; \
                             see `creepage slider --help`";
                 let message = error.message().replace('\n', "; ");
-                Err(file.error(error.span(), &message, help))
+                let told = file.error(error.span(), &message, help);
+                // What is no TOML may be any file that can be read: of it a place is told, and no text.
+                let toml = toml::from_str::<toml::Table>(&file.text).is_ok();
+                Err(if toml {
+                    told
+                } else {
+                    Box::new(SettingError { source_code: None, span: None, ..*told })
+                })
             }
         }
     }
@@ -182,10 +191,12 @@ impl File {
         let line = span.as_ref().map_or(1, |span| {
             self.text[..span.start.min(self.text.len())].matches('\n').count() + 1
         });
+        let shown = span.and_then(|span| Excerpt::of(&self.name, &self.text, span));
+        let (source_code, span) = shown.unzip();
         Box::new(SettingError {
-            message: format!("{}:{line}: {message}", self.name),
-            source_code: Some(NamedSource::new(&self.name, self.text.clone())),
-            span: span.map(SourceSpan::from),
+            message: printable(&format!("{}:{line}: {message}", self.name)),
+            source_code,
+            span,
             help: help.into(),
         })
     }
@@ -214,6 +225,14 @@ impl<'a> Sources<'a> {
     /// The method.
     pub fn method(&self) -> Option<Method> {
         self.options.method.or(self.file.settings.method).map(MethodName::method)
+    }
+
+    /// The friction table that is named.
+    pub fn table(&self) -> Option<PathBuf> {
+        // a path in the file is relative to the file
+        let folder = Path::new(&self.file.name).parent().unwrap_or(Path::new(""));
+        let in_file = self.file.settings.table.as_ref().map(|path| folder.join(path));
+        self.options.table.clone().or(in_file)
     }
 
     /// The parameters, checked.
@@ -271,9 +290,7 @@ impl<'a> Sources<'a> {
 
     fn law(&self) -> Result<SteadyLaw, Box<SettingError>> {
         let (options, file) = (self.options, &self.file.settings);
-        // a path in the file is relative to the file
-        let folder = Path::new(&self.file.name).parent().unwrap_or(Path::new(""));
-        let table = options.table.clone().or(file.table.as_ref().map(|path| folder.join(path)));
+        let table = self.table();
         let expression = options.expression.as_ref().or(file.expression.as_ref());
         let mu_static = options.mu_static.or(file.mu_static);
         let mu_dynamic = options.mu_dynamic.or(file.mu_dynamic);
@@ -357,7 +374,7 @@ fn read_table(path: &Path) -> Result<Table, Box<SettingError>> {
     let name = path.display().to_string();
     let failed = |message: String| {
         Box::new(SettingError {
-            message,
+            message: printable(&message),
             source_code: None,
             span: None,
             help: "two columns: slip speed (m/s), rising from 0, and mu; a heading and lines that \
@@ -365,13 +382,14 @@ fn read_table(path: &Path) -> Result<Table, Box<SettingError>> {
                 .into(),
         })
     };
+    let text = input::text(path, input::TABLE)
+        .map_err(|e| failed(format!("{name}: cannot read the friction table: {}", e.problem())))?;
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .flexible(true)
-        .from_path(path)
-        .map_err(|cause| failed(format!("{name}: cannot read the friction table: {cause}")))?;
+        .from_reader(text.as_bytes());
     let mut points = Vec::new();
     let mut lines = Vec::new();
     for (row, record) in reader.records().enumerate() {
@@ -386,7 +404,10 @@ fn read_table(path: &Path) -> Result<Table, Box<SettingError>> {
             [None, None] if row == 0 => {}
             _ => {
                 let fields = record.iter().collect::<Vec<_>>().join(", ");
-                let message = format!("{name}:{line}: '{fields}' is not a slip speed and a mu");
+                // a file without a point may be any that can be read: nothing of it is shown
+                let what =
+                    if points.is_empty() { "this line".into() } else { format!("'{fields}'") };
+                let message = format!("{name}:{line}: {what} is not a slip speed and a mu");
                 return Err(failed(message));
             }
         }

@@ -1,0 +1,37 @@
+//! Files that commands write where they are told to.
+
+use std::path::{Path, PathBuf};
+
+use case::folder::VTKHDF;
+use files::output::{Made, OutputRefused, VTU, check};
+use miette::miette;
+
+use crate::commands::{BAD_INPUT, Failure};
+
+/// Refuses the file of an option where writing it would replace an input, or what this program did not
+/// write.
+pub fn claim(option: &str, path: &Path, made: &Made, inputs: &[PathBuf]) -> Result<(), Failure> {
+    check(path, made, inputs).map_err(|refused| refusal(option, &refused))
+}
+
+/// The same for a grid; a file of a run is the run's alone.
+pub fn claim_grid(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    let vtu = path.extension().is_some_and(|ending| ending == "vtu");
+    if case::folder::is_of_a_run(path) {
+        return Err(of_the_run(option, path));
+    }
+    claim(option, path, if vtu { &VTU } else { &VTKHDF }, inputs)
+}
+
+/// The refusal to write over a file of a run.
+pub fn of_the_run(option: &str, path: &Path) -> Failure {
+    let path = path.display();
+    let help = format!("choose another file with {option} FILE");
+    let report = miette!(help = help, "{option} {path}: this is a file of the run itself");
+    Failure { report, code: BAD_INPUT }
+}
+
+fn refusal(option: &str, refused: &OutputRefused) -> Failure {
+    let text = files::printable(format!("{option} {refused}").trim_start());
+    Failure { report: miette!(help = refused.remedy(), "{text}"), code: BAD_INPUT }
+}

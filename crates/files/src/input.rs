@@ -1,0 +1,314 @@
+//! Opening a file that is to be read: regular and bounded, as bytes or as text.
+
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// A kind of input, and the most bytes that a file of it may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// What it is, with its article.
+    pub what: &'static str,
+    /// Most bytes.
+    pub most: u64,
+}
+
+const KIB: u64 = 1 << 10;
+const MIB: u64 = 1 << 20;
+const GIB: u64 = 1 << 30;
+
+/// A case file, a sweep file, or parameters of the slider: larger ones are something else.
+pub const CASE: Kind = Kind { what: "a case file", most: 4 * MIB };
+/// A friction table: its points are written out in the resolved case, in up to eight times their
+/// bytes, and must be readable there.
+pub const TABLE: Kind = Kind { what: "a friction table", most: 512 * KIB };
+/// A mesh or a keyword file: read whole, about 100 bytes a node and element, so that the largest
+/// meshes of one machine have a tenth of it.
+pub const MESH: Kind = Kind { what: "a mesh file", most: 4 * GIB };
+/// A table of another code's contact history: read row by row.
+pub const CONTACT_TABLE: Kind = Kind { what: "a table of a contact history", most: 64 * GIB };
+/// A document that this program wrote: of a sweep, some kilobytes for each of its runs.
+pub const DOCUMENT: Kind = Kind { what: "a document of results", most: 256 * MIB };
+/// A log that this program wrote.
+pub const LOG: Kind = Kind { what: "a log", most: 256 * MIB };
+/// A preload kept for other runs: 24 bytes a node.
+pub const PRELOAD: Kind = Kind { what: "a kept preload", most: 16 * GIB };
+/// A result file: read in parts.
+pub const RESULTS: Kind = Kind { what: "a result file", most: u64::MAX };
+
+/// Why a file is not read.
+#[derive(Debug, Error)]
+#[error("{}: {}", path.display(), self.problem())]
+pub struct InputError {
+    /// The file.
+    pub path: PathBuf,
+    /// What it was taken for.
+    pub kind: Kind,
+    /// What is wrong.
+    pub fault: Fault,
+}
+
+/// What is wrong with an input.
+#[derive(Debug)]
+pub enum Fault {
+    /// It is not there.
+    Missing,
+    /// It is a folder, a pipe, a device or the like, with its article.
+    NotAFile(&'static str),
+    /// It has more bytes than its kind may have.
+    TooLarge,
+    /// The system refuses.
+    Unreadable(io::Error),
+    /// It is no UTF-8 text from this place on.
+    NotText {
+        /// Line, counted from 1.
+        line: usize,
+        /// Bytes before it.
+        byte: usize,
+    },
+}
+
+impl InputError {
+    /// What is wrong, without the name of the file.
+    pub fn problem(&self) -> String {
+        let what = self.kind.what;
+        match &self.fault {
+            Fault::Missing => "there is no such file".into(),
+            Fault::NotAFile(found) => format!("is {found}, not {what}"),
+            Fault::TooLarge => {
+                format!("is larger than {}, the most that {what} may have", size(self.kind.most))
+            }
+            Fault::Unreadable(cause) => format!("cannot be read: {cause}"),
+            Fault::NotText { line, byte } => {
+                format!("is not UTF-8 text (line {line}, byte {byte})")
+            }
+        }
+    }
+
+    /// What to do about it.
+    pub fn remedy(&self) -> String {
+        let what = self.kind.what;
+        match &self.fault {
+            Fault::Missing => format!("check the path of {what}"),
+            Fault::NotAFile("a folder") => format!("name {what} in it"),
+            Fault::NotAFile(_) => {
+                format!("save it as a file, and name that: {what} is read from a file alone")
+            }
+            Fault::TooLarge => format!("name {what}"),
+            Fault::Unreadable(_) => "check that you may read it".into(),
+            Fault::NotText { .. } => format!("{what} is text, saved as UTF-8"),
+        }
+    }
+
+    /// Whether there is no such file.
+    pub fn is_missing(&self) -> bool {
+        matches!(self.fault, Fault::Missing)
+    }
+}
+
+fn size(bytes: u64) -> String {
+    match bytes {
+        GIB.. => format!("{} GiB", bytes / GIB),
+        MIB.. => format!("{} MiB", bytes / MIB),
+        _ => format!("{} KiB", bytes / KIB),
+    }
+}
+
+/// What a path leads to where it is no regular file, with its article.
+pub(crate) fn not_a_file(found: &Metadata) -> Option<&'static str> {
+    let kind = found.file_type();
+    if kind.is_file() {
+        return None;
+    }
+    if kind.is_dir() {
+        return Some("a folder");
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if kind.is_fifo() {
+            return Some("a pipe");
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return Some("a device");
+        }
+        if kind.is_socket() {
+            return Some("a socket");
+        }
+    }
+    Some("no regular file")
+}
+
+/// Refuses what is no regular file within the size of its kind, without opening it: to open a pipe is
+/// to wait for its writer.
+///
+/// # Errors
+/// A path that leads to no such file.
+pub fn regular(path: &Path, kind: Kind) -> Result<(), InputError> {
+    let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
+    let found = fs::metadata(path).map_err(|cause| refuse(unreadable(cause)))?;
+    judged(&found, kind).map_err(refuse)
+}
+
+/// Opens a regular file within the size of its kind.
+///
+/// # Errors
+/// A path that leads to no such file, or one that may not be read.
+pub fn open(path: &Path, kind: Kind) -> Result<File, InputError> {
+    let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
+    regular(path, kind)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    // Another file may have come to the place since; and some that the system calls regular wait.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
+    }
+    let file = options.open(path).map_err(|cause| refuse(unreadable(cause)))?;
+    let found = file.metadata().map_err(|cause| refuse(unreadable(cause)))?;
+    judged(&found, kind).map_err(refuse)?;
+    Ok(file)
+}
+
+/// All bytes of a file.
+///
+/// # Errors
+/// As [`open`]; also a file that grows beyond the size of its kind while it is read.
+pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, InputError> {
+    let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
+    let mut bytes = Vec::new();
+    let file = open(path, kind)?;
+    let read = file.take(kind.most.saturating_add(1)).read_to_end(&mut bytes);
+    let read = read.map_err(|cause| refuse(Fault::Unreadable(cause)))?;
+    if read as u64 > kind.most { Err(refuse(Fault::TooLarge)) } else { Ok(bytes) }
+}
+
+/// A file as UTF-8 text.
+///
+/// # Errors
+/// As [`bytes`]; also bytes that are no text.
+pub fn text(path: &Path, kind: Kind) -> Result<String, InputError> {
+    String::from_utf8(bytes(path, kind)?).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..byte].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        InputError { path: path.to_path_buf(), kind, fault: Fault::NotText { line, byte } }
+    })
+}
+
+/// The most bytes of a line that [`by_line`] lets through.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// A file that is read line by line; a line without end, which would take all memory, is an error.
+pub fn by_line(file: impl Read) -> impl Read {
+    ByLine { file, open: 0 }
+}
+
+struct ByLine<R> {
+    file: R,
+    /// Bytes since the last line end.
+    open: usize,
+}
+
+impl<R: Read> Read for ByLine<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(bytes)?;
+        let found = &bytes[..read];
+        self.open = match found.iter().rposition(|&byte| byte == b'\n') {
+            Some(end) => read - end - 1,
+            None => self.open + read,
+        };
+        if self.open > LONGEST_LINE {
+            let problem = format!("a line is longer than {}", size(LONGEST_LINE as u64));
+            return Err(io::Error::new(io::ErrorKind::InvalidData, problem));
+        }
+        Ok(read)
+    }
+}
+
+fn judged(found: &Metadata, kind: Kind) -> Result<(), Fault> {
+    match not_a_file(found) {
+        Some(what) => Err(Fault::NotAFile(what)),
+        None if found.len() > kind.most => Err(Fault::TooLarge),
+        None => Ok(()),
+    }
+}
+
+fn unreadable(cause: io::Error) -> Fault {
+    match cause.kind() {
+        // a path through a file leads to no file
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Fault::Missing,
+        _ => Fault::Unreadable(cause),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(path: &Path, kind: Kind, words: &[&str]) {
+        let said = bytes(path, kind).unwrap_err().to_string();
+        for word in words.iter().chain([&path.to_str().unwrap()]) {
+            assert!(said.contains(word), "{word:?} is not in {said}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_file_is_refused_by_what_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        refused(folder.path(), CASE, &["is a folder, not a case file"]);
+        refused(&folder.path().join("no.toml"), CASE, &["no such file"]);
+        #[cfg(unix)]
+        refused(Path::new("/dev/zero"), MESH, &["is a device, not a mesh file"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_refused_and_not_waited_for() {
+        use rustix::fs::{CWD, FileType, Mode, mknodat};
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("case.toml");
+        mknodat(CWD, &pipe, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).unwrap();
+        refused(&pipe, CASE, &["is a pipe"]);
+        let link = folder.path().join("link.toml");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        refused(&link, CASE, &["is a pipe"]);
+    }
+
+    #[test]
+    fn a_file_beyond_the_size_of_its_kind_is_refused_with_the_size() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let kind = Kind { what: "a note", most: 2 * KIB };
+        file.as_file().set_len(2 * KIB).unwrap();
+        assert_eq!(bytes(file.path(), kind).unwrap().len(), 2048);
+        file.as_file().set_len(2 * KIB + 1).unwrap();
+        refused(file.path(), kind, &["larger than 2 KiB", "a note"]);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_that_tells_no_size_is_read_no_further_than_its_kind_goes() {
+        // of length 0 by its metadata
+        let kind = Kind { what: "a note", most: 16 };
+        refused(Path::new("/proc/self/status"), kind, &["larger than"]);
+    }
+
+    #[test]
+    fn a_line_without_end_is_an_error_before_it_takes_all_memory() {
+        let mut kept = Vec::new();
+        let short = b"0,1\n".repeat(1 << 19);
+        assert_eq!(by_line(&short[..]).read_to_end(&mut kept).unwrap(), short.len());
+        let error = by_line(io::repeat(0)).read_to_end(&mut kept).unwrap_err();
+        assert!(error.to_string().contains("a line is longer than 1 MiB"), "{error}");
+    }
+
+    #[test]
+    fn text_that_is_none_is_refused_at_its_line() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        fs::write(file.path(), b"a = 1\nb = \xff\n").unwrap();
+        let error = text(file.path(), CASE).unwrap_err();
+        assert!(error.to_string().contains("line 2, byte 10"), "{error}");
+    }
+}

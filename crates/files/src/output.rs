@@ -1,0 +1,286 @@
+//! Which file may be written: a new one, or one that this program wrote.
+
+use std::fs::{self, Metadata};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::input::{self, not_a_file};
+
+/// What a command writes, and how a file shows that it is one.
+#[derive(Clone, Copy, Debug)]
+pub struct Made {
+    /// What it is.
+    pub what: &'static str,
+    /// The endings that its name may have; none where any will do.
+    pub endings: &'static [&'static str],
+    /// What it begins with; empty where that says nothing.
+    pub start: &'static [u8],
+    /// Of these, one stands in its first [`HEAD`] bytes.
+    pub marks: &'static [&'static str],
+    /// What it must show besides, for a format with an index of its own.
+    pub proof: Option<fn(&Path) -> bool>,
+}
+
+/// What a page says of itself in its head.
+pub const PAGE_MARK: &str =
+    concat!("<meta name=\"generator\" content=\"Creepage ", env!("CARGO_PKG_VERSION"), "\">");
+/// What a file of XML says of itself in a comment near its beginning.
+pub const XML_MARK: &str = concat!("<!-- Creepage ", env!("CARGO_PKG_VERSION"), " -->");
+/// What a figure of pixels says of itself in a chunk `tEXt`.
+pub const PNG_MARK: &[u8] = concat!("Software\0Creepage ", env!("CARGO_PKG_VERSION")).as_bytes();
+
+/// The rule of the font in pages and figures; those of older versions have no other mark.
+const FONT: &str = "@font-face{font-family:\"DejaVu Sans\";src:url(data:font/ttf;base64,";
+
+/// A page.
+pub const PAGE: Made = Made {
+    what: "page",
+    endings: &["html", "htm"],
+    start: b"<!DOCTYPE html>",
+    marks: &["<meta name=\"generator\" content=\"Creepage", FONT],
+    proof: None,
+};
+/// A figure of lines and text.
+pub const SVG: Made = Made {
+    what: "figure",
+    endings: &["svg"],
+    start: b"<svg",
+    marks: &["<!-- Creepage", FONT],
+    proof: None,
+};
+/// A figure of pixels.
+pub const PNG: Made = Made {
+    what: "figure",
+    endings: &["png"],
+    start: b"\x89PNG\r\n\x1a\n",
+    marks: &["Software\0Creepage"],
+    proof: None,
+};
+/// A grid as a file of VTK's XML.
+pub const VTU: Made = Made {
+    what: "mesh",
+    endings: &["vtu"],
+    start: b"<?xml",
+    marks: &["<!-- Creepage"],
+    proof: None,
+};
+/// The steps of the slider; begins with its heading.
+pub const SLIDER: Made = Made {
+    what: "table of the slider",
+    endings: &[],
+    start: SLIDER_HEADING,
+    marks: &[],
+    proof: None,
+};
+/// The heading of the slider's table.
+pub const SLIDER_HEADING: &[u8] = b"t_s,x_m,v_m_s,s_m_s,mu,friction_N,spring_N\n";
+/// The runs of a sweep as commands.
+pub const PLAN: Made =
+    Made { what: "plan of a sweep", endings: &[], start: PLAN_START, marks: &[], proof: None };
+/// How each line of a plan begins.
+pub const PLAN_START: &[u8] = b"${CREEPAGE:-creepage} run ";
+
+/// Bytes at the beginning of a file among which its mark stands.
+const HEAD: u64 = 64 << 10;
+
+/// Why a file is not written.
+#[derive(Debug, Error)]
+#[error("{}: {}", path.display(), self.problem())]
+pub struct OutputRefused {
+    /// The file.
+    pub path: PathBuf,
+    /// What was to be written.
+    pub what: &'static str,
+    /// Why not.
+    pub fault: Fault,
+}
+
+/// What stands against writing a file.
+#[derive(Debug)]
+pub enum Fault {
+    /// The name does not end as those of its kind do.
+    Ending(&'static [&'static str]),
+    /// There is no such folder.
+    NoFolder(PathBuf),
+    /// A folder, a pipe, a device or the like is there, with its article.
+    NotAFile(&'static str),
+    /// It is what the command reads.
+    Input,
+    /// This program did not write what is there.
+    Foreign,
+    /// What is there cannot be looked at.
+    Unreadable(std::io::Error),
+}
+
+impl OutputRefused {
+    /// What stands against it, without the name of the file.
+    pub fn problem(&self) -> String {
+        let what = self.what;
+        match &self.fault {
+            Fault::Ending(endings) => {
+                format!("the name of a {what} must end in .{}", endings.join(" or ."))
+            }
+            Fault::NoFolder(folder) => {
+                format!("cannot write the {what}: there is no folder {}", folder.display())
+            }
+            Fault::NotAFile(found) => format!("is {found}, not a file"),
+            Fault::Input => "is what is read: it is not written over".into(),
+            Fault::Foreign => {
+                format!("is there already, and is not a {what} that this program wrote")
+            }
+            Fault::Unreadable(cause) => format!("cannot be looked at: {cause}"),
+        }
+    }
+
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self.fault {
+            Fault::Foreign => "choose another name, or move that file away",
+            Fault::NoFolder(_) => "make it, or choose a file in a folder that is there",
+            _ => "choose another file",
+        }
+    }
+}
+
+/// Refuses a path where writing would replace an input or what this program did not write. An empty
+/// file holds nothing to be lost.
+///
+/// # Errors
+/// What stands against writing.
+pub fn check<P: AsRef<Path>>(path: &Path, made: &Made, inputs: &[P]) -> Result<(), OutputRefused> {
+    let refuse = |fault| Err(OutputRefused { path: path.to_path_buf(), what: made.what, fault });
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if !made.endings.is_empty() && !made.endings.contains(&ending.to_ascii_lowercase().as_str()) {
+        return refuse(Fault::Ending(made.endings));
+    }
+    let found = match fs::metadata(path) {
+        Ok(found) => found,
+        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            return match folder {
+                Some(folder) if !folder.is_dir() => refuse(Fault::NoFolder(folder.into())),
+                _ => Ok(()),
+            };
+        }
+        Err(cause) => return refuse(Fault::Unreadable(cause)),
+    };
+    if let Some(what) = not_a_file(&found) {
+        return refuse(Fault::NotAFile(what));
+    }
+    if inputs.iter().any(|input| same(path, &found, input.as_ref())) {
+        return refuse(Fault::Input);
+    }
+    match wrote(path, made) {
+        Ok(true) => Ok(()),
+        Ok(false) => refuse(Fault::Foreign),
+        Err(cause) => refuse(Fault::Unreadable(cause)),
+    }
+}
+
+/// Whether a file is empty, or shows that this program wrote it.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn wrote(path: &Path, made: &Made) -> std::io::Result<bool> {
+    let file = input::open(path, input::RESULTS).map_err(|error| match error.fault {
+        input::Fault::Unreadable(cause) => cause,
+        _ => std::io::Error::other(error.problem()),
+    })?;
+    let mut head = Vec::new();
+    file.take(HEAD).read_to_end(&mut head)?;
+    let holds = |mark: &&str| head.windows(mark.len()).any(|window| window == mark.as_bytes());
+    let marked = made.marks.is_empty() || made.marks.iter().any(holds);
+    let begins = head.starts_with(made.start) && marked;
+    Ok(head.is_empty() || begins && made.proof.is_none_or(|proof| proof(path)))
+}
+
+/// Whether two paths lead to one file.
+fn same(path: &Path, found: &Metadata, other: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let _ = path;
+        fs::metadata(other).is_ok_and(|o| (o.dev(), o.ino()) == (found.dev(), found.ino()))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = found;
+        matches!((path.canonicalize(), other.canonicalize()), (Ok(a), Ok(b)) if a == b)
+    }
+}
+
+/// The first of `inputs` that is one of the files at `paths`.
+pub fn among<'a, P: AsRef<Path>>(inputs: &'a [P], paths: &[PathBuf]) -> Option<&'a Path> {
+    let is_input = |input: &&P| {
+        let at = |path: &PathBuf| {
+            fs::metadata(path).is_ok_and(|found| same(path, &found, input.as_ref()))
+        };
+        paths.iter().any(at)
+    };
+    inputs.iter().find(is_input).map(AsRef::as_ref)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: [&Path; 0] = [];
+
+    fn said(path: &Path, made: &Made, inputs: &[&Path]) -> String {
+        check(path, made, inputs).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn only_what_this_program_wrote_is_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let page = folder.path().join("page.html");
+        check(&page, &PAGE, &NONE).unwrap();
+        fs::write(&page, "").unwrap();
+        check(&page, &PAGE, &NONE).unwrap();
+        for ours in ["<meta name=\"generator\" content=\"Creepage 0.1.0\">", FONT] {
+            fs::write(&page, format!("<!DOCTYPE html>\n<head>{ours}</head>")).unwrap();
+            check(&page, &PAGE, &NONE).unwrap();
+        }
+        for theirs in ["notes", "<!DOCTYPE html>\n<p>of Creepage</p>"] {
+            fs::write(&page, theirs).unwrap();
+            assert!(said(&page, &PAGE, &[]).contains("not a page that this program wrote"));
+        }
+        let table = folder.path().join("steps.txt");
+        fs::write(&table, [SLIDER_HEADING, b"0,0,0,0,0,0,0\n"].concat()).unwrap();
+        check(&table, &SLIDER, &NONE).unwrap();
+        fs::write(&table, "t_s,x_m\n").unwrap();
+        assert!(said(&table, &SLIDER, &[]).contains("is there already"));
+    }
+
+    #[test]
+    fn a_name_of_another_kind_a_folder_and_a_missing_folder_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        assert!(said(&at("case.toml"), &PAGE, &[]).contains("must end in .html or .htm"));
+        assert!(said(folder.path(), &PLAN, &[]).contains("is a folder, not a file"));
+        assert!(said(&at("no/plan.sh"), &PLAN, &[]).contains("there is no folder"));
+        #[cfg(unix)]
+        assert!(said(Path::new("/dev/null"), &PLAN, &[]).contains("is a device, not a file"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn an_input_is_not_written_over_by_whatever_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let mesh = folder.path().join("mesh.vtu");
+        fs::write(&mesh, "<?xml version=\"1.0\"?>\n<!-- Creepage 0.1.0 -->\n").unwrap();
+        check(&mesh, &VTU, &NONE).unwrap();
+        assert!(said(&mesh, &VTU, &[&mesh]).contains("is what is read"));
+        for (name, link) in [("soft.vtu", true), ("hard.vtu", false)] {
+            let other = folder.path().join(name);
+            if link {
+                std::os::unix::fs::symlink(&mesh, &other).unwrap();
+            } else {
+                fs::hard_link(&mesh, &other).unwrap();
+            }
+            assert!(said(&other, &VTU, &[&mesh]).contains("is what is read"), "{name}");
+        }
+    }
+}
