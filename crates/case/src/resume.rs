@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use crate::checkpoint::{KERNELS, State};
 use crate::folder::is_run;
 use crate::schema::Case;
-use files::input;
 use miette::Diagnostic;
 use output::summary::Status;
 use output::{
