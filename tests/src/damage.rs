@@ -64,7 +64,7 @@ const SETS: [&str; 8] = [
 ];
 
 /// The step after which the interrupted run is stopped.
-const STOP: usize = 384;
+const STOP: u64 = 384;
 
 /// Nothing that is tried takes longer on any machine.
 const HANGS: Duration = Duration::from_secs(300);

@@ -24,7 +24,7 @@ impl Column {
 }
 
 /// Root attribute that counts the rows.
-const COUNT: &str = "rows";
+pub(crate) const COUNT: &str = "rows";
 
 /// The datasets of the columns.
 fn growing(columns: &[Column]) -> Vec<Growing> {
