@@ -4,6 +4,8 @@
 pub mod chance;
 pub mod damage;
 pub mod kill;
+pub mod kill_points;
+pub mod trace;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,14 @@
 //! `cargo xtask soak`: long trials of the whole program, each a part by itself.
 
 mod damage;
+mod kills;
 
 use std::process::ExitCode;
 
 use crate::validate::{self, Outcome};
+
+pub use damage::sample as sample_of_damage;
+pub use kills::sample as sample_of_kills;
 
 /// What to try.
 #[derive(Debug, clap::Subcommand)]
@@ -17,19 +21,25 @@ pub enum Part {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<String>,
     },
+    /// Kill a short run at every system call that changes its folder: `--help` after it for more
+    #[command(disable_help_flag = true)]
+    Kills {
+        /// Options of the kills
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        options: Vec<String>,
+    },
 }
 
 /// Runs one part, or all with their default options.
 pub fn soak(part: Option<Part>) -> ExitCode {
     let root = validate::root();
-    let outcome = match part {
-        Some(Part::Damage { options }) => damage::damage(&root, &options),
-        None => damage::damage(&root, &[]),
+    let passed = match part {
+        Some(Part::Damage { options }) => damage::damage(&root, &options) == Outcome::Passed,
+        Some(Part::Kills { options }) => kills::kills(&options) == ExitCode::SUCCESS,
+        None => {
+            let damage = damage::damage(&root, &[]) == Outcome::Passed;
+            (kills::kills(&[]) == ExitCode::SUCCESS) && damage
+        }
     };
-    if outcome == Outcome::Passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// The short form of every part.
-pub fn sample(root: &std::path::Path) -> Outcome {
-    damage::sample(root)
+    if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

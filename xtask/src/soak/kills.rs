@@ -1,0 +1,29 @@
+//! Kills at every system call, by the program `kill-points` of the tests.
+
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+
+use crate::kill_loop::with_program;
+use crate::validate::Outcome;
+
+/// Builds program and kills and runs the latter with `options`.
+pub fn kills(options: &[String]) -> ExitCode {
+    with_program("kill-points", options)
+}
+
+/// Points of each kind of run that are tried on every change.
+const SAMPLE: &str = "8";
+
+/// A sample, always the same.
+pub fn sample(_: &Path) -> Outcome {
+    let mut strace = Command::new("strace");
+    strace.args(["-f", "-o", "/dev/null", "true"]).stdout(Stdio::null()).stderr(Stdio::null());
+    if !strace.status().is_ok_and(|status| status.success()) {
+        eprintln!(
+            "warning: there is no strace that may trace; the kills at system calls were skipped"
+        );
+        return Outcome::Skipped;
+    }
+    let done = kills(&["--points".into(), SAMPLE.into()]);
+    if done == ExitCode::SUCCESS { Outcome::Passed } else { Outcome::Failed }
+}
