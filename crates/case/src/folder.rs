@@ -1,6 +1,6 @@
 //! The folder of a run: taken only when it is free, or given up by `--force`.
 
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,6 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::derived;
+use crate::held::{Held, LOCK, hold};
 use crate::postmortem::POSTMORTEM;
 use crate::schema::Case;
 use output::CHECKPOINTS;
@@ -18,21 +19,28 @@ pub use output::VTKHDF;
 /// The resolved case of a run.
 pub const CASE_FILE: &str = "case.toml";
 
-/// Held locked while a run is written; stays behind, empty.
-const LOCK: &str = "run.lock";
+/// What the run said.
+pub(crate) const LOG: &str = "run.log";
 
-/// The files that a run writes; `--force` removes these, what was made from them, and nothing else.
+/// How the names of files begin that prove a folder writable; a kill leaves one behind.
+const PROBE: &str = ".creepage-";
+
+/// How the names of files end that are not yet whole.
+const PARTIAL: &str = ".partial";
+
+/// The files that a run writes; `--force` removes these, what was made from them, and nothing else, in this order: a kill
+/// meanwhile must leave no word of a run that has ended, nor a checkpoint, beside results that are gone.
 pub const RUN_FILES: [&str; 10] = [
     CASE_FILE,
+    LOG,
+    "summary.json",
+    CHECKPOINTS[0],
+    CHECKPOINTS[1],
     "fields.vtkhdf",
     "contact.vtkhdf",
     "history.h5",
     "probes.h5",
-    "summary.json",
-    "run.log",
     POSTMORTEM,
-    CHECKPOINTS[0],
-    CHECKPOINTS[1],
 ];
 
 /// Why a run folder cannot be used.
@@ -74,6 +82,18 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
     },
+    /// The folder is no longer this process's.
+    #[error(
+        "{}: run.lock is gone, or another's: this process no longer has the folder to itself and has \
+         stopped", path.display()
+    )]
+    #[diagnostic(help(
+        "where no other process has written there, --resume goes on; else begin the run anew with --force"
+    ))]
+    Lost {
+        /// The folder.
+        path: PathBuf,
+    },
     /// The path is a file.
     #[error("{} is a file, not a folder", path.display())]
     #[diagnostic(help("choose a folder with --out DIR"))]
@@ -97,16 +117,24 @@ pub fn default_folder(case: &Case) -> PathBuf {
     Path::new("runs").join(&case.name)
 }
 
-/// Whether a run has been begun in `folder`.
-pub fn has_run(folder: &Path) -> bool {
-    RUN_FILES.iter().any(|file| folder.join(file).exists())
+/// What a folder holds, as far as runs are concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Content {
+    /// No folder, or nothing in it.
+    Nothing,
+    /// What a run leaves that was killed before it could say of which case it is.
+    Beginning,
+    /// A run.
+    Run,
+    /// Something else.
+    Other,
 }
 
 /// Whether the files of a run in `folder` are of a run of this program, and not a case that somebody
 /// wrote there: a run leaves its lock behind, and its name in its results.
 pub fn is_run(folder: &Path) -> bool {
     let ours = |file: &&str| output::is_ours(&folder.join(file));
-    has_run(folder) && (folder.join(LOCK).exists() || RUN_FILES.iter().any(ours))
+    content(folder) == Content::Run && (folder.join(LOCK).exists() || RUN_FILES.iter().any(ours))
 }
 
 /// Whether a file is one of a run's own, which nothing but the run may replace.
@@ -124,23 +152,37 @@ pub fn spare(folder: &Path, inputs: &[PathBuf]) -> Result<(), FolderError> {
     }
 }
 
-/// A folder in which no other process writes a run as long as this lives.
-#[derive(Debug)]
-pub struct Held {
-    _lock: Option<File>,
+/// What `folder` holds; what cannot be listed counts as nothing.
+pub(crate) fn content(folder: &Path) -> Content {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let names: Vec<_> =
+        entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    let is = |name: &str| names.iter().any(|other| other == name);
+    let held = is(LOCK);
+    // the log is begun after the lock is taken, so that a file of that name alone is somebody's
+    let left = |name: &String| {
+        name == LOCK || (name == LOG && held) || name.starts_with(PROBE) || is_partial(name)
+    };
+    if names.is_empty() {
+        Content::Nothing
+    } else if RUN_FILES.iter().any(|file| is(file) && !(*file == LOG && held)) {
+        Content::Run
+    } else if names.iter().all(left) {
+        Content::Beginning
+    } else {
+        Content::Other
+    }
 }
 
-/// Keeps other processes out of `folder`, which is there. The system lets go of it however this process
-/// ends. Where it has no locks, as on some network disks, nobody is kept out.
-pub fn hold(folder: &Path) -> Result<Held, FolderError> {
-    let path = || folder.to_path_buf();
-    let file = File::options().create(true).append(true).open(folder.join(LOCK));
-    let file = file.map_err(|cause| FolderError::NotWritable { path: path(), cause })?;
-    match file.try_lock() {
-        Ok(()) => Ok(Held { _lock: Some(file) }),
-        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: path() }),
-        Err(TryLockError::Error(_)) => Ok(Held { _lock: None }),
-    }
+/// Whether the run in `folder` has written nothing but its case and its log.
+pub(crate) fn has_no_results(folder: &Path) -> bool {
+    let results = RUN_FILES.iter().filter(|file| ![CASE_FILE, LOG].contains(file));
+    !results.into_iter().any(|file| folder.join(file).exists())
+}
+
+/// Whether a name is that of a run's file that is not yet whole.
+fn is_partial(name: &str) -> bool {
+    name.strip_suffix(PARTIAL).is_some_and(|name| RUN_FILES.contains(&name))
 }
 
 /// Refuses a folder that cannot be written to, or in which a run cannot be begun because it holds
@@ -151,10 +193,10 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
         Ok(found) if !found.is_dir() => Err(FolderError::NotAFolder { path: path() }),
         Ok(_) => {
             let unwritable = |cause| FolderError::NotWritable { path: path(), cause };
-            let others = |name: &std::ffi::OsStr| name != LOCK;
-            let mut found = fs::read_dir(folder).map_err(unwritable)?;
-            if found.any(|entry| entry.is_ok_and(|e| others(&e.file_name()))) && !force {
-                return Err(FolderError::Taken { path: path(), run: has_run(folder) });
+            fs::read_dir(folder).map_err(unwritable)?;
+            let content = content(folder);
+            if matches!(content, Content::Run | Content::Other) && !force {
+                return Err(FolderError::Taken { path: path(), run: content == Content::Run });
             }
             prove_writable(folder).map_err(unwritable)
         }
@@ -166,12 +208,13 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
     }
 }
 
-/// Makes `folder` ready for a run: it exists, is writable and holds no run.
+/// Makes `folder` ready for a run: it exists, is writable and holds no run. It may be held already.
 ///
 /// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] and the checks, pages
 /// and figures that this program made from them are removed, so that anything else beside a run survives;
-/// [`CASE_FILE`] is the run's to replace.
-pub fn prepare(folder: &Path, force: bool) -> Result<Held, FolderError> {
+/// [`CASE_FILE`] is the run's to replace. What a run leaves that was killed as it began is no reason to
+/// refuse, and removed too.
+pub fn prepare(folder: &Path, force: bool, held: Option<Held>) -> Result<Held, FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
     check(folder, force)?;
@@ -181,27 +224,43 @@ pub fn prepare(folder: &Path, force: bool) -> Result<Held, FolderError> {
         return Err(FolderError::Foreign { path: folder.to_path_buf(), file });
     }
     fs::create_dir_all(folder).map_err(unwritable)?;
-    let held = hold(folder)?;
+    let held = held.map_or_else(|| take(folder), Ok)?;
     // looked at again: another process may just have been here
     check(folder, force)?;
-    // with what a kill left half-written; the case itself is replaced at once, so that at any kill
-    // there is one that says what the folder is of
-    let files = RUN_FILES.iter().flat_map(|file| [(*file).to_owned(), format!("{file}.partial")]);
-    for file in files.filter(|file| file != CASE_FILE) {
-        match fs::remove_file(folder.join(file)) {
-            Err(cause) if cause.kind() != io::ErrorKind::NotFound => return Err(unwritable(cause)),
-            _ => {}
-        }
-    }
+    // the case itself is replaced at once, so that at any kill there is one that says what the folder is of
+    RUN_FILES
+        .iter()
+        .filter(|file| **file != CASE_FILE)
+        .try_for_each(|file| remove(folder, file))?;
     derived::remove(folder).map_err(unwritable)?;
     Ok(held)
+}
+
+/// Holds `folder`, which is there, and removes what a kill left half-written.
+pub(crate) fn take(folder: &Path) -> Result<Held, FolderError> {
+    let held = hold(folder)?;
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut left = names.filter(|name| name.starts_with(PROBE) || is_partial(name));
+    left.try_for_each(|name| remove(folder, &name))?;
+    Ok(held)
+}
+
+/// Removes a file of `folder` if it is there.
+fn remove(folder: &Path, name: &str) -> Result<(), FolderError> {
+    match fs::remove_file(folder.join(name)) {
+        Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
+            Err(FolderError::NotWritable { path: folder.to_path_buf(), cause })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Permission bits do not tell (read-only mounts, full disks): only writing does.
 fn prove_writable(folder: &Path) -> io::Result<()> {
     static PROBES: AtomicUsize = AtomicUsize::new(0);
     let number = PROBES.fetch_add(1, Ordering::Relaxed);
-    let probe = folder.join(format!(".creepage-{}-{number}", std::process::id()));
+    let probe = folder.join(format!("{PROBE}{}-{number}", std::process::id()));
     let written = fs::write(&probe, b"creepage");
     // also what a full disk has let in
     let removed = fs::remove_file(&probe);

@@ -18,6 +18,7 @@ pub mod folder;
 mod forms;
 mod friction;
 mod guards;
+mod held;
 pub mod hertz;
 pub mod json_schema;
 pub mod keys;

@@ -45,20 +45,41 @@ fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), Run
     Ok(())
 }
 
-/// Memory that the machine has free (MB); infinite where the system does not tell.
+/// Memory that the machine has free for this process (MB); infinite where the system does not tell.
 pub(crate) fn free_mb() -> f64 {
-    let table = input::text(Path::new("/proc/meminfo"), input::LOG).unwrap_or_default();
-    let line = table.lines().find_map(|l| l.strip_prefix("MemAvailable:"));
-    let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
-    kib.map_or(f64::INFINITY, |k| k * 1024.0 / 1e6)
+    let free = entry("/proc/meminfo", "MemAvailable:").unwrap_or(f64::INFINITY);
+    free.min(address_space_mb())
+}
+
+/// Address space that the threads reserve and the mesh takes before its size is known (MB): where it is
+/// short, the system's refusal would abort the program.
+#[cfg(unix)]
+const RESERVED_MB: f64 = 200.0;
+
+/// What the limit of this process's address space (`ulimit -v`) leaves (MB).
+#[cfg(unix)]
+fn address_space_mb() -> f64 {
+    let limit = rustix::process::getrlimit(rustix::process::Resource::As).current;
+    let taken = entry("/proc/self/status", "VmSize:").unwrap_or(0.0) + RESERVED_MB;
+    limit.map_or(f64::INFINITY, |bytes| (bytes as f64 / 1e6 - taken).max(0.0))
+}
+
+#[cfg(not(unix))]
+fn address_space_mb() -> f64 {
+    f64::INFINITY
 }
 
 /// Largest resident memory of this process so far (MB); zero where the system does not tell.
 pub(crate) fn peak_rss_mb() -> f64 {
-    let status = input::text(Path::new("/proc/self/status"), input::LOG).unwrap_or_default();
-    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
-    let kib = line.and_then(|l| l.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
-    kib.map_or(0.0, |k| k * 1024.0 / 1e6)
+    entry("/proc/self/status", "VmHWM:").unwrap_or(0.0)
+}
+
+/// An entry in kibibytes of a table of the system, in MB.
+fn entry(table: &str, name: &str) -> Option<f64> {
+    let table = input::text(Path::new(table), input::LOG).ok()?;
+    let line = table.lines().find_map(|l| l.strip_prefix(name))?;
+    let kib = line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()?;
+    Some(kib * 1024.0 / 1e6)
 }
 
 #[cfg(test)]

@@ -141,6 +141,19 @@ struct Schedule {
     next: f64,
 }
 
+impl Schedule {
+    /// Takes the first instant of the schedule after `time`, at which a snapshot was due.
+    fn advance(&mut self, time: f64) {
+        self.next += self.interval;
+        // where steps are longer than the interval: all of those between at once
+        if self.next <= time {
+            let between = ((time - self.next) / self.interval).floor();
+            let next = self.next + (between + 1.0) * self.interval;
+            self.next = next.min(time + self.interval);
+        }
+    }
+}
+
 /// What the recorder needs to know beside the case.
 pub(crate) struct Basis<'a> {
     pub(crate) folder: &'a Path,
@@ -220,7 +233,7 @@ impl Recorder {
             (step(w.from), step(w.to), w.every)
         };
         Ok(Self {
-            writer: BackgroundWriter::start(files),
+            writer: BackgroundWriter::start(files)?,
             probes: Probes::new(case, model, simulation, basis)?,
             line: Vec::with_capacity(centreline.len()),
             zones: Zones {
@@ -296,9 +309,7 @@ impl Recorder {
         let n = simulation.steps() as u64;
         if simulation.time() >= self.fields.next {
             self.write_fields(simulation)?;
-            while self.fields.next <= simulation.time() {
-                self.fields.next += self.fields.interval;
-            }
+            self.fields.advance(simulation.time());
         }
         if self.records_contact(n) {
             let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
@@ -644,4 +655,32 @@ fn labels(counts: &[usize]) -> Vec<u8> {
 
 fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps at which snapshots are due.
+    fn due(interval: f64, dt: f64, steps: u32) -> Vec<u32> {
+        let mut schedule = Schedule { interval, next: 0.0 };
+        let mut due = Vec::new();
+        for n in 0..steps {
+            let time = f64::from(n) * dt;
+            if time >= schedule.next {
+                schedule.advance(time);
+                due.push(n);
+            }
+        }
+        due
+    }
+
+    #[test]
+    fn snapshots_are_due_an_interval_apart_and_at_every_step_where_it_is_shorter() {
+        assert_eq!(due(2.5, 1.0, 12), [0, 3, 5, 8, 10]);
+        assert_eq!(due(1.0, 1.0, 5), [0, 1, 2, 3, 4]);
+        for interval in [0.3, 1e-6, 1e-30, 5e-324] {
+            assert_eq!(due(interval, 1.0, 5), [0, 1, 2, 3, 4], "{interval}");
+        }
+    }
 }

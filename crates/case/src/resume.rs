@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::checkpoint::{KERNELS, State};
-use crate::folder::is_run;
+use crate::folder::{Content, content, has_no_results, is_run};
 use crate::schema::Case;
 use miette::Diagnostic;
 use output::summary::Status;
@@ -80,10 +80,17 @@ pub(crate) struct Point {
 /// Where the run of `case` in `folder` goes on.
 pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> {
     let path = || folder.to_path_buf();
-    if !is_run(folder) {
-        return Err(ResumeError::NoRun { folder: path() });
+    match content(folder) {
+        Content::Run if is_run(folder) => {}
+        Content::Beginning => {
+            return Ok(Origin::Beginning("the run was killed as it began".into()));
+        }
+        _ => return Err(ResumeError::NoRun { folder: path() }),
     }
     if let Some(difference) = difference(case, folder) {
+        if has_no_results(folder) {
+            return Ok(Origin::Beginning(format!("the folder holds no results, and {difference}")));
+        }
         return Err(ResumeError::AnotherCase { folder: path(), difference });
     }
     let damage =

@@ -1,5 +1,7 @@
 //! From a resolved case to a finished run.
 
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,7 +9,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use crate::checkpoint::{Clock, State};
 use crate::disk::Disk;
-use crate::folder;
+use crate::folder::{self, Content, LOG};
 use crate::friction::{FrictionLaw, OwnLaw};
 use crate::guards::READING;
 use crate::hertz::hertz;
@@ -21,6 +23,7 @@ use crate::record::{Basis, Recorder};
 use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;
+use crate::sense;
 use crate::start::{Start, restart, start};
 use crate::summary::{Ending, summary, without_rolling, write as write_summary};
 use dynamics::Energies;
@@ -74,7 +77,7 @@ pub fn run(
     }
     if let Err(error @ (RunError::Output(_) | RunError::Text { .. })) = &result {
         // as far as that is possible where files could not be written
-        let _ = Log::append(options.out.join("run.log"))
+        let _ = Log::append(options.out.join(LOG))
             .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));
     }
     result
@@ -90,8 +93,9 @@ fn run_in_pool(
     if case.friction.law == FrictionLaw::Python && options.law.is_none() {
         return Err(RunError::NoLaw);
     }
-    let resumes = options.resume && folder::is_run(&options.out);
-    let held = if resumes { Some(folder::hold(&options.out)?) } else { None };
+    let begun =
+        folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
+    let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
     let (origin, why) = match origin(case, options)? {
         Some(Origin::Complete(summary)) => return Ok(complete(&options.out, summary)),
         Some(Origin::Checkpoint(point)) => (Some(*point), None),
@@ -114,13 +118,10 @@ fn run_in_pool(
         model.kernels = point.kernels;
     }
     enough_memory(model.mesh.hexes.len())?;
-    let log_file = options.out.join("run.log");
-    let (_held, mut log) = match (&origin, held) {
+    let log_file = options.out.join(LOG);
+    let (held, mut log) = match (&origin, held) {
         (Some(_), Some(held)) => (held, Log::append(log_file)?),
-        (_, held) => {
-            drop(held);
-            (folder::prepare(&options.out, replaces)?, Log::new(log_file)?)
-        }
+        (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
     };
     write_text(options.out.join("case.toml"), &case.to_toml())?;
     log.say(&format!(
@@ -191,6 +192,10 @@ fn run_in_pool(
     if let Some(line) = facts.numbers.expectation() {
         log.warn(&line)?;
     }
+    if resumed.is_none() {
+        let below = sense::below_the_step(case, simulation.dt());
+        below.iter().try_for_each(|line| log.warn(line))?;
+    }
     if let (None, Some(line)) =
         (&resumed, Disk::of(case, &model, steps as f64).shortage(&options.out))
     {
@@ -213,6 +218,8 @@ fn run_in_pool(
         hertz_pressure: hertz.p0,
         keeps: resumed.as_ref().map(|(checkpoint, _)| checkpoint.results.clone()),
     };
+    // another process may have come during the preload
+    held.prove()?;
     if resumed.is_some() {
         // the word of an interruption or a stop holds no longer once the files change
         ["summary.json", POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
@@ -239,6 +246,7 @@ fn run_in_pool(
         // a state that the guards are about to stop must push no good one out
         if (stops || clock.is_due(n)) && simulation.is_sound() {
             let begun = Instant::now();
+            held.prove()?;
             let state = State {
                 simulation: simulation.snapshot(),
                 recorder: recorder.snapshot()?,
@@ -285,6 +293,7 @@ fn run_in_pool(
         }
     }
     let rolling_wall = before[1] + rolling.elapsed();
+    held.prove()?;
     let (means, output_wall) = recorder.finish(&simulation)?;
     if let Some(d) = &diagnosis {
         log.say(d)?;
@@ -309,6 +318,7 @@ fn run_in_pool(
         keeping,
     };
     let summary = summary(case, &simulation, &facts, &hertz, &ending);
+    held.prove()?;
     let document = write_summary(&options.out, &summary)?;
     if status == Status::Completed {
         remove_checkpoints(&options.out)?;
@@ -365,10 +375,15 @@ fn stage(case: &Case, stage: Stage) -> Progress {
     }
 }
 
-/// Under another name first: a kill leaves the old text or the new one.
+/// Under another name first, and brought to the disk: a kill or a power cut leaves the old text or the
+/// new one.
 fn write_text(path: PathBuf, text: &str) -> Result<(), RunError> {
     let partial = path.with_extension("toml.partial");
-    std::fs::write(&partial, text)
-        .and_then(|()| std::fs::rename(&partial, &path))
-        .map_err(|cause| RunError::Text { path, cause })
+    let write = || {
+        let mut file = File::create(&partial)?;
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        std::fs::rename(&partial, &path)
+    };
+    write().map_err(|cause| RunError::Text { path, cause })
 }

@@ -35,10 +35,10 @@ pub enum RunError {
     Contact(#[from] contact::ContactError),
     /// The machine has too little memory for the mesh.
     #[error(
-        "the run of {elements} elements needs about {needed_gb:.1} GB of memory, more than the \
-         {free_gb:.1} GB that are free: enlarge mesh.zone.size or shrink the zone"
+        "the run of {elements} elements needs about {} GB of memory, more than the {} GB that are free: \
+         enlarge mesh.zone.size or shrink the zone", gigabytes(*needed_gb), gigabytes(*free_gb)
     )]
-    #[diagnostic(help("`creepage mesh` tells what a mesh needs"))]
+    #[diagnostic(help("`creepage mesh` tells what a mesh needs; `ulimit -v` limits what is free"))]
     Memory {
         /// Elements of both bodies.
         elements: usize,
@@ -114,6 +114,7 @@ impl RunError {
     /// when interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
             Self::MeshFile(_)
             | Self::NoContact
@@ -135,4 +136,8 @@ fn output_help(error: &output::OutputError) -> &'static str {
         "the run has stopped; what was written before stays readable, and --resume goes on once the \
          disk has room"
     }
+}
+
+fn gigabytes(gb: f64) -> String {
+    if gb < 0.1 { format!("{gb:.3}") } else { format!("{gb:.1}") }
 }

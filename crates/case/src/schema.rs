@@ -561,9 +561,12 @@ impl Case {
         self.guards.friction.or((!lags).then_some(5.0))
     }
 
+    /// Intervals between field snapshots of a case that gives none.
+    pub(crate) const SNAPSHOTS: f64 = 40.0;
+
     /// Interval between field snapshots (s).
     pub fn fields_interval(&self) -> f64 {
-        self.output.fields_interval.unwrap_or_else(|| self.duration() / 40.0)
+        self.output.fields_interval.unwrap_or_else(|| self.duration() / Self::SNAPSHOTS)
     }
 }
 

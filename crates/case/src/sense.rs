@@ -9,7 +9,7 @@ use crate::layers::{Layers, Origin, key_error_in};
 use crate::name;
 use crate::schema::{
     Case, ContactLayers, Crown, DriveMode, Enforcement, Friction, FrictionMode, LoadMode, Material,
-    PreloadMethod, Stiffness, Time,
+    PreloadMethod, Stiffness, Time, Window,
 };
 use contact::Expression;
 
@@ -22,6 +22,24 @@ const MOST_ELEMENTS: f64 = 2e8;
 /// More steps than this is a slip of a digit; many deserve a warning.
 const MOST_STEPS: f64 = 1e9;
 const MANY_STEPS: f64 = 1e7;
+
+/// A record at less than this share of the step, as it is known before the mesh is made, is a slip of
+/// a digit: there can be one at every step at most.
+const SHORTEST: f64 = 1e-3;
+
+/// More snapshots of fields or contact, more rows of the history and more numbers of probes than these are
+/// a slip of a digit: they fill any disk.
+const MOST_RECORDS: f64 = 1e7;
+const MOST_ROWS: f64 = 1e8;
+const MOST_NUMBERS: f64 = 1e11;
+
+/// Every probe is eleven datasets of `probes.h5`, and the time to create them grows with the square of their
+/// number; every window is looked at in every step.
+const MOST_PROBES: usize = 1000;
+const MOST_WINDOWS: usize = 1000;
+
+/// A formula is evaluated at every node in contact in every step, and some 200,000 times before.
+const LONGEST_FORMULA: usize = 4000;
 
 /// Young's modulus below this (Pa) and density outside these (kg/m^3) are likely of another unit.
 const SOFTEST: f64 = 5e5;
@@ -74,6 +92,7 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
         check_path(case, &mut found);
         check_formula(case, &mut found);
         check_length(case, &mut found);
+        check_records(case, &mut found);
     }
     raise(found.errors)
 }
@@ -284,6 +303,21 @@ fn check_friction(friction: &Friction, found: &mut Findings) {
 /// A formula gives a coefficient of friction all over the case.
 fn check_formula(case: &Case, found: &mut Findings) {
     let Some(text) = &case.friction.expression else { return };
+    let length = text.chars().count();
+    found.require(
+        length <= LONGEST_FORMULA,
+        &["friction.expression"],
+        || {
+            format!(
+                "friction.expression has {length} characters, more than {LONGEST_FORMULA}: it is evaluated \
+                 at every node in contact in every step"
+            )
+        },
+        "give a measured curve as friction.table, which may have any length, or write a shorter formula",
+    );
+    if length > LONGEST_FORMULA {
+        return;
+    }
     let wrong = Expression::over(text, &friction::domain(case)).err();
     found.require(
         wrong.is_none(),
@@ -445,6 +479,18 @@ fn check_output(case: &Case, found: &mut Findings) {
         },
         "evaluate a shorter stretch, or roll further",
     );
+    let windows = case.output.window.len();
+    found.require(
+        windows <= MOST_WINDOWS,
+        &["output.window"],
+        || {
+            format!(
+                "output.window has {windows} entries, more than {MOST_WINDOWS}: each is looked at in \
+                 every step"
+            )
+        },
+        "join windows that follow each other, or shorten output.contact_interval",
+    );
     for (i, window) in case.output.window.iter().enumerate() {
         let to = format!("output.window[{i}].to");
         found.require(
@@ -472,6 +518,18 @@ fn check_probes(case: &Case, found: &mut Findings) {
     for (key, points, along) in
         [("output.probes.bar", &probes.bar, "x"), ("output.probes.disk", &probes.disk, "s")]
     {
+        found.require(
+            points.len() <= MOST_PROBES,
+            &[key],
+            || {
+                format!(
+                    "{key} has {} points, more than {MOST_PROBES}: each is eleven datasets, and the time \
+                     to create them grows with the square of their number",
+                    points.len()
+                )
+            },
+            "record all nodes of the fine zone at every step of a while instead: [[output.window]]",
+        );
         let outside = points.iter().find(|[x, y]| *x < rear || *x > front || y.abs() > half);
         found.require(
             outside.is_none(),
@@ -529,6 +587,94 @@ fn check_length(case: &Case, found: &mut Findings) {
         "roll faster (drive.speed) or less (time.roll, time.duration), or use larger elements \
          (mesh.zone.size)",
     );
+}
+
+/// Records must be a step apart at least, and a disk must hold them.
+fn check_records(case: &Case, found: &mut Findings) {
+    let steps = steps(case);
+    let (duration, output) = (case.duration(), &case.output);
+    let step = duration / steps;
+    let intervals = [
+        ("output.fields_interval", Some(case.fields_interval())),
+        ("output.contact_interval", Some(output.contact_interval)),
+        ("checkpoint.time", case.checkpoint.time),
+    ];
+    for (key, interval) in intervals {
+        let interval = interval.unwrap_or(f64::INFINITY);
+        found.require(
+            interval >= SHORTEST * step.min(duration),
+            &[key],
+            || {
+                format!(
+                    "{key} = {} s is far below the time step, which is about {step:.0e} s: there can be one \
+                     at every step at most",
+                    number(interval)
+                )
+            },
+            "give the time between two of them in seconds: 5.7e-6 for 5.7 microseconds",
+        );
+    }
+    let mut at_most = |most: f64, count: f64, key: &str, what: &str, remedy: &str| {
+        found.require(
+            count <= most,
+            &[key],
+            || {
+                format!(
+                    "{key} makes about {count:.0e} {what} in {steps:.0e} steps, more than {most:.0e}: \
+                     no disk holds them"
+                )
+            },
+            remedy,
+        );
+    };
+    let every = |interval: f64| (duration / interval).min(steps);
+    const LONGER: &str = "make the interval longer, or roll less (time.roll, time.duration)";
+    let fields = every(case.fields_interval());
+    at_most(MOST_RECORDS, fields, "output.fields_interval", "snapshots of both bodies", LONGER);
+    let contact = every(output.contact_interval);
+    at_most(MOST_RECORDS, contact, "output.contact_interval", "snapshots of contact", LONGER);
+    let in_window = |w: &Window| {
+        let steps = steps * ((w.to.min(duration) - w.from) / duration).max(0.0);
+        steps / w.every as f64
+    };
+    let windows = output.window.iter().map(in_window).sum();
+    const SHORTER: &str = "shorten the windows, or give `every` more steps";
+    at_most(MOST_RECORDS, windows, "output.window", "snapshots of contact", SHORTER);
+    let rows = steps / output.history_interval as f64;
+    at_most(MOST_ROWS, rows, "output.history_interval", "rows of the history", LONGER);
+    for (key, probes) in
+        [("output.probes.bar", &output.probes.bar), ("output.probes.disk", &output.probes.disk)]
+    {
+        let numbers = 11.0 * steps * probes.len() as f64;
+        at_most(
+            MOST_NUMBERS,
+            numbers,
+            key,
+            "numbers",
+            "give fewer points, or roll less (time.roll)",
+        );
+    }
+}
+
+/// What to say of intervals that are shorter than the time step, now that it is known, and are not the
+/// defaults of a short run.
+pub(crate) fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
+    let default = case.duration() / Case::SNAPSHOTS;
+    [
+        ("output.fields_interval", Some(case.fields_interval())),
+        ("output.contact_interval", Some(case.output.contact_interval)),
+        ("checkpoint.time", case.checkpoint.time),
+    ]
+    .into_iter()
+    .filter_map(|(key, interval)| Some((key, interval?)))
+    .filter(|&(_, interval)| interval < dt && interval < 0.999 * default)
+    .map(|(key, interval)| {
+        format!(
+            "{key} = {} s is shorter than the time step, {dt:.2e} s: there is one at every step",
+            number(interval)
+        )
+    })
+    .collect()
 }
 
 /// What looks like another unit than that of the key, one sentence each.

@@ -12,6 +12,7 @@ use crate::plot::PlotArgs;
 use crate::report;
 use crate::report_page::ReportArgs;
 use crate::slider::SliderArgs;
+use crate::stop::Stop;
 use crate::sweep::SweepArgs;
 use crate::verify::VerifyArgs;
 use case::{BlockElement, Level};
@@ -49,6 +50,9 @@ pub struct Args {
     /// The program, and its first arguments, that does the runs of a sweep; empty for this one.
     #[arg(skip)]
     pub program: Vec<OsString>,
+    /// Ctrl-C and SIGTERM.
+    #[arg(skip)]
+    pub stop: Stop,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use case::{Case, RunError, RunOptions};
 use miette::Diagnostic;
@@ -15,6 +15,7 @@ use crate::embedded::Told;
 use crate::outputs::claim_grid;
 use crate::progress::Watch;
 use crate::report;
+use crate::stop::Stop;
 
 /// Exit code: bad input.
 pub const BAD_INPUT: u8 = 2;
@@ -113,13 +114,16 @@ fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
         source: options.case.clone(),
         law: args.embedded.as_ref().and_then(|embedded| embedded.law.clone()),
     };
-    let stop = stop_flag(args)?;
+    let stop = stop_flag(args);
     args.tell(|| Told::Folder(out.clone()));
     let mut watch = Watch::new(args.quiet, options.leash);
     if options.leash {
-        hold_leash(Arc::clone(&stop));
+        hold_leash(args.stop.clone())?;
     }
     let result = case::run(&case, &run_options, &stop, &mut |progress| {
+        if progress.stage == case::Stage::Roll {
+            args.stop.hears();
+        }
         watch.show(progress);
         args.tell(|| Told::Run(*progress));
     });
@@ -206,38 +210,26 @@ pub fn all_cores() -> usize {
 
 /// Ends the run with the process at the other end of standard input: in order where that asks for
 /// it, at once where it is gone.
-fn hold_leash(stop: Arc<AtomicBool>) {
-    std::thread::spawn(move || {
+fn hold_leash(stop: Stop) -> Result<(), Failure> {
+    let held = std::thread::Builder::new().spawn(move || {
         for line in std::io::stdin().lines().map_while(Result::ok) {
             if line == case::sweep::schedule::STOP {
-                stop.store(true, Ordering::SeqCst);
+                stop.ask();
             }
         }
         std::process::exit(INTERRUPTED.into());
     });
+    held.map(|_| ()).map_err(|error| Failure {
+        report: miette!("the thread that minds the sweep cannot be started: {error}"),
+        code: STOPPED_BY_GUARD,
+    })
 }
 
-/// The first Ctrl-C or SIGTERM asks the run to end in order, the second ends the process.
-///
-/// A program that holds the command has its own flag.
-pub fn stop_flag(args: &Args) -> Result<Arc<AtomicBool>, Failure> {
-    if let Some(embedded) = &args.embedded {
-        return Ok(Arc::clone(&embedded.stop));
+/// The flag that ends a command in order: at the first Ctrl-C or SIGTERM, or by the program that holds
+/// it.
+pub fn stop_flag(args: &Args) -> Arc<AtomicBool> {
+    match &args.embedded {
+        Some(embedded) => Arc::clone(&embedded.stop),
+        None => args.stop.in_order(),
     }
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::SeqCst) {
-            std::process::exit(INTERRUPTED.into());
-        }
-        let _ = writeln!(
-            std::io::stderr(),
-            "\nstopping: results so far are being written (Ctrl-C again ends at once)"
-        );
-    })
-    .map_err(|error| Failure {
-        report: miette!("the handler of Ctrl-C cannot be set: {error}"),
-        code: STOPPED_BY_GUARD,
-    })?;
-    Ok(stop)
 }

@@ -17,12 +17,15 @@ mod report;
 mod report_page;
 mod rupture_plot;
 mod slider;
+mod stop;
 mod sweep;
 mod sweep_folder;
 mod verify;
 
 use std::ffi::OsString;
 use std::io::Write;
+#[cfg(unix)]
+use std::sync::{Arc, atomic::AtomicBool};
 
 use clap::Parser;
 
@@ -41,7 +44,12 @@ pub fn main(words: impl IntoIterator<Item = OsString>, program: Vec<OsString>) -
     };
     args.program = program;
     set_up_messages(&args);
-    match commands::dispatch(&args) {
+    let done = full_disks_are_errors().and_then(|()| stop::Stop::listening(args.json));
+    let done = done.and_then(|stop| {
+        args.stop = stop;
+        commands::dispatch(&args)
+    });
+    match done {
         Ok(code) => code,
         Err(failure) => {
             if args.json {
@@ -71,6 +79,24 @@ pub fn command(
     })?;
     (args.json, args.quiet, args.embedded) = (true, true, Some(embedded));
     commands::dispatch(&args)
+}
+
+/// A file that reaches the limit of a file's size (`ulimit -f`) is one that cannot be written, as on a full
+/// disk: the system would else end the program without a word.
+#[cfg(unix)]
+fn full_disks_are_errors() -> Result<(), Failure> {
+    use signal_hook::{consts::SIGXFSZ, flag::register};
+    // the flag is nobody's: the call that was refused tells
+    let unheard = Arc::new(AtomicBool::new(false));
+    register(SIGXFSZ, unheard).map(|_| ()).map_err(|error| Failure {
+        report: miette::miette!("the handler of SIGXFSZ cannot be set: {error}"),
+        code: commands::STOPPED_BY_GUARD,
+    })
+}
+
+#[cfg(not(unix))]
+fn full_disks_are_errors() -> Result<(), Failure> {
+    Ok(())
 }
 
 /// Help and version that were asked for, or wrong usage.

@@ -97,7 +97,7 @@ fn simulate(
     csv: Option<&Path>,
 ) -> Result<Outcome, Failure> {
     let mut csv = csv.map(CsvFile::new).transpose()?;
-    let stop = stop_flag(args)?;
+    let stop = stop_flag(args);
     let bar = bar(args, (p.end / p.dt).round() as u64);
     let mut step = 0u64;
     let result = slider::run(p, method, |time, state| {

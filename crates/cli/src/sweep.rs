@@ -88,7 +88,7 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
     } else {
         claim_sweep(&folder)?;
     }
-    let stop = stop_flag(args)?;
+    let stop = stop_flag(args);
     let mut say = |line: &str| args.say(&format!("{}: {line}", sweep.name));
     let existing = match (options.force, options.resume, &options.plan) {
         (true, ..) => Existing::Replace,
@@ -127,6 +127,8 @@ pub fn command(args: &Args, options: &SweepArgs) -> Result<u8, Failure> {
         folder.display(),
         if threads == 1 { "" } else { "s" }
     ));
+    // its runs end in order, each in its own time
+    args.stop.hears();
     let mut watch = SweepWatch::new(args.quiet, &sweep.name);
     let results = schedule::run(&plan, &program, &budget, &stop, &mut |now| {
         watch.show(now);

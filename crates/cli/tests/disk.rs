@@ -88,12 +88,12 @@ fn a_file_that_cannot_grow_stops_the_run_and_keeps_its_steps_and_the_run_goes_on
     for (limit, name) in [(fields / 2, "fields.vtkhdf"), (fields * 4 / 5, "fields.vtkhdf")] {
         let out = folder.path().join(format!("limit-{limit}"));
         let program = env!("CARGO_BIN_EXE_creepage");
-        // an ignored signal stays ignored in the program
-        let script = format!("trap '' XFSZ; ulimit -f {limit}; exec \"$@\"");
+        // which the system tells with a signal that ends a program, unless it listens
+        let script = format!("ulimit -f {limit}; exec \"$@\"");
         let mut command = Command::new("sh");
         command.args(["-c", &script, "sh", program, "run", CASE, "--threads", "1", "--out"]);
         let output = command.arg(&out).args(&wanted).output().unwrap();
-        ends(&output, 3, &[name, "File too large", "MB are free", "--resume"]);
+        ends(&output, 3, &[name, "File too large", "MB are free", "by ulimit -f", "--resume"]);
         let held = whole(&out);
         assert!(held[0] > 0 && held[1] > 0 && held[2] > 0, "{held:?}");
         assert!(!out.join("summary.json").exists());
@@ -164,4 +164,47 @@ fn a_second_process_may_not_write_the_run_of_the_first() {
     first.wait().unwrap();
     let sets = ["--set", "time.roll=0.001", "--force"];
     ends(&creepage(&out, &sets).output().unwrap(), 0, &[]);
+}
+
+/// The lock is a file, and files are deleted.
+#[test]
+#[cfg(target_os = "linux")]
+fn without_its_lock_a_run_lets_no_other_in_and_stops_and_goes_on_with_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, whole) = (folder.path().join("run"), folder.path().join("whole"));
+    let sets =
+        ["--set", "time.factor=0.2", "--set", "time.roll=0.002", "--set", "checkpoint.steps=20"];
+    ends(&creepage(&whole, &sets).output().unwrap(), 0, &[]);
+    let first = begin(&out, &sets);
+    let signal = |name: &str| {
+        let pid = first.id().to_string();
+        assert!(Command::new("kill").args([name, &pid]).status().unwrap().success());
+    };
+    signal("-STOP");
+    fs::remove_file(out.join("run.lock")).unwrap();
+    for more in ["--resume", "--force"] {
+        let output = creepage(&out, &[&sets[..], &[more]].concat()).output().unwrap();
+        ends(&output, 2, &["another process is at work in"]);
+    }
+    signal("-CONT");
+    ends(&first.wait_with_output().unwrap(), 3, &["run.lock is gone", "--resume goes on"]);
+    assert!(!out.join("summary.json").exists());
+    ends(&creepage(&out, &[&sets[..], &["--resume"]].concat()).output().unwrap(), 0, &[]);
+    let (whole, found) = (results(&whole), results(&out));
+    assert_eq!(whole.differing(&found), Vec::<&str>::new());
+    assert_eq!(timeless(&whole.summary), timeless(&found.summary));
+}
+
+/// Without memory the program would be aborted: what is too small for the run is refused before.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_limit_of_the_address_space_below_what_a_run_needs_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut command = Command::new("sh");
+    command.args(["-c", "ulimit -v 1000000; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_creepage")]);
+    command.args(["run", CASE, "--threads", "1", "--set", "mesh.zone.size=0.08e-3", "--out"]);
+    let output = command.arg(&out).output().unwrap();
+    ends(&output, 2, &["GB of memory", "that are free", "mesh.zone.size"]);
+    assert!(!out.exists());
 }

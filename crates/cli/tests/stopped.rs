@@ -250,3 +250,86 @@ fn a_kill_while_the_files_are_created_leaves_no_half_file_under_its_name() {
     }
     assert!(early > 0, "some kills fell before the files were in place");
 }
+
+fn terminate(run: &Child) {
+    let pid = run.id().to_string();
+    assert!(Command::new("kill").args(["-TERM", &pid]).status().unwrap().success());
+}
+
+/// The exit code once the process has ended; a process that does not is killed.
+#[track_caller]
+fn code_of(mut run: Child) -> Option<i32> {
+    let clock = Instant::now();
+    loop {
+        if let Some(status) = run.try_wait().unwrap() {
+            return status.code();
+        }
+        if clock.elapsed() > Duration::from_secs(120) {
+            run.kill().unwrap();
+            panic!("it does not end");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+fn pipe(path: &Path) {
+    assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+}
+
+/// A pipe that nobody fills holds a command for ever where it reads, as a large file does for long.
+#[test]
+fn sigterm_ends_commands_that_only_read_with_code_130() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    pipe(&file);
+    let run = folder.path().join("run");
+    fs::create_dir(&run).unwrap();
+    pipe(&run.join("case.toml"));
+    fs::write(run.join("contact.vtkhdf"), "").unwrap();
+    for words in [["run".as_ref(), file.as_os_str()], ["check".as_ref(), run.as_os_str()]] {
+        let command = Command::new(env!("CARGO_BIN_EXE_creepage"))
+            .args(words)
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        wait_until_it_listens(&command);
+        terminate(&command);
+        assert_eq!(code_of(command), Some(130));
+    }
+}
+
+/// A run that is held up before it rolls, here by a log that is a pipe without a reader, cannot look at
+/// what it is asked.
+#[test]
+fn sigterm_ends_a_run_that_is_held_up_before_it_rolls() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut run = start(&out, &LONG);
+    wait_until_it_rolls(&mut run, &out);
+    terminate(&run);
+    assert_eq!(code_of(run), Some(130));
+    fs::remove_file(out.join("run.log")).unwrap();
+    pipe(&out.join("run.log"));
+    let run = start(&out, &[&LONG[..], &["--resume"]].concat());
+    wait_until_it_listens(&run);
+    terminate(&run);
+    assert_eq!(code_of(run), Some(130));
+}
+
+/// Waits until a process handles SIGTERM itself (the bit of signal 15 in its `SigCgt`, `man 5 proc`).
+fn wait_until_it_listens(run: &Child) {
+    let clock = Instant::now();
+    let listens = || {
+        let status = fs::read_to_string(format!("/proc/{}/status", run.id())).ok()?;
+        let caught =
+            status.lines().find_map(|line| line.strip_prefix("SigCgt:"))?.trim().to_owned();
+        Some(u64::from_str_radix(&caught, 16).ok()? & (1 << 14) != 0)
+    };
+    if !cfg!(target_os = "linux") {
+        std::thread::sleep(Duration::from_secs(5));
+    }
+    while cfg!(target_os = "linux") && listens() != Some(true) {
+        assert!(clock.elapsed() < Duration::from_secs(60), "no handler");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}

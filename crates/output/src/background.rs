@@ -75,14 +75,19 @@ impl BackgroundWriter {
     pub const BUFFERS: [usize; 3] = [1, 8, 4];
 
     /// Starts the thread.
-    pub fn start(files: RunFiles) -> Self {
+    ///
+    /// # Errors
+    /// The system has no thread left.
+    pub fn start(files: RunFiles) -> Result<Self, OutputError> {
         let (sender, inbox) = channel();
         let pools = [(); 3].map(|()| channel());
         let outbox = pools.each_ref().map(|(give, _)| give.clone());
         let (done, kept) = channel();
-        let thread = std::thread::spawn(move || write_all(files, &inbox, &outbox, &done));
+        let thread = std::thread::Builder::new()
+            .spawn(move || write_all(files, &inbox, &outbox, &done))
+            .map_err(|cause| OutputError::Thread { cause })?;
         let spare = pools.map(|(_, take)| take);
-        Self { sender, spare, made: [0; 3], kept: (0, kept), thread: Some(thread) }
+        Ok(Self { sender, spare, made: [0; 3], kept: (0, kept), thread: Some(thread) })
     }
 
     /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].

@@ -26,6 +26,19 @@ pub enum OutputError {
         /// What the system or the HDF5 library said.
         reason: String,
     },
+    /// Another process writes to the file, or has replaced it.
+    #[error(
+        "{} was changed by another process: it holds {found} rows where this one left {left}, so this one has \
+         stopped; look for a second process in its folder, and begin the run anew", path.display()
+    )]
+    Another {
+        /// The file.
+        path: PathBuf,
+        /// Rows that it holds.
+        found: usize,
+        /// Rows that this process left in it.
+        left: usize,
+    },
     /// A file could not be read.
     #[error(
         "cannot read {}: {reason}; check that it is a file written by creepage and whole",
@@ -52,6 +65,15 @@ pub enum OutputError {
         path: PathBuf,
         /// What was expected, what was found, and the remedy.
         problem: String,
+    },
+    /// The system has no thread left.
+    #[error(
+        "a thread that reads or writes results cannot be started: {cause}; raise the limits of processes and \
+         memory (ulimit -u, ulimit -v)"
+    )]
+    Thread {
+        /// What the system said.
+        cause: std::io::Error,
     },
     /// The background writer is gone: an earlier error was already returned, or it panicked.
     #[error(

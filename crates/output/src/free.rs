@@ -19,12 +19,27 @@ fn room(_: &Path) -> Option<u64> {
     None
 }
 
+/// The most that a file of this process may hold (bytes), where there is a limit (`ulimit -f`).
+#[cfg(unix)]
+fn largest_file() -> Option<u64> {
+    rustix::process::getrlimit(rustix::process::Resource::Fsize).current
+}
+
+#[cfg(not(unix))]
+fn largest_file() -> Option<u64> {
+    None
+}
+
 /// How much room is left where `path` cannot be written, in brackets, to follow an error; nothing where its
 /// folder is gone or the system does not tell.
 pub fn room_left(path: &Path) -> String {
+    let mb = |bytes: u64| bytes as f64 / 1e6;
     match free_space(path) {
         Some(bytes) if path.parent().is_some_and(Path::exists) => {
-            format!(" ({:.1} MB are free there)", bytes as f64 / 1e6)
+            let limit = largest_file().map_or(String::new(), |most| {
+                format!(", and a file may hold {:.1} MB at most, by ulimit -f", mb(most))
+            });
+            format!(" ({:.1} MB are free there{limit})", mb(bytes))
         }
         _ => String::new(),
     }

@@ -209,7 +209,7 @@ impl TransientGrid {
         for (name, on_cells) in &self.constant_names {
             all.push(one(offset_path(name, *on_cells), Kind::Whole));
         }
-        all.push(one("VTKHDF/Steps/Values".into(), Kind::Real));
+        all.push(one(TIMES.into(), Kind::Real));
         for name in ["NumberOfParts"].iter().chain(&MESH_OFFSETS) {
             all.push(one(format!("VTKHDF/Steps/{name}"), Kind::Whole));
         }
@@ -242,6 +242,7 @@ impl TransientGrid {
         let appended = self.append_whole(time, values);
         match appended {
             Ok(()) => self.steps += 1,
+            Err(OutputError::Another { .. }) => self.sums = before,
             Err(_) => {
                 self.sums = before;
                 undo(&self.path, &self.growing(), &STEPS, COUNT, self.steps);
@@ -253,6 +254,7 @@ impl TransientGrid {
     fn append_whole(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         let step = self.steps as i64;
         let mut file = Appender::open(&self.path)?;
+        file.expect(TIMES, self.steps)?;
         file.make_room(values.iter().map(Values::bytes).sum())?;
         let rows = [self.points, self.cells];
         let Self { fields, constant_names, sums, .. } = self;
@@ -282,7 +284,7 @@ impl TransientGrid {
         for (name, on_cells) in constant_names {
             index(&mut file, sums, &offset_path(name, *on_cells), 0)?;
         }
-        append_reals(&mut file, sums, "VTKHDF/Steps/Values", &[time])?;
+        append_reals(&mut file, sums, TIMES, &[time])?;
         index(&mut file, sums, "VTKHDF/Steps/NumberOfParts", 1)?;
         for name in MESH_OFFSETS {
             index(&mut file, sums, &format!("VTKHDF/Steps/{name}"), 0)?;
@@ -493,6 +495,8 @@ fn append_reals(
 /// Group of what belongs to the steps, and its attribute that counts them.
 const STEPS: [&str; 2] = ["VTKHDF", "Steps"];
 const COUNT: &str = "NSteps";
+/// Dataset of the times of the snapshots.
+const TIMES: &str = "VTKHDF/Steps/Values";
 
 /// Offsets into the mesh at each step, all zero since the mesh is stored once.
 const MESH_OFFSETS: [&str; 4] =

@@ -322,6 +322,19 @@ impl Appender {
         Ok(Self { path: path.to_owned(), file: Some(file), room: None })
     }
 
+    /// That a dataset still has the rows with which this process left it: of two processes that write
+    /// to one file, the first that finds the other's rows stops.
+    pub fn expect(&self, name: &str, left: usize) -> Result<(), OutputError> {
+        let rows = || -> H5Result<usize> {
+            Ok(open(&self.file)?.dataset_writer(name)?.shape().first().copied().unwrap_or(0))
+        };
+        let found = caught(rows).map_err(|error| append_error(&self.path, error))?;
+        if found == left {
+            return Ok(());
+        }
+        Err(OutputError::Another { path: self.path.clone(), found, left })
+    }
+
     /// Makes room for `bytes` of data, announced by the first [`Self::append`]: late enough that no
     /// reader is left that saw the short file and has yet to read the superblock, early enough that
     /// at the closing none is left that read the old superblock and has yet to read the count.

@@ -117,6 +117,8 @@ impl History {
         let appended = self.append_whole(rows, width);
         if appended.is_err() {
             self.sums = before;
+        }
+        if !matches!(appended, Ok(()) | Err(OutputError::Another { .. })) {
             undo(&self.path, &growing(&self.columns), &[], COUNT, self.rows);
         }
         appended
@@ -125,6 +127,9 @@ impl History {
     fn append_whole(&mut self, rows: &[f64], width: usize) -> Result<(), OutputError> {
         let count = rows.len() / width;
         let mut file = Appender::open(&self.path)?;
+        if let Some(column) = self.columns.last() {
+            file.expect(&column.name, self.rows)?;
+        }
         file.make_room(size_of_val(rows))?;
         for (index, column) in self.columns.iter().enumerate() {
             self.scratch.clear();

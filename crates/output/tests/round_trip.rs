@@ -4,7 +4,7 @@
 
 use output::{
     BackgroundWriter, Cells, Column, FieldSpec, GridFile, GridSpec, History, HistoryFile,
-    Provenance, RunFiles, StaticField, TransientGrid, Values, write_json_atomically,
+    OutputError, Provenance, RunFiles, StaticField, TransientGrid, Values, write_json_atomically,
 };
 use std::path::Path;
 
@@ -142,7 +142,7 @@ fn write_run(folder: &Path, background: bool) {
         (pressure, [step as u8; 8])
     };
     if background {
-        let mut writer = BackgroundWriter::start(files);
+        let mut writer = BackgroundWriter::start(files).unwrap();
         for step in 0..40 {
             let ((u, s), (p, state)) = (frame(step), contact(step));
             let time = step as f64;
@@ -188,7 +188,7 @@ fn the_background_writer_hands_back_the_error_of_the_file() {
         history: history_file(&folder.path().join("history.h5")),
     };
     std::fs::remove_file(&path).unwrap();
-    let mut writer = BackgroundWriter::start(files);
+    let mut writer = BackgroundWriter::start(files).unwrap();
     let (u, s) = (vectors::<3>(8, 0), vectors::<6>(1, 0));
     let error = (0..100)
         .find_map(|_| {
@@ -247,4 +247,31 @@ fn json_replaces_the_old_text_whole_and_leaves_no_neighbour() {
     let read: Vec<f64> = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
     assert_eq!(read, [0.1, 1e-300]);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// Two processes that write one file, as where a lock was deleted: rows of both would be neither's run.
+#[test]
+fn who_finds_rows_of_another_process_stops_and_leaves_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("history.h5");
+    let columns = [Column::new("time", "s", "t"), Column::new("force", "N", "f")];
+    let mut first = history_file(&path);
+    first.append(&[0.0, 1.0]).unwrap();
+    let mut second = History::reopen(&path, &columns, 0).unwrap();
+    second.append(&[5.0, 6.0, 7.0, 8.0]).unwrap();
+    let error = first.append(&[1.0, 2.0]).unwrap_err();
+    assert!(matches!(error, OutputError::Another { found: 2, left: 1, .. }), "{error}");
+    assert_eq!(HistoryFile::open(&path).unwrap().read("time").unwrap(), [5.0, 7.0]);
+    second.append(&[9.0, 9.0]).unwrap();
+
+    let path = folder.path().join("contact.vtkhdf");
+    let mut first = contact_file(&path);
+    let (pressure, state) = ([0.0; 8], [0; 8]);
+    let values = [Values::Scalar(&pressure), Values::Integer(&state)];
+    first.append(0.0, &values).unwrap();
+    let mut second = contact_file(&path);
+    let error = first.append(1.0, &values).unwrap_err();
+    assert!(matches!(error, OutputError::Another { found: 0, left: 1, .. }), "{error}");
+    second.append(0.0, &values).unwrap();
+    assert_eq!(GridFile::open(&path).unwrap().steps(), 1);
 }

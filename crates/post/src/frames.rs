@@ -241,8 +241,8 @@ impl ContactHistory {
             .step_by(size)
             .map(|start| start..(start + size).min(records.end))
             .collect();
-        let tractions = Ahead::start(self, batches.clone(), |reading, k| reading.tractions(k));
-        let motions = Ahead::start(self, batches.clone(), |reading, k| reading.motions(k));
+        let tractions = Ahead::start(self, batches.clone(), |reading, k| reading.tractions(k))?;
+        let motions = Ahead::start(self, batches.clone(), |reading, k| reading.motions(k))?;
         for _ in batches {
             let frames = tractions.next(&self.path)?.into_iter();
             let motions = motions.next(&self.path)?;
@@ -273,10 +273,10 @@ impl<T: Send + 'static> Ahead<T> {
         history: &ContactHistory,
         batches: Vec<Range<usize>>,
         read: fn(&Reading<'_>, Range<usize>) -> Result<Vec<T>, PostError>,
-    ) -> Self {
+    ) -> Result<Self, PostError> {
         let (sender, inbox) = sync_channel(AHEAD);
         let history = history.clone();
-        let thread = std::thread::spawn(move || {
+        let thread = std::thread::Builder::new().spawn(move || {
             let file = match open(&history.path) {
                 Ok(file) => file,
                 Err(error) => {
@@ -294,7 +294,8 @@ impl<T: Send + 'static> Ahead<T> {
                 }
             }
         });
-        Self { inbox, thread }
+        let thread = thread.map_err(|cause| OutputError::Thread { cause })?;
+        Ok(Self { inbox, thread })
     }
 
     fn next(&self, path: &Path) -> Result<Vec<T>, PostError> {

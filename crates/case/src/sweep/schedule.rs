@@ -228,13 +228,15 @@ impl Job {
         let progress = Arc::new(AtomicU64::new(0));
         if let Some(stdout) = child.stdout.take() {
             let progress = Arc::clone(&progress);
-            std::thread::spawn(move || {
+            let reads = std::thread::Builder::new().spawn(move || {
                 for line in BufReader::new(stdout).lines().map_while(Result::ok) {
                     if let Ok(done) = line.parse::<f64>() {
                         progress.store(done.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
                     }
                 }
             });
+            // the child ends with its leash
+            reads.map_err(failed(&program_file(program)))?;
         }
         let stdin = child.stdin.take();
         Ok(Self { index, stage, child, stdin, progress })

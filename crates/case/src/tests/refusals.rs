@@ -313,3 +313,36 @@ fn a_wrong_friction_table_is_refused_at_its_own_line() {
     fs::write(&case, format!("{rest}[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n")).unwrap();
     refused(Case::load(&case, &[]), &["mu.csv:4:", "0.5 m/s", "above", "rising from 0"]);
 }
+
+#[test]
+fn intervals_and_counts_that_no_run_could_serve_are_refused() {
+    let probes = |n: usize| format!("output.probes.bar=[{}]", "[0, 0],".repeat(n));
+    let windows = |n: usize| format!("output.window=[{}]", "{from=0,to=1e-4},".repeat(n));
+    let formula = |n: usize| format!("friction.expression=\"0.3{}\"", " + 0*s".repeat(n));
+    let expression = |text: String| vec!["friction.law=expression".to_owned(), text];
+    let far_below = |key: &str| vec![format!("{key}=1e-30")];
+    for (sets, words) in [
+        (far_below("output.fields_interval"), ["output.fields_interval = 1e-30 s", "time step"]),
+        (far_below("output.contact_interval"), ["output.contact_interval = 1e-30 s", "time step"]),
+        (far_below("checkpoint.time"), ["checkpoint.time = 1e-30 s", "time step"]),
+        (
+            vec!["time.step=2e-12".into(), "output.contact_interval=2e-12".into()],
+            ["output.contact_interval makes about", "no disk holds them"],
+        ),
+        (
+            vec!["time.step=2e-12".into(), "output.history_interval=1".into()],
+            ["rows of the history", "no disk holds them"],
+        ),
+        (
+            vec!["time.step=2e-12".into(), probes(1000)],
+            ["output.probes.bar makes about", "no disk holds them"],
+        ),
+        (vec![probes(1001)], ["output.probes.bar has 1001 points", "[[output.window]]"]),
+        (vec![windows(1001)], ["output.window has 1001 entries", "more than 1000"]),
+        (expression(formula(1000)), ["6003 characters, more than 4000", "friction.table"]),
+    ] {
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        refused(set(&sets), &words);
+    }
+    set(&[&probes(1000), &windows(1000)]).unwrap();
+}

@@ -1,0 +1,211 @@
+//! One process at a time in the folder of a run.
+//!
+//! Three signs keep a second one out: a lock on the folder itself, which nobody can delete; a lock on
+//! `run.lock`, for systems that cannot lock folders; and, for those that cannot lock at all, the word of
+//! its holder in it. The holder looks whether the file and the word are still its own
+//! ([`Held::prove`]): where no sign kept another out, the first of two then stops.
+
+use std::fs::{self, File, Metadata, TryLockError};
+use std::io::{self, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::SystemTime;
+
+use crate::folder::FolderError;
+
+/// Held locked while a run is written, with the word of its holder; stays behind, empty.
+pub(crate) const LOCK: &str = "run.lock";
+
+/// A folder in which no other process writes a run as long as this lives.
+#[derive(Debug)]
+pub struct Held {
+    folder: PathBuf,
+    lock: File,
+    /// None where a full disk has no room for it.
+    word: Option<String>,
+    _folder: Option<File>,
+}
+
+/// Keeps other processes out of `folder`, which is there. The system lets go of it however this process
+/// ends.
+pub fn hold(folder: &Path) -> Result<Held, FolderError> {
+    let busy = || FolderError::Busy { path: folder.to_path_buf() };
+    let unwritable = |cause| FolderError::NotWritable { path: folder.to_path_buf(), cause };
+    let own = match File::open(folder).map(|own| own.try_lock().map(|()| own)) {
+        Ok(Ok(own)) => Some(own),
+        Ok(Err(TryLockError::WouldBlock)) => return Err(busy()),
+        // a system that does not lock folders
+        Ok(Err(TryLockError::Error(_))) | Err(_) => None,
+    };
+    let mut options = File::options();
+    options.create(true).read(true).write(true).truncate(false);
+    let mut lock = options.open(folder.join(LOCK)).map_err(unwritable)?;
+    match lock.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(busy()),
+        Err(TryLockError::Error(_)) => {
+            let mut theirs = String::new();
+            if lock.read_to_string(&mut theirs).is_ok() && Word::parse(&theirs).lives() {
+                return Err(busy());
+            }
+        }
+    }
+    let word = Word::own().to_string();
+    let written = write(&mut lock, &word).is_ok();
+    Ok(Held { folder: folder.into(), lock, word: written.then_some(word), _folder: own })
+}
+
+impl Held {
+    /// That the folder is still this process's: its `run.lock` is the file that was locked, with the
+    /// word that was written.
+    ///
+    /// # Errors
+    /// The file is gone, or another's. What cannot be read proves nothing.
+    pub fn prove(&self) -> Result<(), FolderError> {
+        let path = self.folder.join(LOCK);
+        let same = match (fs::metadata(&path), self.lock.metadata()) {
+            (Ok(there), Ok(own)) => same(&there, &own),
+            (Err(cause), _) => cause.kind() != io::ErrorKind::NotFound,
+            _ => true,
+        };
+        let said = |word: &String| fs::read_to_string(&path).map_or(true, |there| there == *word);
+        if same && self.word.as_ref().is_none_or(said) {
+            return Ok(());
+        }
+        Err(FolderError::Lost { path: self.folder.clone() })
+    }
+}
+
+/// The word goes with its holder, where that ends in order.
+impl Drop for Held {
+    fn drop(&mut self) {
+        if self.prove().is_ok() {
+            let _ = self.lock.set_len(0);
+        }
+    }
+}
+
+fn write(file: &mut File, word: &str) -> io::Result<()> {
+    file.set_len(0)?;
+    file.rewind()?;
+    file.write_all(word.as_bytes())
+}
+
+#[cfg(unix)]
+fn same(a: &Metadata, b: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+#[cfg(not(unix))]
+fn same(_: &Metadata, _: &Metadata) -> bool {
+    true
+}
+
+/// Who holds a folder: a process by the boot of its machine, its number and when it started, and which of its
+/// holds.
+#[derive(Debug, PartialEq)]
+struct Word {
+    boot: String,
+    process: String,
+    started: String,
+    hold: String,
+}
+
+impl Word {
+    fn own() -> Self {
+        static HOLDS: AtomicUsize = AtomicUsize::new(0);
+        let count = HOLDS.fetch_add(1, Ordering::Relaxed);
+        let process = std::process::id().to_string();
+        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        Self {
+            boot: boot(),
+            started: started(&process).unwrap_or("-".into()),
+            process,
+            hold: format!("{}-{count}", since.as_nanos()),
+        }
+    }
+
+    fn parse(text: &str) -> Self {
+        let mut words = text.split_whitespace().map(str::to_owned);
+        let mut next = || words.next().unwrap_or_default();
+        Self { boot: next(), process: next(), started: next(), hold: next() }
+    }
+
+    /// Whether the process that said it is one of this machine and there. Of those elsewhere nothing is
+    /// known.
+    fn lives(&self) -> bool {
+        self.boot == boot() && started(&self.process).is_some_and(|since| since == self.started)
+    }
+}
+
+impl std::fmt::Display for Word {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "{} {} {} {}", self.boot, self.process, self.started, self.hold)
+    }
+}
+
+/// The identity of the machine since it was started; where there is none, what no word holds.
+fn boot() -> String {
+    let id = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+    if id.trim().is_empty() { "-".into() } else { id.trim().into() }
+}
+
+/// When a process started, in ticks since the boot (`man 5 proc`, field 22 of its `stat`).
+fn started(process: &str) -> Option<String> {
+    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    let (_, fields) = stat.rsplit_once(") ")?;
+    fields.split(' ').nth(19).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn a_deleted_lock_lets_no_second_in_and_the_first_knows() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = hold(folder.path()).unwrap();
+        first.prove().unwrap();
+        fs::remove_file(folder.path().join(LOCK)).unwrap();
+        if cfg!(target_os = "linux") {
+            let second = hold(folder.path());
+            assert!(matches!(second, Err(FolderError::Busy { .. })), "{second:?}");
+        }
+        assert!(matches!(first.prove(), Err(FolderError::Lost { .. })));
+        fs::write(folder.path().join(LOCK), first.word.as_ref().unwrap()).unwrap();
+        if cfg!(unix) {
+            assert!(matches!(first.prove(), Err(FolderError::Lost { .. })), "another file");
+        }
+    }
+
+    #[test]
+    fn another_word_in_the_lock_is_noticed() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = hold(folder.path()).unwrap();
+        fs::write(folder.path().join(LOCK), Word::own().to_string()).unwrap();
+        assert!(matches!(first.prove(), Err(FolderError::Lost { .. })));
+    }
+
+    #[test]
+    fn a_lock_that_was_let_go_is_empty_and_free() {
+        let folder = tempfile::tempdir().unwrap();
+        drop(hold(folder.path()).unwrap());
+        assert_eq!(fs::read_to_string(folder.path().join(LOCK)).unwrap(), "");
+        hold(folder.path()).unwrap().prove().unwrap();
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_word_tells_a_living_process_from_one_that_is_gone() {
+        let own = Word::own();
+        assert_eq!(Word::parse(&own.to_string()), own);
+        assert!(own.lives());
+        assert!(!Word { started: "1".into(), ..Word::own() }.lives(), "another's number");
+        assert!(!Word { boot: "elsewhere".into(), ..Word::own() }.lives());
+        assert!(!Word { process: "4194305".into(), ..Word::own() }.lives(), "no such process");
+        assert!(!Word::parse("").lives());
+    }
+}

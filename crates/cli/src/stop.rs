@@ -1,0 +1,85 @@
+//! Ctrl-C and SIGTERM, in one place.
+//!
+//! A command that holds nothing half-done ends at the first. One that ends in order, as `run` does, is asked
+//! to, and ended too where it has not heard within some seconds: what takes long before a run
+//! rolls (meshes, preloads, the creation of its files) leaves nothing that a kill could damage.
+
+use std::io::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use miette::miette;
+
+use crate::commands::{Failure, INTERRUPTED, STOPPED_BY_GUARD, failure};
+use crate::report;
+
+/// How long a command has to hear that it is asked to end.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// What the signals have asked for, and how the command takes it.
+#[derive(Clone, Debug, Default)]
+pub struct Stop {
+    asked: Arc<AtomicBool>,
+    /// Whether the command ends in order.
+    in_order: Arc<AtomicBool>,
+    /// Whether it looks at `asked` often enough, and ends by itself however long that takes.
+    hears: Arc<AtomicBool>,
+    /// Whether standard output must hold a document.
+    json: bool,
+}
+
+impl Stop {
+    /// Listens to the signals from now on.
+    pub fn listening(json: bool) -> Result<Self, Failure> {
+        let stop = Self { json, ..Self::default() };
+        let heard = stop.clone();
+        ctrlc::set_handler(move || heard.ask()).map_err(|error| Failure {
+            report: miette!("the handler of Ctrl-C cannot be set: {error}"),
+            code: STOPPED_BY_GUARD,
+        })?;
+        Ok(stop)
+    }
+
+    /// From now on the command ends in order once this flag is set.
+    pub fn in_order(&self) -> Arc<AtomicBool> {
+        self.in_order.store(true, Ordering::SeqCst);
+        Arc::clone(&self.asked)
+    }
+
+    /// From now on the command sees the flag within seconds.
+    pub fn hears(&self) {
+        self.hears.store(true, Ordering::SeqCst);
+    }
+
+    /// Asks the command to end; the second time, it is ended.
+    pub fn ask(&self) {
+        if !self.in_order.load(Ordering::SeqCst) || self.asked.swap(true, Ordering::SeqCst) {
+            self.end();
+        }
+        // A closed standard error is no reason to panic.
+        let _ = writeln!(
+            std::io::stderr(),
+            "\nstopping: results so far are being written (Ctrl-C again ends at once)"
+        );
+        let this = self.clone();
+        let waits = std::thread::Builder::new().spawn(move || {
+            std::thread::sleep(PATIENCE);
+            if !this.hears.load(Ordering::SeqCst) {
+                let _ = writeln!(std::io::stderr(), "stopped: there were no results to write yet");
+                this.end();
+            }
+        });
+        // where there is no thread to wait there is no order either
+        if waits.is_err() {
+            self.end();
+        }
+    }
+
+    fn end(&self) -> ! {
+        if self.json {
+            report::print_json(&failure("interrupted", INTERRUPTED));
+        }
+        std::process::exit(INTERRUPTED.into());
+    }
+}
