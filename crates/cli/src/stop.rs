@@ -15,7 +15,7 @@ use crate::commands::{Failure, INTERRUPTED, STOPPED_BY_GUARD, failure};
 use crate::report;
 
 /// How long a command has to hear that it is asked to end.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What the signals have asked for, and how the command takes it.
 #[derive(Clone, Debug, Default)]
