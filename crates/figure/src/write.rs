@@ -101,7 +101,7 @@ impl Figure {
                 let bare = folder.join(format!(".{stem}.partial.png"));
                 let backend = BitMapBackend::new(&bare, self.pixels(PNG_UNIT));
                 let drawn = draw_on(self, backend, PNG_UNIT, Joints::Open, &path)
-                    .and_then(|()| Ok(input::bytes(&bare, input::RESULTS)));
+                    .map(|()| input::bytes(&bare, input::RESULTS));
                 let _ = std::fs::remove_file(&bare);
                 let image = drawn?.map_err(|error| failed(&path, std::io::Error::other(error)))?;
                 std::fs::write(&path, marked(&image)).map_err(|cause| failed(&path, cause))?;
