@@ -2,7 +2,7 @@
 //! CRC-32, and SHA-256 of itself.
 //!
 //! Files of a run are large: on a machine with instructions for it SHA-256 of them took 1 % of a run, CRC-32
-//! takes a quarter of that, and misses one damage in four billion.
+//! takes a third of that, and misses one damage in four billion.
 
 use crate::OutputError;
 use crate::checkpoint::hexadecimal;
