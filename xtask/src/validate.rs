@@ -27,7 +27,7 @@ pub fn alone(step: Step) -> ExitCode {
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 15] = [
+    let steps: [(&str, Step); 16] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
