@@ -266,7 +266,7 @@ fn results_shorter_than_the_newest_checkpoint_send_the_run_to_the_one_before() {
     let summary = run_until(&case, &resuming(&out, 2), u64::MAX).unwrap();
     assert_eq!(summary["status"], "completed");
     let said = log(&out);
-    assert!(said.contains("history.h5 holds"), "{said}");
+    assert!(said.contains("history.h5 is damaged: holds"), "{said}");
     assert!(said.contains(&format!("step {before}")) && before < newest, "{said}");
     same_bits(&whole, &results(&out));
 }

@@ -219,6 +219,7 @@ pub fn prepare(folder: &Path, force: bool, held: Option<Held>) -> Result<Held, F
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
     check(folder, force)?;
     if let Some(file) = RUN_FILES.iter().find(|file| folder.join(file).exists())
+        && content(folder) == Content::Run
         && !is_run(folder)
     {
         return Err(FolderError::Foreign { path: folder.to_path_buf(), file });

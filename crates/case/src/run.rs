@@ -93,8 +93,7 @@ fn run_in_pool(
     if case.friction.law == FrictionLaw::Python && options.law.is_none() {
         return Err(RunError::NoLaw);
     }
-    let begun =
-        folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
+    let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
     let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
     let (origin, why) = match origin(case, options)? {
         Some(Origin::Complete(summary)) => return Ok(complete(&options.out, summary)),

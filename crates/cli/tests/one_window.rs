@@ -142,7 +142,10 @@ fn a_window_that_is_asked_for_has_the_means_of_the_history_over_exactly_its_time
         assert_eq!(found["patch"][measure]["from"], "history");
     }
     // a run in progress has no summary: its window is that of its case, its numbers its history's
-    fs::remove_file(folder.join("r/summary.json")).unwrap();
+    // as while it was in progress
+    ["summary.json", "run.log"]
+        .iter()
+        .for_each(|f| fs::remove_file(folder.join("r").join(f)).unwrap());
     let ends = [2.0 / 3.0, 1.0].map(|part| part * 0.001 / 38.89);
     let found = document(folder, &["check", "r", "--json"]);
     for (i, end) in ends.into_iter().enumerate() {

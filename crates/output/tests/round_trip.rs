@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::{
-    BackgroundWriter, Cells, Column, FieldSpec, GridFile, GridSpec, History, HistoryFile,
+    BackgroundWriter, Cells, Column, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
     OutputError, Provenance, RunFiles, StaticField, TransientGrid, Values, write_json_atomically,
 };
 use std::path::Path;
@@ -257,7 +257,8 @@ fn who_finds_rows_of_another_process_stops_and_leaves_them() {
     let columns = [Column::new("time", "s", "t"), Column::new("force", "N", "f")];
     let mut first = history_file(&path);
     first.append(&[0.0, 1.0]).unwrap();
-    let mut second = History::reopen(&path, &columns, 0).unwrap();
+    let nothing = Kept { records: 0, sums: Vec::new() };
+    let mut second = History::reopen(&path, &columns, &nothing).unwrap();
     second.append(&[5.0, 6.0, 7.0, 8.0]).unwrap();
     let error = first.append(&[1.0, 2.0]).unwrap_err();
     assert!(matches!(error, OutputError::Another { found: 2, left: 1, .. }), "{error}");

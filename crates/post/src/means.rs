@@ -46,7 +46,7 @@ pub(crate) struct Sources<'a> {
 /// What a source says of a measure.
 #[derive(Default)]
 struct Found {
-    /// Mean and deviation.
+    /// Mean and deviation; NaN where the source has no deviation.
     mean: Option<[f64; 2]>,
     from: &'static str,
     /// Why there is none, or what it leaves out.
@@ -55,11 +55,7 @@ struct Found {
 
 impl<'a> Sources<'a> {
     /// Those of a run; the files beside a contact history of another name are not its own.
-    pub fn of(
-        paths: &RunPaths,
-        basis: &'a Basis,
-        window: &Window,
-    ) -> Result<Self, PostError> {
+    pub fn of(paths: &RunPaths, basis: &'a Basis, window: &Window) -> Result<Self, PostError> {
         let own = paths.contact.file_name().is_some_and(|name| name == RunPaths::CONTACT);
         let summary = basis.summary.as_ref().filter(|_| own && window.of_summary);
         let history = if own { history(&paths.folder, window)? } else { None };
@@ -88,7 +84,7 @@ impl<'a> Sources<'a> {
         at("contact").or_else(|| at("window"))?;
         let mean = number("contact").or_else(|| number("window"));
         let note = at("window/reasons").and_then(Value::as_str).map(str::to_owned);
-        let mean = mean.zip(number("window/deviation")).map(<[f64; 2]>::from);
+        let mean = mean.map(|mean| [mean, number("window/deviation").unwrap_or(f64::NAN)]);
         Some(Found { mean, from: "summary", note })
     }
 

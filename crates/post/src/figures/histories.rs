@@ -66,7 +66,8 @@ pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>
             let draw = Draw::Line(*colour);
             series.push(Series { label: (*label).into(), points: thin(&points, COLUMNS), draw });
         }
-        let marks = scene.window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
+        let marks =
+            scene.window.map(|t| Mark { x: 1e3 * t, label: String::new(), colour: colour::GREY });
         panels.push(Panel {
             title: String::new(),
             x: Axis::linear("t (ms)"),
