@@ -320,7 +320,7 @@ fn mutate(out: &Path, chance: &mut Chance) -> Result<(String, String), String> {
             format!("a bit of byte {at} flipped")
         }
         3 => {
-            bytes[at] = chance.next() as u8;
+            bytes[at] = chance.draw() as u8;
             format!("byte {at} changed")
         }
         4 => {

@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::SystemTime;
 
+use files::input;
+
 use crate::folder::FolderError;
 
 /// Held locked while a run is written, with the word of its holder; stays behind, empty.
@@ -31,7 +33,9 @@ pub struct Held {
 pub fn hold(folder: &Path) -> Result<Held, FolderError> {
     let busy = || FolderError::Busy { path: folder.to_path_buf() };
     let unwritable = |cause| FolderError::NotWritable { path: folder.to_path_buf(), cause };
-    let own = match File::open(folder).map(|own| own.try_lock().map(|()| own)) {
+    #[expect(clippy::disallowed_methods, reason = "a folder, of which nothing is read")]
+    let own = File::open(folder);
+    let own = match own.map(|own| own.try_lock().map(|()| own)) {
         Ok(Ok(own)) => Some(own),
         Ok(Err(TryLockError::WouldBlock)) => return Err(busy()),
         // a system that does not lock folders
@@ -68,7 +72,9 @@ impl Held {
             (Err(cause), _) => cause.kind() != io::ErrorKind::NotFound,
             _ => true,
         };
-        let said = |word: &String| fs::read_to_string(&path).map_or(true, |there| there == *word);
+        let said = |word: &String| {
+            input::text(&path, input::DOCUMENT).map_or(true, |there| there == *word)
+        };
         if same && self.word.as_ref().is_none_or(said) {
             return Ok(());
         }
@@ -147,13 +153,14 @@ impl std::fmt::Display for Word {
 
 /// The identity of the machine since it was started; where there is none, what no word holds.
 fn boot() -> String {
-    let id = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+    let id = input::text(Path::new("/proc/sys/kernel/random/boot_id"), input::LOG);
+    let id = id.unwrap_or_default();
     if id.trim().is_empty() { "-".into() } else { id.trim().into() }
 }
 
 /// When a process started, in ticks since the boot (`man 5 proc`, field 22 of its `stat`).
 fn started(process: &str) -> Option<String> {
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    let stat = input::text(&Path::new("/proc").join(process).join("stat"), input::LOG).ok()?;
     let (_, fields) = stat.rsplit_once(") ")?;
     fields.split(' ').nth(19).map(str::to_owned)
 }

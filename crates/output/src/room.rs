@@ -8,6 +8,7 @@
 //! refuses a file that is shorter than its superblock says.
 
 use crate::hdf5::PAGE;
+use files::input;
 use rust_hdf5::format::superblock::SuperblockV2V3;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, Write};
@@ -48,7 +49,8 @@ impl Room {
 /// The end that the superblock of a file names.
 pub(crate) fn end_of_file(path: &Path) -> io::Result<u64> {
     let mut image = [0; 48];
-    File::open(path)?.read_exact(&mut image)?;
+    let mut file = input::open(path, input::RESULTS).map_err(io::Error::other)?;
+    file.read_exact(&mut image)?;
     let superblock = SuperblockV2V3::decode(&image).map_err(io::Error::other)?;
     Ok(superblock.end_of_file_address)
 }

@@ -39,8 +39,15 @@ fn why_none(measure: &str) -> &'static str {
 /// Where means over a window come from.
 pub(crate) struct Sources<'a> {
     summary: Option<&'a Value>,
-    /// Columns of the history, by their names, and the weight of each of its rows.
-    history: Option<(HashMap<String, Vec<f64>>, Vec<f64>)>,
+    history: Option<Rows>,
+}
+
+/// The history of a run over a window.
+struct Rows {
+    /// Columns by their names.
+    columns: HashMap<String, Vec<f64>>,
+    /// Time within the window that each row stands for (s).
+    weights: Vec<f64>,
 }
 
 /// What a source says of a measure.
@@ -71,7 +78,7 @@ impl<'a> Sources<'a> {
     fn of_run(&self, measure: &str) -> Option<Found> {
         let name = name_in_run(measure);
         self.in_summary(&name).or_else(|| {
-            let (columns, weights) = self.history.as_ref()?;
+            let Rows { columns, weights } = self.history.as_ref()?;
             let mean = mean_and_deviation(weights, columns.get(&name)?.iter().copied());
             Some(Found { mean, from: "history", note: None })
         })
@@ -116,10 +123,7 @@ impl<'a> Sources<'a> {
 
 /// What the history of the run in `folder` holds for the window; nothing where there is no history or
 /// none of its rows stands for a part of it.
-fn history(
-    folder: &Path,
-    window: &Window,
-) -> Result<Option<(HashMap<String, Vec<f64>>, Vec<f64>)>, PostError> {
+fn history(folder: &Path, window: &Window) -> Result<Option<Rows>, PostError> {
     let Some(history) = open_history(&folder.join("history.h5"))? else { return Ok(None) };
     let Some(times) = history.column("time")? else { return Ok(None) };
     let weights = time_weights(&times, window.span);
@@ -133,5 +137,5 @@ fn history(
             columns.insert(name, values);
         }
     }
-    Ok(Some((columns, weights)))
+    Ok(Some(Rows { columns, weights }))
 }
