@@ -17,7 +17,7 @@ pub struct Made {
     pub endings: &'static [&'static str],
     /// What it begins with; empty where that says nothing.
     pub start: &'static [u8],
-    /// Of these, one stands in its first [`HEAD`] bytes.
+    /// Of these, one stands in its first 64 KiB.
     pub marks: &'static [&'static str],
     /// What it must show besides, for a format with an index of its own.
     pub proof: Option<fn(&Path) -> bool>,
