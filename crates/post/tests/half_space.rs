@@ -20,7 +20,9 @@ fn reference(
         "[drive]\nspeed = {SPEED:?}\ncreepage = {CREEPAGE:?}\n[friction]\n{friction}\n{case}"
     );
     std::fs::write(folder.join("case.toml"), text).unwrap();
-    let summary = format!("{{\"contact\": {{\"traction_coefficient\": {traction}}}}}");
+    let summary = format!(
+        "{{\"contact\": {{\"traction_coefficient\": {traction}}}, \"window\": {{\"from\": 0, \"to\": 1}}}}"
+    );
     std::fs::write(folder.join("summary.json"), summary).unwrap();
     let paths = RunPaths::of(folder).unwrap();
     let mut basis = Basis::read(&paths).unwrap();
