@@ -115,7 +115,7 @@ fn a_folder_that_vanishes_stops_the_run() {
     let run = begin(&out, &[&BUSY[..], &["--set", "drive.speed=1"]].concat());
     fs::rename(&out, folder.path().join("elsewhere")).unwrap();
     let output = run.wait_with_output().unwrap();
-    ends(&output, 3, &["cannot append to", "No such file", "not moved or removed"]);
+    ends(&output, 3, &["cannot append to", "no such file", "not moved or removed"]);
     assert!(!out.exists(), "nothing is written where the folder was");
     let held = whole(&folder.path().join("elsewhere"));
     assert!(held[2] > 0, "{held:?}");
