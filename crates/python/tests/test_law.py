@@ -30,7 +30,9 @@ def test_a_falling_law_is_the_built_in_one_up_to_the_rounding_of_exp(tmp_path, m
     b = creepage.run(SMALL, tmp_path / "b", friction=falling, threads=2, **SHORT, **more)
     for name in ("mu", "shear", "slip"):
         ours, theirs = a.contact[name][:], b.contact[name][:]
-        assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(ours).max(), name
+        # where all nodes stick, slip is round-off, far below that of a coordinate (m)
+        least = 1e-17 if name == "slip" else 0.0
+        assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(ours).max() + least, name
 
 
 def test_a_law_at_the_same_instant_is_asked_at_every_trial(tmp_path):
