@@ -28,8 +28,9 @@ const PROBE: &str = ".creepage-";
 /// How the names of files end that are not yet whole.
 const PARTIAL: &str = ".partial";
 
-/// The files that a run writes; `--force` removes these, what was made from them, and nothing else, in this order: a kill
-/// meanwhile must leave no word of a run that has ended, nor a checkpoint, beside results that are gone.
+/// The files that a run writes; `--force` removes these, what was made from them, and nothing else. It
+/// does so in this order: a kill meanwhile must leave neither a summary of a run that has ended nor a
+/// checkpoint beside results that are gone.
 pub const RUN_FILES: [&str; 10] = [
     CASE_FILE,
     LOG,
