@@ -599,8 +599,10 @@ fn create_error(path: &Path, error: Hdf5Error) -> OutputError {
     OutputError::Create { path: path.to_owned(), reason: error.to_string() }
 }
 
+/// A file that is gone is named so, also where it went while the library opened it.
 fn append_error(path: &Path, error: Hdf5Error) -> OutputError {
-    OutputError::Append { path: path.to_owned(), reason: error.to_string() }
+    let reason = regular(path).err().unwrap_or_else(|| error.to_string());
+    OutputError::Append { path: path.to_owned(), reason }
 }
 
 pub(crate) fn read_error(path: &Path, reason: String) -> OutputError {
@@ -643,7 +645,15 @@ fn chunk_rows(rows: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::chunk_rows;
+    use super::{Hdf5Error, append_error, chunk_rows};
+    use std::path::Path;
+
+    #[test]
+    fn a_file_that_went_while_it_was_opened_is_named_as_one_that_was_gone_before() {
+        let gone = std::io::Error::from(std::io::ErrorKind::NotFound);
+        let error = append_error(Path::new("/none/contact.vtkhdf"), Hdf5Error::Io(gone));
+        assert!(error.to_string().contains("there is no such file"), "{error}");
+    }
 
     #[test]
     fn chunks_divide_a_snapshot_and_are_neither_tiny_nor_huge_where_possible() {
