@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use runs::{Results, load, project, run};
+use std::collections::BTreeMap;
 
 fn slice(sets: &[&str]) -> Results {
     let short =
@@ -22,6 +23,72 @@ fn a_slice_has_hertz_line_contact_and_nothing_moves_across_it() {
     assert!(found.number("/energy/balance_error") < 1e-3);
     for (name, values) in found.data.iter().filter(|(name, _)| name.contains("/displacement/")) {
         assert!(values.chunks(3).all(|u| u[1] == 0.0), "{name}");
+    }
+}
+
+/// Every law, enforcement and element that a slice may have.
+const SLICES: [&[&str]; 11] = [
+    &["contact.enforcement=penalty", "element.contact_layers=one-point"],
+    &["contact.enforcement=penalty", "friction.law=exponential"],
+    &["contact.enforcement=exact", "element.volumetric=full"],
+    &["contact.enforcement=exact", "friction.law=exponential", "friction.mode=exact"],
+    &["contact.enforcement=exact", "friction.law=exponential", "element.contact_layers=one-point"],
+    &["contact.enforcement=exact", "friction.law=exponential", "friction.memory.distance=1e-6"],
+    &["contact.enforcement=exact", "friction.law=slip_weakening", "friction.distance=5e-6"],
+    &["contact.enforcement=exact", "friction.law=prakash_clifton", "friction.distance=2e-6"],
+    &["contact.enforcement=exact", "friction.law=rate_state", "friction.distance=5e-6"],
+    &[
+        "contact.enforcement=exact",
+        "friction.law=expression",
+        "friction.expression=\"0.5 - 0.1*s\"",
+    ],
+    &["contact.enforcement=exact", "friction.law=exponential", "contact.rows=mortar"],
+];
+
+/// Rows of the nodes that face each other across the slice, by x and z, those of the disk before those of
+/// the bar where both touch.
+fn across(points: &[f64]) -> Vec<[usize; 2]> {
+    let mut at: BTreeMap<[u64; 2], Vec<usize>> = BTreeMap::new();
+    for (node, x) in points.chunks(3).enumerate() {
+        at.entry([x[0].to_bits(), x[2].to_bits()]).or_default().push(node);
+    }
+    at.values().flat_map(|nodes| nodes.chunks(2).map(|pair| [pair[0], pair[1]])).collect()
+}
+
+/// The largest difference between the nodes of any of `pairs`, over the largest value.
+fn apart(values: &[f64], pairs: &[[usize; 2]], nodes: usize) -> f64 {
+    let components = values.len() / nodes;
+    let differences = pairs.iter().flat_map(|&[a, b]| {
+        (0..components).map(move |i| values[a * components + i] - values[b * components + i])
+    });
+    let largest = values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    differences.fold(0.0, |most: f64, d| most.max(d.abs())) / largest
+}
+
+#[test]
+fn nodes_across_a_slice_move_as_one_with_every_law_and_element() {
+    for sets in SLICES {
+        let found = slice(&[&["output.contact_interval=2e-6"], sets].concat());
+        assert_eq!(found.summary["status"], "completed", "{sets:?}");
+        // integrals over the polygons of overlapping faces differ more than sums over corners
+        let round_off = if sets.contains(&"contact.rows=mortar") { 1e-7 } else { 1e-10 };
+        for (grid, fields, most) in [
+            ("fields", &["displacement", "velocity"][..], 0.0),
+            ("contact", &["displacement", "velocity", "state"], 0.0),
+            ("contact", &["pressure", "shear", "slip_velocity", "mu", "gap"], round_off),
+        ] {
+            let points = &found.data[&format!("{grid}/points")];
+            let pairs = across(points);
+            assert_eq!(2 * pairs.len(), points.len() / 3);
+            for field in fields {
+                let of_field = format!("{grid}/{field}/");
+                let steps = found.data.iter().filter(|(name, _)| name.starts_with(&of_field));
+                for (name, values) in steps {
+                    let apart = apart(values, &pairs, points.len() / 3);
+                    assert!(apart <= most, "{sets:?} {name}: {apart:e}");
+                }
+            }
+        }
     }
 }
 

@@ -33,6 +33,8 @@ pub(crate) struct Model {
     pub(crate) kernels: Level,
     /// The friction law that was handed over with the run.
     pub(crate) law: Option<Arc<dyn OwnLaw>>,
+    /// Nodes that face each other across a slice in plane strain and move as one; empty in space.
+    pub(crate) paired: Vec<[u32; 2]>,
     /// Lumped masses (kg).
     pub(crate) mass: Vec<f64>,
     /// The whole contact surfaces.
@@ -51,12 +53,18 @@ impl Model {
     /// Builds the meshes of a case.
     pub(crate) fn build(case: &Case) -> Result<Self, RunError> {
         enough_for_mesh(case)?;
-        let (mesh, notes) = match mesh_file::import(case)? {
+        let (mut mesh, notes) = match mesh_file::import(case)? {
             Some(imported) => imported,
             None => (generated(case)?, Vec::new()),
         };
         let materials = [material(case.disk_material()), material(case.bar_material())];
-        let mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
+        let paired = if case.mesh.plane_strain { align(&mut mesh)? } else { Vec::new() };
+        let mut mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
+        for pair in &paired {
+            let [a, b] = pair.map(|n| n as usize);
+            mass[a] = 0.5 * (mass[a] + mass[b]);
+            mass[b] = mass[a];
+        }
         let surface = |body: usize, name: &str| {
             mesh.bodies[body].surfaces.get(name).cloned().unwrap_or_default()
         };
@@ -77,6 +85,7 @@ impl Model {
             },
             kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
             law: None,
+            paired,
             mass,
             surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
             zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
@@ -173,6 +182,17 @@ fn generated(case: &Case) -> Result<Mesh, RunError> {
         mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
     }
     Ok(mesh)
+}
+
+/// The pairs of nodes across a slice, whose second nodes are put exactly across from the first.
+fn align(mesh: &mut Mesh) -> Result<Vec<[u32; 2]>, mesh::NoSlice> {
+    let pairs = mesh::across(mesh)?;
+    for &[first, second] in &pairs {
+        let [x, _, z] = mesh.nodes[first as usize];
+        let [ox, _, oz] = &mut mesh.nodes[second as usize];
+        (*ox, *oz) = (x, z);
+    }
+    Ok(pairs)
 }
 
 /// The elements in the contact layers of the fine zones, if they are to be fully integrated.

@@ -25,6 +25,12 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy))]
     MeshFile(#[from] crate::mesh_file::MeshFileError),
+    /// The mesh of a case in plane strain is more than a slice.
+    #[error("mesh.plane_strain = true: {0}")]
+    #[diagnostic(help(
+        "give a mesh one element wide, extruded along y, or mesh.plane_strain = false"
+    ))]
+    Slice(#[from] mesh::NoSlice),
     /// The elements cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("change the keys of [material], [disk], [bar] or [mesh] that it names"))]
@@ -105,6 +111,7 @@ impl RunError {
             Self::Mesh(mesh::MeshError::TooManyElements { .. }) | Self::Memory { .. } => {
                 Some("mesh.zone.size")
             }
+            Self::Slice(_) => Some("mesh.plane_strain"),
             Self::Step { .. } => Some("time.step"),
             _ => None,
         }
@@ -117,6 +124,7 @@ impl RunError {
             Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,
             Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
             Self::MeshFile(_)
+            | Self::Slice(_)
             | Self::NoContact
             | Self::Case(_)
             | Self::Threads(_)

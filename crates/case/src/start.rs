@@ -132,10 +132,14 @@ fn settle(
     let clock = Instant::now();
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
-    let preloaded = store::kept(case, model, cache, stop, say, &mut |say| {
+    let mut preloaded = store::kept(case, model, cache, stop, say, &mut |say| {
         let mut contact = model.contact(case, scale)?;
         preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)
     })?;
+    for &[first, second] in &model.paired {
+        // alike to the preload's tolerance until now
+        preloaded.displacement[second as usize] = preloaded.displacement[first as usize];
+    }
     // Contact starts from the displacements alone, so that a preload from the cache and one just
     // found lead to the same bits; this also closes the pairs that touch, for the stable step.
     let mut contact = model.contact(case, scale)?;
@@ -292,6 +296,7 @@ fn assemble(
         quiet,
         held: model.clamped.clone(),
         fixed: if case.mesh.plane_strain { plane_strain(model) } else { Vec::new() },
+        paired: model.paired.clone(),
         load: dynamics::Load::default(),
         disk: model.mesh.bodies[DISK].nodes.clone(),
         mass: model.mass.clone(),

@@ -1,6 +1,7 @@
 //! What a time loop asks of a method of contact.
 
 use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
+use crate::touch::follow_first;
 use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
@@ -34,6 +35,10 @@ pub trait Contact: Send + Debug {
         trial: &Trial<'_>,
         force: &mut [Padded],
     ) -> ContactSums;
+
+    /// Gives the second slave of each pair the state of the first, of nodes that move as one: no
+    /// round-off then sets them apart. The pairs ascend by the first.
+    fn follow_first(&mut self, pairs: &[[u32; 2]]);
 
     /// `y += K_c x` with the springs closed at the last call; nothing for a method without springs.
     ///
@@ -75,6 +80,12 @@ impl Contact for PenaltyContact {
 
     fn apply(&mut self, _: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
         self.load(force)
+    }
+
+    fn follow_first(&mut self, pairs: &[[u32; 2]]) {
+        for (rows, own) in self.pairs.iter_mut().zip(&self.sides) {
+            follow_first(rows, own, pairs);
+        }
     }
 
     fn add_stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {

@@ -25,7 +25,7 @@ use crate::row::{Footing, Leg, Row, Rows, face_shares, within};
 use crate::search::Search;
 use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
 use crate::surface::ContactSurface;
-use crate::touch::{Listed, State, WATCHED, finer, sleep};
+use crate::touch::{Listed, State, WATCHED, finer, follow_first, sleep};
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
 use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError};
 use mesh::{Face, Mesh, Padded, Surface};
@@ -502,6 +502,10 @@ impl Contact for ExactContact {
         self.rows[own] = rows;
         self.active = active;
         sums
+    }
+
+    fn follow_first(&mut self, pairs: &[[u32; 2]]) {
+        follow_first(&mut self.rows[self.slave], &self.sides[self.slave], pairs);
     }
 
     fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}

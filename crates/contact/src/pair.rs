@@ -110,6 +110,11 @@ impl Listed for Pair {
         }
     }
 
+    fn follow(&mut self, other: &Self) {
+        let Self { slave, face, xi, eta, weights, .. } = *self;
+        *self = Self { slave, face, xi, eta, weights, ..*other };
+    }
+
     fn fields(&mut self, visit: &mut impl Fields) {
         visit.whole("slave", &mut self.slave);
         visit.state(&mut self.state);

@@ -166,6 +166,11 @@ impl Listed for Row {
         }
     }
 
+    fn follow(&mut self, other: &Self) {
+        let Self { slave, face, xi, eta, legs, .. } = *self;
+        *self = Self { slave, face, xi, eta, legs, ..*other };
+    }
+
     fn fields(&mut self, visit: &mut impl Fields) {
         visit.whole("slave", &mut self.slave);
         visit.state(&mut self.state);

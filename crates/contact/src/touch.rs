@@ -33,6 +33,8 @@ pub(crate) trait Listed: Copy {
     fn is_closed(&self) -> bool;
     /// What tables of nodes show of it.
     fn touch(&self) -> Touch;
+    /// Takes over all of `other` but the node itself and where its foot is.
+    fn follow(&mut self, other: &Self);
     /// Visits everything that a later step or a table of nodes reads.
     fn fields(&mut self, visit: &mut impl Fields);
 }
@@ -48,6 +50,26 @@ pub(crate) struct Touch {
     pub mu: f64,
     pub slip_velocity: Vec3,
     pub slip: Vec3,
+}
+
+/// Gives the second slave of each pair of mesh nodes the state of the first; the pairs ascend by the first,
+/// `rows` by their slaves on `own`.
+pub(crate) fn follow_first<P: Listed>(rows: &mut [P], own: &ContactSurface, pairs: &[[u32; 2]]) {
+    if pairs.is_empty() {
+        return;
+    }
+    for i in 0..rows.len() {
+        let first = rows[i];
+        let node = own.nodes[first.slave() as usize];
+        let second = pairs
+            .binary_search_by_key(&node, |pair| pair[0])
+            .ok()
+            .and_then(|k| own.nodes.binary_search(&pairs[k][1]).ok())
+            .and_then(|local| rows.binary_search_by_key(&(local as u32), |r| r.slave()).ok());
+        if let Some(second) = second {
+            rows[second].follow(&first);
+        }
+    }
 }
 
 /// Steps for which an open node with this gap (m) and relative speed (m/s) cannot close unless that

@@ -13,6 +13,7 @@ mod hub;
 mod ledger;
 mod load;
 mod nodes;
+mod paired;
 mod quiet;
 mod relax;
 mod rolling;

@@ -6,6 +6,7 @@ use crate::hub::{Hub, HubWork};
 use crate::ledger::{Energies, Ledger};
 use crate::load::{Fixed, Load};
 use crate::nodes::{self, NodeSums};
+use crate::paired;
 use crate::quiet::QuietEnd;
 use contact::{Contact, ContactSums, Motion, Trial};
 use mesh::Padded;
@@ -27,6 +28,8 @@ pub struct Setup {
     /// Nodes that do not move in some directions. With mass-proportional damping such a direction
     /// must be one in which the body's rigid motion has no part.
     pub fixed: Vec<Fixed>,
+    /// Pairs of nodes of equal mass that move as one, ascending by the first: of contact the first decides.
+    pub paired: Vec<[u32; 2]>,
     /// Given forces; empty for none.
     pub load: Load,
     /// Nodes of the disk, whose rigid motion is the hub's.
@@ -82,6 +85,7 @@ pub struct Simulation {
     pub(crate) hub: Option<Hub>,
     pub(crate) quiet: QuietEnd,
     fixed: Vec<Fixed>,
+    paired: Vec<[u32; 2]>,
     load: Load,
     pub(crate) disk: std::ops::Range<usize>,
     pub(crate) inverse_mass: Vec<f64>,
@@ -108,6 +112,8 @@ impl Simulation {
         let mut velocity = setup.velocity;
         setup.held.iter().for_each(|&n| velocity[n as usize] = Padded::ZERO);
         Fixed::clear(&setup.fixed, &mut velocity);
+        paired::follow(&setup.paired, &mut velocity);
+        paired::follow(&setup.paired, &mut setup.displacement);
         setup.quiet.release(&setup.fixed);
         let n = inverse_mass.len();
         Self {
@@ -116,6 +122,7 @@ impl Simulation {
             hub: setup.hub,
             quiet: setup.quiet,
             fixed: setup.fixed,
+            paired: setup.paired,
             load: setup.load,
             disk: setup.disk,
             inverse_mass,
@@ -165,6 +172,7 @@ impl Simulation {
         Fixed::clear(&self.fixed, &mut self.force);
         self.load.apply(time, &mut self.force);
         let quiet = self.quiet.apply(&self.velocity, &self.inverse_mass, dt, &mut self.force);
+        paired::share(&self.paired, &mut self.force);
         let given_before = 0.5 * dt * self.load.power(time, &self.velocity);
         let bounded = Instant::now();
 
@@ -185,10 +193,13 @@ impl Simulation {
                     },
                     inverse_mass,
                 };
-                contact.apply(&motion, &trial, &mut self.force)
+                let sums = contact.apply(&motion, &trial, &mut self.force);
+                contact.follow_first(&self.paired);
+                sums
             }
             None => ContactSums::default(),
         };
+        paired::follow(&self.paired, &mut self.force);
         Fixed::clear(&self.fixed, &mut self.force);
         let load = self.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
         let contacted = Instant::now();

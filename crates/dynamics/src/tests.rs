@@ -32,6 +32,7 @@ fn body_of(
         quiet,
         held,
         fixed: Vec::new(),
+        paired: Vec::new(),
         load: Load::default(),
         disk: 0..0,
         mass,

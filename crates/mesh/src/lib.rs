@@ -20,6 +20,7 @@ mod padded;
 mod patch;
 mod quality;
 mod ring;
+mod slice;
 mod smooth;
 mod zone;
 
@@ -35,6 +36,7 @@ pub use layers::layers_below;
 pub use padded::Padded;
 pub use patch::seven_hex_patch;
 pub use quality::{Quality, quality};
+pub use slice::{NoSlice, across};
 pub use smooth::SmoothSurface;
 pub use zone::FineZone;
 

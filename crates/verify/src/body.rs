@@ -61,6 +61,7 @@ pub(crate) fn at_rest_with<'a>(
         quiet: QuietEnd::default(),
         held: Vec::new(),
         fixed: Vec::new(),
+        paired: Vec::new(),
         load: Load::default(),
         disk: 0..0,
         mass,

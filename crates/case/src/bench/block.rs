@@ -86,6 +86,7 @@ fn block(n: usize, element: BlockElement, level: Level) -> Result<Simulation, Ru
         quiet: QuietEnd::default(),
         held: Vec::new(),
         fixed: Vec::new(),
+        paired: Vec::new(),
         load: Load::default(),
         disk: 0..0,
         mass: solid::lumped_mass(&mesh, &[STEEL.density]),

@@ -1,0 +1,90 @@
+//! Slices: meshes one element wide in y, whose nodes face each other across it.
+
+use crate::{HEX_EDGES, Mesh};
+use thiserror::Error;
+
+/// Part of the distance between two nodes across by which they may differ along the slice: the last
+/// printed digit of a mesh file.
+const SLACK: f64 = 1e-6;
+
+/// An element with which a mesh is no slice.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error(
+    "element {element} at ({:.6}, {:.6}, {:.6}) m does not reach across the mesh with two like faces, as \
+     those of a slice one element wide do", centre[0], centre[1], centre[2]
+)]
+pub struct NoSlice {
+    /// Index in the mesh.
+    pub element: usize,
+    /// Mean of its corners (m).
+    pub centre: [f64; 3],
+}
+
+/// The pairs of nodes that face each other across a slice one element wide, ascending by the first of
+/// each, which lies at the smaller y.
+///
+/// # Errors
+/// The first element that has other than four nodes on either side, or whose nodes do not face each other.
+pub fn across(mesh: &Mesh) -> Result<Vec<[u32; 2]>, NoSlice> {
+    const NONE: u32 = u32::MAX;
+    let mut partner = vec![NONE; mesh.nodes.len()];
+    let mut pairs = Vec::with_capacity(mesh.nodes.len() / 2);
+    for (element, hex) in mesh.hexes.iter().enumerate() {
+        let corners = hex.map(|n| mesh.nodes[n as usize]);
+        let centre = [0, 1, 2].map(|i: usize| corners.iter().map(|x| x[i]).sum::<f64>() / 8.0);
+        let mut edges = 0;
+        for ends in HEX_EDGES {
+            let [mut a, mut b] = ends;
+            if (corners[a][1] < centre[1]) == (corners[b][1] < centre[1]) {
+                continue;
+            }
+            if corners[b][1] < corners[a][1] {
+                (a, b) = (b, a);
+            }
+            let [dx, dy, dz] = [0, 1, 2].map(|i| corners[b][i] - corners[a][i]);
+            let [first, second] = [hex[a], hex[b]];
+            let known = [partner[first as usize], partner[second as usize]];
+            let like = known == [NONE; 2] || known == [second, first];
+            if !like || dx.hypot(dz) > SLACK * dy {
+                return Err(NoSlice { element, centre });
+            }
+            if known == [NONE; 2] {
+                (partner[first as usize], partner[second as usize]) = (second, first);
+                pairs.push([first, second]);
+            }
+            edges += 1;
+        }
+        if edges != 4 {
+            return Err(NoSlice { element, centre });
+        }
+    }
+    pairs.sort_unstable();
+    Ok(pairs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{block, seven_hex_patch};
+
+    #[test]
+    fn every_node_of_a_block_one_element_wide_has_its_partner_across() {
+        let mesh = block([3, 1, 2], [3.0, 2.0, 2.0]);
+        let pairs = across(&mesh).unwrap();
+        assert_eq!(2 * pairs.len(), mesh.nodes.len());
+        for [a, b] in pairs {
+            let [a, b] = [a, b].map(|n| mesh.nodes[n as usize]);
+            assert_eq!((a[0], a[2], a[1] + 2.0), (b[0], b[2], b[1]));
+        }
+    }
+
+    #[test]
+    fn a_block_two_elements_wide_and_one_that_is_skewed_are_no_slices() {
+        let wide = block([3, 2, 2], [3.0, 2.0, 2.0]);
+        assert!(across(&wide).is_err());
+        let mut skewed = block([3, 1, 2], [3.0, 1.0, 2.0]);
+        skewed.nodes[5][0] += 1e-3;
+        assert!(across(&skewed).is_err());
+        assert!(across(&seven_hex_patch()).is_err());
+    }
+}
