@@ -29,6 +29,7 @@ pub mod ls_dyna;
 mod means;
 mod memory;
 mod mesh_file;
+mod mesh_mode;
 pub mod mesh_report;
 mod model;
 mod name;

@@ -1,5 +1,7 @@
 //! Means over the evaluation window.
 
+use crate::mesh_mode::MeshModeSums;
+
 /// Running mean and standard deviation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Mean {
@@ -60,11 +62,12 @@ pub(crate) struct Means {
     pub(crate) manifold: u64,
     /// Integrals of mortar rows, in all steps.
     pub(crate) integrated: u64,
+    pub(crate) mesh_mode: MeshModeSums,
 }
 
 impl Means {
     /// Numbers that they are made of.
-    pub(crate) const NUMBERS: usize = 3 * 16 + 5;
+    pub(crate) const NUMBERS: usize = 3 * 16 + 5 + MeshModeSums::NUMBERS;
 
     fn each(&mut self) -> [&mut Mean; 16] {
         let [tangential, lateral, normal] = &mut self.force;
@@ -94,13 +97,13 @@ impl Means {
         let means = copy.each().into_iter().flat_map(|m| [m.count, m.mean, m.squares]);
         let counts = [self.most_sweeps as f64, self.manifold as f64, self.integrated as f64];
         let rest = [self.worst_cone, self.worst_mismatch].into_iter().chain(counts);
-        means.chain(rest).collect()
+        means.chain(rest).chain(self.mesh_mode.numbers()).collect()
     }
 
     /// The reverse of [`Self::numbers`].
     pub(crate) fn from_numbers(numbers: &[f64; Self::NUMBERS]) -> Self {
         let mut means = Self::default();
-        let [samples @ .., cone, mismatch, sweeps, manifold, integrated] = *numbers;
+        let [samples @ .., cone, mismatch, sweeps, manifold, integrated, a, b, c, d, e] = *numbers;
         for (mean, &[count, value, squares]) in means.each().into_iter().zip(samples.as_chunks().0)
         {
             *mean = Mean { count, mean: value, squares };
@@ -108,6 +111,7 @@ impl Means {
         (means.worst_cone, means.worst_mismatch) = (cone, mismatch);
         (means.most_sweeps, means.manifold) = (sweeps as usize, manifold as u64);
         means.integrated = integrated as u64;
+        means.mesh_mode = MeshModeSums::from_numbers([a, b, c, d, e]);
         means
     }
 }

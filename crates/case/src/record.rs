@@ -2,6 +2,7 @@
 
 use crate::hertz::patch_shape;
 use crate::means::Means;
+use crate::mesh_mode::Watched;
 use crate::model::{BAR, DISK, Model, rows};
 use crate::probes::Probes;
 use crate::run_error::RunError;
@@ -9,7 +10,7 @@ use crate::schema::{Case, Window};
 use contact::NodalContact;
 use contact::patch::{self, PatchShape};
 use dynamics::{Hub, Simulation, StepReport};
-use mesh::{Face, Padded};
+use mesh::Padded;
 use output::{
     BackgroundWriter, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Kept, Provenance,
     Results, RunFiles, StaticField, TransientGrid, Values,
@@ -131,6 +132,7 @@ pub(crate) struct Recorder {
     speed: f64,
     hertz_pressure: f64,
     evaluate: [f64; 2],
+    mesh_mode: Watched,
     pub(crate) means: Means,
     pub(crate) wall: Duration,
 }
@@ -216,9 +218,13 @@ impl Recorder {
         let points = [DISK, BAR].map(|side| {
             tables[side].nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>()
         });
+        let hertz_pressure = basis.hertz_pressure;
+        let mesh_mode = Watched::new(case, model, &tables, contact.enforced_on(), hertz_pressure)?;
+        let surface =
+            ContactSurfaces { tables: &tables, points: &points, faces: mesh_mode.faces() };
         let files = RunFiles {
             fields: create_fields(case, model, basis)?,
-            contact: create_contact(case, model, &tables, &points, contact.enforced_on(), basis)?,
+            contact: create_contact(case, &surface, contact.enforced_on(), basis)?,
             history: basis.history(
                 "history.h5",
                 &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
@@ -255,8 +261,9 @@ impl Recorder {
             shape: patch_shape(case),
             effective_radius: basis.effective_radius,
             speed: case.drive.speed,
-            hertz_pressure: basis.hertz_pressure,
+            hertz_pressure,
             evaluate: case.evaluation_window(),
+            mesh_mode,
             means: Means::default(),
             wall: Duration::ZERO,
         })
@@ -371,6 +378,14 @@ impl Recorder {
                 }
             }
             self.write_contact(report.time)?;
+        }
+        if reads && inside {
+            self.mesh_mode.slip(&self.zones.tables, &mut self.means.mesh_mode);
+        }
+        if inside {
+            let (solid, displacement) = (simulation.solid(), simulation.displacement());
+            let step = [report.time, simulation.dt()];
+            self.mesh_mode.energy(step, solid, displacement, &mut self.means.mesh_mode);
         }
         if reads {
             let e = report.energies.unwrap_or_default();
@@ -593,11 +608,17 @@ fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<Transi
     basis.grid("fields.vtkhdf", &grid, &specs, &basis.provenance, |results| &results.fields)
 }
 
+/// The recorded surfaces of both bodies.
+struct ContactSurfaces<'a> {
+    tables: &'a [NodalContact; 2],
+    points: &'a [Vec<[f64; 3]>; 2],
+    /// Faces by the nodes of the tables.
+    faces: &'a [Vec<[u32; 4]>; 2],
+}
+
 fn create_contact(
     case: &Case,
-    model: &Model,
-    tables: &[NodalContact; 2],
-    points: &[Vec<[f64; 3]>; 2],
+    &ContactSurfaces { tables, points, faces }: &ContactSurfaces<'_>,
     enforced_on: Option<usize>,
     basis: &Basis<'_>,
 ) -> Result<TransientGrid, RunError> {
@@ -611,21 +632,11 @@ fn create_contact(
         };
         provenance.attributes.push((CONTACT_ROWS.into(), rows.into()));
     }
-    let mut quads = Vec::new();
-    let mut offset = 0;
-    for side in [DISK, BAR] {
-        let row = |n: &u32| tables[side].nodes.binary_search(n).map(|r| (r + offset) as u32);
-        for Face { nodes, .. } in &model.zones[side] {
-            let mut quad = [0; 4];
-            for (q, n) in quad.iter_mut().zip(nodes) {
-                *q = row(n).map_err(|_| RunError::NoContact)?;
-            }
-            quads.push(quad);
-        }
-        offset += tables[side].nodes.len();
-    }
+    let offset = tables[DISK].nodes.len() as u32;
+    let bar = faces[BAR].iter().map(|face| face.map(|node| node + offset));
+    let quads: Vec<_> = faces[DISK].iter().copied().chain(bar).collect();
     let area = [&tables[DISK].area[..], &tables[BAR].area].concat();
-    let body = labels(&[model.zones[DISK].len(), model.zones[BAR].len()]);
+    let body = labels(&[faces[DISK].len(), faces[BAR].len()]);
     let grid = GridSpec {
         points: &points.concat(),
         cells: Cells::Quads(&quads),

@@ -316,6 +316,9 @@ fn run_in_pool(
         output: output_wall,
         keeping,
     };
+    for warning in ending.means.mesh_mode.warnings(case) {
+        log.warn(&warning)?;
+    }
     let summary = summary(case, &simulation, &facts, &hertz, &ending);
     held.prove()?;
     let document = write_summary(&options.out, &summary)?;

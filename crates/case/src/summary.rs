@@ -108,6 +108,7 @@ pub(crate) fn summary(
         ("rolling_radius", json!(facts.radius)),
         ("half_space", half_space),
         ("window", window(case, means)),
+        ("mesh_mode", means.mesh_mode.json(case)),
         ("checks", checks),
         ("exact_contact", json!(exact)),
         ("time_loop_bytes_per_element", json!(simulation.bytes() as f64 / elements)),

@@ -14,6 +14,7 @@ mod face;
 mod friction;
 mod gap;
 mod local;
+pub mod mesh_mode;
 mod mortar;
 mod nodal;
 mod pair;

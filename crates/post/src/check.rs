@@ -1,6 +1,7 @@
 //! The check of a run: every measure on every view of the interface, in one pass over its records.
 
 mod document;
+mod mesh_mode;
 mod pass;
 mod scales;
 
@@ -99,7 +100,9 @@ pub fn check(
             ),
         });
     }
-    let patch = Sources::of(paths, basis, &window)?.patch(&pass.patch, &weights);
-    let (document, holds) = pass.document(basis, options, &window, patch);
+    let sources = Sources::of(paths, basis, &window)?;
+    let patch = sources.patch(&pass.patch, &weights);
+    let mesh_mode = mesh_mode::document(&pass.mesh_mode, sources.summary(), basis);
+    let (document, holds) = pass.document(basis, options, &window, patch, mesh_mode);
     Ok(Checked { document, pass: holds, patch: pass.patch })
 }

@@ -69,6 +69,11 @@ impl<'a> Sources<'a> {
         Ok(Self { summary, history })
     }
 
+    /// The run's summary, where it is of this window.
+    pub fn summary(&self) -> Option<&'a Value> {
+        self.summary
+    }
+
     /// Mean of a measure of the patch or of the creepage, where the run itself holds one.
     pub fn mean(&self, measure: &str) -> Option<f64> {
         self.of_run(measure)?.mean.map(|[mean, _]| mean)

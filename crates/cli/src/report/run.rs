@@ -114,6 +114,7 @@ fn contact(out: &mut String, summary: &Value) {
         share("/contact/stick_fraction"),
         share("/contact/slip_fraction")
     );
+    mesh_mode(out, summary);
     if at("/half_space/peak_pressure").is_some() {
         // only a run with exact enforcement, which has no springs, counts what that takes
         let exact = summary.get("exact_contact").is_some_and(Value::is_object);
@@ -123,6 +124,27 @@ fn contact(out: &mut String, summary: &Value) {
             "  half-space: Hertz; {springs}coarse elements make the patch larger and the pressure \
              lower"
         );
+    }
+}
+
+/// How much of the slip and of the elements' strain is a mode of the mesh.
+fn mesh_mode(out: &mut String, summary: &Value) {
+    let at = |key: &str| number(summary, &format!("/mesh_mode/{key}"));
+    if let Some(slip) = at("alternating_slip") {
+        let energy = at("hourglass_energy_in_layers");
+        let energy = energy.map(|part| {
+            let part = digits(Some(100.0 * part), 2);
+            format!("; hourglass energy below the contact {part} % of strain energy")
+        });
+        let _ = writeln!(
+            out,
+            "  {slip:.2} of the slip alternates from node to node{}",
+            energy.unwrap_or_default()
+        );
+    }
+    let warnings = summary.pointer("/mesh_mode/warnings").and_then(Value::as_array);
+    for warning in warnings.into_iter().flatten().filter_map(Value::as_str) {
+        let _ = writeln!(out, "  warning: {warning}");
     }
 }
 

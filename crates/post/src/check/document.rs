@@ -13,13 +13,14 @@ use crate::window::Window;
 use serde_json::{Map, Value, json};
 
 impl Pass<'_> {
-    /// The document with the means of the patch, and whether every limit holds.
+    /// The document with the means of the patch and what shows a mode of the mesh, and whether every limit holds.
     pub fn document(
         &self,
         basis: &Basis,
         options: &CheckOptions<'_>,
         window: &Window,
         patch: Value,
+        mesh_mode: Value,
     ) -> (Value, bool) {
         let (own, stated) = self.history.pairing;
         let times = &self.history.times;
@@ -49,6 +50,8 @@ impl Pass<'_> {
             .max()
             .unwrap_or(0);
         notes.extend(self.gaps(crossed));
+        let warnings = mesh_mode["warnings"].as_array().into_iter().flatten();
+        notes.extend(warnings.filter_map(Value::as_str).map(str::to_owned));
         let scales = SCALES.iter().filter_map(|(name, units, about)| {
             let scale = basis.scales.get(name)?;
             let entry = json!({ "value": scale.value, "units": units, "about": about,
@@ -83,6 +86,7 @@ impl Pass<'_> {
                 "law_error": LAW_TOLERANCE, "direction": DIRECTION_TOLERANCE,
             },
             "patch": patch,
+            "mesh_mode": mesh_mode,
             "notes": notes,
         });
         (document, pass)

@@ -9,6 +9,7 @@ use crate::patch_series::{self, PatchRow};
 use crate::surface::{Surface, body_name};
 use crate::tally::{SideTally, Tally};
 use crate::vector::{Vec3, norm};
+use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
 
 /// A part of the interface on which the tangential conditions are judged.
@@ -57,6 +58,9 @@ pub(super) struct Pass<'a> {
     pub patch: Vec<PatchRow>,
     pub node_times: usize,
     pub without_foot: usize,
+    /// Slip over the faces in contact, where the conditions are enforced.
+    pub mesh_mode: MeshMode,
+    judged_faces: Vec<[u32; 4]>,
     shape: PatchShape,
     pair: Option<Pair>,
     previous: Option<Record>,
@@ -90,6 +94,8 @@ impl<'a> Pass<'a> {
             patch: Vec::new(),
             node_times: 0,
             without_foot: 0,
+            mesh_mode: MeshMode::default(),
+            judged_faces: judged_faces(history),
             shape: basis.shape,
             pair,
             previous: None,
@@ -116,6 +122,7 @@ impl<'a> Pass<'a> {
         let (pairs, views): (Vec<&mut Channel>, Vec<&mut Channel>) =
             self.channels.iter_mut().partition(|channel| channel.view == View::Pair);
         let (sides, patch) = (&mut self.sides, &mut self.patch);
+        let (mesh_mode, faces) = (&mut self.mesh_mode, &self.judged_faces[..]);
         // The motion of the pair is worked out beside the rest and what hangs on it comes after.
         let mut slips = Vec::new();
         let (motion, lost) = (&mut self.pair, &mut self.without_foot);
@@ -136,6 +143,11 @@ impl<'a> Pass<'a> {
                     }
                 });
             }
+            scope.spawn(|_| {
+                for Record { frame, weight, contact, .. } in &records[first..] {
+                    mesh_mode.add(*weight, faces, &frame.slip_velocity, |node| contact[node]);
+                }
+            });
             scope.spawn(|_| {
                 let body = surface.bodies().last().copied().unwrap_or(0);
                 let p0 = scales.peak_pressure;
@@ -253,6 +265,14 @@ fn pair_slips(
         slips
     };
     (first..records.len()).map(of_record).collect()
+}
+
+/// The faces of the body at whose nodes the conditions are enforced; of both where that is stated of none.
+fn judged_faces(history: &ContactHistory) -> Vec<[u32; 4]> {
+    let surface = &history.surface;
+    let judged = |body: u8| history.enforced_on.is_none_or(|on| on == body);
+    let faces = surface.faces.iter().zip(&surface.face_body);
+    faces.filter(|(_, body)| judged(**body)).map(|(face, _)| *face).collect()
 }
 
 /// The body with the smaller nodal area, the first of equals: its nodes follow the other's faces.
