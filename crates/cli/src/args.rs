@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use crate::check::CheckArgs;
+use crate::compare::CompareArgs;
 use crate::embedded::{Embedded, Told};
 use crate::import_contact::ImportArgs;
 use crate::import_k::ImportKArgs;
@@ -108,6 +109,12 @@ pub enum Command {
         case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
         docs/checks.md.")]
     Check(CheckArgs),
+    /// Compare runs: slip and shear over place and time, means, statistics, growth of a disturbance
+    #[command(
+        after_help = "Examples:\n  creepage compare runs/coarse runs/fine\n  creepage compare \
+        runs/space-memory/runs/* --plot memory.png\n\nWhat the numbers are: docs/checks.md."
+    )]
+    Compare(CompareArgs),
     /// Draw the figures of a run (those of the papers, histories, slip over space and time, spectra)
     /// or of a sweep (measures over its axes, profiles, maps)
     #[command(

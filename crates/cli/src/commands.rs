@@ -76,6 +76,7 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         Command::Run(options) => run(args, options),
         Command::Mesh(options) => mesh(args, options),
         Command::Check(options) => crate::check::command(args, options),
+        Command::Compare(options) => crate::compare::command(args, options),
         Command::Plot(options) => crate::plot::command(args, options),
         Command::Report(options) => crate::report_page::command(args, options),
         Command::Sweep(options) => crate::sweep::command(args, options),

@@ -6,6 +6,7 @@
 mod args;
 mod check;
 mod commands;
+mod compare;
 mod convergence_plot;
 mod embedded;
 mod import_contact;

@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod compare;
 mod layout;
 mod mesh;
 mod run;
@@ -32,6 +33,11 @@ pub fn print_mesh(report: &Value) {
 /// Prints what `creepage check` found.
 pub fn print_check(document: &Value) {
     print(&check::text(document));
+}
+
+/// Prints how far runs differ.
+pub fn print_compare(document: &Value) {
+    print(&compare::text(document));
 }
 
 /// Prints the runs of a sweep.

@@ -131,6 +131,13 @@ impl Basis {
         Ok(basis)
     }
 
+    /// The first of the spans (s) that the case records by themselves, `[[output.window]]`.
+    pub(crate) fn recorded_window(&self) -> Option<[f64; 2]> {
+        let window = self.case.as_ref()?.get("output")?.get("window")?.get(0)?;
+        let end = |key: &str| window.get(key).and_then(toml::Value::as_float);
+        Some([end("from")?, end("to")?])
+    }
+
     /// The value of a scale.
     pub fn scale(&self, name: &str) -> Option<f64> {
         self.scales.get(name).map(|scale| scale.value)

@@ -174,19 +174,7 @@ impl Scene<'_> {
 
     /// Rows of a body's nodes nearest y = 0, by their reference x.
     pub fn centreline(&self, body: u8) -> Vec<usize> {
-        let surface = &self.history.surface;
-        let of_body = |&row: &usize| surface.body[row] == body;
-        let off = |row: usize| surface.points[row][1].abs();
-        let rows = (0..surface.points.len()).filter(of_body);
-        let least = rows.clone().map(off).fold(f64::INFINITY, f64::min);
-        let mut rows: Vec<usize> =
-            rows.filter(|&row| off(row) <= least + 0.1 * self.scales.size).collect();
-        rows.sort_by(|a, b| surface.points[*a][0].total_cmp(&surface.points[*b][0]));
-        // Where least is not zero there may be a line on each side: one of them is drawn.
-        rows.dedup_by(|a, b| {
-            (surface.points[*a][0] - surface.points[*b][0]).abs() < 0.1 * self.scales.size
-        });
-        rows
+        self.history.surface.centreline(body, self.scales.size)
     }
 
     /// Half of what is drawn along x (m).

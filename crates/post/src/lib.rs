@@ -13,6 +13,7 @@
 
 mod basis;
 mod check;
+mod compare;
 mod conditions;
 mod error;
 mod figures;
@@ -36,6 +37,7 @@ mod window;
 
 pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
 pub use check::{CheckOptions, Checked, Report, check};
+pub use compare::{Compared, Comparison, compare};
 pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
 pub use error::PostError;
 pub use figures::{Named, figures};

@@ -70,6 +70,20 @@ impl Surface {
         Ok(Self { points, faces, face_body, body, area })
     }
 
+    /// Rows of a body's nodes nearest y = 0, by their reference x; `size` is an element's edge (m).
+    pub(crate) fn centreline(&self, body: u8, size: f64) -> Vec<usize> {
+        let of_body = |&row: &usize| self.body[row] == body;
+        let off = |row: usize| self.points[row][1].abs();
+        let rows = (0..self.points.len()).filter(of_body);
+        let least = rows.clone().map(off).fold(f64::INFINITY, f64::min);
+        let mut rows: Vec<usize> = rows.filter(|&row| off(row) <= least + 0.1 * size).collect();
+        let x = |row: usize| self.points[row][0];
+        rows.sort_by(|a, b| x(*a).total_cmp(&x(*b)));
+        // where least is not zero there may be a line on each side: one of them is taken
+        rows.dedup_by(|a, b| (x(*a) - x(*b)).abs() < 0.1 * size);
+        rows
+    }
+
     /// Labels of the bodies, sorted.
     pub fn bodies(&self) -> Vec<u8> {
         let mut labels: Vec<u8> = self.face_body.clone();

@@ -1,0 +1,66 @@
+//! `creepage compare`.
+
+use std::path::{Path, PathBuf};
+
+use figure::Format;
+use miette::miette;
+use post::{Compared, Depth, PostError};
+use serde_json::json;
+
+use crate::args::Args;
+use crate::check::{BasisArgs, basis, window};
+use crate::commands::{BAD_INPUT, Failure};
+use crate::report;
+
+/// Options of `compare`.
+#[derive(Debug, clap::Args)]
+pub struct CompareArgs {
+    /// Folders of two runs or more; each is compared with the one before it
+    #[arg(value_name = "RUN", num_args = 2.., required = true)]
+    runs: Vec<PathBuf>,
+    /// Compare from T0 to T1 seconds [default: the first [[output.window]] of the first run, else its evaluation
+    /// window]
+    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
+    window: Option<[f64; 2]>,
+    /// Draw the slip along the centre line: mean in time and one standard deviation
+    #[arg(long, value_name = "FILE.svg|FILE.png", value_parser = figure_file)]
+    plot: Option<PathBuf>,
+    #[command(flatten)]
+    basis: BasisArgs,
+}
+
+/// Runs the command.
+pub fn command(args: &Args, options: &CompareArgs) -> Result<u8, Failure> {
+    let mut runs = Vec::new();
+    for run in &options.runs {
+        let (paths, basis) = basis(run, &options.basis, Depth::Read)?;
+        runs.push(Compared { paths, basis });
+    }
+    let found = post::compare(&mut runs, options.window)?;
+    let mut document = found.document;
+    if let Some(plot) = &options.plot {
+        let (folder, stem, format) = parts(plot)
+            .ok_or_else(|| Failure { report: miette!("--plot: no file"), code: BAD_INPUT })?;
+        let path = found.figure.write_as(folder, stem, format).map_err(PostError::from)?;
+        document["figure"] = json!(path);
+    }
+    if args.json {
+        args.print_json(&document);
+    } else if !args.quiet {
+        report::print_compare(&document);
+    }
+    Ok(0)
+}
+
+fn figure_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let refused = "the file's name must end in .svg or .png";
+    parts(&path).map(|_| path.clone()).ok_or_else(|| refused.to_owned())
+}
+
+/// Folder, name without its ending, and kind of a figure's file.
+fn parts(path: &Path) -> Option<(&Path, &str, Format)> {
+    let ending = path.extension()?.to_str()?;
+    let format = [Format::Svg, Format::Png].into_iter().find(|f| f.extension() == ending)?;
+    Some((path.parent()?, path.file_stem()?.to_str()?, format))
+}
