@@ -40,7 +40,7 @@ impl Limit {
 }
 
 /// All measures, in the order of tables.
-pub const MEASURES: [Measure; 16] = [
+pub const MEASURES: [Measure; 17] = [
     measure("penetration", "1", "max", "penetration over Hertz's approach", most(1e-3), None),
     measure("tension", "1", "max", "tension over p0", most(0.0), most(0.0)),
     measure("complementarity", "1", "max", "|gap| p_n/(delta p0)", most(1e-3), None),
@@ -78,6 +78,7 @@ pub const MEASURES: [Measure; 16] = [
     ),
     measure("law_scatter", "1", "rms", "distance from the law's graph", most(1e-8), None),
     measure("switching_rate", "1", "rate", "stick-slip switches per h/c_s", None, None),
+    measure("mesh_mode", "1", "rms", "slip that alternates from node to node", None, None),
 ];
 
 const fn most(value: f64) -> Option<Limit> {

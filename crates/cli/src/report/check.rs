@@ -59,7 +59,6 @@ pub fn text(document: &Value) -> String {
         let _ = writeln!(out, "{}", line.trim_end());
     }
     patch(&mut out, document);
-    mesh_mode(&mut out, document);
     let notes = document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str);
     for note in notes {
         let _ = writeln!(out, "note: {note}");
@@ -68,18 +67,6 @@ pub fn text(document: &Value) -> String {
     let word = if pass { "every limit holds" } else { "NOT every limit holds" };
     let _ = writeln!(out, "\n{word}");
     out
-}
-
-/// How much of the slip is a mode of the mesh.
-fn mesh_mode(out: &mut String, document: &Value) {
-    let at = |key: &str| number(document, &format!("/mesh_mode/{key}"));
-    let Some(slip) = at("alternating_slip") else { return };
-    let energy = at("hourglass_energy_in_layers").map(|part| {
-        let part = digits(Some(100.0 * part), 2);
-        format!("; hourglass energy below the contact {part} % of strain energy")
-    });
-    let energy = energy.unwrap_or_default();
-    let _ = writeln!(out, "\n  {slip:.2} of the slip alternates from node to node{energy}");
 }
 
 fn unit(units: Option<&str>) -> &str {

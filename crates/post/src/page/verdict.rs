@@ -56,6 +56,12 @@ pub(super) fn verdict(name: &str, metric: &Value) -> String {
         "wrong_direction" => {
             format!("On {} of the slipping area and time shear drives the slip.", percent(value))
         }
+        "mesh_mode" => format!(
+            "{} of the slip alternates from node to node; beyond {} it is a mode of the mesh, or slip that the \
+             mesh does not resolve.",
+            percent(value),
+            percent(contact::mesh_mode::MESH_MODE_LIMIT)
+        ),
         "dissipation" => format!(
             "{} of the power exchanged in slip has the wrong sign: friction gives energy instead of \
              taking it.",
