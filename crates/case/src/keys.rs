@@ -339,6 +339,8 @@ pub const KEYS: &[Key] = &[
         "-",
         "give a whole number: 100 (static), 40000 (relaxation)",
     ),
+    key("preload.disturbance", Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9"),
+    key("preload.seed", Count(0, 1_000_000), "-", "give a whole number"),
     key(
         "time.factor",
         Number(over(0.0, 2.0)),

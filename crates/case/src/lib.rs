@@ -12,6 +12,7 @@ mod check;
 mod checkpoint;
 pub mod derived;
 mod disk;
+mod disturbance;
 pub mod error;
 mod excerpt;
 pub mod folder;

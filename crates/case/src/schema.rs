@@ -307,6 +307,21 @@ pub struct Preload {
     /// `"static"`, 40000 with `"relaxation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_iterations: Option<u64>,
+    /// Disturbance of the preload's displacement (dimensionless): that of every free node is multiplied by
+    /// 1 + r disturbance in each direction, r drawn from -1 to 1. Two runs that differ in it alone show how
+    /// fast small differences grow. At most 1e-3; default none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disturbance: Option<f64>,
+    /// What the draws of `disturbance` begin with. Default 1 with it, refused without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+}
+
+impl Preload {
+    /// The preload before it is disturbed.
+    pub(crate) fn undisturbed(&self) -> Self {
+        Self { disturbance: None, seed: None, ..self.clone() }
+    }
 }
 
 /// The preload methods.

@@ -236,6 +236,18 @@ fn check_choices(case: &Case, found: &mut Findings) {
     );
     let preloaded = case.preload.method != PreloadMethod::None;
     found.require(
+        case.preload.disturbance.is_none() || preloaded,
+        &["preload.disturbance"],
+        || "preload.disturbance disturbs a preload, but there is none".into(),
+        "set preload.method = \"static\", or leave preload.disturbance out",
+    );
+    found.require(
+        case.preload.seed.is_none() || case.preload.disturbance.is_some(),
+        &["preload.seed"],
+        || "preload.seed is the seed of preload.disturbance, which is not given".into(),
+        "give preload.disturbance, such as 1e-9, or leave preload.seed out",
+    );
+    found.require(
         case.disk.lift == 0.0 || !preloaded,
         &["disk.lift"],
         || {

@@ -1,5 +1,6 @@
 //! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
 
+use crate::disturbance::disturb;
 use crate::guards::limits;
 use crate::model::{BAR, DISK, Model};
 use crate::numbers::{Numbers, numbers};
@@ -136,6 +137,7 @@ fn settle(
         let mut contact = model.contact(case, scale)?;
         preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)
     })?;
+    disturb(case, model, &mut preloaded.displacement);
     for &[first, second] in &model.paired {
         // alike to the preload's tolerance until now
         preloaded.displacement[second as usize] = preloaded.displacement[first as usize];

@@ -5,6 +5,7 @@
 //! as child processes of this program, and [`collect::collect`] gathers the results.
 
 pub mod collect;
+mod ensemble;
 pub mod file;
 pub mod plan;
 pub mod points;

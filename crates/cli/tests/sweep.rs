@@ -87,6 +87,13 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
         (after_axis("linear = { from = 0.1, to = 1.0 }"), &["sweep.toml:5", "n is missing"]),
         (after_axis(""), &["sweep.toml:4", "one of values, log and linear"]),
         ("base = \"base.toml\"\n".into(), &["sweep.toml", "no axis"]),
+        (after_axis("values = [0.1]\n[ensemble]\nmembers = 1"), &["sweep.toml:7", "from 2 to"]),
+        (after_axis("values = [0.1]\n[ensemble]\nseed = 3"), &["sweep.toml:6", "ensemble.members"]),
+        (after_axis("values = [0.1]\n[ensemble]\nmember = 8"), &["sweep.toml:7", "`members`"]),
+        (
+            format!("mode = \"zip\"\n{AXIS}values = [0.1]\n[ensemble]\nmembers = 8\n"),
+            &["sweep.toml:7", "repeats every point"],
+        ),
         (
             AXIS.replace("friction.static", "friction.statik") + "values = [0.1]\n",
             &["sweep.toml:4", "unknown key friction.statik", "did you mean `static`"],
@@ -127,6 +134,44 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
         refused(&place, &["--out", "out"], words);
         assert!(!place.path("out").exists(), "{text}");
     }
+}
+
+#[test]
+fn the_members_of_an_ensemble_differ_and_their_point_has_an_interval() {
+    let place = Place::new(&format!(
+        "{AXIS}values = [0.2, 0.3]\n[ensemble]\nmembers = 3\n[set]\ncontact.enforcement = \"exact\"\n"
+    ));
+    let output = place.sweep(&["--out", "here"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let results = place.results("here");
+    let at = |value: &Value, pointer: &str| value.pointer(pointer).unwrap().as_f64().unwrap();
+    let runs = results["runs"].as_array().unwrap();
+    let seeds: Vec<f64> = runs.iter().map(|run| at(run, "/parameters/preload.seed")).collect();
+    assert_eq!(seeds, [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+    let traction = "/summary/contact/traction_coefficient";
+    let of = |run: usize| at(&runs[run], traction);
+    assert!(of(0) != of(1) && of(1) != of(2), "the members are one run");
+    // smooth friction, early on: as close as the disturbance of 1e-9 is small
+    assert!((of(0) / of(1) - 1.0).abs() < 1e-5, "{} {}", of(0), of(1));
+    let points = results["points"].as_array().unwrap();
+    assert_eq!(points.len(), 2);
+    assert_eq!(points[0]["parameters"], serde_json::json!({ "friction.static": 0.2 }));
+    let mean = (of(0) + of(1) + of(2)) / 3.0;
+    assert!((at(&points[0], traction) - mean).abs() < 1e-15);
+    let half = at(&points[0], "/summary/window/deviation/traction_coefficient");
+    assert!(half > 0.0 && half < 1e-5 * mean, "{half}");
+    let table = fs::read_to_string(place.path("here/sweep.csv")).unwrap();
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| lines[0].iter().position(|heading| *heading == name).unwrap();
+    assert_eq!(
+        (lines.len(), lines[7][0], lines[8][column("status")]),
+        (9, "mean of 3", "ensemble")
+    );
+    assert_eq!(lines[7][column("traction_coefficient_ci95")].parse::<f64>().unwrap(), half);
+    assert_eq!(
+        (lines[1][column("traction_coefficient_ci95")], lines[7][column("torque_sd")]),
+        ("", "")
+    );
 }
 
 #[test]

@@ -24,9 +24,12 @@ pub(crate) use measures::{MEASURES, Point, SweepMeasure};
 pub(crate) struct Sweep<'a> {
     /// Its folder.
     pub folder: PathBuf,
-    /// Keys of the axes.
+    /// Keys of the axes, that of the members of an ensemble left out.
     pub axes: Vec<&'a str>,
+    /// The runs, of a sweep with an ensemble its points: means over their members.
     pub runs: Vec<Run<'a>>,
+    /// Whether the runs are points of an ensemble.
+    pub ensemble: bool,
 }
 
 /// A run of a sweep.
@@ -56,10 +59,17 @@ impl<'a> Sweep<'a> {
         };
         let axes = document["parameters"].as_array().ok_or_else(|| lacks("parameters"))?;
         let runs = document["runs"].as_array().ok_or_else(|| lacks("runs"))?;
+        let members = document["ensemble"].as_str();
+        let points = document["points"].as_array().filter(|_| members.is_some());
         Ok(Self {
             folder: folder.into(),
-            axes: axes.iter().filter_map(Value::as_str).collect(),
-            runs: runs.iter().map(|entry| Run { entry }).collect(),
+            axes: axes
+                .iter()
+                .filter_map(Value::as_str)
+                .filter(|axis| Some(*axis) != members || points.is_none())
+                .collect(),
+            runs: points.unwrap_or(runs).iter().map(|entry| Run { entry }).collect(),
+            ensemble: points.is_some(),
         })
     }
 

@@ -68,7 +68,7 @@ pub(crate) fn key(case: &Case, kernels: &str) -> String {
         "rows": case.contact.rows,
         "curvature": case.contact.curvature,
         "normal": penalty.normal,
-        "preload": case.preload,
+        "preload": case.preload.undisturbed(),
         // relaxation takes its fictitious masses from both springs
         "relaxation": relaxation.then_some((penalty, &case.damping)),
         // springs that are a fraction of the stability limit follow the step

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
 use super::points::Point;
-use super::table;
+use super::{ensemble, table};
 
 /// Fields of a run's summary that the clock, the memory and the number of threads put in, and sums that
 /// depend on these (files name the time of their making). All
@@ -58,6 +58,7 @@ pub(crate) fn collect_with(
         plan.runs.iter().map(|run| entry(plan, run, elsewhere, failures)).collect();
     let mut document = plan.document.clone();
     document["runs"] = json!(runs);
+    document["points"] = json!(ensemble::points(&document));
     document["not_repeated"] = json!(NOT_REPEATED);
     table::write(&plan.folder.join(RESULTS[1]), &document)?;
     output::write_json_atomically(plan.folder.join(RESULTS[0]), &document)?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use super::ensemble;
 use crate::check::{self, raise};
 use crate::error::{CaseError, KeyError};
 use crate::keys::{self, Form, Key};
@@ -17,8 +18,9 @@ const MOST_POINTS: i64 = 1000;
 const NO_AXIS: [&str; 3] = ["name", "title", "extends"];
 
 /// Keys of the sweep file by section; `[]` stands for the index in an array of tables.
-const TOP: [&str; 7] = ["name", "title", "base", "mode", "set", "axis", "derive"];
+const TOP: [&str; 8] = ["name", "title", "base", "mode", "set", "axis", "derive", "ensemble"];
 const AXIS: [&str; 4] = ["key", "values", "log", "linear"];
+const ENSEMBLE: [&str; 2] = ["members", "seed"];
 const SPAN: [&str; 3] = ["from", "to", "n"];
 const DERIVE: [&str; 5] = ["key", "rule", "from", "factor", "power"];
 
@@ -103,6 +105,8 @@ pub struct Sweep {
     pub step: Option<StepRule>,
     /// Keys that follow an axis.
     pub follows: Vec<Follow>,
+    /// Whether the last axis is that of the members of an ensemble.
+    pub ensemble: bool,
     pub(crate) layers: Layers,
 }
 
@@ -185,11 +189,17 @@ impl Sweep {
     fn given(&self) -> Vec<(String, &str)> {
         let sets = self.sets.iter().map(|(key, _)| (join("set", key), key.as_str()));
         let axes = self.axes.iter().enumerate();
-        let axes = axes.map(|(i, axis)| (format!("axis[{i}].key"), axis.key.as_str()));
+        let axes = axes.map(|(i, axis)| (self.axis_place(i), axis.key.as_str()));
         let follows = self.follows.iter();
         let follows =
             follows.map(|f| (format!("derive[{}].key", self.derive_of(&f.key)), f.key.as_str()));
         sets.chain(axes).chain(follows).collect()
+    }
+
+    /// Where the file gives axis `i`.
+    pub(crate) fn axis_place(&self, i: usize) -> String {
+        let members = self.ensemble && i + 1 == self.axes.len();
+        if members { "ensemble.members".into() } else { format!("axis[{i}].key") }
     }
 
     fn derive_of(&self, key: &str) -> usize {
@@ -203,7 +213,7 @@ impl Sweep {
         if let Some(i) = self.axes.iter().position(|axis| axis.key == key) {
             let value = format!("axis[{i}].values[{}]", indices[i]);
             let written = self.layers.origins.contains_key(&value);
-            return Some(if written { value } else { format!("axis[{i}].key") });
+            return Some(if written { value } else { self.axis_place(i) });
         }
         // A key in a list of sections is told where the list is given.
         let list = key.split('[').next().unwrap_or(key);
@@ -217,7 +227,8 @@ impl Sweep {
 
 /// Whether a key reaches the highest frequency of the preloaded bodies.
 fn moves_the_limit(key: &str) -> bool {
-    const UNMOVED: [&str; 4] = ["friction.", "output.", "evaluate.", "time."];
+    const UNMOVED: [&str; 6] =
+        ["friction.", "output.", "evaluate.", "time.", "preload.disturbance", "preload.seed"];
     let drive = key.starts_with("drive.") && key != "drive.speed";
     !drive && !UNMOVED.iter().any(|section| key.starts_with(section))
 }
@@ -259,19 +270,28 @@ impl Reading<'_> {
             Some(other) => self.not_a_section("set", other),
             None => {}
         }
-        let axes: Vec<Axis> = self
+        let mut axes: Vec<Axis> = self
             .list(table, "axis")
             .into_iter()
             .enumerate()
             .filter_map(|(i, axis)| self.axis(&format!("axis[{i}]"), axis))
             .collect();
-        if !table.contains_key("axis") {
-            let remedy = "add [[axis]] with key = \"...\" and values = [...]";
+        if !table.contains_key("axis") && !table.contains_key("ensemble") {
+            let remedy = "add [[axis]] with key = \"...\" and values = [...], or [ensemble]";
             self.refuse("axis", "there is no axis: the sweep would vary nothing", remedy);
         }
         let (mut step, mut follows) = (None, Vec::new());
         for (i, derive) in self.list(table, "derive").into_iter().enumerate() {
             self.derive(&format!("derive[{i}]"), derive, &axes, &mut step, &mut follows);
+        }
+        let members = self.ensemble(table, mode);
+        let ensemble = members.is_some();
+        if let Some(members) = members {
+            axes.push(members);
+            if !sets.iter().any(|(key, _)| key == ensemble::DISTURBANCE.0) {
+                let (key, size) = ensemble::DISTURBANCE;
+                sets.push((key.into(), Value::Float(size)));
+            }
         }
         Sweep {
             name,
@@ -283,6 +303,7 @@ impl Reading<'_> {
             axes,
             step,
             follows,
+            ensemble,
             layers: Layers::default(),
         }
     }
@@ -365,6 +386,46 @@ impl Reading<'_> {
                 }
             }
         }
+    }
+
+    /// The axis of an ensemble's members: their seeds.
+    fn ensemble(&mut self, table: &Table, mode: Mode) -> Option<Axis> {
+        let section = match table.get("ensemble")? {
+            Value::Table(section) => section,
+            other => {
+                self.not_a_section("ensemble", other);
+                return None;
+            }
+        };
+        self.known("ensemble", section, &ENSEMBLE);
+        if mode == Mode::Zip {
+            let message =
+                "an ensemble repeats every point, but mode = \"zip\" takes values together";
+            self.refuse("ensemble", message, "use mode = \"grid\"");
+        }
+        let mut whole = |name: &str, default: Option<i64>, low: i64| {
+            let at = join("ensemble", name);
+            match (section.get(name), default) {
+                (Some(Value::Integer(n)), _) if (low..=MOST_POINTS).contains(n) => Some(*n),
+                (None, Some(default)) => Some(default),
+                (found, _) => {
+                    let shown = found.map_or("nothing".into(), check::show);
+                    let message = format!(
+                        "{at} = {shown} must be a whole number from {low} to {MOST_POINTS}"
+                    );
+                    self.refuse(
+                        if found.is_some() { &at } else { "ensemble" },
+                        &message,
+                        "members = 8",
+                    );
+                    None
+                }
+            }
+        };
+        let (members, seed) = (whole("members", None, 2), whole("seed", Some(1), 0));
+        let (members, seed) = (members?, seed?);
+        let values = (seed..seed + members).map(Value::Integer).collect();
+        Some(Axis { key: ensemble::AXIS.into(), values })
     }
 
     fn allowed(&mut self, at: &str, key: &Key, value: &Value) -> bool {

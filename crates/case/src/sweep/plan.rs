@@ -176,7 +176,7 @@ fn other_sweep(folder: &Path, sweep: &Sweep, plan: &Value) -> CaseError {
     let theirs = plan["axes"].as_object().cloned().unwrap_or_default();
     let differs = |axis: &super::file::Axis| theirs.get(&axis.key) != Some(&json!(axis.values));
     let (at, what) = match sweep.axes.iter().position(differs) {
-        Some(i) => (format!("axis[{i}].key"), format!("axis {}", sweep.axes[i].key)),
+        Some(i) => (sweep.axis_place(i), format!("axis {}", sweep.axes[i].key)),
         None => ("base".into(), "base case, mode, [set] or [[derive]]".into()),
     };
     let file = plan["file"].as_str().unwrap_or("another file");
@@ -255,6 +255,7 @@ pub fn prepare(
         "mode": sweep.mode.word(),
         "parameters": sweep.axes.iter().map(|axis| &axis.key).collect::<Vec<_>>(),
         "axes": axes,
+        "ensemble": sweep.ensemble.then_some(super::ensemble::AXIS),
         "step": { "rule": sweep.step.map(|rule| rule.word()), "step": step },
         "runs": runs.iter().map(described).collect::<Vec<_>>(),
     });
@@ -307,7 +308,7 @@ fn smallest_step(
             case.load,
             case.contact,
             case.damping,
-            case.preload,
+            case.preload.undisturbed(),
             case.drive.speed,
             case.time.factor
         ]);

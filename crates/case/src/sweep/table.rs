@@ -1,4 +1,4 @@
-//! `sweep.csv`: one line per run, SI units.
+//! `sweep.csv`: one line per run, and behind them one per point of an ensemble; SI units.
 
 use std::fs;
 use std::path::Path;
@@ -80,7 +80,10 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
     let headings = headings.chain(COLUMNS.iter().map(|(heading, _)| *heading));
     let measured = measures.iter().map(|name| format!("check_{name}"));
     let headings = headings.map(str::to_owned).chain(measured).chain(["reason".to_owned()]);
-    line(&mut text, headings);
+    let points = document["points"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let intervals: Vec<(String, String)> =
+        if points.is_empty() { Vec::new() } else { intervals(&measures) };
+    line(&mut text, headings.chain(intervals.iter().map(|(heading, _)| heading.clone())));
     for run in runs {
         let values = [&run["name"]].into_iter();
         let values = values.chain(parameters.iter().map(|name| &run["parameters"][*name]));
@@ -89,11 +92,38 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
             .chain(COLUMNS.iter().map(|(_, at)| shown(run, at)))
             .chain(measures.iter().map(|name| &run["check"]["metrics"][*name]["value"]))
             .chain([&run["reason"]]);
-        line(&mut text, values.map(cell));
+        line(&mut text, values.map(cell).chain(intervals.iter().map(|_| String::new())));
+    }
+    for point in points {
+        let name = format!("mean of {}", point["completed"]);
+        let parameters = parameters.iter().map(|name| cell(&point["parameters"][*name]));
+        let of_means = |(heading, at): &(&str, &'static str)| {
+            // half widths of intervals stand in columns of their own
+            if heading.ends_with(DEVIATION) { String::new() } else { cell(shown(point, at)) }
+        };
+        let metrics = measures.iter().map(|name| cell(&point["check"]["metrics"][*name]["value"]));
+        let values = [name].into_iter().chain(parameters).chain(["ensemble".to_owned()]);
+        let values = values.chain(COLUMNS.iter().map(of_means)).chain(metrics);
+        let halves = intervals.iter().map(|(_, at)| cell(shown(point, at)));
+        line(&mut text, values.chain([String::new()]).chain(halves));
     }
     let failed = |cause| SweepError::File { path: path.into(), cause };
     let partial = path.with_extension("csv.partial");
     fs::write(&partial, text).and_then(|()| fs::rename(&partial, path)).map_err(failed)
+}
+
+/// End of the heading of a standard deviation over the window.
+const DEVIATION: &str = "_sd";
+
+/// Headings and places of the half widths of the 95 % confidence intervals of a point's means.
+fn intervals(measures: &[&str]) -> Vec<(String, String)> {
+    let means = COLUMNS.iter().filter_map(|(heading, at)| {
+        Some((format!("{}_ci95", heading.strip_suffix(DEVIATION)?), (*at).to_owned()))
+    });
+    let measures = measures
+        .iter()
+        .map(|name| (format!("check_{name}_ci95"), format!("/check/metrics/{name}/deviation")));
+    means.chain(measures).collect()
 }
 
 /// A value of a run; means over the evaluation window only where the run came to its end.

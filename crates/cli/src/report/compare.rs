@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::layout::{digits, number, text as word};
+use super::layout::{count, digits, number, text as word};
 
 /// The whole page.
 pub fn text(document: &Value) -> String {
@@ -63,7 +63,7 @@ pub fn text(document: &Value) -> String {
                 digits(Some(rate), 3),
                 digits(at("start"), 2),
                 digits(at("end"), 2),
-                digits(at("records"), 6)
+                count(at("records"))
             );
         } else if let Some(reason) = growth["reason"].as_str() {
             let _ = writeln!(out, "  twins: no rate of growth, {reason}");

@@ -6,7 +6,7 @@ use crate::frames::ContactHistory;
 use crate::vector::{dot, sub};
 use serde_json::{Value, json};
 
-/// Difference over slip up to which it grows as a small one does.
+/// Difference over the largest slip (root mean square over the nodes) up to which it grows as a small one does.
 const SMALL: f64 = 1e-2;
 /// Fewer records than this, or a smaller growth, give no rate.
 const LEAST_RECORDS: usize = 5;
@@ -22,6 +22,7 @@ pub(super) fn growth(a: &ContactHistory, b: &ContactHistory) -> Result<Value, Po
         return Ok(Value::Null);
     }
     let mut series = Vec::new();
+    let mut largest = 0.0_f64;
     let mut index = 0;
     a.stream(0..a.times.len(), |frame| {
         let other = b.record(index)?;
@@ -29,9 +30,12 @@ pub(super) fn growth(a: &ContactHistory, b: &ContactHistory) -> Result<Value, Po
         let pairs = || frame.slip_velocity.iter().zip(&other.slip_velocity);
         let apart: f64 = pairs().map(|(s, t)| dot(sub(*s, *t), sub(*s, *t))).sum();
         let all: f64 = pairs().map(|(s, t)| 0.5 * (dot(*s, *s) + dot(*t, *t))).sum();
-        series.push([frame.time, if all > 0.0 { (apart / all).sqrt() } else { 0.0 }]);
+        largest = largest.max(all.sqrt());
+        series.push([frame.time, apart.sqrt()]);
         Ok(())
     })?;
+    // not by the slip of the same record, which is nothing while everything sticks
+    series.iter_mut().for_each(|[_, apart]| *apart /= largest.max(f64::MIN_POSITIVE));
     Ok(rate(&series))
 }
 

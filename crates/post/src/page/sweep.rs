@@ -19,11 +19,18 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
     let completed = known.completed().count();
     let _ = writeln!(
         out,
-        "<h1>{}</h1>\n<p>{} runs over {}; {completed} completed.</p>",
+        "<h1>{}</h1>\n<p>{} {} over {}; {completed} completed.</p>",
         escape(name),
         known.runs.len(),
+        if known.ensemble { "points of an ensemble" } else { "runs" },
         escape(&known.axes.join(", "))
     );
+    if known.ensemble {
+        out.push_str(
+            "<p>Each value is the mean over the members of its point, which differ by a disturbance of the \
+             preload alone, with half the width of the 95 % confidence interval of that mean.</p>\n",
+        );
+    }
     trends(&mut out, &verdicts);
     table(&mut out, &known);
     out.push_str("<h2>Figures</h2>\n");
@@ -84,7 +91,8 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
 
 /// All runs, those that failed with their reason.
 fn table(out: &mut String, sweep: &Sweep<'_>) {
-    out.push_str("<h2>Runs</h2>\n<div class=\"wide\"><table>\n<tr>");
+    out.push_str(if sweep.ensemble { "<h2>Points</h2>" } else { "<h2>Runs</h2>" });
+    out.push_str("\n<div class=\"wide\"><table>\n<tr>");
     for axis in &sweep.axes {
         let _ = write!(out, "<th class=\"n\">{}</th>", escape(axis));
     }
@@ -108,7 +116,9 @@ fn table(out: &mut String, sweep: &Sweep<'_>) {
         let _ = write!(out, "<td>{}</td>", escape(&status));
         for measure in &columns {
             let point = measure.of(*run);
-            let text = point.map_or("\u{2013}".into(), |point| digits(point.value, 4));
+            let half = point.and_then(|point| point.deviation).filter(|_| sweep.ensemble);
+            let half = half.map_or(String::new(), |half| format!(" \u{b1} {}", digits(half, 2)));
+            let text = point.map_or("\u{2013}".into(), |point| digits(point.value, 4) + &half);
             let _ = write!(out, "<td class=\"n\">{text}</td>");
         }
         let (word, class) = match run.entry.pointer("/check/pass").and_then(Value::as_bool) {

@@ -86,10 +86,10 @@ pub enum Verdict {
 /// The rule of the verdicts, for people.
 pub const RULE: &str = "Settles: the values differ by at most 2 % of the largest, or q is at least \
     0.25 and the last value is within 5 % of v\u{221e}; and the scatter, the standard deviation over \
-    the records of the window, is at most 5 %. Does not settle: q is at most 0.1, the last value is \
-    farther from v\u{221e}, or v\u{221e} is zero. Cannot be told (scatter): the values differ by no more \
-    than the scatter, or the scatter is above 5 % where the values alone would say that it settles. \
-    Cannot be told: fewer than three points, no trend that the fit follows, or q in between.";
+    the records of the window (of an ensemble: half the 95 % confidence interval of the mean), is at most \
+    5 %. Does not settle: q is at most 0.1, the last value is farther from v\u{221e}, or \
+    v\u{221e} is zero. Cannot be told (scatter): the values differ by no more than the scatter, or the \
+    scatter is above 5 % where the values alone would say that it settles. Cannot be told: fewer than three points, no trend that the fit follows, or q in between.";
 
 /// Changes below this share of the largest size are no changes.
 const FLAT: f64 = 0.02;
