@@ -39,3 +39,26 @@ fn one_and_two_threads_and_the_resolved_case_give_the_same_bits() {
     let again = case::Case::from_text(&first.resolved, path, &[]).unwrap();
     assert_eq!(first.differing(&run(&again, 2)), Vec::<&str>::new());
 }
+
+#[test]
+fn slip_that_the_mesh_makes_or_does_not_resolve_is_told_and_smooth_slip_is_not() {
+    let rolled = |layers: &str, law: &[&str]| {
+        let layers = format!("element.contact_layers={layers}");
+        let sets = [&["contact.enforcement=exact", layers.as_str()], law].concat();
+        let run = small(&sets);
+        let share = run.number("/mesh_mode/alternating_slip");
+        let warnings = run.summary["mesh_mode"]["warnings"].as_array().unwrap().clone();
+        let energy = run.number("/mesh_mode/hourglass_energy_in_layers");
+        (share, energy, warnings.first().map(|w| w.as_str().unwrap().to_owned()))
+    };
+    let smooth = rolled("full", &[]);
+    assert!(smooth.0 < 0.2 && smooth.1 == 0.0 && smooth.2.is_none(), "{smooth:?}");
+    // Eq (8) alone: R = 79 at the centre of this patch
+    let falling = ["friction.law=exponential", "friction.dynamic=0.2", "friction.mode=exact"];
+    let (share, energy, told) = rolled("full", &falling);
+    assert!(share > 0.25 && energy == 0.0, "{share} {energy}");
+    assert!(told.unwrap().contains("this mesh does not resolve it"));
+    let (share, energy, told) = rolled("one-point", &falling);
+    assert!(share > 0.25 && energy > 0.01, "{share} {energy}");
+    assert!(told.unwrap().contains("a mode of the mesh, not friction"));
+}
