@@ -31,7 +31,7 @@ pub struct Record {
     pub kernels: String,
     /// Threads of the machine.
     pub threads: usize,
-    /// SHA-256 of the resolved case of each run, by its folder.
+    /// SHA-256 of the resolved case of each run, by its file.
     pub cases: BTreeMap<String, String>,
     pub found: Found,
     /// SHA-256 of each picture.

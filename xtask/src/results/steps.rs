@@ -36,7 +36,7 @@ pub struct Runner<'a> {
 pub struct Gathered {
     /// By the name of the step.
     pub documents: BTreeMap<String, Value>,
-    /// SHA-256 of the resolved case of each run, by its folder.
+    /// SHA-256 of the resolved case of each run, by its file.
     pub cases: BTreeMap<String, String>,
 }
 
@@ -85,11 +85,8 @@ impl<'a> Runner<'a> {
             let at = |problem: String| format!("step `{}`: {problem}", step.name);
             let document = self.step(step).map_err(at)?;
             gathered.documents.insert(step.name.clone(), document);
-            for folder in runs_of(step) {
-                let case = self.root.join(&folder).join("case.toml");
-                if case.exists() {
-                    gathered.cases.insert(folder, sum(&case)?);
-                }
+            for case in runs_of(step).iter().flat_map(|folder| self.cases_of(folder)) {
+                gathered.cases.insert(case.clone(), sum(&self.root.join(case))?);
             }
         }
         Ok(gathered)
@@ -121,6 +118,15 @@ impl<'a> Runner<'a> {
             return table(&text).map_err(|error| told(error.to_string()));
         }
         serde_json::from_str(&text).map_err(|error| told(error.to_string()))
+    }
+
+    /// The resolved cases of a run or of a sweep in a folder.
+    fn cases_of(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.root.join(folder).join("cases")).into_iter().flatten();
+        let names = entries.flatten().map(|entry| entry.file_name());
+        let of_sweep = names.map(|name| format!("{folder}/cases/{}", name.to_string_lossy()));
+        let cases = of_sweep.chain([format!("{folder}/case.toml")]);
+        cases.filter(|case| self.root.join(case).is_file()).collect()
     }
 
     /// What a step said, if it ran with the same program and inputs and its file is as it left it.
@@ -270,6 +276,22 @@ mod tests {
             assert_eq!(project.step("creepage check runs/a --json", None, 1).unwrap()["n"], 1);
         }
         assert_eq!(project.calls(), 2);
+    }
+
+    #[test]
+    fn the_cases_of_runs_and_of_sweeps_are_summed() {
+        let project = Project::new("cases");
+        project.program("mkdir -p runs/s/cases; echo a > runs/s/cases/000.toml; echo b > runs/s/case.toml");
+        let manifest = Manifest::read(
+            "title = \"A\"\ndepends = [\"a\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
+             [[step]]\nname = \"a\"\ncommand = \"creepage sweep a.toml --out runs/s\"\n",
+        );
+        let target = project.0.join("target");
+        let runner = Runner::new(&project.0, &target, &project.0.join("creepage"), None).unwrap();
+        let cases = runner.gather(&manifest.unwrap()).unwrap().cases;
+        let files: Vec<_> = cases.keys().map(String::as_str).collect();
+        assert_eq!(files, ["runs/s/case.toml", "runs/s/cases/000.toml"]);
+        assert_eq!(cases["runs/s/case.toml"], text_sum(&["b\n"]));
     }
 
     #[test]
