@@ -281,7 +281,9 @@ mod tests {
     #[test]
     fn the_cases_of_runs_and_of_sweeps_are_summed() {
         let project = Project::new("cases");
-        project.program("mkdir -p runs/s/cases; echo a > runs/s/cases/000.toml; echo b > runs/s/case.toml");
+        project.program(
+            "mkdir -p runs/s/cases; echo a > runs/s/cases/000.toml; echo b > runs/s/case.toml",
+        );
         let manifest = Manifest::read(
             "title = \"A\"\ndepends = [\"a\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
              [[step]]\nname = \"a\"\ncommand = \"creepage sweep a.toml --out runs/s\"\n",
