@@ -42,7 +42,7 @@ pub struct Options {
     /// Run the commands, and compare with the results instead of keeping what is found
     #[arg(long, conflicts_with_all = ["list", "check", "print"])]
     compare: bool,
-    /// Take this program instead of building it
+    /// Take this program, built from this checkout, instead of building it
     #[arg(long, value_name = "FILE")]
     program: Option<PathBuf>,
 }

@@ -18,8 +18,8 @@ use sha2::{Digest, Sha256};
 use super::extract::{document, table};
 use super::manifest::{Manifest, Step};
 
-/// Folders whose files commands read.
-const INPUTS: [&str; 4] = ["cases", "meshes", "tests/python", "docs/examples"];
+/// What runs, sweeps and verifications read.
+const INPUTS: [&str; 2] = ["cases", "meshes"];
 
 /// The program and what it works on.
 pub struct Runner<'a> {
@@ -56,20 +56,18 @@ impl<'a> Runner<'a> {
         program: &Path,
         python: Option<&Path>,
     ) -> Result<Self, String> {
-        let told = |error: std::io::Error| format!("{}: {error}", program.display());
-        let program = program.canonicalize().map_err(told)?;
         let mut inputs = Sha256::new();
         for folder in INPUTS {
             add(&mut inputs, &root.join(folder)).map_err(|error| format!("{folder}: {error}"))?;
         }
-        let folders = [program.parent(), python].into_iter().flatten().map(Path::to_owned);
+        let kept = target.join("results");
+        fs::create_dir_all(&kept).map_err(|error| format!("{}: {error}", kept.display()))?;
+        let (sum, folder) = own_copy(program, &kept)?;
+        let folders = [Some(folder.as_path()), python].into_iter().flatten().map(Path::to_owned);
         let before = env::var_os("PATH").unwrap_or_default();
         let search = env::join_paths(folders.chain(env::split_paths(&before)))
             .map_err(|error| error.to_string())?;
-        let kept = target.join("results");
-        fs::create_dir_all(&kept).map_err(|error| format!("{}: {error}", kept.display()))?;
-        let program = sum(&program)?;
-        Ok(Self { root, kept, search, program, inputs: hexadecimal(inputs) })
+        Ok(Self { root, kept, search, program: sum, inputs: hexadecimal(inputs) })
     }
 
     /// The program's version.
@@ -157,6 +155,21 @@ impl<'a> Runner<'a> {
         let said = String::from_utf8_lossy(&output.stderr);
         Err(format!("exit code {code} instead of {exit}\n{command}\n{said}"))
     }
+}
+
+/// The sum of the program, and the folder of a copy of it: a build meanwhile changes the program that others
+/// run, not the one that the results name.
+fn own_copy(program: &Path, kept: &Path) -> Result<(String, PathBuf), String> {
+    let told = |error: std::io::Error| format!("{}: {error}", program.display());
+    let folder = kept.join("program");
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(told)?;
+    }
+    fs::create_dir_all(&folder).map_err(told)?;
+    let copy = folder.join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    fs::copy(program, &copy).map_err(told)?;
+    let folder = folder.canonicalize().map_err(told)?;
+    Ok((sum(&copy)?, folder))
 }
 
 /// Folders of the runs that a step's command names.
@@ -267,6 +280,17 @@ mod tests {
         project.program("echo y >> calls; echo '{\"n\": 1}' | tee out.json; exit 1");
         run();
         assert_eq!(project.calls(), 4, "the program changed");
+    }
+
+    #[test]
+    fn a_program_that_is_built_anew_meanwhile_does_not_take_part() {
+        let project = Project::new("meanwhile");
+        let (program, target) = (project.0.join("creepage"), project.0.join("target"));
+        let runner = Runner::new(&project.0, &target, &program, None).unwrap();
+        let before = sum(&program).unwrap();
+        project.program("echo other");
+        let said = runner.execute("creepage run a.toml", 1).unwrap();
+        assert_eq!((said.as_str(), &runner.program), ("{\"n\": 1}\n", &before));
     }
 
     #[test]
