@@ -48,7 +48,7 @@ fn holds(item: &Value, conditions: &str) -> bool {
         let Some((key, wanted)) = condition.split_once('=') else { return false };
         match item.get(key.trim()) {
             Some(Value::String(text)) => text == wanted.trim(),
-            Some(value) => value.to_string() == wanted.trim(),
+            Some(value) => wanted.trim().parse::<Value>().is_ok_and(|wanted| wanted == *value),
             None => false,
         }
     })
