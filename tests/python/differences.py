@@ -1,16 +1,17 @@
 """How far the slip and the shear of runs along the centre line differ, one run from the next.
 
-    python tests/python/differences.py [--plot FILE.png] RUN RUN ...
+    python tests/python/differences.py [--plot FILE.png] [--json] RUN RUN ...
 
 Takes 1.401 to 1.449 ms (docs/verdict.md), the bar's nodes on y = 0 or nearest it with y > 0, and a grid that moves with the
 disk (-7 to 7 mm); records are interpolated to 97 instants. Prints per run the largest slip speed, its mean, the mean over
 the grid of its standard deviation in time, and the share of its rms that fluctuates; and how much of the slip
 alternates from node to node, over the whole patch: the rms of (s1 - s2 + s3 - s4)/4 over the faces in contact, over the
 rms of s at their nodes. It is the amplitude of the hourglass mode of the elements below. Then for successive runs the rms difference over the rms of the second: over place and time, and of the means in time. --plot draws
-the slip speed: mean in time, and a band of one standard deviation.
+the slip speed: mean in time, and a band of one standard deviation. --json prints the same numbers as one JSON document.
 """
 
 import argparse
+import json
 import tomllib
 from pathlib import Path
 
@@ -104,26 +105,50 @@ def main():
     )
     parser.add_argument("runs", nargs="+", type=Path)
     parser.add_argument("--plot", type=Path)
+    parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     runs = options.runs
     found = [profiles(run) for run in runs]
     if options.plot:
         draw(options.plot, runs, found)
-    for run, (slip, _) in zip(runs, found):
-        share = rms(slip - slip.mean(axis=0)) / rms(slip)
-        print(
-            f"{run.name}: |s| up to {slip.max():.2f}, mean {slip.mean():.4f}, sd in time"
-            f" {slip.std(axis=0).mean():.4f} m/s, fluctuating share {share:.2f}, alternating"
-            f" {alternating(run):.2f}"
-        )
+    statistics = [dict(run=run.name, **of_run(run, slip)) for run, (slip, _) in zip(runs, found)]
     for i in range(len(runs) - 1):
-        both = list(zip(found[i], found[i + 1]))
-        local = [rms(a - b) / rms(b) for a, b in both]
-        means = [rms(a.mean(axis=0) - b.mean(axis=0)) / rms(b.mean(axis=0)) for a, b in both]
+        statistics[i]["next"] = dict(run=runs[i + 1].name, **of_pair(found[i], found[i + 1]))
+    if options.json:
+        print(json.dumps(statistics, indent=2))
+        return
+    for one in statistics:
         print(
-            f"{runs[i].name} -> {runs[i + 1].name}: |s| {local[0]:.2f}, shear {local[1]:.3f};"
-            f" means in time: |s| {means[0]:.2f}, shear {means[1]:.3f}"
+            f"{one['run']}: |s| up to {one['largest']:.2f}, mean {one['mean']:.4f}, sd in time"
+            f" {one['deviation']:.4f} m/s, fluctuating share {one['share']:.2f}, alternating"
+            f" {one['alternating']:.2f}"
         )
+    for one in statistics[:-1]:
+        next = one["next"]
+        print(
+            f"{one['run']} -> {next['run']}: |s| {next['slip']:.2f}, shear {next['shear']:.3f};"
+            f" means in time: |s| {next['mean_slip']:.2f}, shear {next['mean_shear']:.3f}"
+        )
+
+
+def of_run(run, slip):
+    """Statistics of a run's slip speed (m/s)."""
+    return {
+        "largest": float(slip.max()),
+        "mean": float(slip.mean()),
+        "deviation": float(slip.std(axis=0).mean()),
+        "share": float(rms(slip - slip.mean(axis=0)) / rms(slip)),
+        "alternating": float(alternating(run)),
+    }
+
+
+def of_pair(one, other):
+    """By how much two runs differ, over the rms of the second."""
+    both = list(zip(one, other))
+    local = [rms(a - b) / rms(b) for a, b in both]
+    means = [rms(a.mean(axis=0) - b.mean(axis=0)) / rms(b.mean(axis=0)) for a, b in both]
+    names = ("slip", "shear", "mean_slip", "mean_shear")
+    return {name: float(value) for name, value in zip(names, local + means)}
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `soak`, `wheel`.
+//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `results`, `soak`, `wheel`.
 
 mod book;
 mod book_test;
@@ -6,6 +6,7 @@ mod kernels;
 mod kill_loop;
 mod links;
 mod markdown;
+mod results;
 mod shell;
 mod soak;
 mod validate;
@@ -45,6 +46,8 @@ enum Chore {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<String>,
     },
+    /// Tables and pictures of the documents: make them anew from the commands of docs/results/NAME.toml
+    Results(results::Options),
     /// Long trials of the whole program: all of them, or one
     Soak {
         #[command(subcommand)]
@@ -60,6 +63,7 @@ fn main() -> ExitCode {
         Chore::BookTest { all: true } => validate::alone(validate::all_of_the_book),
         Chore::Wheel => wheel::wheel(),
         Chore::KillLoop { options } => kill_loop::kill_loop(&options),
+        Chore::Results(options) => results::results(&options),
         Chore::Soak { part } => soak::soak(part),
     }
 }

@@ -27,7 +27,7 @@ pub fn alone(step: Step) -> ExitCode {
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 16] = [
+    let steps: [(&str, Step); 17] = [
         ("format", format),
         ("links", links),
         ("lints", lints),
@@ -36,6 +36,7 @@ pub fn validate() -> ExitCode {
         ("schema", schema),
         ("kernels", kernels),
         ("smoke run", smoke_run),
+        ("tables of the documents", crate::results::step),
         ("report page", report_page),
         ("sweep through Dask", dask),
         ("full and read-only disks", disks),
