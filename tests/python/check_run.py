@@ -36,7 +36,7 @@ CONTACT = {
             "area": 1,
             "velocity": 3,
         },
-        "optional": {"displacement": 3},
+        "optional": {"displacement": 3, "pass_pressure": 1},
     },
 }
 VTK_HEXAHEDRON, VTK_QUAD = 12, 9

@@ -1,14 +1,17 @@
 //! The keys of the friction law, and which law uses which.
 
 mod own;
+mod recorded;
 
 pub use own::OwnLaw;
+pub(crate) use recorded::sampled;
+pub use recorded::{SAMPLED_LAW, recorded_law};
 
 use crate::hertz::hertz;
 use crate::schema::Case;
 use contact::{
-    ContactError, Coulomb, Domain, Exponential, Expression, Implicit, Lagged, Memory, NodeFriction,
-    PrakashClifton, RateState, Remembering, SlipWeakening, SteadyLaw, Table,
+    ContactError, Coulomb, Domain, Exponential, Expression, ExpressionError, Implicit, Lagged,
+    Memory, NodeFriction, PrakashClifton, RateState, Remembering, SlipWeakening, SteadyLaw, Table,
 };
 use own::Own;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -353,7 +356,16 @@ pub(crate) fn law(
     case: &Case,
     own: Option<&Arc<dyn OwnLaw>>,
 ) -> Result<Box<dyn NodeFriction>, ContactError> {
-    let friction = &case.friction;
+    let formula = |text: &str| Expression::over(text, &domain(case));
+    node_friction(&case.friction, formula, own)
+}
+
+/// The friction law that the keys of `[friction]` say, with `formula` to read an expression.
+fn node_friction(
+    friction: &Friction,
+    formula: impl FnOnce(&str) -> Result<Expression, ExpressionError>,
+    own: Option<&Arc<dyn OwnLaw>>,
+) -> Result<Box<dyn NodeFriction>, ContactError> {
     let distance = friction.distance.unwrap_or(0.0);
     let memory =
         friction.memory.map(|memory| Memory { distance: memory.distance, floor: memory.floor });
@@ -396,7 +408,7 @@ pub(crate) fn law(
         }
         FrictionLaw::Expression => {
             let text = friction.expression.as_deref().unwrap_or_default();
-            SteadyLaw::Expression(Expression::over(text, &domain(case))?)
+            SteadyLaw::Expression(formula(text)?)
         }
         FrictionLaw::Python => {
             let Some(own) = own else { return Ok(Box::new(Coulomb { mu: 0.0 })) };

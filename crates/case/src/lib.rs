@@ -55,7 +55,7 @@ mod tests;
 pub use bench::{BlockElement, bench, bench_block};
 pub use error::{CaseError, KeyError};
 pub use excerpt::Excerpt;
-pub use friction::OwnLaw;
+pub use friction::{OwnLaw, SAMPLED_LAW, recorded_law};
 pub use json_schema::json_schema;
 pub use load::{error_at_key, inputs};
 pub use mesh_file::MeshFileError;

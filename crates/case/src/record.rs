@@ -76,6 +76,9 @@ const ENFORCED_ON: &str = "enforced_on";
 /// Whether they are enforced at nodes against the face there or in means over the faces around them.
 const CONTACT_ROWS: &str = "contact_rows";
 
+/// Field of `contact.vtkhdf` where two passes share the pressure.
+const PASS_PRESSURE: &str = "pass_pressure";
+
 /// Rows of the history gathered before they are handed to the writer.
 const HISTORY_BATCH: usize = 64;
 
@@ -83,7 +86,7 @@ const HISTORY_BATCH: usize = 64;
 fn contact_fields(after: bool) -> Vec<FieldSpec> {
     let at = FieldSpec::at_points;
     let step = if after { "over the next step" } else { "over the last step" };
-    vec![
+    let mut fields = vec![
         at("pressure", "Pa", 1, "contact pressure, positive in compression"),
         at("shear", "Pa", 3, "shear traction on this surface"),
         at(
@@ -98,7 +101,12 @@ fn contact_fields(after: bool) -> Vec<FieldSpec> {
         at("gap", "m", 1, "gap, negative when penetrating"),
         at("velocity", "m/s", 3, &format!("velocity {step}")),
         at("displacement", "m", 3, "displacement"),
-    ]
+    ];
+    if !after {
+        let about = "the part of the pressure that the node's own pass carries";
+        fields.push(at(PASS_PRESSURE, "Pa", 1, about));
+    }
+    fields
 }
 
 /// Nodes of both contact zones and the motion copied from them before a step.
@@ -505,7 +513,7 @@ impl Recorder {
     }
 
     fn write_contact(&mut self, time: f64) -> Result<(), RunError> {
-        let Zones { tables: [disk, bar], displacement, velocity, .. } = &self.zones;
+        let Zones { tables: [disk, bar], after, displacement, velocity } = &self.zones;
         let pressure = [&disk.pressure[..], &bar.pressure].concat();
         let shear = [&disk.shear[..], &bar.shear].concat();
         let slip_velocity = [&disk.slip_velocity[..], &bar.slip_velocity].concat();
@@ -513,7 +521,8 @@ impl Recorder {
         let mu = [&disk.mu[..], &bar.mu].concat();
         let state = [&disk.state[..], &bar.state].concat();
         let gap = [&disk.gap[..], &bar.gap].concat();
-        let values = [
+        let pass_pressure = [&disk.pass_pressure[..], &bar.pass_pressure].concat();
+        let mut values = vec![
             Values::Scalar(&pressure),
             Values::Vector(&shear),
             Values::Vector(&slip_velocity),
@@ -524,6 +533,9 @@ impl Recorder {
             Values::Vector(velocity),
             Values::Vector(displacement),
         ];
+        if !after {
+            values.push(Values::Scalar(&pass_pressure));
+        }
         Ok(self.writer.append_contact(time, &values)?)
     }
 

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use crate::checkpoint::{Clock, State};
 use crate::disk::Disk;
 use crate::folder::{self, Content, LOG};
-use crate::friction::{FrictionLaw, OwnLaw};
+use crate::friction::{self, FrictionLaw, OwnLaw};
 use crate::guards::READING;
 use crate::hertz::hertz;
 use crate::load::inputs;
@@ -319,7 +319,11 @@ fn run_in_pool(
     for warning in ending.means.mesh_mode.warnings(case) {
         log.warn(&warning)?;
     }
-    let summary = summary(case, &simulation, &facts, &hertz, &ending);
+    let mut summary = summary(case, &simulation, &facts, &hertz, &ending);
+    let own = options.law.as_deref().filter(|_| case.friction.law == FrictionLaw::Python);
+    if let Some(points) = own.and_then(friction::sampled) {
+        summary.extra.insert(friction::SAMPLED_LAW.into(), serde_json::json!(points));
+    }
     held.prove()?;
     let document = write_summary(&options.out, &summary)?;
     if status == Status::Completed {

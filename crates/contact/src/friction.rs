@@ -12,7 +12,7 @@ mod table;
 
 pub use expression::{Domain, Expression, ExpressionError};
 pub use memory::Memory;
-pub use node::{Implicit, Lagged, NodeFriction, Place, Remembering, Slid};
+pub use node::{Implicit, Lagged, NodeFriction, Place, Remembering, Remembers, Slid};
 pub use numbers::{Falling, Interface, falling, nucleation_length, spring_number};
 pub use prakash_clifton::PrakashClifton;
 pub use rate_state::{RateState, StateLaw};

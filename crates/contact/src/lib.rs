@@ -38,9 +38,9 @@ pub use error::ContactError;
 pub use exact::{ExactContact, ExactSettings};
 pub use friction::{
     Coulomb, Domain, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Implicit,
-    Interface, Lagged, Memory, NodeFriction, Place, PrakashClifton, RateState, Remembering, Slid,
-    SlipWeakening, StateLaw, SteadyLaw, Strengthens, Table, TableError, falling, nucleation_length,
-    spring_number,
+    Interface, Lagged, Memory, NodeFriction, Place, PrakashClifton, RateState, Remembering,
+    Remembers, Slid, SlipWeakening, StateLaw, SteadyLaw, Strengthens, Table, TableError, falling,
+    nucleation_length, spring_number,
 };
 pub use gap::Gap;
 pub use nodal::NodalContact;

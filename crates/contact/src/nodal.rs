@@ -19,6 +19,8 @@ pub struct NodalContact {
     pub nodes: Vec<u32>,
     /// Contact pressure (Pa), positive in compression.
     pub pressure: Vec<f64>,
+    /// The part of it that the node's own pair carries: the pressure that its law of friction is told.
+    pub pass_pressure: Vec<f64>,
     /// Shear traction on this surface (Pa).
     pub shear: Vec<[f64; 3]>,
     /// Velocity of this surface relative to the other in the tangent plane (m/s), mean over the
@@ -56,6 +58,7 @@ impl NodalContact {
         }
         let n = table.nodes.len();
         table.pressure = vec![0.0; n];
+        table.pass_pressure = vec![0.0; n];
         table.shear = vec![[0.0; 3]; n];
         table.slip_velocity = vec![[0.0; 3]; n];
         table.slip = vec![[0.0; 3]; n];
@@ -69,6 +72,7 @@ impl NodalContact {
 
     fn clear(&mut self, margin: f64) {
         self.pressure.fill(0.0);
+        self.pass_pressure.fill(0.0);
         self.shear.fill([0.0; 3]);
         self.slip_velocity.fill([0.0; 3]);
         self.slip.fill([0.0; 3]);
@@ -165,6 +169,7 @@ impl NodalContact {
             table.gap[row] = touch.gap.min(margin);
             if pair.is_closed() {
                 table.pressure[row] += touch.normal_force;
+                table.pass_pressure[row] = touch.normal_force / table.area[row];
                 table.carried[row] += touch.normal_force;
                 table.mu[row] += touch.mu * touch.normal_force;
                 table.shear[row] = axpy(table.shear[row], 1.0, touch.friction);

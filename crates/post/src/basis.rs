@@ -4,12 +4,13 @@ use crate::PostError;
 use crate::frames::open_history;
 use crate::law::Law;
 use contact::patch::PatchShape;
-use contact::{Coulomb, Exponential};
+use contact::{Coulomb, Exponential, NodeFriction};
 use files::input::{self, Kind};
 use output::read_summary;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A scale with where it comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,9 +42,18 @@ pub const SCALES: [(&str, &str, &str); 11] = [
 pub enum Bound {
     /// mu(|s|) of the law at the same instant: Eq. (8).
     Law,
-    /// The coefficient that the algorithm used (field `mu`): laws with memory, and laws that are
-    /// not known here.
+    /// The law's coefficient made again from the records; where that is not known to round-off, the one that the
+    /// algorithm used (field `mu`).
     Used,
+}
+
+/// The law of a contact node with its state.
+#[derive(Clone, Debug)]
+pub struct RecordedLaw {
+    /// The law.
+    pub law: Arc<dyn NodeFriction>,
+    /// Part of the coefficient to which it is known: zero for a law that the case writes out.
+    pub known_to: f64,
 }
 
 /// The friction law and the scales of a run.
@@ -53,6 +63,9 @@ pub struct Basis {
     pub name: String,
     /// The law, where it is one of those known here.
     pub law: Option<Law>,
+    /// The law of a contact node with its state, with which the coefficient is made again from the records; or
+    /// why there is none, empty where nobody has looked for it: a case is read by the crate `case`.
+    pub friction: Result<RecordedLaw, String>,
     /// Which coefficient bounds the shear.
     pub bound: Bound,
     /// How contact is enforced, as the case says.
@@ -117,6 +130,7 @@ impl Basis {
                 .file_name()
                 .map_or_else(|| "run".to_owned(), |name| name.to_string_lossy().into_owned()),
             law: None,
+            friction: Err(String::new()),
             bound: Bound::Used,
             enforcement: None,
             window: None,

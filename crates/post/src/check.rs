@@ -73,6 +73,7 @@ pub fn check(
     let records = window.records.clone();
     let scales = Scales::settle(basis, &history, &records)?;
     let mut pass = Pass::new(&history, basis, scales);
+    pass.lead_in(records.start)?;
     let mut map = options
         .map
         .map(|path| MapWriter::create(path, &history.surface, &paths.contact))

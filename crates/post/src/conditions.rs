@@ -21,6 +21,8 @@ pub(crate) struct Node {
     pub slip: Vec3,
     /// The coefficient that the algorithm used.
     pub mu_used: Option<f64>,
+    /// The law's coefficient made again from the records.
+    pub mu_made: Option<f64>,
     /// What the algorithm calls it: 0 open, 1 stick, 2 slip.
     pub state: Option<u8>,
 }
@@ -38,7 +40,7 @@ pub(crate) struct Judged {
     pub slips: bool,
     /// Whether the algorithm lets it slip.
     pub let_slip: bool,
-    /// mu(|s|) of the law; with memory the coefficient that the algorithm used.
+    /// mu(|s|) of the law; with state the law's coefficient made again.
     pub mu_law: Option<f64>,
     /// p_f/(mu p_n) - 1 with that coefficient where it slips.
     pub law_error: Option<f64>,
@@ -78,13 +80,14 @@ impl Judge {
         // with memory the law is that of the coefficient's own state
         let mu_law = match self.bound {
             Bound::Law => self.law.map(|law| law.mu(speed)),
-            Bound::Used => node.mu_used.filter(|_| self.law.is_some()),
+            Bound::Used => node.mu_made.or(node.mu_used.filter(|_| self.law.is_some())),
         };
         let bound = match self.bound {
             Bound::Law => mu_law,
-            Bound::Used => node.mu_used,
+            Bound::Used => mu_law.or(node.mu_used),
         };
-        let error = |mu: f64| ratio / mu - 1.0;
+        // without friction there is nothing to be relative to
+        let error = |mu: f64| if mu > 0.0 { ratio / mu - 1.0 } else { ratio };
         let law_error = mu_law.filter(|_| slips).map(error);
         let law_error_own = node.mu_used.filter(|_| slips).map(error);
         let direction = (slips && shear > 0.0).then(|| angle(node.shear, negative(node.slip)));

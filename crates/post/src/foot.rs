@@ -7,6 +7,8 @@ use std::collections::HashMap;
 
 /// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
 const EDGE: f64 = 1e-6;
+/// The same where the ridge between two faces, seen from outside, lies under the node and neither has its foot.
+const RIDGE: f64 = 0.2;
 const NONE: u32 = u32::MAX;
 /// Face coordinates of the corners.
 const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -22,9 +24,15 @@ pub(crate) struct Pair {
     last: Vec<(u32, [f64; 2])>,
     grid: HashMap<[i64; 2], Vec<u32>>,
     cell: f64,
+    over_ridges: bool,
 }
 
 impl Pair {
+    /// As [`new`](Self::new), where a node over the ridge between two faces has its foot on the edge.
+    pub fn over_ridges(surface: &Surface, slave: u8) -> Self {
+        Self { over_ridges: true, ..Self::new(surface, slave) }
+    }
+
     /// The pair with the nodes of `slave` as slaves.
     pub fn new(surface: &Surface, slave: u8) -> Self {
         let masters: Vec<u32> = (0..surface.faces.len() as u32)
@@ -46,6 +54,7 @@ impl Pair {
             last: vec![(NONE, [0.0; 2]); surface.points.len()],
             grid: HashMap::new(),
             cell,
+            over_ridges: false,
         }
     }
 
@@ -57,10 +66,31 @@ impl Pair {
         [displacement, velocity]: &[Vec<Vec3>; 2],
         nodes: &[usize],
     ) -> Vec<Option<Vec3>> {
-        let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
-        let on = |face: u32, x: Vec3, start: [f64; 2]| {
-            project(surface.faces[face as usize].map(|n| at(n as usize)), x, start)
+        let feet = self.feet(surface, displacement, nodes);
+        let slip = |(&node, foot): (&usize, Option<(u32, Foot)>)| {
+            let (face, foot) = foot?;
+            let mut relative = velocity[node];
+            let corners = surface.faces[face as usize];
+            for (i, corner) in corners.into_iter().enumerate() {
+                let v = velocity[corner as usize];
+                relative = axpy(relative, -foot.weights[i], v);
+                relative = axpy(relative, dot(foot.normal, v), foot.levers[i]);
+            }
+            Some(axpy(relative, -dot(relative, foot.normal), foot.normal))
         };
+        nodes.iter().zip(feet).map(slip).collect()
+    }
+
+    /// The face under each of `nodes` and its foot there; `None` where the node has no foot.
+    pub fn feet(
+        &mut self,
+        surface: &Surface,
+        displacement: &[Vec3],
+        nodes: &[usize],
+    ) -> Vec<Option<(u32, Foot)>> {
+        let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
+        let corners = |face: u32| surface.faces[face as usize].map(|n| at(n as usize));
+        let on = |face: u32, x: Vec3, start: [f64; 2]| project(corners(face), x, start, EDGE);
         let nearest = |faces: &mut dyn Iterator<Item = u32>, x: Vec3| {
             faces
                 .filter_map(|face| Some((face, on(face, x, [0.0; 2]).on_face()?)))
@@ -101,18 +131,20 @@ impl Pair {
                 }
                 best = nearest(&mut self.near(x), x);
             }
+            if best.is_none() && self.over_ridges {
+                if !sorted {
+                    self.sort_faces(surface, displacement);
+                    sorted = true;
+                }
+                let beyond = |foot: &Foot| foot.at[0].abs().max(foot.at[1].abs());
+                let on_edge = |face| project(corners(face), x, [0.0; 2], RIDGE).on_face();
+                best = (self.near(x))
+                    .filter_map(|face| Some((face, on_edge(face)?)))
+                    .min_by(|a, b| beyond(&a.1).total_cmp(&beyond(&b.1)));
+            }
             self.last[node] =
                 best.as_ref().map_or((NONE, [0.0; 2]), |(face, foot)| (*face, foot.at));
-            found.push(best.map(|(face, foot)| {
-                let mut relative = velocity[node];
-                let corners = surface.faces[face as usize];
-                for (i, corner) in corners.into_iter().enumerate() {
-                    let v = velocity[corner as usize];
-                    relative = axpy(relative, -foot.weights[i], v);
-                    relative = axpy(relative, dot(foot.normal, v), foot.levers[i]);
-                }
-                axpy(relative, -dot(relative, foot.normal), foot.normal)
-            }));
+            found.push(best);
         }
         found
     }
@@ -146,7 +178,7 @@ impl Pair {
 }
 
 /// The foot of a node on a face.
-struct Foot {
+pub(crate) struct Foot {
     at: [f64; 2],
     weights: [f64; 4],
     normal: Vec3,
@@ -155,6 +187,14 @@ struct Foot {
     /// touches moves with the face at that distance from it, `-sum levers (normal . v)` faster than
     /// the foot. A rotation common to both bodies gives no slip.
     levers: [Vec3; 4],
+}
+
+impl Foot {
+    /// Weights of the corners at the point of the face itself that is nearest.
+    pub fn within(&self) -> [f64; 4] {
+        let [xi, eta] = self.at.map(|c| c.clamp(-1.0, 1.0));
+        shape(xi, eta)
+    }
 }
 
 /// Where the foot of a node on the surface that continues a face lies.
@@ -175,8 +215,8 @@ impl Projected {
     }
 }
 
-/// Newton's iteration for the foot of `node` on the bilinear face through `x`.
-fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Projected {
+/// Newton's iteration for the foot of `node` on the bilinear face through `x`, up to `edge` beyond its edges.
+fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> Projected {
     // The face as centre + xi a + eta b + xi eta twist, measured from the node.
     let mixed = |[p, q, r, s]: [f64; 4]| {
         let component = |i: usize| 0.25 * (p * x[0][i] + q * x[1][i] + r * x[2][i] + s * x[3][i]);
@@ -205,7 +245,7 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2]) -> Projected {
         }
         // convergence is quadratic: what is left is far below round-off of the weights
         if step[0].abs() < 1e-8 && step[1].abs() < 1e-8 {
-            if xi.abs() > 1.0 + EDGE || eta.abs() > 1.0 + EDGE {
+            if xi.abs() > 1.0 + edge || eta.abs() > 1.0 + edge {
                 return Projected::Beside([xi, eta]);
             }
             let normal = cross(along, across);
@@ -245,7 +285,7 @@ mod tests {
     fn the_foot_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
         let node = [0.3, 0.6, 0.2];
-        let foot = project(x, node, [0.0; 2]).on_face().unwrap();
+        let foot = project(x, node, [0.0; 2], EDGE).on_face().unwrap();
         let mut point = [0.0; 3];
         for (weight, corner) in foot.weights.into_iter().zip(x) {
             point = axpy(point, weight, corner);
@@ -259,10 +299,10 @@ mod tests {
     #[test]
     fn a_node_beside_the_face_has_no_foot() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2]);
+        let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2], EDGE);
         assert!(matches!(beside, Projected::Beside([xi, eta]) if xi > 1.0 && eta.abs() < 1e-12));
-        assert!(project(x, [f64::NAN; 3], [0.0; 2]).on_face().is_none());
-        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2]).on_face().is_none());
+        assert!(project(x, [f64::NAN; 3], [0.0; 2], EDGE).on_face().is_none());
+        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2], EDGE).on_face().is_none());
     }
 
     #[test]

@@ -51,6 +51,8 @@ pub struct Frame {
     pub time: f64,
     /// Contact pressure (Pa).
     pub pressure: Vec<f64>,
+    /// The part of it that the node's own pass carries, of a method with two passes (Pa).
+    pub pass_pressure: Option<Vec<f64>>,
     /// Shear traction on the node's own surface (Pa).
     pub shear: Vec<Vec3>,
     /// Velocity relative to the other surface (m/s).
@@ -88,6 +90,7 @@ struct Optional {
     mu: bool,
     state: bool,
     motion: bool,
+    pass_pressure: bool,
 }
 
 impl ContactHistory {
@@ -112,6 +115,7 @@ impl ContactHistory {
             ("state", "1", 1),
             ("displacement", "m", 3),
             ("velocity", "m/s", 3),
+            ("pass_pressure", "Pa", 1),
         ] {
             let field = file.fields().iter().find(|f| f.name == name && !f.on_cells);
             if let Some(field) = field {
@@ -154,8 +158,13 @@ impl ContactHistory {
             _ => None,
         };
         let in_means = file.provenance(ROWS_ATTRIBUTE).is_ok_and(|rows| rows == "mortar");
-        let has =
-            Optional { gap: found[3], mu: found[4], state: found[5], motion: found[6] && found[7] };
+        let has = Optional {
+            gap: found[3],
+            mu: found[4],
+            state: found[5],
+            motion: found[6] && found[7],
+            pass_pressure: found[8],
+        };
         let surface = Surface::read(&file, path)?;
         Ok(Self { path: path.into(), surface, times, pairing, enforced_on, in_means, has })
     }
@@ -165,13 +174,14 @@ impl ContactHistory {
         &self.path
     }
 
-    /// Whether records hold a gap, a coefficient of friction, a state, a motion.
+    /// Whether records hold a gap, a coefficient of friction, a state, a motion, the pressure of each pass.
     pub fn has(&self, field: &str) -> bool {
         match field {
             "gap" => self.has.gap,
             "mu" => self.has.mu,
             "state" => self.has.state,
             "motion" => self.has.motion,
+            "pass_pressure" => self.has.pass_pressure,
             _ => false,
         }
     }
@@ -255,7 +265,7 @@ impl ContactHistory {
 }
 
 /// Numbers that a node has in a record.
-const NUMBERS_PER_NODE: usize = 16;
+const NUMBERS_PER_NODE: usize = 17;
 /// What a batch of records may take: a few of them lie in memory at a time.
 const BATCH_BYTES: usize = 4 << 20;
 /// Most records in a batch; more gain nothing.
@@ -356,11 +366,13 @@ impl Reading<'_> {
         let gap = some(has.gap, "gap")?;
         let mu = some(has.mu, "mu")?;
         let state = some(has.state, "state")?;
+        let pass = some(has.pass_pressure, "pass_pressure")?;
         let label = |states: &[f64]| states.iter().map(|state| *state as u8).collect();
         let frame = |(k, index): (usize, usize)| Frame {
             index,
             time: self.history.times[index],
             pressure: self.nodes(&pressure, k, 1).to_vec(),
+            pass_pressure: pass.as_ref().map(|pass| self.nodes(pass, k, 1).to_vec()),
             shear: self.vectors(&shear, k),
             slip_velocity: self.vectors(&slip_velocity, k),
             gap: gap.as_ref().map(|gap| self.nodes(gap, k, 1).to_vec()),

@@ -27,6 +27,7 @@ mod map;
 mod means;
 mod page;
 mod patch_series;
+mod replay;
 mod roughness;
 mod statistics;
 mod surface;
@@ -35,7 +36,7 @@ mod tally;
 mod vector;
 mod window;
 
-pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
+pub use basis::{Basis, Bound, RecordedLaw, RunPaths, SCALES, Scale};
 pub use check::{CheckOptions, Checked, Report, check};
 pub use compare::{Compared, Comparison, compare};
 pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};

@@ -40,12 +40,28 @@ impl Limit {
 }
 
 /// All measures, in the order of tables.
-pub const MEASURES: [Measure; 17] = [
+pub const MEASURES: [Measure; 19] = [
     measure("penetration", "1", "max", "penetration over Hertz's approach", most(1e-3), None),
     measure("tension", "1", "max", "tension over p0", most(0.0), most(0.0)),
     measure("complementarity", "1", "max", "|gap| p_n/(delta p0)", most(1e-3), None),
     measure("cone", "1", "max", "p_f/(mu_S p_n) - 1 above the cone", most(1e-10), most(1e-10)),
     measure("adhesion_slip", "1", "max", "|s|/s_c below 0.98 of the bound", most(1e-3), None),
+    measure(
+        "mu_error",
+        "1",
+        "max",
+        "mu used over the law's, made again from the records, - 1",
+        most(1e-10),
+        most(TWO_PASSES),
+    ),
+    measure(
+        "mu_error_blurred",
+        "1",
+        "median",
+        "the same beyond the blur, where not every step is recorded",
+        most(MU_BLURRED),
+        most(MU_BLURRED),
+    ),
     measure("law_error", "1", "rms", "p_f/(mu(|s|) p_n) - 1 in slip", None, most(0.02)),
     measure("law_error_own", "1", "rms", "the same with the mu used", most(1e-8), None),
     measure(
@@ -80,6 +96,12 @@ pub const MEASURES: [Measure; 17] = [
     measure("switching_rate", "1", "rate", "stick-slip switches per h/c_s", None, None),
     measure("mesh_mode", "1", "rms", "slip that alternates from node to node", None, None),
 ];
+
+/// What the coefficient may be off the law's where every step is recorded, with springs: it is the mean over both
+/// passes, whose feet are found again to a tenth of this.
+const TWO_PASSES: f64 = 1e-4;
+/// What the median may be off beyond the blur where not.
+const MU_BLURRED: f64 = 5e-3;
 
 const fn most(value: f64) -> Option<Limit> {
     Some(Limit::Most(value))

@@ -89,6 +89,7 @@ impl MapWriter {
                 shear: frame.shear[row],
                 slip: frame.slip_velocity[row],
                 mu_used,
+                mu_made: None,
                 state: None,
             };
             let judged = judge.judge(&node);

@@ -1,6 +1,7 @@
 //! Sums over nodes and times of what single nodes do to the conditions.
 
 use crate::conditions::Judged;
+use crate::replay::Allowed;
 use crate::roughness::Roughness;
 use crate::statistics::{Moments, Place, Spread};
 
@@ -274,7 +275,83 @@ pub(crate) struct SideTally {
     tension: Spread,
     complementarity: Spread,
     cone: Spread,
+    pub mu: MuTally,
     pub states: Switches,
+}
+
+/// The coefficient that the algorithm used against the law's.
+#[derive(Default)]
+pub(crate) struct MuTally {
+    known: Off,
+    blurred: Off,
+    /// High end of what is allowed over the low one, less 1.
+    blur: Spread,
+    /// Weight of contact where the law cannot be followed.
+    pub unknown: f64,
+}
+
+/// By how much the coefficient is off.
+#[derive(Default)]
+struct Off {
+    error: Spread,
+    /// Sums of the weights, of the coefficient used and of the law's.
+    sums: [f64; 3],
+    /// The coefficient used and the law's where the error is largest.
+    worst: Option<[f64; 2]>,
+}
+
+impl Off {
+    fn add(&mut self, row: usize, time: f64, weight: f64, used: f64, law: f64) {
+        let error = if law > 0.0 { used / law - 1.0 } else { used - law };
+        let before = self.error.largest();
+        self.error.add(weight, error, row, time);
+        if before.is_none_or(|before| error.abs() > before) {
+            self.worst = Some([used, law]);
+        }
+        for (sum, part) in self.sums.iter_mut().zip([1.0, used, law]) {
+            *sum += weight * part;
+        }
+    }
+
+    fn statistic(&self, value: Option<f64>) -> Statistic {
+        let mean = |i: usize| (self.sums[0] > 0.0).then(|| self.sums[i] / self.sums[0]);
+        let worst = |i: usize| self.worst.map(|pair| pair[i]);
+        Statistic {
+            value,
+            deviation: self.error.deviation_of_largest(),
+            place: self.error.worst.map(|w| (Some(w.node), w.time, w.value)),
+            more: vec![
+                ("mean", self.error.mean()),
+                ("median", self.error.quantile(0.5)),
+                ("p95", self.error.quantile(0.95)),
+                ("max", self.error.largest()),
+                ("mu_used", mean(1)),
+                ("mu_law", mean(2)),
+                ("mu_used_worst", worst(0)),
+                ("mu_law_worst", worst(1)),
+            ],
+        }
+    }
+}
+
+impl MuTally {
+    /// At a node in contact the coefficient `used`, and what the law allows where it can be followed.
+    pub fn add(&mut self, row: usize, time: f64, weight: f64, used: f64, law: Option<Allowed>) {
+        let Some(law) = law else {
+            self.unknown += weight;
+            return;
+        };
+        let off = if law.known { &mut self.known } else { &mut self.blurred };
+        off.add(row, time, weight, used, law.nearest(used));
+        if !law.known && law.high > 0.0 {
+            self.blur.add(weight, 1.0 - law.low / law.high, row, time);
+        }
+    }
+
+    /// Weights of contact where the law is known, blurred, and not known.
+    pub fn weights(&self) -> [f64; 3] {
+        [self.known.sums[0], self.blurred.sums[0], self.unknown]
+    }
 }
 
 impl SideTally {
@@ -284,6 +361,7 @@ impl SideTally {
             tension: Spread::default(),
             complementarity: Spread::default(),
             cone: Spread::default(),
+            mu: MuTally::default(),
             states: Switches::new(nodes),
         }
     }
@@ -306,9 +384,14 @@ impl SideTally {
 
     /// All nodes of a record that stands for `span` (s) are in.
     pub fn end_record(&mut self, span: f64) {
-        for spread in
-            [&mut self.penetration, &mut self.tension, &mut self.complementarity, &mut self.cone]
-        {
+        for spread in [
+            &mut self.penetration,
+            &mut self.tension,
+            &mut self.complementarity,
+            &mut self.cone,
+            &mut self.mu.known.error,
+            &mut self.mu.blurred.error,
+        ] {
             spread.end_record(span);
         }
     }
@@ -320,6 +403,19 @@ impl SideTally {
             "tension" => &self.tension,
             "complementarity" => &self.complementarity,
             "cone" => &self.cone,
+            "mu_error" => {
+                let known = &self.mu.known;
+                return Some(known.statistic(known.error.largest()));
+            }
+            "mu_error_blurred" => {
+                let blurred = &self.mu.blurred;
+                let mut found = blurred.statistic(blurred.error.quantile(0.5));
+                let blur = &self.mu.blur;
+                found.more.push(("blur_median", blur.quantile(0.5)));
+                found.more.push(("blur_rms", blur.rms()));
+                found.more.push(("blur_p95", blur.quantile(0.95)));
+                return Some(found);
+            }
             _ => return None,
         };
         let worst = spread.worst.filter(|worst| worst.value != 0.0);

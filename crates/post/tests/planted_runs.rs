@@ -35,7 +35,9 @@ fn a_perfect_run_passes_the_limits_of_exact_methods() {
         let found = judge(folder.path(), Report::Stricter).unwrap();
         assert!(found.pass, "{friction}: {:#}", found.document["metrics"]);
         for (name, metric) in found.document["metrics"].as_object().unwrap() {
-            if !["switching_rate", "roughness_ratio"].contains(&name.as_str()) {
+            // the coefficient is not made again: these runs do not say how a law is told of slip
+            let left_out = ["switching_rate", "roughness_ratio", "mu_error", "mu_error_blurred"];
+            if !left_out.contains(&name.as_str()) {
                 is(&found, name, 0.0);
                 assert_eq!(metric["pass"], true);
             }

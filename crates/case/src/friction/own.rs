@@ -1,6 +1,6 @@
 //! A friction law that whoever starts the run brings along: `friction.law = "python"`.
 
-use contact::{Memory, NodeFriction, Place, Slid};
+use contact::{Memory, NodeFriction, Place, Remembers, Slid};
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -105,6 +105,14 @@ impl NodeFriction for Own {
 
     fn mu_static(&self) -> f64 {
         self.at_rest
+    }
+
+    fn remembers(&self) -> Remembers {
+        match self.memory {
+            Some(_) => Remembers::Contact,
+            None if self.implicit => Remembers::Nothing,
+            None => Remembers::LastStep,
+        }
     }
 }
 

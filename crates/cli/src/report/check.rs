@@ -115,6 +115,9 @@ fn place(metric: &Value) -> String {
     if let Some(worst) = place["value"].as_f64().filter(|worst| Some(worst.abs()) != value) {
         let _ = write!(text, ": {}", digits(Some(worst), 3));
     }
+    if let [Some(used), Some(law)] = ["mu_used", "mu_law"].map(|key| place[key].as_f64()) {
+        let _ = write!(text, " (mu {} for {})", digits(Some(used), 6), digits(Some(law), 6));
+    }
     text
 }
 

@@ -136,6 +136,17 @@ impl Expression {
         Self::parse(text, &NAMES, names)?.checked(domain)
     }
 
+    /// The same formula untried, for records of a run that tried it: where its value is no coefficient it is
+    /// NaN, also at rest.
+    ///
+    /// # Errors
+    /// A formula that does not parse or has other names.
+    pub fn untried(text: &str) -> Result<Self, ExpressionError> {
+        let law = Self::parse(text, &NAMES, "s, p, t and x")?;
+        let at_rest = law.value([0.0; 4]);
+        Ok(Self { at_rest, ..law })
+    }
+
     fn parse(text: &str, allowed: &[&str], names: &'static str) -> Result<Self, ExpressionError> {
         let formula = Formula::parse(text).map_err(|error| ExpressionError::Syntax {
             text: text.into(),

@@ -25,6 +25,17 @@ pub struct Slid {
     pub at: Place,
 }
 
+/// How far back the coefficient of a law reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remembers {
+    /// This instant alone.
+    Nothing,
+    /// The step before.
+    LastStep,
+    /// Everything since contact began.
+    Contact,
+}
+
 /// Friction of a contact node: the bound `|p_tau| <= mu p_n` with a coefficient that may depend on
 /// the slip speed of the same instant, on place, time and pressure, and on two numbers of state,
 /// whose meaning is the law's own.
@@ -63,6 +74,11 @@ pub trait NodeFriction: Send + Sync + Debug {
 
     /// Coefficient of friction of a node that has always been at rest.
     fn mu_static(&self) -> f64;
+
+    /// How far back the coefficient reaches.
+    fn remembers(&self) -> Remembers {
+        Remembers::Contact
+    }
 }
 
 impl NodeFriction for Coulomb {
@@ -80,6 +96,10 @@ impl NodeFriction for Coulomb {
 
     fn mu_static(&self) -> f64 {
         self.mu
+    }
+
+    fn remembers(&self) -> Remembers {
+        Remembers::Nothing
     }
 }
 
@@ -103,6 +123,10 @@ impl<L: FrictionLaw> NodeFriction for Lagged<L> {
 
     fn mu_static(&self) -> f64 {
         self.0.mu_static()
+    }
+
+    fn remembers(&self) -> Remembers {
+        Remembers::LastStep
     }
 }
 
@@ -133,6 +157,10 @@ impl<L: FrictionLaw> NodeFriction for Implicit<L> {
 
     fn mu_static(&self) -> f64 {
         self.0.mu_static()
+    }
+
+    fn remembers(&self) -> Remembers {
+        Remembers::Nothing
     }
 }
 

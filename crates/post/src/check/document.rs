@@ -56,6 +56,7 @@ impl Pass<'_> {
         notes.extend(self.gaps(crossed));
         let warnings = mesh_mode["warnings"].as_array().into_iter().flatten();
         notes.extend(warnings.filter_map(Value::as_str).map(str::to_owned));
+        notes.extend(self.law_followed(&metrics));
         let scales = SCALES.iter().filter_map(|(name, units, about)| {
             let scale = basis.scales.get(name)?;
             let entry = json!({ "value": scale.value, "units": units, "about": about,
@@ -83,7 +84,8 @@ impl Pass<'_> {
                 "enforced_on": self.history.enforced_on.map(body_name),
                 "records_with_the_other": crossed,
             },
-            "law": law_value(basis),
+            "law": law_value(basis, self.replay.is_ok()),
+            "law_followed": self.followed(),
             "scales": scales.collect::<Map<_, _>>(),
             "tolerances": {
                 "in_contact": IN_CONTACT, "in_adhesion": IN_ADHESION,
@@ -96,12 +98,65 @@ impl Pass<'_> {
         (document, pass)
     }
 
+    /// Where the coefficient was made again: shares of contact area and time.
+    fn followed(&self) -> Value {
+        let mut sums = [0.0; 3];
+        // the other body's nodes receive what the faces hand on
+        let judged = |body: u8| self.history.enforced_on.is_none_or(|on| on == body);
+        for (_, side) in self.sides.iter().filter(|(body, _)| judged(*body)) {
+            for (sum, weight) in sums.iter_mut().zip(side.mu.weights()) {
+                *sum += weight;
+            }
+        }
+        let all: f64 = sums.iter().sum();
+        let share = |i: usize| if all > 0.0 { json!(sums[i] / all) } else { Value::Null };
+        json!({ "known": share(0), "blurred": share(1), "unknown": share(2),
+                "note": self.replay.as_ref().err() })
+    }
+
+    /// What the law made again from the records cannot say, and why.
+    fn law_followed(&self, metrics: &Map<String, Value>) -> Option<String> {
+        if let Err(why) = &self.replay {
+            let looked = self.history.has("mu") && !why.is_empty();
+            return looked.then(|| {
+                format!("the law's mu is not made again from the records, mu is not judged: {why}")
+            });
+        }
+        let followed = self.followed();
+        let percent = |name: &str| 100.0 * followed[name].as_f64().unwrap_or(0.0);
+        if percent("blurred") == 0.0 {
+            return None;
+        }
+        let blurred = &metrics["mu_error_blurred"]["sides"];
+        let blur = |name: &str| {
+            let of = ["disk", "bar"].iter().filter_map(|side| blurred[side][name].as_f64());
+            100.0 * of.fold(0.0, f64::max)
+        };
+        let start = self.history.times[0];
+        let late = match self.scales.dt {
+            Some(dt) if start > 0.5 * dt => format!(
+                ", and the law's state at the first record, {:.5} ms after the start, is not known",
+                1e3 * start
+            ),
+            _ => String::new(),
+        };
+        Some(format!(
+            "on {:.0} % of contact area and time the steps since contact began are not all recorded{late}: \
+             there the law's mu is known to {:.2} % (median; 95 % of it to {:.2} %) only, on {:.0} % to \
+             round-off (record every step from the start, or for long enough, in an [[output.window]])",
+            percent("blurred"),
+            blur("blur_median"),
+            blur("blur_p95"),
+            percent("known")
+        ))
+    }
+
     /// What could not be measured.
     fn gaps(&self, crossed: usize) -> Vec<String> {
         let mut notes = Vec::new();
         for (field, lost) in [
             ("gap", "penetration and complementarity are not measured"),
-            ("mu", "law_error_own is not measured"),
+            ("mu", "law_error_own and mu_error are not measured"),
             ("state", "switches are counted from the slip velocity"),
             ("motion", "the slip of the pair is not measured (displacement and velocity)"),
         ] {
@@ -194,6 +249,12 @@ impl Pass<'_> {
             entry["side"] = json!(view);
             entry["pairing"] = json!(pairing.map(Pairing::name));
             entry["deviation"] = json!(found.deviation);
+            let more = |name: &str| found.more.iter().find(|(known, _)| *known == name);
+            for (key, name) in [("mu_used", "mu_used_worst"), ("mu_law", "mu_law_worst")] {
+                if let Some((_, Some(mu))) = more(name) {
+                    entry["where"][key] = json!(mu);
+                }
+            }
         } else {
             entry["note"] = json!(self.why_none(measure.name, basis));
         }
@@ -264,7 +325,7 @@ impl Pass<'_> {
 
     /// Why a measure has no value.
     fn why_none(&self, name: &str, basis: &Basis) -> &'static str {
-        let no_law = basis.law.is_none();
+        let no_law = basis.law.is_none() && self.replay.is_err();
         match name {
             "penetration" | "complementarity" if !self.history.has("gap") => {
                 "the file has no field gap"
@@ -276,7 +337,14 @@ impl Pass<'_> {
             "law_error_let_slip" | "direction_let_slip" if !self.history.has("state") => {
                 "the file has no field state"
             }
-            "law_error_own" if !self.history.has("mu") => "the file has no field mu",
+            "law_error_own" | "mu_error" | "mu_error_blurred" if !self.history.has("mu") => {
+                "the file has no field mu"
+            }
+            "mu_error" | "mu_error_blurred" if self.replay.is_err() => {
+                "the law's mu is not made again, see the note"
+            }
+            "mu_error" => "no node has every step recorded since its contact began",
+            "mu_error_blurred" => "every step is recorded that the law's mu needs",
             "roughness_ratio" if matches!(basis.law, Some(Law::Coulomb(_))) => {
                 "the law's coefficient is constant"
             }
@@ -349,9 +417,10 @@ fn details(all: &[(&'static str, Option<Pairing>, Statistic)]) -> Value {
     sides
 }
 
-fn law_value(basis: &Basis) -> Value {
+fn law_value(basis: &Basis, followed: bool) -> Value {
     let bound = match basis.bound {
         Bound::Law => "mu(|s|)",
+        Bound::Used if followed => "mu of the law, made again from the records",
         Bound::Used => "mu that the algorithm used",
     };
     match basis.law {

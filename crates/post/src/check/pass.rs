@@ -1,14 +1,17 @@
 //! One pass over the records of a window: every measure on every view of the interface.
 
 use super::scales::Scales;
-use crate::basis::Basis;
+use crate::PostError;
+use crate::basis::{Basis, Bound};
 use crate::conditions::{IN_CONTACT, Judge, Node};
 use crate::foot::Pair;
 use crate::frames::{ContactHistory, Frame, Pairing};
 use crate::patch_series::{self, PatchRow};
+use crate::replay::{Allowed, Replay};
 use crate::surface::{Surface, body_name};
 use crate::tally::{SideTally, Tally};
-use crate::vector::{Vec3, norm};
+use crate::vector::{Vec3, axpy, norm};
+use contact::Place;
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
 
@@ -46,6 +49,8 @@ struct Record {
     contact: Vec<bool>,
     /// The pair's slip where this record, the one before or the one after has contact.
     pair_slip: Vec<Option<Vec3>>,
+    /// What the law allows the coefficient to be; empty where it cannot be followed.
+    allowed: Vec<Option<Allowed>>,
 }
 
 /// The sums of a check.
@@ -61,6 +66,8 @@ pub(super) struct Pass<'a> {
     /// Slip over the faces in contact, where the conditions are enforced.
     pub mesh_mode: MeshMode,
     judged_faces: Vec<[u32; 4]>,
+    /// The law along the records, or why it cannot be followed.
+    pub replay: Result<Replay, String>,
     shape: PatchShape,
     pair: Option<Pair>,
     previous: Option<Record>,
@@ -88,6 +95,11 @@ impl<'a> Pass<'a> {
         Self {
             history,
             judge: Judge::new(basis, scales.slip_speed),
+            replay: if history.has("mu") {
+                Replay::new(history, basis, scales.dt)
+            } else {
+                Err("the file has no field mu".into())
+            },
             scales,
             channels,
             sides: bodies.iter().map(|&body| (body, SideTally::new(nodes))).collect(),
@@ -102,15 +114,31 @@ impl<'a> Pass<'a> {
         }
     }
 
+    /// Follows the law through the records before number `first`, as far back as it remembers.
+    ///
+    /// # Errors
+    /// Records that cannot be read.
+    pub fn lead_in(&mut self, first: usize) -> Result<(), PostError> {
+        let Ok(replay) = &mut self.replay else { return Ok(()) };
+        let history = self.history;
+        history.stream(replay.start(first)..first, |frame| {
+            replay.follow(&history.surface, &frame);
+            Ok(())
+        })
+    }
+
     /// Takes in the next records, each with the time that it stands for (s).
     ///
     /// Views, pairings and sides are independent of each other and each goes through the records
     /// in order: the same bits on any number of threads and for batches of any size.
     pub fn take(&mut self, frames: impl IntoIterator<Item = (Frame, f64)>) {
         let limit = IN_CONTACT * self.scales.peak_pressure;
+        let (surface, replay) = (&self.history.surface, &mut self.replay);
         let record = |(frame, weight): (Frame, f64)| {
             let contact: Vec<bool> = frame.pressure.iter().map(|&p| p > limit).collect();
-            Record { pair_slip: vec![None; contact.len()], frame, weight, contact }
+            let allowed =
+                replay.as_mut().map(|replay| replay.follow(surface, &frame)).unwrap_or_default();
+            Record { pair_slip: vec![None; contact.len()], frame, weight, contact, allowed }
         };
         let mut records: Vec<Record> = self.previous.take().into_iter().collect();
         let first = records.len();
@@ -118,6 +146,7 @@ impl<'a> Pass<'a> {
         self.node_times += records[first..].iter().flat_map(|r| &r.contact).filter(|c| **c).count();
 
         let (history, judge, scales) = (self.history, &self.judge, &self.scales);
+        let replay = self.replay.as_ref().ok();
         let surface = &history.surface;
         let (pairs, views): (Vec<&mut Channel>, Vec<&mut Channel>) =
             self.channels.iter_mut().partition(|channel| channel.view == View::Pair);
@@ -134,7 +163,7 @@ impl<'a> Pass<'a> {
                 }
             });
             for channel in views {
-                scope.spawn(move |_| channel.take(history, records, first, judge, scales));
+                scope.spawn(move |_| channel.take(history, records, first, judge, replay, scales));
             }
             for (body, side) in sides {
                 scope.spawn(move |_| {
@@ -164,7 +193,7 @@ impl<'a> Pass<'a> {
         rayon::scope(|scope| {
             let records = &records;
             for channel in pairs {
-                scope.spawn(move |_| channel.take(history, records, first, judge, scales));
+                scope.spawn(move |_| channel.take(history, records, first, judge, replay, scales));
             }
         });
         self.previous = records.pop();
@@ -179,13 +208,14 @@ impl Channel {
         records: &[Record],
         first: usize,
         judge: &Judge,
+        replay: Option<&Replay>,
         scales: &Scales,
     ) {
         let own = history.pairing.0;
         for k in first..records.len() {
             let record = &records[k];
             if self.pairing == own {
-                self.judge(&history.surface, record, record, record.weight, judge);
+                self.judge(&history.surface, record, record, record.weight, judge, replay);
                 continue;
             }
             // the other pairing takes slip or traction from the record one step before
@@ -200,7 +230,7 @@ impl Channel {
                 Pairing::Before => (before, record),
                 Pairing::After => (record, before),
             };
-            self.judge(&history.surface, traction, slip, step, judge);
+            self.judge(&history.surface, traction, slip, step, judge, replay);
         }
     }
 
@@ -208,10 +238,11 @@ impl Channel {
     fn judge(
         &mut self,
         surface: &Surface,
-        Record { frame: traction, contact, .. }: &Record,
+        Record { frame: traction, contact, allowed, .. }: &Record,
         slip: &Record,
         weight: f64,
         judge: &Judge,
+        replay: Option<&Replay>,
     ) {
         let tally = &mut self.tally;
         tally.begin_record(traction.time);
@@ -229,12 +260,34 @@ impl Channel {
                 shear: traction.shear[row],
                 slip,
                 mu_used: traction.mu.as_ref().map(|mu| mu[row]),
+                mu_made: replay
+                    .filter(|_| judge.bound == Bound::Used)
+                    .and_then(|replay| made(replay, surface, traction, allowed, slip, row)),
                 state: traction.state.as_ref().map(|state| state[row]),
             };
             tally.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
         }
         tally.end_record(traction.time, weight);
     }
+}
+
+/// The law's coefficient: of one that remembers no more than a step that at the slip velocity of the same
+/// instant, else that of its own state. Where the latter is blurred it is no bound, and the one used stands in.
+fn made(
+    replay: &Replay,
+    surface: &Surface,
+    frame: &Frame,
+    allowed: &[Option<Allowed>],
+    slip: Vec3,
+    row: usize,
+) -> Option<f64> {
+    let moved = frame.motion.as_ref().map_or([0.0; 3], |[displacement, _]| displacement[row]);
+    let position = axpy(surface.points[row], 1.0, moved);
+    let at = Place { position, time: frame.time, pressure: frame.pressure[row] };
+    replay.at_once(norm(slip), &at).or_else(|| {
+        let (used, allowed) = (frame.mu.as_ref()?[row], allowed[row]?);
+        Some(if allowed.known { allowed.nearest(used) } else { used })
+    })
 }
 
 /// The pair's slip in `records[first..]`, where a record or the one before it has contact: both
@@ -293,7 +346,7 @@ fn take_side(
     side: &mut SideTally,
     body: u8,
     surface: &Surface,
-    Record { frame, contact, weight, .. }: &Record,
+    Record { frame, contact, weight, allowed, .. }: &Record,
     judge: &Judge,
     scales: &Scales,
 ) {
@@ -313,7 +366,10 @@ fn take_side(
         // without a law the largest coefficient used is all that is known of the cone
         let used = frame.mu.as_ref().map(|mu| mu[row]);
         if let Some(mu) = judge.law.map(|law| law.mu_static()).or(used) {
-            side.add_cone(row, time, area, norm(frame.shear[row]) / (mu * pressure) - 1.0);
+            side.add_cone(row, time, area, excess(norm(frame.shear[row]), mu * pressure));
+        }
+        if let (Some(used), Some(law)) = (used, allowed.get(row)) {
+            side.mu.add(row, time, area, used, *law);
         }
         match frame.state.as_ref().map(|state| state[row]) {
             Some(state @ (1 | 2)) => side.states.add(row, time, state == 2),
@@ -321,4 +377,9 @@ fn take_side(
         }
     }
     side.end_record(*weight);
+}
+
+/// By how much shear is above the cone, over the cone; where that is nothing all shear is beyond any number.
+fn excess(shear: f64, cone: f64) -> f64 {
+    if shear == 0.0 { 0.0 } else { shear / cone - 1.0 }
 }

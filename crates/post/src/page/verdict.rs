@@ -30,6 +30,16 @@ pub(super) fn verdict(name: &str, metric: &Value) -> String {
              the mean slip speed |creepage| V{place}.",
             digits(value, 3)
         ),
+        "mu_error" => format!(
+            "The coefficient that the algorithm used is off that which its law gives for the recorded \
+             slip, pressure, place and time by {} at most.",
+            percent(value)
+        ),
+        "mu_error_blurred" => format!(
+            "Where not every step is recorded it is off by {} (median) beyond what the missing steps leave \
+             open.",
+            percent(value)
+        ),
         "law_error" => format!(
             "Where nodes slip, shear is off the bound \u{3bc}(|s|) p by {} (root mean square); the \
              give of springs while a node is held counts as slip.",
