@@ -1,27 +1,19 @@
 //! The loop of kills, built first: it needs the whole program, this does not.
 
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
+
+use crate::validate::{Outcome, built, execute};
 
 /// Builds program and loop and runs the latter with `options`.
-pub fn kill_loop(options: &[String]) -> ExitCode {
-    with_program("kill-loop", options)
+pub fn kill_loop(root: &Path, options: &[String]) -> Outcome {
+    with_program(root, "kill-loop", options)
 }
 
 /// Builds `creepage` and the program `tool` of the tests, and runs the latter with `options`.
-pub fn with_program(tool: &str, options: &[String]) -> ExitCode {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let built = Command::new(&cargo).args(["build", "--release", "-p", "creepage"]).status();
-    if !built.is_ok_and(|status| status.success()) {
-        return ExitCode::FAILURE;
-    }
-    let target = std::env::var_os("CARGO_TARGET_DIR");
-    let target = target.map_or_else(|| "target".into(), |dir| Path::new(&dir).to_path_buf());
-    let program = target.join("release").join(format!("creepage{}", std::env::consts::EXE_SUFFIX));
-    let done = Command::new(cargo)
-        .args(["run", "--release", "-p", "creepage-tests", "--bin", tool, "--", "--program"])
-        .arg(program)
-        .args(options)
-        .status();
-    if done.is_ok_and(|status| status.success()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+pub fn with_program(root: &Path, tool: &str, options: &[String]) -> Outcome {
+    let (Some(program), Some(tool)) = (built(root, "creepage"), built(root, tool)) else {
+        return Outcome::Failed;
+    };
+    execute(Command::new(tool).arg("--program").arg(program).args(options).current_dir(root))
 }

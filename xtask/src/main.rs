@@ -62,7 +62,10 @@ fn main() -> ExitCode {
         Chore::BookTest { all: false } => validate::alone(validate::book_test),
         Chore::BookTest { all: true } => validate::alone(validate::all_of_the_book),
         Chore::Wheel => wheel::wheel(),
-        Chore::KillLoop { options } => kill_loop::kill_loop(&options),
+        Chore::KillLoop { options } => match kill_loop::kill_loop(&validate::root(), &options) {
+            validate::Outcome::Passed => ExitCode::SUCCESS,
+            _ => ExitCode::FAILURE,
+        },
         Chore::Results(options) => results::results(&options),
         Chore::Soak { part } => soak::soak(part),
     }

@@ -145,10 +145,7 @@ fn runner<'a>(
 ) -> Result<Runner<'a>, String> {
     let program = match &options.program {
         Some(program) => program.clone(),
-        None if validate::cargo(root, &["build", "--release"], &[]) == Outcome::Passed => {
-            validate::program(root)
-        }
-        None => return Err("the program cannot be built".into()),
+        None => validate::built(root, "creepage").ok_or("the program cannot be built")?,
     };
     let mut steps = chosen.values().flat_map(|manifest| &manifest.steps);
     let python = match steps.any(|step| step.command.starts_with("python ")) {

@@ -33,13 +33,14 @@ pub enum Part {
 /// Runs one part, or all with their default options.
 pub fn soak(part: Option<Part>) -> ExitCode {
     let root = validate::root();
-    let passed = match part {
-        Some(Part::Damage { options }) => damage::damage(&root, &options) == Outcome::Passed,
-        Some(Part::Kills { options }) => kills::kills(&options) == ExitCode::SUCCESS,
-        None => {
-            let damage = damage::damage(&root, &[]) == Outcome::Passed;
-            (kills::kills(&[]) == ExitCode::SUCCESS) && damage
-        }
+    let outcomes = match part {
+        Some(Part::Damage { options }) => vec![damage::damage(&root, &options)],
+        Some(Part::Kills { options }) => vec![kills::kills(&root, &options)],
+        None => vec![damage::damage(&root, &[]), kills::kills(&root, &[])],
     };
-    if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if outcomes.iter().all(|outcome| *outcome == Outcome::Passed) {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
 }

@@ -110,11 +110,7 @@ fn tests(root: &Path) -> Outcome {
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.
 fn schema(root: &Path) -> Outcome {
-    // Built first, so that standard output of the next command is the schema alone.
-    if cargo(root, &["build", "--release"], &[]) == Outcome::Failed {
-        return Outcome::Failed;
-    }
-    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    let Some(binary) = built(root, "creepage") else { return Outcome::Failed };
     let schema = match Command::new(&binary).arg("schema").output() {
         Ok(output) if output.status.success() => output.stdout,
         Ok(output) => {
@@ -162,8 +158,9 @@ fn kernels(root: &Path) -> Outcome {
 fn smoke_run(root: &Path) -> Outcome {
     let folder = target(root).join("smoke");
     let out = folder.display().to_string();
-    let run = ["run", "--release", "--", "run", "cases/smoke.toml", "--force", "--out", &out];
-    if cargo(root, &run, &[]) == Outcome::Failed {
+    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
+    let run = ["run", "cases/smoke.toml", "--force", "--out", &out];
+    if execute(Command::new(program).args(run).current_dir(root)) == Outcome::Failed {
         return Outcome::Failed;
     }
     check_with_python(root, "check_run.py", &[folder])
@@ -179,7 +176,9 @@ fn report_page(root: &Path) -> Outcome {
         return Outcome::Skipped;
     }
     let folder = target(root).join("smoke").display().to_string();
-    if cargo(root, &["run", "--release", "--", "report", &folder], &[]) == Outcome::Failed {
+    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
+    let report = ["report", &folder];
+    if execute(Command::new(program).args(report).current_dir(root)) == Outcome::Failed {
         return Outcome::Failed;
     }
     check_with_python(root, "check_page.py", &[target(root).join("smoke/report.html")])
@@ -187,13 +186,13 @@ fn report_page(root: &Path) -> Outcome {
 
 /// A plan of `creepage sweep` run by the Dask driver gives the sweep's own numbers.
 fn dask(root: &Path) -> Outcome {
-    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    let Some(binary) = built(root, "creepage") else { return Outcome::Failed };
     check_with_python(root, "check_dask.py", &[binary, root.to_path_buf()])
 }
 
 /// Runs on small file systems of their own fill them up. Says so where none can be mounted.
 fn disks(root: &Path) -> Outcome {
-    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
+    let Some(binary) = built(root, "creepage") else { return Outcome::Failed };
     check_with_python(root, "check_disk.py", &[binary, root.to_path_buf()])
 }
 
@@ -228,7 +227,7 @@ fn commands_of_the_book(root: &Path, all: bool) -> Outcome {
         Ok(python) => python.parent().map(Path::to_owned),
         Err(problem) => return missing(&problem, "the test of the book's commands"),
     };
-    if cargo(root, &["build", "--release"], &[]) == Outcome::Failed {
+    if built(root, "creepage").is_none() {
         return Outcome::Failed;
     }
     let programs = crate::book_test::Programs { release: target(root).join("release"), python };
@@ -298,15 +297,18 @@ pub fn target(root: &Path) -> PathBuf {
     }
 }
 
-/// The program, once it is built.
-pub fn program(root: &Path) -> PathBuf {
-    target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX))
-}
-
 /// Runs cargo to its end.
 pub fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     execute(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
+}
+
+/// A program of the workspace, built with everything that the README's test command builds: another selection of
+/// packages has other features of its dependencies, and would compile most of them again.
+pub fn built(root: &Path, name: &str) -> Option<PathBuf> {
+    let everything = ["test", "--release", "--workspace", "--no-run", "--quiet"];
+    (cargo(root, &everything, &[]) == Outcome::Passed)
+        .then(|| target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
 }
 
 /// Runs a command to its end.

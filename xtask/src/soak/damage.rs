@@ -2,18 +2,12 @@
 
 use std::path::Path;
 
-use crate::validate::{Outcome, cargo, program};
+use crate::kill_loop::with_program;
+use crate::validate::Outcome;
 
 /// Builds program and trial and runs the latter with `options`.
 pub fn damage(root: &Path, options: &[String]) -> Outcome {
-    if cargo(root, &["build", "--release", "-p", "creepage"], &[]) == Outcome::Failed {
-        return Outcome::Failed;
-    }
-    let program = program(root).display().to_string();
-    let trial = ["run", "--release", "-p", "creepage-tests", "--bin", "damage", "--", "--program"];
-    let options = options.iter().map(String::as_str);
-    let words: Vec<&str> = trial.into_iter().chain([program.as_str()]).chain(options).collect();
-    cargo(root, &words, &[])
+    with_program(root, "damage", options)
 }
 
 /// A seeded sample for every change: 30 damaged files.
