@@ -19,7 +19,8 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use mesh::{Bar, Disk, FineZone, Mesh};
 use statics::{
-    Influence, Lateral, Point, Press, Rigid, Rolling, Supports, SurfaceCompliance, ellipsoid, press,
+    Influence, Lateral, Point, Press, Pressed, Rigid, Rolling, Supports, SurfaceCompliance,
+    ellipsoid, press,
 };
 
 const MU: f64 = 0.5;
@@ -27,50 +28,74 @@ const TRACTIONS: [f64; 3] = [0.15, 0.28, 0.40];
 const HALF_SPACE: &str = "half-spaces as blocks with elements of the same size";
 
 pub(crate) fn run(size: Size) -> Outcome {
-    let h = match size {
-        Size::Quick => 2e-3,
-        Size::Full => 1e-3,
+    let meshes: &[f64] = match size {
+        Size::Quick => &[2.8e-3, 2e-3],
+        Size::Full => &[2e-3, 1.4e-3, 1e-3],
     };
-    let (wheel, block) = rayon::join(
-        || roll(&disk_on_bar(h)?, WHEEL.load),
-        || {
-            let blocks = HalfSpaces::new(&WHEEL, WHEEL.block(h, 0.1, Lateral::Symmetric))?;
-            roll(&blocks.influence, blocks.load)
-        },
-    );
-    let (wheel, block) = (wheel?, block?);
-    let curved = WHEEL.half_axes[0] / WHEEL.radii[1];
-    let limit = (curved, "a over the smaller radius");
-    let mut rows = Vec::new();
-    for (k, what) in ["p0 (Pa)", "a (m)", "b (m)"].iter().enumerate() {
-        let values = [block.patch[k], wheel.patch[k]];
-        let quantity = format!("disk on bar: {what}");
-        rows.push(Row::new(quantity, values, values[0], limit, HALF_SPACE));
-    }
-    let strain = curved * WHEEL.p0 / STEEL.young;
-    rows.push(Row::new(
-        "disk on bar: creepage of free rolling",
-        [block.free, wheel.free],
-        1.0,
-        (strain, "strains of order p0/E, times a over the smaller radius"),
-        HALF_SPACE,
-    ));
-    for (traction, values) in TRACTIONS.iter().zip(block.creepage.iter().zip(&wheel.creepage)) {
-        let values = [*values.0, values.1 - wheel.free];
-        let quantity =
-            format!("disk on bar: creepage at T/N = {traction}, less that of free rolling");
-        rows.push(Row::new(quantity, values, values[0], limit, HALF_SPACE));
-    }
+    let mut rows = disk_on_bar(&rolled(meshes)?, |wheel| wheel.free);
     rows.push(approach(size)?);
     Ok(rows)
 }
 
+/// The wheel and half-spaces with elements of the same size, coarse to fine, one after the other: the memory
+/// of the finest is the most there is.
+pub(crate) fn rolled(meshes: &[f64]) -> Result<Vec<(f64, [Rolled; 2])>, Cause> {
+    let one = |&h: &f64| {
+        let (wheel, block) = rayon::join(
+            || roll(&wheel_and_bar(h)?, WHEEL.load),
+            || {
+                let blocks = HalfSpaces::new(&WHEEL, WHEEL.block(h, 0.1, Lateral::Symmetric))?;
+                roll(&blocks.influence, blocks.load)
+            },
+        );
+        Ok((h, [wheel?, block?]))
+    };
+    meshes.iter().map(one).collect()
+}
+
+/// The rows of the wheel; `free` is the creepage that is no creepage of the contact.
+pub(crate) fn disk_on_bar(found: &[(f64, [Rolled; 2])], free: impl Fn(&Rolled) -> f64) -> Vec<Row> {
+    let curved = WHEEL.half_axes[0] / WHEEL.radii[1];
+    let model = curved * curved + WHEEL.p0 / STEEL.young * curved;
+    let row = |what: String, of: &dyn Fn(&Rolled) -> f64| {
+        let ratio = |(h, [wheel, block]): &(f64, [Rolled; 2])| (*h, of(wheel) / of(block) - 1.0);
+        let study = Convergence::by_theory(found.iter().map(ratio), 1.0);
+        let from = format!("{}; and (a/R)^2 and p0/E a/R", study.explain());
+        let limit = (study.uncertainty() + model, from.as_str());
+        let what = format!("disk on bar: {what} over that of half-spaces, less 1");
+        let row = Row::new(what, [0.0, study.finest()], 1.0, limit, HALF_SPACE);
+        Row { meshes: study.samples().to_vec(), order: study.order(), ..row }
+    };
+    let mut rows: Vec<Row> = ["p0", "a", "b"]
+        .into_iter()
+        .enumerate()
+        .map(|(k, what)| row(what.into(), &|rolled| rolled.patch[k]))
+        .collect();
+    if let Some((_, [wheel, _])) = found.last() {
+        rows.push(Row::new(
+            "disk on bar: creepage of free rolling",
+            [wheel.strain[0], wheel.free],
+            1.0,
+            (wheel.strain[1], "how much it differs over the patch: half its range"),
+            "by which pressure stretches disk and bar differently, without friction",
+        ));
+    }
+    for (k, traction) in TRACTIONS.into_iter().enumerate() {
+        let what = format!("creepage at T/N = {traction}, less that of free rolling,");
+        rows.push(row(what, &|rolled| rolled.creepage[k] - free(rolled)));
+    }
+    rows
+}
+
 /// What a contact of the wheel shows.
-struct Rolled {
+pub(crate) struct Rolled {
     /// p0 (Pa), a and b (m).
     patch: [f64; 3],
     /// Creepage without force.
     free: f64,
+    /// By how much pressure alone stretches the slave more than the master along x: mean over the patch, weighted
+    /// with the pressure, and half the range.
+    strain: [f64; 2],
     creepage: Vec<f64>,
 }
 
@@ -83,11 +108,28 @@ fn roll(influence: &Influence, load: f64) -> Result<Rolled, Cause> {
         Ok(rolling.creepage()[0])
     };
     let creepages = TRACTIONS.map(creepage).into_iter().collect::<Result<_, _>>()?;
-    Ok(Rolled { patch: [fit.p0, fit.a, fit.b], free: creepage(0.0)?, creepage: creepages })
+    let (patch, free) = ([fit.p0, fit.a, fit.b], creepage(0.0)?);
+    Ok(Rolled { patch, free, strain: stretched(influence, &pressed)?, creepage: creepages })
+}
+
+/// Mean and half the range of the difference of strain along x that pressure causes.
+fn stretched(influence: &Influence, pressed: &Pressed) -> Result<[f64; 2], Cause> {
+    // next to no friction: what slips over a pitch is what the surfaces stretch
+    let mut rolling = Rolling::new(influence, pressed, 1e-12)?;
+    rolling.roll([Rigid::Moved(0.0); 2])?;
+    let strains: Vec<f64> = rolling.slip().iter().map(|s| s[0] / rolling.pitch()).collect();
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (strain, weight) in strains.iter().zip(rolling.bound()) {
+        sum += strain * weight;
+        weights += weight;
+    }
+    let most = strains.iter().fold(f64::MIN, |m, s| m.max(*s));
+    let least = strains.iter().fold(f64::MAX, |m, s| m.min(*s));
+    Ok([sum / weights, 0.5 * (most - least)])
 }
 
 /// The reference disk, its hub held, on the reference bar, its bottom held.
-fn disk_on_bar(size: f64) -> Result<Influence, Cause> {
+fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     let reach = WHEEL.half_axes.map(|r| 1.5 * r);
     let n = reach.map(|r| (r / size).ceil());
     let zone = FineZone {
