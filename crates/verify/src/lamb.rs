@@ -32,13 +32,12 @@
 //! than the Rayleigh wave. The closed form under the same load gives the same apparent speed; the ratio
 //! of the two, times c_R, is the speed that is compared with the root of Rayleigh's equation.
 
-use crate::body::{ONE_POINT, STEEL, at_rest_with, rollers};
+use crate::body::{STEEL, at_rest, rollers};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use dynamics::Simulation;
 use mesh::quad_corner_areas;
-use solid::Element;
 
 /// Half the edge of the loaded patch (m): the unit of all lengths.
 const PATCH: f64 = 1e-3;
@@ -53,11 +52,6 @@ const LOAD: f64 = 1.0;
 const SOURCE: &str = "Lamb (1904), closed form of Pekeris, Mooney and Kausel";
 
 pub(crate) fn run(size: Size) -> Outcome {
-    run_with(size, ONE_POINT)
-}
-
-/// The problem on these elements.
-pub(crate) fn run_with(size: Size, element: Element) -> Outcome {
     let halves: &[usize] = match size {
         Size::Quick => &[2, 4],
         Size::Full => &[2, 4, 8],
@@ -67,7 +61,7 @@ pub(crate) fn run_with(size: Size, element: Element) -> Outcome {
     let reference: [Trace; 2] = [NEAR, FAR].map(|r| exact.trace(r, &times));
     let mut meshes = Vec::new();
     for &n in halves {
-        meshes.push((PATCH / n as f64, traces(n, &times, element)?));
+        meshes.push((PATCH / n as f64, traces(n, &times)?));
     }
     let study = |value: &dyn Fn(&[Trace; 2]) -> f64| {
         Convergence::with_known_order(meshes.iter().map(|(h, t)| (*h, value(t))), 2.0)
@@ -277,11 +271,11 @@ fn rayleigh_roots(squared: f64) -> [Complex; 3] {
 }
 
 /// The traces of both receivers with `n` elements over half of the patch.
-fn traces(n: usize, times: &Times, element: Element) -> Result<[Trace; 2], Cause> {
+fn traces(n: usize, times: &Times) -> Result<[Trace; 2], Cause> {
     let h = PATCH / n as f64;
     // the half-space is z > 0; the load pushes along +z
     let mesh = mesh::block(BLOCK.map(|b| b * n), BLOCK.map(|b| b as f64 * PATCH));
-    let mut setup = at_rest_with(&mesh, STEEL, element, 0.67, None)?;
+    let mut setup = at_rest(&mesh, STEEL, 0.67, None)?;
     setup.fixed = rollers(&mesh, "x-", 0);
     setup.fixed.extend(rollers(&mesh, "y-", 1));
     setup.load.ramp = times.ramp;

@@ -8,8 +8,8 @@
 //! sticks until tau = mu_S p, jumps to the solution in slip, and sticks again at tau = f_min p.
 //!
 //! Steel at 1 GPa with k = 6 s/m has R = 85.78, the speed 14.297 m/s after the jump, and f_min = 0.3314.
-//! The columns bear a thousandth of that pressure with k a thousand times as large: the same R with
-//! strains that stay linear, and all speeds are a thousandth.
+//! The columns bear a ten-thousandth of that pressure with k ten thousand times as large: the same R with
+//! strains that stay linear, and all speeds are a ten-thousandth.
 //!
 //! The stress that arrives rises slowly from below mu_S p to 0.51 p, so that an onset that is early or late shows
 //! as what it is, and comes back to mu_S p, where the slip speed is that of the jump: perfect delay keeps the
@@ -36,7 +36,7 @@ use mesh::Padded;
 use solid::{Element, Level, Solid, Viscosity};
 
 /// Pressure and speeds of the model over those at 1 GPa.
-pub(crate) const SCALE: f64 = 1e-3;
+pub(crate) const SCALE: f64 = 1e-4;
 pub(crate) const PRESSURE: f64 = 1e9 * SCALE;
 pub(crate) const LAW: Exponential =
     Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 / SCALE };
@@ -157,12 +157,12 @@ pub(crate) fn run_with(size: Size, law: impl Fn() -> Box<dyn NodeFriction>) -> O
     ])
 }
 
-/// What finite strain may change, and why.
+/// What finite strain may change of the speed at a stress over p, as a share: pressure takes p off the shear modulus G,
+/// hence p/G of the stress tau, of which the slip speed is what friction leaves, (tau - mu_D p)/Z.
 pub(crate) fn strain(stress: f64) -> f64 {
-    stress * PRESSURE / SHEARED.shear()
+    PRESSURE / SHEARED.shear() * stress / (stress - LAW.mu_dynamic)
 }
-pub(crate) const STRAIN: &str =
-    "the shear strain, by which finite strain departs from small strain";
+pub(crate) const STRAIN: &str = "finite strain: pressure takes p/G off the shear stress";
 
 /// The impedance `Z = rho c_s/2` (Pa s/m).
 pub(crate) fn impedance() -> f64 {

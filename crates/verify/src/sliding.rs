@@ -40,7 +40,7 @@ use dynamics::{Load, Setup, Simulation};
 use mesh::{Mesh, Padded, Surface};
 use solid::{Element, Level, Material, Solid, Viscosity};
 
-const MU: f64 = 0.3;
+pub(crate) const MU: f64 = 0.3;
 /// Acceleration (m/s^2) that lets a millimetre block stop within some thousand steps.
 const GRAVITY: f64 = 2e4;
 /// Edges of the block (m): so flat that friction does not lift its rear, mu H/2 < L/6.
