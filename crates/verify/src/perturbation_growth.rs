@@ -64,6 +64,8 @@ const WIDE: f64 = 10.0;
 const GROWN: f64 = 4.0;
 const LONGEST: f64 = 300.0;
 
+/// Error that is asked at most.
+const ASKED: f64 = 0.1;
 const SOURCE: &str = "linear stability of sliding between half-spaces (dispersion.rs)";
 
 pub(crate) fn run(size: Size) -> Outcome {
@@ -84,12 +86,18 @@ pub(crate) fn run(size: Size) -> Outcome {
         };
         let (growth, exact) = (study(|q| q.re), mode.growth);
         let values = [exact.re, growth.finest()];
-        let row = Row::asked(format!("{case}: growth rate (1/s)"), values, 0.1, SOURCE);
+        let row = Row::asked(format!("{case}: growth rate (1/s)"), values, ASKED, SOURCE);
         rows.push(Row { meshes: growth.samples().to_vec(), order: growth.order(), ..row });
         // beside the point where two real roots meet, a mesh may still have the two
         if exact.im > 0.5 * exact.re {
-            let what = format!("{case}: frequency (rad/s)");
-            rows.push(Row::converged(what, exact.im, &study(|q| q.im), (0.0, ""), SOURCE));
+            let frequency = study(|q| q.im);
+            // two parts of one root, whose error has no direction of its own
+            let uncertain = growth.uncertainty().hypot(frequency.uncertainty()) / exact.im;
+            let from = format!("{}, of the complex root", frequency.explain());
+            let (what, limit) = (format!("{case}: frequency (rad/s)"), (uncertain, from.as_str()));
+            let row = Row::new(what, [exact.im, frequency.finest()], exact.im, limit, SOURCE);
+            let meshes = frequency.samples().to_vec();
+            rows.push(Row { meshes, order: frequency.order(), ..row }.at_most(ASKED));
         }
     }
     Ok(rows)
