@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use miette::miette;
 use serde_json::json;
-use verify::{PROBLEMS, Problem, Row, Set, Size, VerifyError};
+use verify::{PROBLEMS, Problem, Row, Size, VerifyError};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD};
@@ -20,18 +20,15 @@ const FAILED: u8 = 1;
 /// Options of `verify`.
 #[derive(Debug, clap::Args)]
 pub struct VerifyArgs {
-    /// Problems to run [default: all but the long ones]
+    /// Problems to run [default: all]
     #[arg(value_name = "NAME")]
     names: Vec<String>,
     /// Name all problems and run none
-    #[arg(long, conflicts_with_all = ["names", "quick", "long", "plot"])]
+    #[arg(long, conflicts_with_all = ["names", "quick", "plot"])]
     list: bool,
     /// Coarse meshes, for continuous integration
     #[arg(long)]
     quick: bool,
-    /// The long problems as well
-    #[arg(long, conflicts_with = "names")]
-    long: bool,
     /// Draw error over mesh size (convergence.svg, .png) and rupture times (rupture.svg, .png) in this folder
     #[arg(long, value_name = "FOLDER")]
     plot: Option<PathBuf>,
@@ -91,8 +88,7 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
 
 fn chosen(options: &VerifyArgs) -> Result<Vec<&'static Problem>, Failure> {
     if options.names.is_empty() {
-        let wanted = |problem: &&Problem| options.long || problem.set == Set::Default;
-        return Ok(PROBLEMS.iter().filter(wanted).collect());
+        return Ok(PROBLEMS.iter().collect());
     }
     let unknown = |name: &String| Failure {
         report: miette!(
@@ -105,17 +101,14 @@ fn chosen(options: &VerifyArgs) -> Result<Vec<&'static Problem>, Failure> {
 }
 
 fn list(args: &Args) {
-    let long = |problem: &Problem| problem.set == Set::Long;
     if args.json {
-        let problems = PROBLEMS.iter().map(|problem| {
-            json!({ "name": problem.name, "about": problem.about, "long": long(problem) })
-        });
+        let problems =
+            PROBLEMS.iter().map(|problem| json!({ "name": problem.name, "about": problem.about }));
         args.print_json(&json!({ "problems": problems.collect::<Vec<_>>() }));
         return;
     }
     for problem in PROBLEMS {
-        let mark = if long(problem) { " (long)" } else { "" };
-        let _ = writeln!(std::io::stdout(), "{:<20}{}{mark}", problem.name, problem.about);
+        let _ = writeln!(std::io::stdout(), "{:<20}{}", problem.name, problem.about);
     }
 }
 

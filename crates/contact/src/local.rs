@@ -143,10 +143,11 @@ mod tests {
     }
 
     #[test]
-    fn a_node_that_stuck_sticks_up_to_the_static_bound_and_jumps_to_14_19_metres_per_second() {
+    fn a_node_that_stuck_sticks_up_to_the_static_bound_and_jumps_to_the_root_of_the_balance() {
         assert_eq!(solve(0.4999 * C, C, false, &paper), None);
         let (s, mu) = solve(0.500_001 * C, C, false, &paper).unwrap();
-        assert!((s / 14.19 - 1.0).abs() < 1e-2, "{s}");
+        // at 14.286 m/s all of the fall is spent: s = (tau - mu_D p)/Z
+        assert!((s / (0.180_001 * C) - 1.0).abs() < 1e-12, "{s}");
         assert!((s + C * mu - 0.500_001 * C).abs() < 1e-12 * C);
     }
 

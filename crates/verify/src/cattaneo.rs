@@ -4,6 +4,10 @@
 //! 3 mu N (2 - nu)/(16 G a) (1 - (1 - Q/(mu N))^(2/3)). What a block that ends at L misses of the shift
 //! falls like 1/L, as the approach of the bodies does: the shift extrapolated from two blocks is that
 //! of the half-space but for terms of (a/L)^3.
+//!
+//! What friction has in reserve, mu p - q, is mu p_0 (c/a) sqrt(1 - r^2/c^2) where the surfaces stick and nothing
+//! where they slip: an ellipsoid as Hertz's, whose radius c follows from its mean of r^2. A count of the nodes that stick
+//! changes by whole nodes, and a node sticks with the whole of its area: by half an element the radius is then too large.
 
 use crate::convergence::Convergence;
 use crate::half_space::{
@@ -11,8 +15,7 @@ use crate::half_space::{
 };
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use statics::{Influence, Lateral, Rigid, Rolling, stick_fraction};
-use std::f64::consts::PI;
+use statics::{Influence, Lateral, Rigid, Rolling};
 
 const MU: f64 = 0.3;
 const SOURCE: &str = "Cattaneo (1938), Mindlin (1949)";
@@ -26,24 +29,17 @@ pub(crate) fn run(size: Size) -> Outcome {
         let far = shifted(h, 2.0 * SPHERE_EXTENT)?;
         let mut values = [0.0; 6];
         for k in 0..TABLE.len() {
-            values[2 * k] = near[k][0];
-            values[2 * k + 1] = far[k][1] + (far[k][1] - near[k][1]);
+            values[2 * k] = near[2 * k];
+            values[2 * k + 1] = far[2 * k + 1] + (far[2 * k + 1] - near[2 * k + 1]);
         }
         Ok(values)
     })?;
     let mut rows = Vec::new();
     for (k, [share, radius, shift]) in TABLE.into_iter().enumerate() {
         let radii = Convergence::by_theory(column(&found, 2 * k), 1.0);
-        let h = radii.samples().last().map_or(f64::NAN, |s| s.size);
-        let radius = radius * SPHERE.half_axes[0];
-        let row = Row::new(
-            format!("Q/(mu N) = {share}: radius of stick (m)"),
-            [radius, radii.finest()],
-            radius,
-            (h / radius, "one element, h/c"),
-            SOURCE,
-        );
-        rows.push(Row { meshes: radii.samples().to_vec(), ..row });
+        let quantity = format!("Q/(mu N) = {share}: radius of stick (m)");
+        let (radius, body) = (radius * SPHERE.half_axes[0], SPHERE.body(SPHERE_EXTENT));
+        rows.push(Row::extrapolated(&quantity, radius, &radii, body, SOURCE));
         let shifts = Convergence::by_theory(column(&found, 2 * k + 1), 1.0);
         let quantity = format!("Q/(mu N) = {share}: shift (m)");
         let body = SPHERE.body(2.0 * SPHERE_EXTENT);
@@ -54,25 +50,30 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Radius of the circle with the area that sticks, with the apex on a node (m), and shift (m), over a
-/// pitch, at each share of the sliding force.
-fn shifted(h: f64, extent: f64) -> Result<[[f64; 2]; 3], Cause> {
+/// Radius of stick (m) and shift (m) at each share of the sliding force, over
+/// a pitch.
+fn shifted(h: f64, extent: f64) -> Result<[f64; 6], Cause> {
     let blocks = HalfSpaces::new(&SPHERE, SPHERE.block(h, extent, Lateral::Symmetric))?;
-    let radii = contacts(&blocks, &blocks.influence)?.map(|[radius, _]| radius);
-    let shifts = blocks
-        .over_a_pitch(|influence, _| Ok(contacts(&blocks, influence)?.map(|[_, shift]| shift)))?;
-    Ok(std::array::from_fn(|k| [radii[k], shifts[k]]))
+    blocks.over_a_pitch(|influence, apex| contacts(&blocks, influence, apex))
 }
 
-fn contacts(blocks: &HalfSpaces<'_>, influence: &Influence) -> Result<[[f64; 2]; 3], Cause> {
+fn contacts(blocks: &HalfSpaces<'_>, influence: &Influence, apex: f64) -> Result<[f64; 6], Cause> {
     let pressed = blocks.press(influence)?;
-    let mut found = [[0.0; 2]; 3];
-    for ([share, ..], found) in TABLE.into_iter().zip(&mut found) {
+    let mut found = [0.0; 6];
+    for ([share, ..], found) in TABLE.into_iter().zip(found.chunks_exact_mut(2)) {
         let mut contact = Rolling::new(influence, &pressed, MU)?;
         contact.shift([Rigid::Forced(share * MU * blocks.load), Rigid::Moved(0.0)])?;
-        let half: f64 = contact.contact().iter().map(|&i| influence.points()[i].area).sum();
-        let stick = stick_fraction(influence, &contact) * 2.0 * half / PI;
-        *found = [stick.sqrt(), contact.moved()[0]];
+        let (mut reserve, mut moment) = (0.0, 0.0);
+        for (k, &i) in contact.contact().iter().enumerate() {
+            let [fx, fy] = contact.force()[k];
+            let left = (contact.bound()[k] - fx.hypot(fy)).max(0.0);
+            let [x, y, _] = influence.points()[i].at;
+            reserve += left;
+            moment += left * ((x - apex).powi(2) + y * y);
+        }
+        // of an ellipsoid of radius c the mean of r^2 is 2 c^2/5
+        let radius = (2.5 * moment / reserve).sqrt();
+        found.copy_from_slice(&[radius, contact.moved()[0]]);
     }
     Ok(found)
 }

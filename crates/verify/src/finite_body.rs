@@ -4,7 +4,8 @@
 //! Half-spaces are compared as blocks with elements of the same size, so that the difference is that
 //! of the models and not of the mesh. Hertz's patch is that of paraboloids on half-spaces: bodies of
 //! radius R differ by terms of order a/R. The pressure stretches a disk and a bar differently: without
-//! any force the disk turns a little more than V/R, by strains of order p0/E times a/R.
+//! any force the disk turns a little more than V/R, by strains of order p0/E times a/R. How much, and in which sense, follows
+//! from what pressure alone does to the surfaces, without any friction, strip by strip.
 //!
 //! A block that ends at L misses the part of the approach that lies beyond, d = d_inf - A/L - B/L^3:
 //! far from the patch the load is a point load, and what the size of the patch adds falls with two
@@ -19,58 +20,84 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use mesh::{Bar, Disk, FineZone, Mesh};
 use statics::{
-    Influence, Lateral, Point, Press, Rigid, Rolling, Supports, SurfaceCompliance, ellipsoid, press,
+    Influence, Lateral, Point, Press, Pressed, Rigid, Rolling, Supports, SurfaceCompliance,
+    ellipsoid, press,
 };
 
 const MU: f64 = 0.5;
 const TRACTIONS: [f64; 3] = [0.15, 0.28, 0.40];
+const STRIPS: &str = "by which pressure stretches disk and bar differently, on strips that stick";
 const HALF_SPACE: &str = "half-spaces as blocks with elements of the same size";
 
+/// Element sizes at quick size (m), coarse to fine.
+pub(crate) const QUICK: &[f64] = &[2.8e-3, 2e-3];
+
 pub(crate) fn run(size: Size) -> Outcome {
-    let h = match size {
-        Size::Quick => 2e-3,
-        Size::Full => 1e-3,
+    let meshes: &[f64] = match size {
+        Size::Quick => QUICK,
+        Size::Full => &[2e-3, 1.4e-3, 1e-3],
     };
-    let (wheel, block) = rayon::join(
-        || roll(&disk_on_bar(h)?, WHEEL.load),
-        || {
-            let blocks = HalfSpaces::new(&WHEEL, WHEEL.block(h, 0.1, Lateral::Symmetric))?;
-            roll(&blocks.influence, blocks.load)
-        },
-    );
-    let (wheel, block) = (wheel?, block?);
-    let curved = WHEEL.half_axes[0] / WHEEL.radii[1];
-    let limit = (curved, "a over the smaller radius");
-    let mut rows = Vec::new();
-    for (k, what) in ["p0 (Pa)", "a (m)", "b (m)"].iter().enumerate() {
-        let values = [block.patch[k], wheel.patch[k]];
-        let quantity = format!("disk on bar: {what}");
-        rows.push(Row::new(quantity, values, values[0], limit, HALF_SPACE));
-    }
-    let strain = curved * WHEEL.p0 / STEEL.young;
-    rows.push(Row::new(
-        "disk on bar: creepage of free rolling",
-        [block.free, wheel.free],
-        1.0,
-        (strain, "strains of order p0/E, times a over the smaller radius"),
-        HALF_SPACE,
-    ));
-    for (traction, values) in TRACTIONS.iter().zip(block.creepage.iter().zip(&wheel.creepage)) {
-        let values = [*values.0, values.1 - wheel.free];
-        let quantity =
-            format!("disk on bar: creepage at T/N = {traction}, less that of free rolling");
-        rows.push(Row::new(quantity, values, values[0], limit, HALF_SPACE));
-    }
+    let mut rows = disk_on_bar(&rolled(meshes)?, |wheel| wheel.free);
     rows.push(approach(size)?);
     Ok(rows)
 }
 
+/// The wheel and half-spaces with elements of the same size, coarse to fine, one after the other: the memory
+/// of the finest is the most there is.
+pub(crate) fn rolled(meshes: &[f64]) -> Result<Vec<(f64, [Rolled; 2])>, Cause> {
+    let one = |&h: &f64| {
+        let (wheel, block) = rayon::join(
+            || roll(&wheel_and_bar(h)?, WHEEL.load),
+            || {
+                let blocks = HalfSpaces::new(&WHEEL, WHEEL.block(h, 0.1, Lateral::Symmetric))?;
+                roll(&blocks.influence, blocks.load)
+            },
+        );
+        Ok((h, [wheel?, block?]))
+    };
+    meshes.iter().map(one).collect()
+}
+
+/// The rows of the wheel; `free` is the creepage at which it rolls without force.
+pub(crate) fn disk_on_bar(found: &[(f64, [Rolled; 2])], free: impl Fn(&Rolled) -> f64) -> Vec<Row> {
+    let curved = WHEEL.half_axes[0] / WHEEL.radii[1];
+    let model = curved * curved + WHEEL.p0 / STEEL.young * curved;
+    let compared = |what: String, ratios: Vec<(f64, f64)>, model: (f64, &str), source| {
+        let study = Convergence::by_theory(ratios, 1.0);
+        let from = format!("{}{}", study.explain(), model.1);
+        let limit = (study.uncertainty() + model.0, from.as_str());
+        let row = Row::new(what, [0.0, study.finest()], 1.0, limit, source);
+        Row { meshes: study.samples().to_vec(), order: study.order(), ..row }
+    };
+    let row = |what: String, of: &dyn Fn(&Rolled) -> f64| {
+        let ratio = |(h, [wheel, block]): &(f64, [Rolled; 2])| (*h, of(wheel) / of(block) - 1.0);
+        let what = format!("disk on bar: {what} over that of half-spaces, less 1");
+        let model = (model, "; and (a/R)^2 and p0/E a/R");
+        compared(what, found.iter().map(ratio).collect(), model, HALF_SPACE)
+    };
+    let mut rows: Vec<Row> = ["p0", "a", "b"]
+        .into_iter()
+        .enumerate()
+        .map(|(k, what)| row(what.into(), &|rolled| rolled.patch[k]))
+        .collect();
+    let ratio = |(h, [wheel, _]): &(f64, [Rolled; 2])| (*h, free(wheel) / wheel.strips - 1.0);
+    let what = "disk on bar: creepage of free rolling over that of strips, less 1".to_owned();
+    rows.push(compared(what, found.iter().map(ratio).collect(), (0.0, ""), STRIPS));
+    for (k, traction) in TRACTIONS.into_iter().enumerate() {
+        let what = format!("creepage at T/N = {traction}, less that of free rolling,");
+        rows.push(row(what, &|rolled| rolled.creepage[k] - free(rolled)));
+    }
+    rows
+}
+
 /// What a contact of the wheel shows.
-struct Rolled {
+pub(crate) struct Rolled {
     /// p0 (Pa), a and b (m).
     patch: [f64; 3],
     /// Creepage without force.
-    free: f64,
+    pub(crate) free: f64,
+    /// The same by what pressure alone stretches, strip by strip.
+    strips: f64,
     creepage: Vec<f64>,
 }
 
@@ -83,11 +110,43 @@ fn roll(influence: &Influence, load: f64) -> Result<Rolled, Cause> {
         Ok(rolling.creepage()[0])
     };
     let creepages = TRACTIONS.map(creepage).into_iter().collect::<Result<_, _>>()?;
-    Ok(Rolled { patch: [fit.p0, fit.a, fit.b], free: creepage(0.0)?, creepage: creepages })
+    let (patch, free) = ([fit.p0, fit.a, fit.b], creepage(0.0)?);
+    Ok(Rolled { patch, free, strips: stretched(influence, &pressed)?, creepage: creepages })
+}
+
+/// The creepage at which the difference e of strain along x that pressure causes does not drive: in a strip that
+/// sticks the force is that of `xi - e` with the weight `sqrt((a + x)/(a - x))`, a half its length and x from its middle
+/// to the leading edge (Johnson 1985, Secs. 8.2 and 8.3), and all strips together bear none.
+fn stretched(influence: &Influence, pressed: &Pressed) -> Result<f64, Cause> {
+    // next to no friction: what slips over a pitch is what the surfaces stretch
+    let mut rolling = Rolling::new(influence, pressed, 1e-12)?;
+    rolling.roll([Rigid::Moved(0.0); 2])?;
+    let h = rolling.pitch();
+    let mut strips = std::collections::BTreeMap::<i64, Vec<(f64, f64)>>::new();
+    for (slip, &i) in rolling.slip().iter().zip(rolling.contact()) {
+        let point = &influence.points()[i];
+        let strip = strips.entry((point.at[1] / h).round() as i64).or_default();
+        strip.push((point.at[0], slip[0] / h));
+    }
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for strip in strips.values() {
+        let ends = strip.iter().fold([f64::MAX, f64::MIN], |[a, b], (x, _)| [a.min(*x), b.max(*x)]);
+        let (middle, a) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]) + 0.5 * h);
+        let integral = |x: f64| {
+            let s = (x - middle).clamp(-a, a);
+            a * (s / a).asin() - (a * a - s * s).sqrt()
+        };
+        for (x, strain) in strip {
+            let weight = integral(x + h) - integral(*x);
+            sum += weight * strain;
+            weights += weight;
+        }
+    }
+    Ok(sum / weights)
 }
 
 /// The reference disk, its hub held, on the reference bar, its bottom held.
-fn disk_on_bar(size: f64) -> Result<Influence, Cause> {
+fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     let reach = WHEEL.half_axes.map(|r| 1.5 * r);
     let n = reach.map(|r| (r / size).ceil());
     let zone = FineZone {

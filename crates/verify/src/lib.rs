@@ -16,6 +16,7 @@ mod body;
 mod carter;
 mod cattaneo;
 mod collision;
+mod contact_turn;
 mod dispersion;
 mod finite_body;
 mod free_block;
@@ -27,6 +28,8 @@ mod lamb;
 mod lysmer;
 mod patch;
 mod perturbation_growth;
+#[cfg(test)]
+mod planted;
 mod rupture;
 mod shear_column;
 mod shear_column_penalty;
@@ -36,5 +39,5 @@ mod steady_rolling;
 mod waves;
 
 pub use convergence::{Convergence, Sample};
-pub use problem::{Cause, PROBLEMS, Problem, Set, Size, VerifyError, find};
+pub use problem::{Cause, PROBLEMS, Problem, Size, VerifyError, find};
 pub use row::{Field, Row};

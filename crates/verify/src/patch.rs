@@ -8,11 +8,15 @@
 //!
 //! *Rotation.* Under u = (R - I) X the strain E vanishes, so that stress and force do at any angle.
 //!
-//! Both limits are round-off: a strain of order one is a difference of numbers of order one, exact
+//! *Hourglass.* A unit cube deformed by one of its four hourglass modes, u_i = a Gamma along one axis, has no mean
+//! gradient and so no stress; what resists is the hourglass stiffness alone, with the energy 2 kappa (lambda + 2G) a^2
+//! (Flanagan and Belytschko 1981: K_h = kappa (lambda + 2G) B:B/(24 V), B:B = 3/2, q = 8 a).
+//!
+//! All limits are round-off: a strain of order one is a difference of numbers of order one, exact
 //! to a few eps = 2.2e-16, and a force sums fewer than a thousand products; 1e-12 E leaves a factor
 //! above ten.
 
-use crate::body::STEEL;
+use crate::body::{ONE_POINT, STEEL};
 use crate::problem::{Outcome, Size};
 use crate::row::Row;
 use mesh::{Mesh, Padded, seven_hex_patch};
@@ -26,8 +30,13 @@ const ROUND_OFF: (f64, &str) = (1e-12, "round-off of fewer than 1000 products of
 const GRADIENT: Matrix = [[0.12, 0.05, -0.08], [-0.03, -0.10, 0.06], [0.07, -0.02, 0.15]];
 
 pub(crate) fn patch(_: Size) -> Outcome {
+    patch_with(ONE_POINT)
+}
+
+/// The problem with the hourglass control of `element`, beside the closed form of [`ONE_POINT`].
+pub(crate) fn patch_with(element: Element) -> Outcome {
     let mesh = seven_hex_patch();
-    let mut solid = steel(&mesh)?;
+    let mut solid = steel(&mesh, element)?;
     let u = affine(&mesh, GRADIENT);
     let mut force = vec![Padded::ZERO; mesh.nodes.len()];
     let sums = solid.subtract_internal_force(&u, &[], &mut force, true);
@@ -79,12 +88,19 @@ pub(crate) fn patch(_: Size) -> Outcome {
         ROUND_OFF,
         "gamma is orthogonal to every affine field (Flanagan and Belytschko 1981)",
     ));
+    rows.push(Row::new(
+        "energy of an hourglass mode of a cube, the worst of 12, over 2 kappa (lambda + 2G) a^2",
+        [1.0, hourglass_energy(element)?],
+        1.0,
+        ROUND_OFF,
+        "K_h = kappa (lambda + 2G) B:B/(24 V) (Flanagan and Belytschko 1981)",
+    ));
     Ok(rows)
 }
 
 pub(crate) fn rotation(_: Size) -> Outcome {
     let mesh = seven_hex_patch();
-    let mut solid = steel(&mesh)?;
+    let mut solid = steel(&mesh, ONE_POINT)?;
     let (mut worst_stress, mut worst_force) = (0.0_f64, 0.0_f64);
     for step in 1..=24 {
         let u = affine(&mesh, turn(std::f64::consts::TAU * f64::from(step) / 24.0));
@@ -102,8 +118,37 @@ pub(crate) fn rotation(_: Size) -> Outcome {
     Ok(vec![row("largest stress over E", worst_stress), row("largest force over E A", worst_force)])
 }
 
-fn steel(mesh: &Mesh) -> Result<Solid, solid::SolidError> {
-    let element = Element { hourglass: 0.05 };
+/// Energy of each hourglass mode of a unit cube along each axis, the one farthest off, over that of [`ONE_POINT`]'s
+/// coefficient.
+fn hourglass_energy(element: Element) -> Result<f64, solid::SolidError> {
+    let cube = mesh::block([1; 3], [1.0; 3]);
+    let mut solid = steel(&cube, element)?;
+    let amplitude: f64 = 1e-3;
+    let exact =
+        2.0 * ONE_POINT.hourglass * (STEEL.lame() + 2.0 * STEEL.shear()) * amplitude.powi(2);
+    let modes: [fn([f64; 3]) -> f64; 4] =
+        [|s| s[1] * s[2], |s| s[0] * s[2], |s| s[0] * s[1], |s| s[0] * s[1] * s[2]];
+    let mut worst = 1.0_f64;
+    for mode in modes {
+        for axis in 0..3 {
+            let moved = |x: &[f64; 3]| {
+                let mut u = [0.0; 3];
+                u[axis] = amplitude * mode(x.map(|x| 2.0 * x - 1.0));
+                Padded::new(u)
+            };
+            let u: Vec<Padded> = cube.nodes.iter().map(moved).collect();
+            let mut force = vec![Padded::ZERO; u.len()];
+            let sums = solid.subtract_internal_force(&u, &[], &mut force, true);
+            let ratio = sums.hourglass / exact;
+            if (ratio - 1.0).abs() > (worst - 1.0).abs() {
+                worst = ratio;
+            }
+        }
+    }
+    Ok(worst)
+}
+
+fn steel(mesh: &Mesh, element: Element) -> Result<Solid, solid::SolidError> {
     Solid::new(mesh, &[STEEL], element, Viscosity::default(), Level::detect())
 }
 

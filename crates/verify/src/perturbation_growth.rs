@@ -18,7 +18,7 @@
 //! and Poisson's ratio is zero, or pressure would push the free sides apart. There is no damping.
 
 use crate::body::{SHEARED, at_rest, contact_material};
-use crate::convergence::{Convergence, Sample};
+use crate::convergence::Convergence;
 use crate::dispersion::Sliding;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
@@ -64,11 +64,13 @@ const WIDE: f64 = 10.0;
 const GROWN: f64 = 4.0;
 const LONGEST: f64 = 300.0;
 
+/// Error that is asked at most.
+const ASKED: f64 = 0.1;
 const SOURCE: &str = "linear stability of sliding between half-spaces (dispersion.rs)";
 
 pub(crate) fn run(size: Size) -> Outcome {
     let refinements: &[f64] = match size {
-        Size::Quick => &[1.0],
+        Size::Quick => &[0.5, 1.0],
         Size::Full => &[0.5, 1.0, 2.0],
     };
     let mut rows = Vec::new();
@@ -79,16 +81,23 @@ pub(crate) fn run(size: Size) -> Outcome {
             found.push((mode.cell(refinement), mode.measure(refinement)?));
         }
         let case = format!("V {speed} m/s, d_c {memory} um, wavelength {wavelength} mm");
-        let mut row = |what: &str, exact: f64, of: fn(&Complex<f64>) -> f64| {
-            let study = Convergence::new(found.iter().map(|(h, q)| (*h, of(q))), 2.0);
-            let meshes: Vec<Sample> = study.samples().to_vec();
-            let row = Row::asked(format!("{case}: {what}"), [exact, study.finest()], 0.1, SOURCE);
-            rows.push(Row { meshes, order: study.order(), ..row });
+        let study = |of: fn(&Complex<f64>) -> f64| {
+            Convergence::new(found.iter().map(|(h, q)| (*h, of(q))), 2.0)
         };
-        row("growth rate (1/s)", mode.growth.re, |q| q.re);
+        let (growth, exact) = (study(|q| q.re), mode.growth);
+        let values = [exact.re, growth.finest()];
+        let row = Row::asked(format!("{case}: growth rate (1/s)"), values, ASKED, SOURCE);
+        rows.push(Row { meshes: growth.samples().to_vec(), order: growth.order(), ..row });
         // beside the point where two real roots meet, a mesh may still have the two
-        if mode.growth.im > 0.5 * mode.growth.re {
-            row("frequency (rad/s)", mode.growth.im, |q| q.im);
+        if exact.im > 0.5 * exact.re {
+            let frequency = study(|q| q.im);
+            // two parts of one root, whose error has no direction of its own
+            let uncertain = growth.uncertainty().hypot(frequency.uncertainty()) / exact.im;
+            let from = format!("{}, of the complex root", frequency.explain());
+            let (what, limit) = (format!("{case}: frequency (rad/s)"), (uncertain, from.as_str()));
+            let row = Row::new(what, [exact.im, frequency.finest()], exact.im, limit, SOURCE);
+            let meshes = frequency.samples().to_vec();
+            rows.push(Row { meshes, order: frequency.order(), ..row }.at_most(ASKED));
         }
     }
     Ok(rows)

@@ -1,20 +1,11 @@
 //! The list of problems.
 
 use crate::{
-    Row, carter, cattaneo, collision, finite_body, free_block, hertz, interface_patch, kalker,
-    lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
-    shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
+    Row, carter, cattaneo, collision, contact_turn, finite_body, free_block, hertz,
+    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture,
+    shear_column, shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
 use thiserror::Error;
-
-/// When a problem runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Set {
-    /// Unless other problems are named.
-    Default,
-    /// With `--long`, or by name.
-    Long,
-}
 
 /// How large a problem is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,8 +23,6 @@ pub struct Problem {
     pub name: &'static str,
     /// What it verifies, in one sentence.
     pub about: &'static str,
-    /// When it runs.
-    pub set: Set,
     pub(crate) run: fn(Size) -> Outcome,
 }
 
@@ -58,199 +47,171 @@ pub const PROBLEMS: &[Problem] = &[
     Problem {
         name: "patch",
         about: "A uniform finite strain of seven distorted elements: exact stress, no residual",
-        set: Set::Default,
         run: patch::patch,
     },
     Problem {
         name: "rotation",
         about: "A rigid rotation through a full turn: no stress, no force",
-        set: Set::Default,
         run: patch::rotation,
     },
     Problem {
         name: "free-block",
         about: "A free block of fully integrated elements: five other codes to 7 digits",
-        set: Set::Default,
         run: free_block::run,
     },
     Problem {
         name: "bar-wave",
         about: "A wave in a slender bar: speed sqrt(E/rho) and stress rho c v",
-        set: Set::Default,
         run: waves::bar,
     },
     Problem {
         name: "column-wave",
         about: "A wave in a laterally confined column: speed c_p and stress rho c_p v",
-        set: Set::Default,
         run: waves::column,
     },
     Problem {
         name: "block-slide",
         about: "A block that slides on a plane, stops at v0^2/(2 mu g) and stays",
-        set: Set::Default,
         run: sliding::stop,
     },
     Problem {
         name: "incline",
         about: "A block on an incline: sticks below the angle of friction, slides above",
-        set: Set::Default,
         run: sliding::incline,
     },
     Problem {
         name: "colliding-bars",
         about: "Two equal bars colliding: contact time 2L/c, pressure rho c v, energies, momentum",
-        set: Set::Default,
         run: collision::run,
     },
     Problem {
         name: "block-slide-exact",
         about: "The sliding block with exact contact",
-        set: Set::Default,
         run: sliding::stop_exact,
     },
     Problem {
         name: "incline-exact",
         about: "The block on an incline with exact contact",
-        set: Set::Default,
         run: sliding::incline_exact,
     },
     Problem {
         name: "block-slide-mortar",
         about: "The sliding block with mortar rows on a plane of another pitch",
-        set: Set::Default,
         run: sliding::stop_mortar,
     },
     Problem {
         name: "incline-mortar",
         about: "The block on an incline with mortar rows on a plane of another pitch",
-        set: Set::Default,
         run: sliding::incline_mortar,
     },
     Problem {
         name: "colliding-bars-exact",
         about: "The colliding bars with exact contact",
-        set: Set::Default,
         run: collision::run_exact,
     },
     Problem {
         name: "shear-column",
         about: "Falling friction between two half-spaces sheared in one dimension: both jumps",
-        set: Set::Default,
         run: shear_column::run,
     },
     Problem {
         name: "shear-column-penalty",
         about: "The same by penalty and friction of the step before: what refinement at one k_t tends to",
-        set: Set::Default,
         run: shear_column_penalty::run,
     },
     Problem {
         name: "perturbation-growth",
         about: "A disturbance of steady sliding under falling friction with memory: how fast it grows",
-        set: Set::Default,
         run: perturbation_growth::run,
     },
     Problem {
         name: "rupture",
         about: "A fault that ruptures by itself, TPV3: rupture times of the boundary integral solution",
-        set: Set::Default,
         run: rupture::run,
+    },
+    Problem {
+        name: "contact-turn",
+        about: "Bodies that turn in contact: gaps of the circle, friction that turns with its face",
+        run: contact_turn::run,
     },
     Problem {
         name: "interface-patch",
         about: "Uniform pressure across meshes that do not match: the pressure of exact contact",
-        set: Set::Default,
         run: interface_patch::run,
     },
     Problem {
         name: "lysmer",
         about: "A wave that meets a quiet end: what comes back",
-        set: Set::Default,
         run: lysmer::run,
     },
     Problem {
         name: "lamb",
         about: "A load that appears on a half-space: static tail and Rayleigh wave",
-        set: Set::Default,
         run: lamb::run,
     },
     Problem {
         name: "hertz-sphere",
         about: "A sphere on a flat: the patch of Hertz",
-        set: Set::Default,
         run: hertz::sphere,
     },
     Problem {
         name: "hertz-wheel",
         about: "The reference wheel on its crown: the patch of Hertz, and the bias of penalty springs",
-        set: Set::Default,
         run: hertz::wheel,
     },
     Problem {
         name: "hertz-line",
         about: "A cylinder on a flat: the patch of Hertz",
-        set: Set::Default,
         run: hertz::line,
     },
     Problem {
         name: "cattaneo",
         about: "A sphere pressed and shifted: zone of stick and shift of Cattaneo and Mindlin",
-        set: Set::Default,
         run: cattaneo::run,
     },
     Problem {
         name: "carter",
         about: "A rolling cylinder: creepage and zone of stick of Carter",
-        set: Set::Default,
         run: carter::run,
     },
     Problem {
         name: "kalker",
         about: "Rolling of a circular contact: Kalker's coefficients C11 and C22",
-        set: Set::Default,
         run: kalker::circle,
     },
     Problem {
         name: "kalker-ellipse",
         about: "Rolling of the reference ellipse: Kalker's coefficients C11 and C22",
-        set: Set::Default,
         run: kalker::ellipse,
     },
     Problem {
         name: "steady-rolling",
         about: "The reference wheel rolling steadily: creepage, stick, shear and profiles of CONTACT",
-        set: Set::Default,
         run: steady_rolling::steady,
     },
     Problem {
         name: "creep-force",
         about: "The reference wheel: eight points of the creep-force curve of CONTACT",
-        set: Set::Default,
         run: steady_rolling::creep_force,
     },
     Problem {
         name: "finite-body",
         about: "The disk on the bar as meshed beside half-spaces; the approach of finite blocks",
-        set: Set::Default,
         run: finite_body::run,
     },
     Problem {
         name: "rolling-dynamic",
         about: "Steady rolling by explicit dynamics, penalty bias extrapolated, beside CONTACT",
-        set: Set::Long,
         run: rolling_dynamic::run,
     },
     Problem {
         name: "rolling-exact",
         about: "Steady rolling by explicit dynamics with exact contact, as it is, beside CONTACT",
-        set: Set::Default,
         run: rolling_dynamic::run_exact,
     },
     Problem {
         name: "slider-tables",
         about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
-        set: Set::Default,
         run: slider_tables::run,
     },
 ];

@@ -143,6 +143,15 @@ impl Row {
         Self { meshes: convergence.samples().to_vec(), order: convergence.order(), ..row }
     }
 
+    /// The same with the limit that the specification asks for, where that is less.
+    pub(crate) fn at_most(self, asked: f64) -> Self {
+        if self.limit <= asked {
+            return self;
+        }
+        let limit_from = format!("asked: {asked:e}, less than by {}", self.limit_from);
+        Self { limit: asked, pass: self.error <= asked, limit_from, ..self }
+    }
+
     /// A quantity with the largest error that the specification of this program asks for.
     pub fn asked(quantity: impl Into<String>, values: [f64; 2], limit: f64, source: &str) -> Self {
         Self::new(quantity, values, values[0], (limit, "asked of this problem"), source)

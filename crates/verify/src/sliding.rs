@@ -15,15 +15,21 @@
 //! - a block that starts to slide: while its springs load it gains at most the speed
 //!   v_1 = sqrt(2 g sin(alpha) d), the load's work over d, and runs ahead by v_1 t.
 //!
-//! Exact contact has no springs: d is then what the block itself gives, mu rho g H^2/(2G). With mortar
-//! rows the plane has another pitch than the block, 0.8 of it.
+//! Exact contact has no springs: d is then what the block itself gives, mu rho g H^2/(2G). What a block does that
+//! slides on it is known closer:
+//! - while it slides, its centre obeys m x'' = -mu N and m (g + z'') = N, whatever the block does within: x is
+//!   off by mu times the rise and fall of the centre, at most twice the sag under the weight, rho g H^2/(3E);
+//! - at the stop the block lets go of its shear, 2 d at once; so much may be missing in the way and the heat;
+//! - what has stopped stays: the nodes on the plane stick, to a rounding in each step.
+//!
+//! With mortar rows the plane has another pitch than the block, 0.8 of it.
 //!
 //! The block first settles under its weight, with critically damped contact springs, or on exact
 //! contact with damping in proportion to mass. Where the springs' dampers are missing the elements have
 //! Kelvin–Voigt damping of 0.3 time steps: steady sliding of elastic bodies is unstable without damping
 //! even with a constant coefficient (Adams 1995, J. Appl. Mech. 62: 867–872).
 
-use crate::body::{STEEL, at_rest, contact_material};
+use crate::body::{STEEL, at_rest, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
@@ -34,7 +40,7 @@ use dynamics::{Load, Setup, Simulation};
 use mesh::{Mesh, Padded, Surface};
 use solid::{Element, Level, Material, Solid, Viscosity};
 
-const MU: f64 = 0.3;
+pub(crate) const MU: f64 = 0.3;
 /// Acceleration (m/s^2) that lets a millimetre block stop within some thousand steps.
 const GRAVITY: f64 = 2e4;
 /// Edges of the block (m): so flat that friction does not lift its rear, mu H/2 < L/6.
@@ -58,6 +64,7 @@ enum Method {
 }
 
 const FROM: &str = "elastic give d of friction springs and block, loaded at once (module text)";
+const SAG: &str = "mu times the sag of the block under its weight, loaded at once (module text)";
 
 pub(crate) fn stop(size: Size) -> Outcome {
     stops(size, Method::Penalty)
@@ -67,15 +74,35 @@ pub(crate) fn stop_exact(size: Size) -> Outcome {
     stops(size, Method::Exact(Rows::NodeToFace))
 }
 
+#[cfg(test)]
+pub(crate) fn stop_exact_with(size: Size, mu: f64) -> Outcome {
+    stops_with(size, Method::Exact(Rows::NodeToFace), mu)
+}
+
 pub(crate) fn stop_mortar(size: Size) -> Outcome {
     stops(size, Method::Exact(Rows::Mortar))
 }
 
 fn stops(size: Size, method: Method) -> Outcome {
+    stops_with(size, method, MU)
+}
+
+/// The problem with the coefficient `mu` in the contact, beside the closed form of [`MU`].
+fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
     let v0 = 1.5;
     let (time, distance) = (v0 / (MU * GRAVITY), v0 * v0 / (2.0 * MU * GRAVITY));
-    let limit = (SUDDEN * give(method) / distance, FROM);
-    let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], v0)?;
+    let (sliding, limit) = match method {
+        Method::Penalty => {
+            let limit = (SUDDEN * give(method) / distance, FROM);
+            (limit, limit)
+        }
+        Method::Exact(_) => {
+            let sag = MATERIAL.density * GRAVITY * BLOCK[2].powi(2) / (3.0 * MATERIAL.young);
+            let sliding = (2.0 * MU * sag / distance, SAG);
+            (sliding, (2.0 * give(method) / distance, FROM))
+        }
+    };
+    let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], v0, mu)?;
     let mut earlier = 0.0;
     if method == Method::Penalty {
         // it books the step that ended at t = 0 in the first step
@@ -89,14 +116,22 @@ fn stops(size: Size, method: Method) -> Outcome {
         let x = block.slide_until(t);
         let exact = v0 * t - 0.5 * MU * GRAVITY * t * t;
         let quantity = format!("x at t = {share} v0/(mu g) (m)");
-        rows.push(Row::new(quantity, [exact, x], distance, limit, source));
+        rows.push(Row::new(quantity, [exact, x], distance, sliding, source));
     }
     let x = block.slide_until(1.2 * time);
     let stop = [distance, x];
     rows.push(Row::new("distance to the stop (m)", stop, distance, limit, "v0^2/(2 mu g)"));
+    let (steps, foot) = (block.simulation.steps(), block.foot());
     let later = block.slide_until(1.5 * time);
-    let creep = [0.0, (later - x) / distance];
-    rows.push(Row::new("creep after the stop over the distance", creep, 1.0, limit, "adhesion"));
+    let (creep, held) = match method {
+        Method::Penalty => (later - x, limit),
+        Method::Exact(_) => {
+            let roundings = (block.simulation.steps() - steps) as f64 * f64::EPSILON;
+            (block.foot() - foot, (roundings, "one rounding of the displacement per step"))
+        }
+    };
+    let creep = [0.0, creep / distance];
+    rows.push(Row::new("creep after the stop over the distance", creep, 1.0, held, "adhesion"));
     let heat = block.simulation.ledger().friction - earlier;
     let kinetic = 0.5 * block.mass * v0 * v0;
     let source = "the kinetic energy m v0^2/2";
@@ -124,7 +159,7 @@ fn inclines(size: Size, method: Method) -> Outcome {
     let mut rows = Vec::new();
     for share in [0.5, 0.9] {
         let angle = (share * MU).atan();
-        let x = Block::new(size, method, weight(angle), 0.0)?.slide_until(time);
+        let x = Block::new(size, method, weight(angle), 0.0, MU)?.slide_until(time);
         // a block without friction sets the scale
         let free = 0.5 * GRAVITY * angle.sin() * time * time;
         let held = f64::max(2.0, 0.5 / (1.0 - share)) * give(method);
@@ -139,7 +174,7 @@ fn inclines(size: Size, method: Method) -> Outcome {
     for share in [1.2, 2.0] {
         let angle = (share * MU).atan();
         let acceleration = GRAVITY * (angle.sin() - MU * angle.cos());
-        let x = Block::new(size, method, weight(angle), 0.0)?.slide_until(time);
+        let x = Block::new(size, method, weight(angle), 0.0, MU)?.slide_until(time);
         let exact = 0.5 * acceleration * time * time;
         let ahead =
             (2.0 * GRAVITY * angle.sin() * give(method)).sqrt() * time + SUDDEN * give(method);
@@ -172,11 +207,19 @@ struct Block {
     simulation: Simulation,
     masses: Vec<f64>,
     mass: f64,
+    /// Its nodes on the plane.
+    feet: Vec<u32>,
 }
 
 impl Block {
     /// A block on the plane z = 0 that has settled under its weight, sliding at `speed` along x.
-    fn new(size: Size, method: Method, acceleration: [f64; 3], speed: f64) -> Result<Self, Cause> {
+    fn new(
+        size: Size,
+        method: Method,
+        acceleration: [f64; 3],
+        speed: f64,
+        mu: f64,
+    ) -> Result<Self, Cause> {
         let cells = match size {
             Size::Quick => [4, 2, 1],
             Size::Full => [8, 4, 2],
@@ -192,10 +235,10 @@ impl Block {
         let mesh = mesh::join(&[block, plane]);
 
         let down = [0.0, 0.0, acceleration[2]];
-        let (mut settling, contact) = setup(&mesh, down, 1.0)?;
+        let (mut settling, contact) = setup(&mesh, down, 1.0, mu)?;
         settling.contact = Some(match method {
             Method::Penalty => Box::new(contact),
-            Method::Exact(rows) => Box::new(exact(&mesh, rows)?),
+            Method::Exact(rows) => Box::new(exact(&mesh, rows, mu)?),
         });
         let pressure = -down[2] * MATERIAL.density * BLOCK[2];
         let body = mesh.bodies[0].nodes.clone();
@@ -215,7 +258,7 @@ impl Block {
             settling.step(false);
         }
 
-        let (mut setup, mut contact) = setup(&mesh, acceleration, 0.1)?;
+        let (mut setup, mut contact) = setup(&mesh, acceleration, 0.1, mu)?;
         setup.displacement.copy_from_slice(settling.displacement());
         let dt = setup.dt;
         if speed > 0.0 {
@@ -234,13 +277,14 @@ impl Block {
             Method::Penalty => Box::new(contact),
             Method::Exact(rows) => {
                 setup.solid = damped(&mesh, 0.3 * setup.dt)?;
-                Box::new(exact(&mesh, rows)?)
+                Box::new(exact(&mesh, rows, mu)?)
             }
         };
         setup.contact = Some(contact);
         let masses = setup.mass[body].to_vec();
         let mass = masses.iter().sum();
-        Ok(Self { simulation: Simulation::new(setup), masses, mass })
+        let feet = side_nodes(&mesh, 0, "z-").to_vec();
+        Ok(Self { simulation: Simulation::new(setup), masses, mass, feet })
     }
 
     /// Steps to the time `t` (the centre of mass is interpolated within the last step) and returns
@@ -257,6 +301,12 @@ impl Block {
         before.1 + share * (now.1 - before.1)
     }
 
+    /// Mean displacement along x of the nodes on the plane (m).
+    fn foot(&self) -> f64 {
+        let u = self.simulation.displacement();
+        self.feet.iter().map(|&n| u[n as usize].0[0]).sum::<f64>() / self.feet.len() as f64
+    }
+
     fn centre(&self) -> f64 {
         let u = self.simulation.displacement();
         self.masses.iter().zip(u).map(|(m, u)| m * u.0[0]).sum::<f64>() / self.mass
@@ -270,9 +320,9 @@ fn damped(mesh: &Mesh, kelvin_voigt: f64) -> Result<Solid, Cause> {
     Ok(Solid::new(mesh, &[MATERIAL; 2], element, viscosity, Level::detect())?)
 }
 
-fn exact(mesh: &Mesh, rows: Rows) -> Result<ExactContact, Cause> {
+fn exact(mesh: &Mesh, rows: Rows, mu: f64) -> Result<ExactContact, Cause> {
     let settings = ExactSettings { slave: Some(0), curvature: false, rows };
-    let law = Box::new(Coulomb { mu: MU });
+    let law = Box::new(Coulomb { mu });
     Ok(ExactContact::new(mesh, surfaces(mesh), &settings, law)?)
 }
 
@@ -286,6 +336,7 @@ fn setup(
     mesh: &Mesh,
     acceleration: [f64; 3],
     damping: f64,
+    mu: f64,
 ) -> Result<(Setup, PenaltyContact), Cause> {
     let settings = PenaltySettings {
         normal: Stiffness::Areal(SPRING),
@@ -294,7 +345,7 @@ fn setup(
         curvature: false,
     };
     let contact =
-        PenaltyContact::new(mesh, surfaces(mesh), &settings, None, Box::new(Coulomb { mu: MU }))?;
+        PenaltyContact::new(mesh, surfaces(mesh), &settings, None, Box::new(Coulomb { mu }))?;
     let mut setup = at_rest(mesh, MATERIAL, 0.7, Some(&contact))?;
     setup.held = mesh.bodies[1].nodes.clone().map(|n| n as u32).collect();
     setup.load = Load::weight(&setup.mass, mesh.bodies[0].nodes.clone(), acceleration);

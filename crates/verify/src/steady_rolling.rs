@@ -46,7 +46,7 @@ fn blocks(size: Size) -> Result<Vec<(f64, HalfSpaces<'static>)>, Cause> {
 pub(crate) fn steady(size: Size) -> Outcome {
     let blocks = blocks(size)?;
     let body = WHEEL.body(WHEEL_EXTENT);
-    let [a, b] = WHEEL.half_axes;
+    let [a, _] = WHEEL.half_axes;
     let tables = profiles()?;
     let mut rows = Vec::new();
     for ([traction, creepage, stick, border, peak], table) in STEADY.into_iter().zip(&tables) {
@@ -59,24 +59,34 @@ pub(crate) fn steady(size: Size) -> Outcome {
         let h = found.last().map_or(f64::NAN, |(h, _)| *h);
         rows.push(Row::extrapolated(&at("creepage"), creepage, &study(0), body, SOURCE));
         rows.push(Row::extrapolated(&at("peak shear (Pa)"), peak, &study(1), body, SOURCE));
-        let bounded = |what: &str, k: usize, reference: f64, scale: f64, limit, source| {
-            let study = study(k);
-            let values = [reference, study.finest()];
-            let row = Row::new(at(what), values, scale, limit, source);
-            Row { meshes: study.samples().to_vec(), ..row }
-        };
-        let share =
-            (0.5 * h * (1.0 / a + 1.0 / b), "half an element along the border of the patch");
-        rows.push(bounded("share of the patch that sticks", 2, stick, 1.0, share, SOURCE));
+        let share = at("share of the patch that sticks");
+        // whole nodes stick or slip: the share scatters, and extrapolation would multiply that
+        rows.push(Row::converged(share, stick, &study(2), body, SOURCE));
         let one = (h / a, "one element, h/a");
-        rows.push(bounded("border of stick on y = 0 (m), over a", 3, border, a, one, SOURCE));
+        let what = at("border of stick on y = 0 (m), over a");
+        rows.push(on_finest(what, &study(3), border, a, one, SOURCE));
         for (k, what) in ["p over p0", "p_f over mu p0", "slip over its peak"].iter().enumerate() {
-            let what = format!("rms difference of {what} along y = 0");
-            let limit = (table.moved(k, h), "the reference moved by half an element");
-            rows.push(bounded(&what, 4 + k, 0.0, 1.0, limit, PROFILES));
+            let what = at(&format!("rms difference of {what} along y = 0"));
+            let study = study(4 + k);
+            let from = format!("{}; and half a cell of the reference's grid", study.explain());
+            let limit = (study.uncertainty() + table.moved(k, table.grid[1]), from.as_str());
+            rows.push(on_finest(what, &study, 0.0, 1.0, limit, PROFILES));
         }
     }
     Ok(rows)
+}
+
+/// A quantity on the finest mesh, with a limit of its own.
+fn on_finest(
+    what: String,
+    study: &Convergence,
+    reference: f64,
+    scale: f64,
+    limit: (f64, &str),
+    source: &str,
+) -> Row {
+    let row = Row::new(what, [reference, study.finest()], scale, limit, source);
+    Row { meshes: study.samples().to_vec(), order: study.order(), ..row }
 }
 
 /// Creepage, peak shear (Pa), share of stick, border of stick (m) and the differences of the

@@ -1,0 +1,191 @@
+//! What contact of bodies that turn must do exactly: gaps of a disk that is a polygon, and friction that turns with its face.
+//!
+//! *Gap.* A rigid disk rolls over a plane. The faces of its mesh cut the circle off by up to the sag h^2/(8R), which moves
+//! under the contact as the disk rolls; gaps corrected with the circle are those of the circle at every node of the plane
+//! and every angle. The foot of a node is found to 1e-8 of half a face, and so is the gap, over the sag.
+//!
+//! *Friction.* A block pressed on another and shifted within what sticks is loaded by friction springs. Both
+//! turn together through 2 pi, about an axis across the normal and along it: nothing moves relative to anything else, and the
+//! force of friction turns with the faces. Positions are rounded in each step, and the springs are stretched by that:
+//! the limit is that of all steps, over the stretch, for the three components of both ends.
+
+use crate::body::{STEEL, contact_material};
+use crate::problem::{Cause, Outcome, Size};
+use crate::row::Row;
+use contact::{Coulomb, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use mesh::{Disk, FineZone, Mesh, Padded, Surface};
+use std::f64::consts::TAU;
+
+const SETTINGS: PenaltySettings = PenaltySettings {
+    normal: Stiffness::Scale(1.0),
+    tangential: Stiffness::Scale(1.0),
+    damping: 0.0,
+    curvature: true,
+};
+const MU: f64 = 0.5;
+const DT: f64 = 1e-7;
+
+pub(crate) fn run(_: Size) -> Outcome {
+    run_with(SETTINGS.curvature, |_, _| Ok(()))
+}
+
+/// The problem with or without the correction of the gap, and with something done `between` the steps of a turn by
+/// the rotation vector given.
+pub(crate) fn run_with(
+    curvature: bool,
+    between: impl Fn(&mut PenaltyContact, [f64; 3]) -> Result<(), Cause>,
+) -> Outcome {
+    Ok(vec![
+        Row::new(
+            "gaps under a rolling disk off the circle's, over the sag of its faces",
+            [0.0, gaps(curvature)?],
+            1.0,
+            (1e-8, "the foot of a node, in half faces"),
+            "a rigid circle on a plane",
+        ),
+        Row::new(
+            "force of friction after a turn of both bodies, off the turned one",
+            [0.0, turned_friction(between)?],
+            1.0,
+            (
+                6.0 * f64::from(STEPS) * f64::EPSILON * EDGE / SHIFT,
+                "a rounding of the positions in each step, over the stretch of the springs",
+            ),
+            "nothing moves relative to the faces",
+        ),
+    ])
+}
+
+/// Bodies whose motion is given.
+struct Rig {
+    contact: PenaltyContact,
+    reference: Vec<Padded>,
+    at: Vec<Padded>,
+    still: Vec<f64>,
+}
+
+impl Rig {
+    fn new(
+        mesh: &Mesh,
+        surfaces: [&Surface; 2],
+        settings: &PenaltySettings,
+    ) -> Result<Self, Cause> {
+        let surfaces = surfaces.map(|s| (s, contact_material(&STEEL)));
+        let law = Box::new(Coulomb { mu: MU });
+        let contact = PenaltyContact::new(mesh, surfaces, settings, None, law)?;
+        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let still = vec![0.0; reference.len()];
+        Ok(Self { contact, at: reference.clone(), reference, still })
+    }
+
+    /// Moves every node to where `place` says, from its index and reference position, and returns the force (N) on
+    /// the first body.
+    fn step(&mut self, place: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> [f64; 3] {
+        let n = self.reference.len();
+        let (mut displacement, mut velocity) = (vec![Padded::ZERO; n], vec![Padded::ZERO; n]);
+        for i in 0..n {
+            let (from, x) = (self.reference[i].xyz(), self.at[i].xyz());
+            let to = place(i, from);
+            displacement[i] = Padded::new([0, 1, 2].map(|k| to[k] - from[k]));
+            velocity[i] = Padded::new([0, 1, 2].map(|k| (to[k] - x[k]) / DT));
+            self.at[i] = Padded::new(to);
+        }
+        let motion = Motion {
+            reference: &self.reference,
+            displacement: &displacement,
+            velocity: &velocity,
+            inverse_mass: &self.still,
+            time: 0.0,
+            dt: DT,
+        };
+        let mut force = vec![Padded::ZERO; n];
+        self.contact.apply(&motion, &mut force).force[0]
+    }
+}
+
+/// Largest distance of a gap from the circle's over the sag, as a disk rolls by some faces.
+fn gaps(curvature: bool) -> Result<f64, Cause> {
+    let (radius, size, depth) = (0.46, 2e-3, 2e-5);
+    let zone = FineZone {
+        size,
+        length: 0.04,
+        width: 8e-3,
+        depth: 4e-3,
+        start: -0.02,
+        growth: 2.0,
+        coarsest: 0.1,
+    };
+    let disk = mesh::disk(&Disk { radius, hub_radius: 0.40, width: 8e-3, crown: None }, &zone)?;
+    // of another pitch, so that its nodes pass under all of a face
+    let mut plane = mesh::block([21, 3, 1], [0.04, 6e-3, size]);
+    plane.nodes.iter_mut().for_each(|x| *x = [x[0] - 0.02, x[1] - 3e-3, x[2] - size]);
+    let mesh = mesh::join(&[disk, plane]);
+    let [wheel, rest] = [&mesh.bodies[0], &mesh.bodies[1]];
+    let surfaces = [&wheel.surfaces["zone"], &rest.surfaces["z+"]];
+    let mut rig = Rig::new(&mesh, surfaces, &PenaltySettings { curvature, ..SETTINGS })?;
+    let mut table = rig.contact.nodal_table(1);
+    let mut worst = 0.0_f64;
+    for step in 0..200 {
+        let along = f64::from(step) * 6e-5 - 6e-3;
+        let (s, c) = (along / radius).sin_cos();
+        rig.step(|i, x| {
+            let z = x[2] - radius;
+            let rolled = [c * x[0] + s * z + along, x[1], radius - depth - s * x[0] + c * z];
+            if wheel.nodes.contains(&i) { rolled } else { x }
+        });
+        rig.contact.nodal(&mut table);
+        for (&node, gap) in table.nodes.iter().zip(&table.gap).filter(|(_, gap)| **gap < 0.0) {
+            let x = rig.reference[node as usize].xyz();
+            let exact = (x[0] - along).hypot(x[2] - radius + depth) - radius;
+            worst = worst.max((gap - exact).abs());
+        }
+    }
+    Ok(worst / (size * size / (8.0 * radius)))
+}
+
+/// Edge of the blocks (m), by how much the upper one is pressed and shifted (m), and the steps of the turn.
+const EDGE: f64 = 4e-3;
+const PRESSED: f64 = 4e-6;
+const SHIFT: f64 = 1e-6;
+const STEPS: u32 = 240;
+
+/// Difference of the force of friction from the turned one, over it, the largest of a turn through 2 pi.
+fn turned_friction(
+    between: impl Fn(&mut PenaltyContact, [f64; 3]) -> Result<(), Cause>,
+) -> Result<f64, Cause> {
+    let upper = mesh::block([2; 3], [EDGE; 3]);
+    let mut lower = upper.clone();
+    lower.nodes.iter_mut().for_each(|x| x[2] -= EDGE);
+    let mesh = mesh::join(&[upper, lower]);
+    let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
+    let mut rig = Rig::new(&mesh, surfaces, &SETTINGS)?;
+    let top = mesh.bodies[0].nodes.clone();
+    let placed = |i: usize, x: [f64; 3], share: f64| {
+        if !top.contains(&i) {
+            return x;
+        }
+        [x[0] + 0.8 * share * SHIFT, x[1] + 0.6 * share * SHIFT, x[2] - PRESSED]
+    };
+    rig.step(|i, x| placed(i, x, 0.0));
+    let start = rig.step(|i, x| placed(i, x, 1.0));
+    let angle = TAU / f64::from(STEPS);
+    let axis = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let mut worst = 0.0_f64;
+    for step in 1..=STEPS {
+        between(&mut rig.contact, axis.map(|n| n * angle))?;
+        let turn = angle * f64::from(step);
+        let force = rig.step(|i, x| turned(axis, turn, placed(i, x, 1.0)));
+        let expected = turned(axis, turn, start);
+        let off = (0..3).map(|k| (force[k] - expected[k]).powi(2)).sum::<f64>().sqrt();
+        worst = worst.max(off / start[0].hypot(start[1]));
+    }
+    Ok(worst)
+}
+
+/// A vector turned about a unit axis by an angle (Rodrigues).
+fn turned(n: [f64; 3], angle: f64, x: [f64; 3]) -> [f64; 3] {
+    let (s, c) = angle.sin_cos();
+    let along: f64 = (0..3).map(|k| n[k] * x[k]).sum();
+    let cross = [n[1] * x[2] - n[2] * x[1], n[2] * x[0] - n[0] * x[2], n[0] * x[1] - n[1] * x[0]];
+    [0, 1, 2].map(|k| c * x[k] + s * cross[k] + (1.0 - c) * along * n[k])
+}

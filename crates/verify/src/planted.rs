@@ -1,0 +1,156 @@
+//! Errors in the physics, planted on purpose, and the rows of the ladder that catch them at quick size.
+//!
+//! A problem takes what is planted as an input of its own: nothing of this is in the program. Each test prints its line
+//! of the table in docs/verification.md:
+//! `cargo test --release -p creepage-verify --lib planted -- --nocapture --test-threads=1`.
+#![allow(clippy::unwrap_used)]
+
+use crate::problem::Outcome;
+use crate::row::Row;
+use crate::{
+    Size, contact_turn, finite_body, free_block, interface_patch, patch, shear_column, sliding,
+};
+use contact::{Contact, Implicit, Lagged, Numbers, PenaltyContact};
+use mesh::Mesh;
+use solid::Element;
+
+/// The row passes without the fault and fails with it.
+fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: Outcome) {
+    let row = |found: Outcome| -> Row {
+        let found = found.unwrap().into_iter().find(|row| row.quantity.contains(quantity));
+        found.unwrap_or_else(|| panic!("{problem} has no row '{quantity}'"))
+    };
+    let (sound, planted) = (row(sound), row(planted));
+    println!(
+        "| {fault} | `{problem}`: {} | {:.1e} | {:.1e} | {:.1e} |",
+        sound.quantity, sound.error, planted.error, sound.limit
+    );
+    assert!(sound.pass, "without the fault: {sound:?}");
+    assert!(!planted.pass, "with the fault: {planted:?}");
+    // a fault must not pass by the limit that it makes for itself, nor fail by that alone
+    assert!(planted.error > sound.limit || planted.error.is_nan(), "{planted:?}");
+}
+
+#[test]
+fn friction_one_per_cent_off_is_caught_by_the_sliding_block() {
+    catches(
+        "mu 1 % off",
+        "block-slide-exact",
+        "distance to the stop",
+        sliding::stop_exact(Size::Quick),
+        sliding::stop_exact_with(Size::Quick, 1.01 * sliding::MU),
+    );
+}
+
+#[test]
+fn the_area_of_a_face_five_per_cent_off_is_caught_by_the_interface_patch() {
+    // the corner belongs to one face alone
+    let widen = |mesh: &mut Mesh| {
+        let surface = &mesh.bodies[0].surfaces["z-"];
+        let least = |n: &&u32| mesh.nodes[**n as usize].iter().sum::<f64>();
+        let nodes = surface.faces.iter().flat_map(|face| &face.nodes);
+        let corner = *nodes.min_by(|a, b| least(a).total_cmp(&least(b))).unwrap() as usize;
+        let edge = 10e-3 / 6.0;
+        mesh.nodes[corner][0] -= 0.1 * edge;
+    };
+    catches(
+        "area of one face 5 % off",
+        "interface-patch",
+        "6 on 6 elements, node to face: pressure over the applied one, less 1, largest",
+        interface_patch::run(Size::Quick),
+        interface_patch::run_with(Size::Quick, widen),
+    );
+}
+
+#[test]
+fn elements_without_hourglass_control_are_caught_by_the_energy_of_their_modes() {
+    catches(
+        "hourglass control off",
+        "patch",
+        "energy of an hourglass mode",
+        patch::patch(Size::Quick),
+        patch::patch_with(Element { hourglass: 0.0 }),
+    );
+}
+
+#[test]
+fn friction_of_the_step_before_is_caught_by_the_law_of_the_same_step() {
+    catches(
+        "lag in place of the same instant",
+        "shear-column",
+        "shear of slip off mu(s) p of the same step",
+        shear_column::run(Size::Quick),
+        shear_column::run_with(Size::Quick, || Box::new(Lagged(shear_column::LAW))),
+    );
+    // and the same friction by another way does not trip it
+    let same = shear_column::run_with(Size::Quick, || Box::new(Implicit(shear_column::LAW)));
+    assert!(same.unwrap().iter().all(|row| row.pass));
+}
+
+#[test]
+fn gaps_of_the_polygon_are_caught_by_the_rolling_disk() {
+    let nothing = |_: &mut PenaltyContact, _: [f64; 3]| Ok(());
+    catches(
+        "gap without curvature",
+        "contact-turn",
+        "gaps under a rolling disk",
+        contact_turn::run_with(true, nothing),
+        contact_turn::run_with(false, nothing),
+    );
+}
+
+#[test]
+fn half_the_mass_of_a_surface_node_is_caught_by_the_free_block() {
+    catches(
+        "half the mass of a surface node",
+        "free-block",
+        "n = 4",
+        free_block::run(Size::Quick),
+        free_block::run_with(Size::Quick, |mass| mass[mass.len() - 1] *= 0.5),
+    );
+}
+
+#[test]
+fn friction_that_does_not_turn_with_the_face_is_caught_by_a_turn() {
+    /// Turns what the springs hold back by the part of the turn along the normal: it stays as it is in space.
+    fn back(contact: &mut PenaltyContact, turn: [f64; 3]) -> Result<(), crate::Cause> {
+        let mut state = contact.snapshot();
+        for pass in ["pass_0", "pass_1"] {
+            let reals = |name: &str| {
+                let name = format!("{pass}/{name}");
+                let column = state.columns.iter().find(|column| column.name == name).unwrap();
+                let Numbers::Real(values) = &column.values else { panic!("{name}") };
+                values.clone()
+            };
+            let (normals, mut framed) = (reals("normal"), reals("framed_friction"));
+            for (n, f) in normals.chunks_exact(3).zip(framed.chunks_exact_mut(2)) {
+                let angle: f64 = (0..3).map(|k| n[k] * turn[k]).sum();
+                let (s, c) = angle.sin_cos();
+                f.copy_from_slice(&[c * f[0] + s * f[1], c * f[1] - s * f[0]]);
+            }
+            let name = format!("{pass}/framed_friction");
+            let column = state.columns.iter_mut().find(|column| column.name == name).unwrap();
+            column.values = Numbers::Real(framed);
+        }
+        Ok(contact.restore(&state)?)
+    }
+    catches(
+        "friction not turned with the face",
+        "contact-turn",
+        "force of friction after a turn",
+        contact_turn::run_with(true, |_, _| Ok(())),
+        contact_turn::run_with(true, back),
+    );
+}
+
+#[test]
+fn creepage_by_the_nominal_radius_is_caught_by_the_disk_on_the_bar() {
+    let found = finite_body::rolled(finite_body::QUICK).unwrap();
+    catches(
+        "creepage by the nominal radius",
+        "finite-body",
+        "creepage of free rolling",
+        Ok(finite_body::disk_on_bar(&found, |rolled| rolled.free)),
+        Ok(finite_body::disk_on_bar(&found, |_| 0.0)),
+    );
+}
