@@ -61,7 +61,7 @@ pub(crate) fn rolled(meshes: &[f64]) -> Result<Vec<(f64, [Rolled; 2])>, Cause> {
 /// The rows of the wheel; `free` is the creepage at which it rolls without force.
 pub(crate) fn disk_on_bar(found: &[(f64, [Rolled; 2])], free: impl Fn(&Rolled) -> f64) -> Vec<Row> {
     let curved = WHEEL.half_axes[0] / WHEEL.radii[1];
-    let model = curved * curved + WHEEL.p0 / STEEL.young * curved;
+    let shape = (curved * curved + WHEEL.p0 / STEEL.young * curved, "; and (a/R)^2 and p0/E a/R");
     let compared = |what: String, ratios: Vec<(f64, f64)>, model: (f64, &str), source| {
         let study = Convergence::by_theory(ratios, 1.0);
         let from = format!("{}{}", study.explain(), model.1);
@@ -69,23 +69,23 @@ pub(crate) fn disk_on_bar(found: &[(f64, [Rolled; 2])], free: impl Fn(&Rolled) -
         let row = Row::new(what, [0.0, study.finest()], 1.0, limit, source);
         Row { meshes: study.samples().to_vec(), order: study.order(), ..row }
     };
-    let row = |what: String, of: &dyn Fn(&Rolled) -> f64| {
+    let first = (curved, "; and a over the smaller radius");
+    let row = |what: String, model: (f64, &str), of: &dyn Fn(&Rolled) -> f64| {
         let ratio = |(h, [wheel, block]): &(f64, [Rolled; 2])| (*h, of(wheel) / of(block) - 1.0);
         let what = format!("disk on bar: {what} over that of half-spaces, less 1");
-        let model = (model, "; and (a/R)^2 and p0/E a/R");
-        compared(what, found.iter().map(ratio).collect(), model, HALF_SPACE)
+        compared(what, found.iter().map(ratio).collect(), model, HALF_SPACE).at_most(curved)
     };
     let mut rows: Vec<Row> = ["p0", "a", "b"]
         .into_iter()
         .enumerate()
-        .map(|(k, what)| row(what.into(), &|rolled| rolled.patch[k]))
+        .map(|(k, what)| row(what.into(), shape, &|rolled| rolled.patch[k]))
         .collect();
     let ratio = |(h, [wheel, _]): &(f64, [Rolled; 2])| (*h, free(wheel) / wheel.strips - 1.0);
     let what = "disk on bar: creepage of free rolling over that of strips, less 1".to_owned();
-    rows.push(compared(what, found.iter().map(ratio).collect(), (0.0, ""), STRIPS));
+    rows.push(compared(what, found.iter().map(ratio).collect(), first, STRIPS));
     for (k, traction) in TRACTIONS.into_iter().enumerate() {
         let what = format!("creepage at T/N = {traction}, less that of free rolling,");
-        rows.push(row(what, &|rolled| rolled.creepage[k] - free(rolled)));
+        rows.push(row(what, first, &|rolled| rolled.creepage[k] - free(rolled)));
     }
     rows
 }

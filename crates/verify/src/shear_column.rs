@@ -8,8 +8,8 @@
 //! sticks until tau = mu_S p, jumps to the solution in slip, and sticks again at tau = f_min p.
 //!
 //! Steel at 1 GPa with k = 6 s/m has R = 85.78, the speed 14.297 m/s after the jump, and f_min = 0.3314.
-//! The columns bear a ten-thousandth of that pressure with k ten thousand times as large: the same R with
-//! strains that stay linear, and all speeds are a ten-thousandth.
+//! The columns bear a thousandth of that pressure with k a thousand times as large: the same R with
+//! strains that stay linear, and all speeds are a thousandth.
 //!
 //! The stress that arrives rises slowly from below mu_S p to 0.51 p, so that an onset that is early or late shows
 //! as what it is, and comes back to mu_S p, where the slip speed is that of the jump: perfect delay keeps the
@@ -36,7 +36,7 @@ use mesh::Padded;
 use solid::{Element, Level, Solid, Viscosity};
 
 /// Pressure and speeds of the model over those at 1 GPa.
-pub(crate) const SCALE: f64 = 1e-4;
+pub(crate) const SCALE: f64 = 1e-3;
 pub(crate) const PRESSURE: f64 = 1e9 * SCALE;
 pub(crate) const LAW: Exponential =
     Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 / SCALE };

@@ -69,7 +69,11 @@ pub(crate) fn steady(size: Size) -> Outcome {
             let what = at(&format!("rms difference of {what} along y = 0"));
             let study = study(4 + k);
             let from = format!("{}; and half a cell of the reference's grid", study.explain());
-            let limit = (study.uncertainty() + table.moved(k, table.grid[1]), from.as_str());
+            let limit = match k {
+                0 => (study.uncertainty() + table.moved(k, table.grid[1]), from.as_str()),
+                // steps at the border of stick
+                _ => (table.moved(k, h), "the reference moved by half an element"),
+            };
             rows.push(on_finest(what, &study, 0.0, 1.0, limit, PROFILES));
         }
     }
