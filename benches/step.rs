@@ -73,6 +73,7 @@ fn rolling(size: f64) -> Simulation {
     let velocity = dynamics::rolling_field(&mesh, &displacement, &field);
     Simulation::new(Setup {
         fixed: Vec::new(),
+        paired: Vec::new(),
         load: Load::default(),
         solid,
         contact: Some(Box::new(contact)),

@@ -53,7 +53,7 @@ fn roll(out: &Path, law: &[&str], contact: &[&str], more: &[&str]) {
     let friction = |set: &&str| format!("friction.{set}");
     let short = ["time.roll=0.0013", "evaluate.last=0.001", "output.fields_interval=1"];
     let sets = short.iter().chain(contact).chain(more).map(|set| (*set).to_owned());
-    let sets: Vec<String> = sets.chain(law.iter().map(|set| friction(set))).collect();
+    let sets: Vec<String> = sets.chain(law.iter().map(friction)).collect();
     let text = fs::read_to_string(runs::project("tests/small.toml")).unwrap();
     // refused with laws that have other coefficients
     let has_static = !["rate", "table", "expression", "python"]

@@ -26,8 +26,10 @@
 //!
 //! The block first settles under its weight, with critically damped contact springs, or on exact
 //! contact with damping in proportion to mass. Where the springs' dampers are missing the elements have
-//! Kelvin–Voigt damping of 0.3 time steps: steady sliding of elastic bodies is unstable without damping
-//! even with a constant coefficient (Adams 1995, J. Appl. Mech. 62: 867–872).
+//! Kelvin–Voigt damping of 0.3 time steps: an elastic body of finite height that slides steadily on a rigid
+//! one is unstable without damping, whatever the law of friction, by waves between its faces that grow at
+//! a rate in inverse proportion to its height (Brener, Weikamp, Spatschek, Bar-Sinai and Bouchbinder 2016, J. Mech.
+//! Phys. Solids 89: 149–173).
 
 use crate::body::{STEEL, at_rest, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
