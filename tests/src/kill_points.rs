@@ -27,6 +27,8 @@ pub struct KillPoints {
     pub sample: Option<usize>,
     /// Where the random draw comes from.
     pub seed: u64,
+    /// The kind of run, `begun`, `replaced` or `resumed`; all without it.
+    pub kind: Option<String>,
 }
 
 /// What was found.
@@ -103,6 +105,9 @@ impl KillPoints {
             ("resumed", middle, vec!["--resume"]),
         ];
         for (k, (kind, before, more)) in kinds.into_iter().enumerate() {
+            if self.kind.as_ref().is_some_and(|only| only != kind) {
+                continue;
+            }
             put(&before, &out)?;
             let calls = self.traced(&out, &more)?;
             let found = results(&out);
@@ -269,6 +274,14 @@ fn apply(image: &mut Image, call: &Call) -> Result<(), String> {
             let at = at.unwrap_or(file.len());
             file.resize(file.len().max(at + bytes.len()), 0);
             file[at..at + bytes.len()].copy_from_slice(bytes);
+        }
+        Call::Copy { from, start, to, at, length } => {
+            let source = files.get(from).ok_or_else(missing)?;
+            let bytes = source.get(*start..start + length).ok_or("a copy beyond the end")?.to_vec();
+            let file = files.get_mut(to).ok_or_else(missing)?;
+            let at = at.unwrap_or(file.len());
+            file.resize(file.len().max(at + length), 0);
+            file[at..at + length].copy_from_slice(&bytes);
         }
         Call::Cut { name, length } => {
             files.get_mut(name).ok_or_else(missing)?.resize(*length, 0);

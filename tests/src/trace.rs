@@ -31,6 +31,19 @@ pub enum Call {
         /// The bytes.
         bytes: Vec<u8>,
     },
+    /// Bytes of one file are copied to another.
+    Copy {
+        /// The file that they come from.
+        from: PathBuf,
+        /// Where they are in it.
+        start: usize,
+        /// The file that they are written to.
+        to: PathBuf,
+        /// Where; at its end without it.
+        at: Option<usize>,
+        /// How many.
+        length: usize,
+    },
     /// A file is cut off or lengthened.
     Cut {
         /// The file.
@@ -59,6 +72,9 @@ impl fmt::Display for Call {
             Self::Create { name, .. } => write!(f, "open of {}", name.display()),
             Self::Write { name, at, bytes } => {
                 write!(f, "write of {} bytes at {at:?} in {}", bytes.len(), name.display())
+            }
+            Self::Copy { from, to, length, .. } => {
+                write!(f, "copy of {length} bytes of {} to {}", from.display(), to.display())
             }
             Self::Cut { name, length } => write!(f, "ftruncate of {} to {length}", name.display()),
             Self::Rename { from, to } => {
@@ -167,6 +183,24 @@ fn one(
                 found.push(Call::Write { name, at: Some(whole(argument(3)?)?), bytes });
             }
         }
+        "copy_file_range" => {
+            let ((source, from), (target, to)) = (opened(0)?, opened(2)?);
+            let (Some(from), Some(to)) = (from, to) else {
+                return Err("a copy over the border of the folder".into());
+            };
+            if argument(1)? != "NULL" || argument(3)? != "NULL" {
+                return Err("a copy between places of its own".into());
+            }
+            let length = result as usize;
+            let mut advance = |file: u64| {
+                let place = places.entry(file).or_insert(Some(0));
+                let at = *place;
+                *place = at.map(|at| at + length);
+                at
+            };
+            let start = advance(source).unwrap_or(0);
+            found.push(Call::Copy { from, start, to, at: advance(target), length });
+        }
         "ftruncate" => {
             if let (_, Some(name)) = opened(0)? {
                 found.push(Call::Cut { name, length: whole(argument(1)?)? });
@@ -231,6 +265,9 @@ mod tests {
 8 <... write resumed>) = 2
 7 <... write resumed>)            = 1
 7 pwrite64(3<\x2f\x61\x2f\x62>, "\x48", 1, 0) = 1
+7 openat(AT_FDCWD</>, "\x2f\x61\x2f\x62", O_RDONLY|O_CLOEXEC) = 4</a/b>
+7 openat(AT_FDCWD</>, "\x2f\x61\x2f\x65", O_WRONLY|O_CREAT|O_TRUNC|O_CLOEXEC, 0666) = 5</a/e>
+7 copy_file_range(4<\x2f\x61\x2f\x62>, NULL, 5<\x2f\x61\x2f\x65>, NULL, 1073741824, 0) = 3
 7 unlink("\x2f\x61\x2f\x63") = -1 ENOENT (No such file or directory)
 7 rename("\x2f\x61\x2f\x62", "\x2f\x61\x2f\x63") = 0
 7 +++ exited with 0 +++
@@ -245,6 +282,8 @@ mod tests {
                 "write of 2 bytes at Some(0) in b",
                 "write of 1 bytes at Some(2) in b",
                 "write of 1 bytes at Some(0) in b",
+                "open of e",
+                "copy of 3 bytes of b to e",
                 "rename of b to c"
             ]
         );

@@ -309,10 +309,10 @@ pub struct Preload {
     pub max_iterations: Option<u64>,
     /// Disturbance of the preload's displacement (dimensionless): that of every free node is multiplied by
     /// 1 + r disturbance in each direction, r drawn from -1 to 1. Two runs that differ in it alone show how
-    /// fast small differences grow. At most 1e-3; default none.
+    /// fast small differences grow. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub disturbance: Option<f64>,
-    /// What the draws of `disturbance` begin with. Default 1 with it, refused without.
+    /// What the draws of `disturbance` begin with (dimensionless). Default 1 with it, refused without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
 }

@@ -117,15 +117,12 @@ mod tests {
 
     #[test]
     fn half_of_it_alternates_where_nodes_know_nothing_of_each_other() {
-        // a linear congruential generator's high bits
+        // the finish of SplitMix64 (Steele, Lea and Flood 2014)
         let noise = |i: u32, j: u32| {
-            let mut k = u64::from(j * 1000 + i + 1);
-            for _ in 0..4 {
-                k = k
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1_442_695_040_888_963_407);
-            }
-            (k >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+            let k = u64::from(j * 1000 + i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let k = (k ^ (k >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let k = (k ^ (k >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((k ^ (k >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
         };
         let found = share(200, |i, j| [noise(i, j), noise(j + 500, i), 0.0]).unwrap();
         assert!((found - 0.5).abs() < 0.01, "{found}");

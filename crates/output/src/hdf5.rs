@@ -13,6 +13,7 @@ use files::input;
 use rust_hdf5::{
     DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,
 };
+use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
 
 /// Measured on fields of elastic waves with shuffled bytes: level 2 takes three times as long as
@@ -48,9 +49,7 @@ pub(crate) struct Creator {
 
 impl Creator {
     pub fn new(path: &Path, provenance: &Provenance) -> Result<Self, OutputError> {
-        let mut partial = path.as_os_str().to_owned();
-        partial.push(".partial");
-        let partial = PathBuf::from(partial);
+        let partial = partial(path);
         let open = || -> H5Result<H5File> {
             let file = H5File::options()
                 .no_locking()
@@ -265,8 +264,9 @@ pub(crate) fn cut(
     file.close_with_count(group, count, snapshots as i64)
 }
 
-/// As [`cut`] at the beginning of a run that goes on: what fails other than for want of room fails because
-/// the file is damaged.
+/// As [`cut`] at the beginning of a run that goes on, on a copy that then takes the file's place: a file that a
+/// kill left within an append has headers that are yet to move, and a kill while they do leaves a
+/// file that nothing can read. What fails other than for want of room fails because the file is damaged.
 pub(crate) fn cut_to_go_on(
     path: &Path,
     datasets: &[Growing],
@@ -274,12 +274,35 @@ pub(crate) fn cut_to_go_on(
     count: &str,
     snapshots: usize,
 ) -> Result<(), OutputError> {
-    cut(path, datasets, group, count, snapshots).map_err(|error| match error {
-        OutputError::Append { path, reason } if !no_room(&path) => {
-            OutputError::Damaged { path, reason }
+    let of_file = |reason: String| OutputError::Append { path: path.to_owned(), reason };
+    regular(path).map_err(of_file)?;
+    let copy = partial(path);
+    let copied = std::fs::copy(path, &copy).map_err(|error| append_error(path, error.into()));
+    let made = copied.and_then(|_| match cut(&copy, datasets, group, count, snapshots) {
+        Err(OutputError::Append { reason, .. }) if no_room(path) => Err(of_file(reason)),
+        Err(OutputError::Append { reason, .. }) => {
+            Err(OutputError::Damaged { path: path.to_owned(), reason })
         }
-        error => error,
-    })
+        Err(OutputError::Read { reason, .. }) => Err(read_error(path, reason)),
+        other => other,
+    });
+    let place = || {
+        OpenOptions::new().write(true).open(&copy)?.sync_all()?;
+        std::fs::rename(&copy, path)
+    };
+    made.and_then(|()| place().map_err(|error| append_error(path, error.into()))).inspect_err(
+        |_| {
+            // of no use half-made; the error that matters is the first
+            let _ = std::fs::remove_file(&copy);
+        },
+    )
+}
+
+/// The name under which a file is made, or made anew, before it has its own.
+fn partial(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".partial");
+    PathBuf::from(name)
 }
 
 /// Whether not even a page can be added to the disk of a file.

@@ -17,6 +17,9 @@ struct Args {
     /// Where the random draw comes from
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// One kind of run alone: begun, replaced or resumed [default: all]
+    #[arg(long, value_parser = ["begun", "replaced", "resumed"])]
+    kind: Option<String>,
     /// The case
     #[arg(long, value_name = "CASE.toml")]
     case: Option<PathBuf>,
@@ -40,6 +43,7 @@ fn main() -> ExitCode {
         sets: SHORT.iter().map(|set| (*set).to_owned()).chain(args.sets).collect(),
         sample: args.points,
         seed: args.seed,
+        kind: args.kind,
     };
     let outcome = tempfile::tempdir().map_err(|error| error.to_string()).and_then(|folder| {
         kill_points.run(folder.path(), &mut |line| println!("{line}")).inspect_err(|_| {
