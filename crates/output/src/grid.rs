@@ -172,7 +172,7 @@ impl TransientGrid {
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
-        file.close_settled(|path| settle(path, &writer.growing(), &STEPS, COUNT))?;
+        file.close_settled(|path| settle(path, &writer.growing(), &STEPS, COUNT, 0))?;
         writer.sums = Sums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }

@@ -227,12 +227,14 @@ pub(crate) enum Kind {
 /// ten fields, 2 for a history.
 const SETTLED: usize = 6;
 
-/// Appends a row to every dataset and takes it away again, until closings move nothing.
+/// Appends a row to every dataset of a file with so many snapshots and takes it away again, until closings move
+/// nothing.
 pub(crate) fn settle(
     path: &Path,
     datasets: &[Growing],
     group: &[&str],
     count: &str,
+    snapshots: usize,
 ) -> Result<(), OutputError> {
     for _ in 0..SETTLED {
         let mut file = Appender::open(path)?;
@@ -243,8 +245,8 @@ pub(crate) fn settle(
                 Kind::Byte => file.append(&dataset.name, &vec![0_u8; dataset.components])?,
             }
         }
-        file.close_with_count(group, count, 0)?;
-        cut(path, datasets, group, count, 0)?;
+        file.close_with_count(group, count, snapshots as i64)?;
+        cut(path, datasets, group, count, snapshots)?;
     }
     Ok(())
 }
@@ -264,9 +266,9 @@ pub(crate) fn cut(
     file.close_with_count(group, count, snapshots as i64)
 }
 
-/// As [`cut`] at the beginning of a run that goes on, on a copy that then takes the file's place: a file that a
-/// kill left within an append has headers that are yet to move, and a kill while they do leaves a
-/// file that nothing can read. What fails other than for want of room fails because the file is damaged.
+/// As [`cut`] at the beginning of a run that goes on, on a copy that then takes the file's place, and in which
+/// closings move nothing any more: a file that a kill left within an append has headers that are yet to
+/// move, and a kill while they do leaves a file that nothing can read. What fails other than for want of room fails because the file is damaged.
 pub(crate) fn cut_to_go_on(
     path: &Path,
     datasets: &[Growing],
@@ -278,7 +280,11 @@ pub(crate) fn cut_to_go_on(
     regular(path).map_err(of_file)?;
     let copy = partial(path);
     let copied = std::fs::copy(path, &copy).map_err(|error| append_error(path, error.into()));
-    let made = copied.and_then(|_| match cut(&copy, datasets, group, count, snapshots) {
+    let cut_and_settled = || {
+        cut(&copy, datasets, group, count, snapshots)?;
+        settle(&copy, datasets, group, count, snapshots)
+    };
+    let made = copied.and_then(|_| match cut_and_settled() {
         Err(OutputError::Append { reason, .. }) if no_room(path) => Err(of_file(reason)),
         Err(OutputError::Append { reason, .. }) => {
             Err(OutputError::Damaged { path: path.to_owned(), reason })

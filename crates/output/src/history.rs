@@ -80,7 +80,7 @@ impl History {
             })?;
         }
         file.count(&[], COUNT, 0)?;
-        file.close_settled(|path| settle(path, &growing(columns), &[], COUNT))?;
+        file.close_settled(|path| settle(path, &growing(columns), &[], COUNT, 0))?;
         let sums = Sums::of_new(&path, names(columns))?;
         Ok(Self { path, columns: columns.to_vec(), rows: 0, sums, scratch: Vec::new() })
     }
