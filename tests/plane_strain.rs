@@ -40,7 +40,7 @@ const SLICES: [&[&str]; 11] = [
     &[
         "contact.enforcement=exact",
         "friction.law=expression",
-        "friction.expression=\"0.5 - 0.1*s\"",
+        "friction.expression=\"0.3 + 0.2*exp(-2*s)\"",
     ],
     &["contact.enforcement=exact", "friction.law=exponential", "contact.rows=mortar"],
 ];
