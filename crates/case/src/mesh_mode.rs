@@ -6,12 +6,11 @@ use crate::schema::{Case, ContactLayers};
 use crate::sense::LAYERS;
 use contact::NodalContact;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
+use contact::patch::IN_CONTACT;
 use mesh::Padded;
 use serde_json::{Value, json};
 use solid::Solid;
 
-/// Pressure above which a node is in contact, over Hertz's peak pressure.
-const IN_CONTACT: f64 = 0.02;
 /// The energies of the elements below the contact are taken so often over the evaluation window: each is a
 /// pass over them outside the kernels.
 const SAMPLES: f64 = 20.0;

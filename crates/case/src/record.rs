@@ -561,7 +561,7 @@ impl Recorder {
         let bar = &self.zones.tables[BAR];
         self.line.clear();
         for &i in &self.centreline {
-            if bar.pressure[i] > 0.02 * self.hertz_pressure {
+            if bar.pressure[i] > patch::IN_CONTACT * self.hertz_pressure {
                 self.line.push((self.points[BAR][i][0], bar.state[i] == 1));
             }
         }

@@ -1,5 +1,9 @@
 //! Measures of the contact patch from nodal values.
 
+/// A node is in contact where its pressure exceeds this share of Hertz's peak pressure, or of the largest nodal
+/// one: nodes around the patch carry a little force that faces under a loaded node hand on to them.
+pub const IN_CONTACT: f64 = 0.02;
+
 /// Nodes with less than this part of the largest pressure do not take part in the fit: where the
 /// patch ends, nodal pressures are smeared over the mesh.
 const FITTED: f64 = 0.2;
@@ -110,10 +114,6 @@ fn least_squares<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) ->
     }
     solve(matrix, right)
 }
-
-/// A node counts as in contact above this share of the largest pressure: nodes around the patch
-/// carry a little force that faces under a loaded node hand on to them.
-const IN_CONTACT: f64 = 0.02;
 
 /// Area-weighted measures from nodal pressure (Pa), area (m^2) and state (1 stick, 2 slip).
 pub fn areas(pressure: &[f64], area: &[f64], state: &[u8]) -> PatchAreas {

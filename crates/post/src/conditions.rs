@@ -3,9 +3,8 @@
 use crate::basis::{Basis, Bound};
 use crate::law::Law;
 use crate::vector::{Vec3, angle, dot, negative, norm};
+pub use contact::patch::IN_CONTACT;
 
-/// A node is in contact where its pressure exceeds this share of p0.
-pub const IN_CONTACT: f64 = 0.02;
 /// A node is in adhesion where its shear is below this share of the bound.
 pub const IN_ADHESION: f64 = 0.98;
 /// Departures from the law beyond this violate it.

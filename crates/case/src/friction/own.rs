@@ -117,7 +117,7 @@ impl NodeFriction for Own {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use contact::{Exponential, FrictionLaw, Implicit, Lagged, Remembering};
 
@@ -125,7 +125,7 @@ mod tests {
 
     /// Eq. (8) brought along.
     #[derive(Debug)]
-    struct Brought;
+    pub(in crate::friction) struct Brought;
 
     impl OwnLaw for Brought {
         fn mu(&self, slip_speeds: &[f64], mu: &mut [f64]) {

@@ -71,22 +71,10 @@ fn interpolation_error(points: &[[f64; 2]]) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::friction::own::tests::Brought;
     use contact::{Exponential, Implicit, Place};
 
     const PAPER: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
-
-    #[derive(Debug)]
-    struct Brought;
-
-    impl OwnLaw for Brought {
-        fn mu(&self, slip_speeds: &[f64], mu: &mut [f64]) {
-            mu.iter_mut().zip(slip_speeds).for_each(|(mu, s)| *mu = PAPER.mu(*s));
-        }
-
-        fn failure(&self) -> Option<String> {
-            None
-        }
-    }
 
     #[test]
     fn a_law_that_was_brought_along_is_known_from_its_points_to_what_is_said() {

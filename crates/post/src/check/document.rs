@@ -354,6 +354,9 @@ impl Pass<'_> {
             "roughness_ratio" => {
                 "no node slips for a tenth of a transit, or records lie too far apart"
             }
+            "law_scatter" if basis.bound == Bound::Used => {
+                "the law is no graph over the slip speed alone, or its graph is not known"
+            }
             "adhesion_slip" => "no node is in adhesion",
             "law_error_let_slip" | "direction_let_slip" => "the algorithm lets no node slip",
             _ => "no node slips",
