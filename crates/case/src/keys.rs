@@ -351,6 +351,7 @@ pub const KEYS: &[Key] = &[
     key("time.roll", LENGTH, "m", "give the rolled distance in metres: 0.06"),
     key("time.duration", Number(over(0.0, 10.0)), "s", "give the time in seconds: 1.5e-3"),
     key("evaluate.last", LENGTH, "m", "give the rolled distance in metres: 0.02"),
+    key("evaluate.transits", Number(over(0.0, 1e4)), "-", "give contact transits 2a: 4"),
     key("output.fields_interval", Number(over(0.0, 10.0)), "s", INTERVAL),
     key("output.stress", Flag, "", "give true or false, without quotes"),
     key("output.contact_interval", Number(over(0.0, 10.0)), "s", INTERVAL),

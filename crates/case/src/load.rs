@@ -150,7 +150,9 @@ fn write_defaults(case: &mut Case) {
     case.preload.max_iterations = Some(case.preload_iterations());
     case.guards.parted = case.longest_parted();
     case.guards.friction = case.largest_friction();
-    case.evaluate.last = Some(case.evaluate_last());
+    if case.evaluate.transits.is_none() {
+        case.evaluate.last = Some(case.evaluate_last());
+    }
     case.output.fields_interval = Some(case.fields_interval());
 }
 

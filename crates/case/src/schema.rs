@@ -4,6 +4,7 @@
 //! key stands in one table, [`crate::keys::KEYS`], from which both the checks and the ranges in
 //! the JSON Schema are taken.
 
+use crate::hertz::hertz;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -392,6 +393,10 @@ pub struct Evaluate {
     /// the last third of a run shorter than 0.060 m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub last: Option<f64>,
+    /// The same distance in contact transits (-), instead of `last`: a transit is 2a with a Hertz's half axis
+    /// along the rolling direction. Where slip fluctuates a mean needs several. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transits: Option<f64>,
 }
 
 /// Output.
@@ -545,7 +550,9 @@ impl Case {
 
     /// Rolled distance at the end over which means are taken (m).
     pub fn evaluate_last(&self) -> f64 {
-        self.evaluate.last.unwrap_or_else(|| (self.rolled() / 3.0).min(0.020))
+        let Evaluate { last, transits } = self.evaluate;
+        let of_transits = || transits.map(|transits| transits * 2.0 * hertz(self).a);
+        last.or_else(of_transits).unwrap_or_else(|| (self.rolled() / 3.0).min(0.020))
     }
 
     /// Where the preload has converged (dimensionless), by its method.
@@ -588,6 +595,6 @@ impl Case {
 impl Default for Evaluate {
     /// The window that [`Case::evaluate_last`] derives from the rolled distance.
     fn default() -> Self {
-        Self { last: None }
+        Self { last: None, transits: None }
     }
 }

@@ -479,13 +479,23 @@ fn check_geometry(case: &Case, found: &mut Findings) {
 fn check_output(case: &Case, found: &mut Findings) {
     let rolled = case.rolled();
     let last = case.evaluate_last();
+    let key = if case.evaluate.transits.is_some() { "evaluate.transits" } else { "evaluate.last" };
+    found.require(
+        case.evaluate.last.is_none() || case.evaluate.transits.is_none(),
+        &["evaluate.transits", "evaluate.last"],
+        || "evaluate.transits and evaluate.last are two lengths of one window".into(),
+        "give one of them",
+    );
     found.require(
         last <= rolled * (1.0 + 1e-12),
-        &["evaluate.last", "time.roll", "time.duration"],
+        &[key, "time.roll", "time.duration"],
         || {
+            let transits =
+                case.evaluate.transits.map(|transits| format!("{} transits, ", number(transits)));
             format!(
-                "evaluate.last = {} m must be at most the rolled distance, {} m",
-                number(last),
+                "{key} = {}{} m must be at most the rolled distance, {} m",
+                transits.unwrap_or_default(),
+                number(round(last)),
                 number(round(rolled))
             )
         },

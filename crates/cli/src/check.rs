@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use files::output::among;
 use miette::miette;
 use output::OutputError;
-use post::{Basis, CheckOptions, Depth, Limits, Pairing, PostError, Report, RunPaths};
+use post::{Basis, CheckOptions, Depth, Limits, Pairing, PostError, Report, RunPaths, Span};
 
 use crate::args::Args;
 use crate::commands::{BAD_INPUT, Failure};
@@ -21,10 +21,8 @@ pub struct CheckArgs {
     /// Folder of a run, or a file of the layout of contact.vtkhdf
     #[arg(value_name = "RUN")]
     pub run: PathBuf,
-    /// Judge the records from T0 to T1 seconds; either may be left out [default: the run's
-    /// evaluation window]
-    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
-    window: Option<[f64; 2]>,
+    #[command(flatten)]
+    window: WindowArgs,
     /// Set the limit of a measure, for example law_error=0.02; may be repeated
     #[arg(long = "limit", value_name = "NAME=VALUE", value_parser = named)]
     limits: Vec<(String, f64)>,
@@ -41,6 +39,25 @@ pub struct CheckArgs {
     deep: bool,
     #[command(flatten)]
     pub basis: BasisArgs,
+}
+
+/// Which records are taken.
+#[derive(Debug, clap::Args)]
+pub struct WindowArgs {
+    /// Take the records from T0 to T1 seconds; either may be left out [default: the run's evaluation
+    /// window; to compare, the first [[output.window]] of the first run]
+    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
+    window: Option<[f64; 2]>,
+    /// Take the last N contact transits (2a/V) of the evaluation window's end
+    #[arg(long, value_name = "N", value_parser = transits, conflicts_with = "window")]
+    transits: Option<f64>,
+}
+
+impl WindowArgs {
+    /// What was asked for.
+    pub fn span(&self) -> Option<Span> {
+        self.window.map(Span::Between).or(self.transits.map(Span::Transits))
+    }
 }
 
 /// What a run is measured against, where its own files do not say.
@@ -71,7 +88,7 @@ pub fn command(args: &Args, options: &CheckArgs) -> Result<u8, Failure> {
         claim_grid("--map", map, &inputs)?;
     }
     let wanted = CheckOptions {
-        window: options.window,
+        window: options.window.span(),
         limits,
         report: options.pairing.unwrap_or_default(),
         map: options.map.as_deref(),
@@ -137,7 +154,7 @@ pub fn inputs(paths: &RunPaths) -> Vec<PathBuf> {
     own.into_iter().chain([paths.contact.clone(), paths.case.clone()]).collect()
 }
 
-pub fn window(text: &str) -> Result<[f64; 2], String> {
+fn window(text: &str) -> Result<[f64; 2], String> {
     let wanted = "two times in seconds with a colon between, such as 1.0e-3:1.5e-3, are needed";
     let (from, to) = text.split_once(':').ok_or(wanted)?;
     let end = |text: &str, open: f64| match text.trim() {
@@ -146,6 +163,11 @@ pub fn window(text: &str) -> Result<[f64; 2], String> {
     };
     let window = [end(from, f64::NEG_INFINITY)?, end(to, f64::INFINITY)?];
     if window[0] <= window[1] { Ok(window) } else { Err("the window ends before it begins".into()) }
+}
+
+fn transits(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
+    number.ok_or_else(|| "a number greater than 0 is needed".to_owned())
 }
 
 fn named(text: &str) -> Result<(String, f64), String> {

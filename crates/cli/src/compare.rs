@@ -8,7 +8,7 @@ use post::{Compared, Depth, PostError};
 use serde_json::json;
 
 use crate::args::Args;
-use crate::check::{BasisArgs, basis, window};
+use crate::check::{BasisArgs, WindowArgs, basis};
 use crate::commands::{BAD_INPUT, Failure};
 use crate::report;
 
@@ -18,10 +18,8 @@ pub struct CompareArgs {
     /// Folders of two runs or more; each is compared with the one before it
     #[arg(value_name = "RUN", num_args = 2.., required = true)]
     runs: Vec<PathBuf>,
-    /// Compare from T0 to T1 seconds [default: the first [[output.window]] of the first run, else its evaluation
-    /// window]
-    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
-    window: Option<[f64; 2]>,
+    #[command(flatten)]
+    window: WindowArgs,
     /// Draw the slip along the centre line: mean in time and one standard deviation
     #[arg(long, value_name = "FILE.svg|FILE.png", value_parser = figure_file)]
     plot: Option<PathBuf>,
@@ -36,7 +34,7 @@ pub fn command(args: &Args, options: &CompareArgs) -> Result<u8, Failure> {
         let (paths, basis) = basis(run, &options.basis, Depth::Read)?;
         runs.push(Compared { paths, basis });
     }
-    let found = post::compare(&mut runs, options.window)?;
+    let found = post::compare(&mut runs, options.window.span())?;
     let mut document = found.document;
     if let Some(plot) = &options.plot {
         let (folder, stem, format) = parts(plot)

@@ -8,7 +8,7 @@ use post::{Depth, PostError};
 use serde_json::json;
 
 use crate::args::Args;
-use crate::check::{BasisArgs, basis, window};
+use crate::check::{BasisArgs, WindowArgs, basis};
 use crate::commands::Failure;
 use crate::sweep_folder as sweep;
 
@@ -25,10 +25,9 @@ pub struct PlotArgs {
     #[arg(long, value_name = "svg,png", value_delimiter = ',', default_values = ["svg", "png"],
           value_parser = format)]
     format: Vec<Format>,
-    /// Draw what lies from T0 to T1 seconds, lines and maps at its end [default: the run's
-    /// evaluation window]
-    #[arg(long, value_name = "T0:T1", value_parser = window, allow_hyphen_values = true)]
-    window: Option<[f64; 2]>,
+    // lines and maps are those at its end
+    #[command(flatten)]
+    window: WindowArgs,
     #[command(flatten)]
     basis: BasisArgs,
 }
@@ -41,7 +40,7 @@ pub fn command(args: &Args, options: &PlotArgs) -> Result<u8, Failure> {
         (sweep::name(&options.run), options.run.clone(), figures.collect::<Vec<_>>())
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
-        let figures = post::figures(&paths, &mut against, options.window)?;
+        let figures = post::figures(&paths, &mut against, options.window.span())?;
         let figures =
             figures.into_iter().map(|n| (n.stem.to_owned(), n.about.to_owned(), n.figure));
         (against.name, paths.folder, figures.collect())

@@ -29,6 +29,7 @@
 mod background;
 mod caught;
 mod checkpoint;
+pub mod confidence;
 mod error;
 mod free;
 mod grid;

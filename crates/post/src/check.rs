@@ -7,15 +7,17 @@ mod scales;
 
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};
+use crate::centreline::CentreLine;
 use crate::conditions::IN_CONTACT;
 use crate::frames::{ContactHistory, Pairing};
 use crate::limits::Limits;
 use crate::map::MapWriter;
 use crate::means::Sources;
 use crate::patch_series::PatchRow;
-use crate::window::Window;
+use crate::slip_zone::SlipZone;
+use crate::window::{Span, Window};
 use pass::Pass;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 
 pub(crate) use scales::Scales;
@@ -35,8 +37,8 @@ pub enum Report {
 /// What to check.
 #[derive(Clone, Debug)]
 pub struct CheckOptions<'a> {
-    /// From and to (s), both included; `None` is the run's evaluation window, or all of it.
-    pub window: Option<[f64; 2]>,
+    /// `None` is the run's evaluation window, or all of it.
+    pub window: Option<Span>,
     /// Limits.
     pub limits: Limits,
     /// Pairing to report.
@@ -79,12 +81,16 @@ pub fn check(
         .map(|path| MapWriter::create(path, &history.surface, &paths.contact))
         .transpose()?;
     let weights = window.weights(&history.times);
+    let mut line = CentreLine::new(&history, basis);
     let first = records.start;
     history.stream_batches(records, |frames| {
         if let Some(map) = &mut map {
             for frame in &frames {
                 map.write(&history.surface, frame, &pass.judge, &pass.scales)?;
             }
+        }
+        if let Ok(line) = &mut line {
+            frames.iter().for_each(|frame| line.take(&history.surface, frame));
         }
         pass.take(frames.into_iter().map(|frame| {
             let weight = weights[frame.index - first];
@@ -104,6 +110,10 @@ pub fn check(
     let sources = Sources::of(paths, basis, &window)?;
     let patch = sources.patch(&pass.patch, &weights);
     let mesh_mode = mesh_mode::document(&pass.mesh_mode, sources.summary(), basis);
-    let (document, holds) = pass.document(basis, options, &window, patch, mesh_mode);
+    let (mut document, holds) = pass.document(basis, options, &window, patch, mesh_mode);
+    document["slip_zone"] = match &line {
+        Ok(line) => SlipZone::of(line, &weights).map_or(Value::Null, |zone| zone.document(line)),
+        Err(why) => json!({ "note": why.to_string() }),
+    };
     Ok(Checked { document, pass: holds, patch: pass.patch })
 }

@@ -4,16 +4,22 @@
 //! A pointwise difference says whether refinement leads to one slip s(x, t); where it does not, means and
 //! standard deviations may still settle.
 
+mod difference;
 mod figure;
 mod growth;
-mod line;
 
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};
+use crate::centreline::{CentreLine, PLACES};
+use crate::conditions::IN_CONTACT;
 use crate::frames::ContactHistory;
+use crate::slip_zone::SlipZone;
+use crate::statistics::time_weights;
+use crate::surface::body_name;
+use crate::window::Span;
 use ::figure::Figure;
-use contact::mesh_mode::LEAST_SLIP;
-use line::{INSTANTS, Line, PLACES};
+use contact::mesh_mode::{LEAST_SLIP, MeshMode};
+use difference::INSTANTS;
 use serde_json::{Value, json};
 
 /// A run to compare.
@@ -32,21 +38,32 @@ pub struct Comparison {
     pub figure: Figure,
 }
 
-/// Compares runs of one geometry and speed, each with the one before it, over `window` (from and to, s) or the
-/// span that the first run records most densely.
+/// The centre line of a run over the window.
+struct Line {
+    line: CentreLine,
+    /// The time in the window that each record stands for (s).
+    weights: Vec<f64>,
+    zone: Option<SlipZone>,
+    /// Of the slip over all faces in contact, in every record of the window.
+    mesh_mode: MeshMode,
+}
+
+/// Compares runs of one geometry and speed, each with the one before it, over `window`: the span that the
+/// first run records most densely unless it is given.
 ///
 /// # Errors
 /// Fewer than two runs, files that cannot be read, a window without records in every run, a case without
 /// a speed.
-pub fn compare(runs: &mut [Compared], window: Option<[f64; 2]>) -> Result<Comparison, PostError> {
+pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison, PostError> {
     let [first, .., _] = &*runs else {
         return Err(PostError::Asked("two runs or more are needed".into()));
     };
-    let window = window.or_else(|| first.basis.recorded_window()).or(first.basis.window);
     let histories: Vec<ContactHistory> = runs
         .iter()
         .map(|run| ContactHistory::open(&run.paths.contact))
         .collect::<Result<_, _>>()?;
+    let asked = window.map(|window| window.settle(&first.basis, &histories[0])).transpose()?;
+    let window = asked.or_else(|| first.basis.recorded_window()).or(first.basis.window);
     let window = window.unwrap_or_else(|| {
         let ends = |h: &ContactHistory| [h.times[0], h.times[h.times.len() - 1]];
         histories
@@ -56,27 +73,21 @@ pub fn compare(runs: &mut [Compared], window: Option<[f64; 2]>) -> Result<Compar
     });
     let mut lines = Vec::new();
     for (run, history) in runs.iter_mut().zip(&histories) {
-        lines.push(Line::read(history, &mut run.basis, window)?);
+        lines.push(read(history, &mut run.basis, window)?);
     }
-    let described = runs.iter().zip(&lines).map(|(run, line)| {
-        let least = LEAST_SLIP * line.speed;
-        json!({ "name": run.basis.name, "folder": run.paths.folder, "side": line.side,
-                "largest": line.slip.largest(), "mean": line.slip.mean(),
-                "deviation": line.slip.mean_deviation(),
-                "fluctuating_share": line.slip.fluctuating_share(),
-                "alternating_slip": line.mesh_mode.share(least) })
-    });
-    let described: Vec<Value> = described.collect();
+    let described: Vec<Value> =
+        runs.iter().zip(&lines).map(|(run, line)| describe(run, line)).collect();
     let mut differences = Vec::new();
     for k in 1..runs.len() {
         let [a, b] = [&lines[k - 1], &lines[k]];
         differences.push(json!({
             "from": runs[k - 1].basis.name, "to": runs[k].basis.name,
-            "slip": a.slip.difference(&b.slip), "shear": a.shear.difference(&b.shear),
+            "slip": difference::of([a, b], |line| &line.slip, window),
+            "shear": difference::of([a, b], |line| &line.shear, window),
             "growth": growth::growth(&histories[k - 1], &histories[k])?,
         }));
     }
-    let reach = lines.iter().map(|line| line.reach).fold(0.0, f64::max);
+    let reach = lines.iter().map(|line| line.line.reach).fold(0.0, f64::max);
     let document = json!({
         "window": window,
         "grid": { "from": -reach, "to": reach, "places": PLACES, "instants": INSTANTS },
@@ -85,4 +96,49 @@ pub fn compare(runs: &mut [Compared], window: Option<[f64; 2]>) -> Result<Compar
     });
     let names: Vec<&str> = runs.iter().map(|run| run.basis.name.as_str()).collect();
     Ok(Comparison { document, figure: figure::figure(&names, &lines, window) })
+}
+
+/// A run in the document.
+fn describe(run: &Compared, line: &Line) -> Value {
+    let zone = line.zone.as_ref();
+    json!({
+        "name": run.basis.name, "folder": run.paths.folder, "side": body_name(line.line.body),
+        "largest": zone.map(|zone| zone.largest), "mean": zone.map(|zone| zone.mean),
+        "deviation": zone.map(|zone| zone.deviation),
+        "fluctuating_share": zone.map(|zone| zone.fluctuating_share),
+        "slip_zone": zone.map(|zone| zone.document(&line.line)),
+        "alternating_slip": line.mesh_mode.share(LEAST_SLIP * line.line.speed.abs()),
+    })
+}
+
+/// Reads a run over `window`.
+fn read(history: &ContactHistory, basis: &mut Basis, window: [f64; 2]) -> Result<Line, PostError> {
+    let mut line = CentreLine::new(history, basis)?;
+    let p0 = basis.scale("peak_pressure").ok_or(PostError::Unknown {
+        name: "Hertz's peak pressure",
+        remedy: "the run's summary or case.toml gives it",
+    })?;
+    let surface = &history.surface;
+    let faces: Vec<[u32; 4]> = surface
+        .faces
+        .iter()
+        .zip(&surface.face_body)
+        .filter(|(_, of)| **of == line.body)
+        .map(|(face, _)| *face)
+        .collect();
+    let records = history.window(window)?;
+    // one more at each end, where there is one: instants lie between records
+    let around = records.start.saturating_sub(1)..(records.end + 1).min(history.times.len());
+    let mut mesh_mode = MeshMode::default();
+    history.stream(around, |frame| {
+        if records.contains(&frame.index) {
+            let in_contact = |node: usize| frame.pressure[node] > IN_CONTACT * p0;
+            mesh_mode.add(1.0, &faces, &frame.slip_velocity, in_contact);
+        }
+        line.take(surface, &frame);
+        Ok(())
+    })?;
+    let weights = time_weights(&line.times, window);
+    let zone = SlipZone::of(&line, &weights);
+    Ok(Line { line, weights, zone, mesh_mode })
 }

@@ -15,7 +15,7 @@ use crate::frames::{ContactHistory, Frame};
 use crate::means::Sources;
 use crate::patch_series;
 use crate::vector::{Vec3, axpy};
-use crate::window::Window;
+use crate::window::{Span, Window};
 use figure::{Figure, colour};
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ pub(crate) struct Scene<'a> {
 pub fn figures(
     paths: &RunPaths,
     basis: &mut Basis,
-    window: Option<[f64; 2]>,
+    window: Option<Span>,
 ) -> Result<Vec<Named>, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
     let window = Window::settle(window, basis, &history)?;

@@ -12,6 +12,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod basis;
+mod centreline;
 mod check;
 mod compare;
 mod conditions;
@@ -29,6 +30,7 @@ mod page;
 mod patch_series;
 mod replay;
 mod roughness;
+mod slip_zone;
 mod statistics;
 mod surface;
 mod sweep;
@@ -51,3 +53,4 @@ pub use page::{run_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};
 pub use sweep::{Sample, SweepVerdict, Trend, Verdict, sweep_figures, sweep_verdicts, trend};
+pub use window::Span;

@@ -10,6 +10,7 @@ use crate::frames::open_history;
 use crate::patch_series::{PATCH_MEASURES, PatchRow};
 use crate::statistics::{mean_and_deviation, time_weights};
 use crate::window::Window;
+use output::confidence::of_series;
 use serde_json::{Map, Value, json};
 use std::collections::HashMap;
 use std::path::Path;
@@ -56,6 +57,8 @@ struct Found {
     /// Mean and deviation; NaN where the source has no deviation.
     mean: Option<[f64; 2]>,
     from: &'static str,
+    /// Half the width of its 95 % confidence interval, by batches of the records.
+    half: Option<f64>,
     /// Why there is none, or what it leaves out.
     note: Option<String>,
 }
@@ -85,7 +88,7 @@ impl<'a> Sources<'a> {
         self.in_summary(&name).or_else(|| {
             let Rows { columns, weights } = self.history.as_ref()?;
             let mean = mean_and_deviation(weights, columns.get(&name)?.iter().copied());
-            Some(Found { mean, from: "history", note: None })
+            Some(Found { mean, from: "history", half: self.half(&name), note: None })
         })
     }
 
@@ -97,21 +100,27 @@ impl<'a> Sources<'a> {
         let mean = number("contact").or_else(|| number("window"));
         let note = at("window/reasons").and_then(Value::as_str).map(str::to_owned);
         let mean = mean.map(|mean| [mean, number("window/deviation").unwrap_or(f64::NAN)]);
-        Some(Found { mean, from: "summary", note })
+        Some(Found { mean, from: "summary", half: self.half(name), note })
+    }
+
+    /// Half the width of the confidence interval of a mean, by the rows of the history.
+    fn half(&self, name: &str) -> Option<f64> {
+        let Rows { columns, weights } = self.history.as_ref()?;
+        half(weights, columns.get(name)?)
     }
 
     /// Means and standard deviations of all measures of the patch, those that the run does not hold
     /// from `rows`, its records of contact, with the time that each stands for.
     pub fn patch(&self, rows: &[PatchRow], weights: &[f64]) -> Value {
         let of_records = |i: usize| {
-            let values = rows.iter().map(|row| row.values[i]);
-            let mean = mean_and_deviation(weights, values);
-            Found { mean, from: "contact records", note: None }
+            let values: Vec<f64> = rows.iter().map(|row| row.values[i]).collect();
+            let mean = mean_and_deviation(weights, values.iter().copied());
+            Found { mean, from: "contact records", half: half(weights, &values), note: None }
         };
         let entry = |(name, units, about): (&str, &str, &str), found: Found| {
             let [mean, deviation] = [0, 1].map(|i| found.mean.map(|both| both[i]));
-            let mut entry = json!({ "mean": mean, "deviation": deviation, "units": units,
-                                    "about": about, "from": found.from });
+            let mut entry = json!({ "mean": mean, "deviation": deviation, "ci95": found.half,
+                                    "units": units, "about": about, "from": found.from });
             let silent = found.mean.is_none().then(|| why_none(name).to_owned());
             if let Some(note) = found.note.or(silent) {
                 entry["note"] = json!(note);
@@ -124,6 +133,14 @@ impl<'a> Sources<'a> {
         let creepage = self.of_run(CREEPAGE.0).map(|found| entry(CREEPAGE, found));
         measured.chain(creepage).collect::<Map<_, _>>().into()
     }
+}
+
+/// Half the width of the 95 % confidence interval of a mean over records that count with `weights`; none where a
+/// record has no value, or the records do not tell.
+fn half(weights: &[f64], values: &[f64]) -> Option<f64> {
+    let counts = |(weight, value): (&f64, &f64)| *weight <= 0.0 || value.is_finite();
+    let whole = weights.len() == values.len() && weights.iter().zip(values).all(counts);
+    whole.then(|| of_series(weights, values).ok()).flatten()
 }
 
 /// What the history of the run in `folder` holds for the window; nothing where there is no history or

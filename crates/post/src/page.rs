@@ -212,7 +212,7 @@ fn case(out: &mut String, basis: &Basis, checked: &Value) {
 fn patch(out: &mut String, basis: &Basis, checked: &Value) {
     out.push_str(
         "<h2>The patch</h2>\n<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
-         <th></th><th class=\"n\">deviation</th><th class=\"n\">half-space</th></tr>\n",
+         <th></th><th class=\"n\">95 % interval</th><th class=\"n\">deviation</th><th class=\"n\">half-space</th></tr>\n",
     );
     for PatchLine { label, key, factor, unit } in PATCH_TABLE {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));
@@ -221,7 +221,7 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
             if let Some(note) = note {
                 let _ = writeln!(
                     out,
-                    "<tr><td>{label}</td><td class=\"n\">\u{2013}</td><td colspan=\"3\">{}</td></tr>",
+                    "<tr><td>{label}</td><td class=\"n\">\u{2013}</td><td colspan=\"4\">{}</td></tr>",
                     escape(note)
                 );
             }
@@ -238,8 +238,11 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
         let _ = writeln!(
             out,
             "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td>\
-             <td class=\"n\">{}</td>{}</tr>",
+             <td class=\"n\">{}</td><td class=\"n\">{}</td>{}</tr>",
             digits(factor * mean, 4),
+            at("ci95")
+                .map(|half| format!("\u{b1} {}", digits(factor * half, 2)))
+                .unwrap_or_default(),
             at("deviation").map(|d| digits(factor * d, 2)).unwrap_or_default(),
             reference.unwrap_or_default(),
             note.map(|note| format!("<td>{}</td>", escape(note))).unwrap_or_default()

@@ -6,6 +6,47 @@ use crate::frames::ContactHistory;
 use crate::statistics::time_weights;
 use std::ops::Range;
 
+/// What part of a run is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Span {
+    /// From and to (s), both included.
+    Between([f64; 2]),
+    /// So many contact transits, 2a/V each, up to the end of the run's evaluation window, or of its records.
+    Transits(f64),
+}
+
+impl Span {
+    /// From and to (s).
+    ///
+    /// # Errors
+    /// Transits of a contact whose length or speed is not known, or more of them than there are records of.
+    pub(crate) fn settle(
+        self,
+        basis: &Basis,
+        history: &ContactHistory,
+    ) -> Result<[f64; 2], PostError> {
+        let transits = match self {
+            Self::Between(span) => return Ok(span),
+            Self::Transits(transits) => transits,
+        };
+        let (a, speed) =
+            basis.scale("half_length").zip(basis.scale("speed")).ok_or(PostError::Unknown {
+                name: "the contact transit 2a/V",
+                remedy: "give --scale half_length=M and --scale speed=M/S",
+            })?;
+        let [first, last] = [history.times[0], history.times[history.times.len() - 1]];
+        let to = basis.window.map_or(last, |[_, to]| to.min(last));
+        let from = to - transits * 2.0 * a / speed.abs();
+        if from < first - SAME * last.abs() {
+            return Err(PostError::Asked(format!(
+                "{transits} contact transits before {to:e} s begin at {from:e} s, before the first record \
+                 ({first:e} s)"
+            )));
+        }
+        Ok([from, to])
+    }
+}
+
 /// The window and the records of the contact history in it.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
@@ -27,12 +68,13 @@ impl Window {
     /// # Errors
     /// A window that was asked for and holds no record.
     pub fn settle(
-        asked: Option<[f64; 2]>,
+        asked: Option<Span>,
         basis: &Basis,
         history: &ContactHistory,
     ) -> Result<Self, PostError> {
         let all = [f64::NEG_INFINITY, f64::INFINITY];
-        let span = asked.or(basis.window).unwrap_or(all);
+        let own = basis.window.unwrap_or(all);
+        let span = asked.map_or(Ok(own), |asked| asked.settle(basis, history))?;
         match history.window(span) {
             Err(_) if asked.is_none() => {
                 Ok(Self { span: all, records: 0..history.times.len(), of_summary: false })

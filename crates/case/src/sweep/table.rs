@@ -9,7 +9,7 @@ use super::plan::SweepError;
 
 /// What the table shows of a run besides its parameters and the measures of its checks: heading
 /// and pointer into the run's entry.
-const COLUMNS: [(&str, &str); 47] = [
+const COLUMNS: [(&str, &str); 51] = [
     ("dt", "/summary/dt"),
     ("dt_limit", "/summary/stability/dt_limit"),
     ("steps", "/summary/steps"),
@@ -43,6 +43,10 @@ const COLUMNS: [(&str, &str); 47] = [
     ("torque_sd", "/summary/window/deviation/torque"),
     ("max_penetration", "/summary/window/max_penetration"),
     ("max_penetration_sd", "/summary/window/deviation/max_penetration"),
+    ("slip_zone_mean", "/check/slip_zone/mean/value"),
+    ("slip_zone_deviation", "/check/slip_zone/deviation/value"),
+    ("slip_zone_fluctuating_share", "/check/slip_zone/fluctuating_share/value"),
+    ("slip_zone_largest", "/check/slip_zone/largest/value"),
     ("energy_kinetic", "/summary/energy/kinetic"),
     ("energy_internal", "/summary/energy/internal"),
     ("energy_hourglass", "/summary/energy/hourglass"),
@@ -81,8 +85,11 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
     let measured = measures.iter().map(|name| format!("check_{name}"));
     let headings = headings.map(str::to_owned).chain(measured).chain(["reason".to_owned()]);
     let points = document["points"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let intervals: Vec<(String, String)> =
-        if points.is_empty() { Vec::new() } else { intervals(&measures) };
+    let intervals = intervals(&measures);
+    let halves = |entry: &Value| -> Vec<String> {
+        let half = |places: &[String; 2]| cell(first(entry, places));
+        intervals.iter().map(|(_, places)| half(places)).collect()
+    };
     line(&mut text, headings.chain(intervals.iter().map(|(heading, _)| heading.clone())));
     for run in runs {
         let values = [&run["name"]].into_iter();
@@ -92,20 +99,19 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
             .chain(COLUMNS.iter().map(|(_, at)| shown(run, at)))
             .chain(measures.iter().map(|name| &run["check"]["metrics"][*name]["value"]))
             .chain([&run["reason"]]);
-        line(&mut text, values.map(cell).chain(intervals.iter().map(|_| String::new())));
+        line(&mut text, values.map(cell).chain(halves(run)));
     }
     for point in points {
         let name = format!("mean of {}", point["completed"]);
         let parameters = parameters.iter().map(|name| cell(&point["parameters"][*name]));
         let of_means = |(heading, at): &(&str, &'static str)| {
-            // half widths of intervals stand in columns of their own
+            // deviations over a window are of a run
             if heading.ends_with(DEVIATION) { String::new() } else { cell(shown(point, at)) }
         };
         let metrics = measures.iter().map(|name| cell(&point["check"]["metrics"][*name]["value"]));
         let values = [name].into_iter().chain(parameters).chain(["ensemble".to_owned()]);
         let values = values.chain(COLUMNS.iter().map(of_means)).chain(metrics);
-        let halves = intervals.iter().map(|(_, at)| cell(shown(point, at)));
-        line(&mut text, values.chain([String::new()]).chain(halves));
+        line(&mut text, values.chain([String::new()]).chain(halves(point)));
     }
     let failed = |cause| SweepError::File { path: path.into(), cause };
     let partial = path.with_extension("csv.partial");
@@ -115,20 +121,38 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
 /// End of the heading of a standard deviation over the window.
 const DEVIATION: &str = "_sd";
 
-/// Headings and places of the half widths of the 95 % confidence intervals of a point's means.
-fn intervals(measures: &[&str]) -> Vec<(String, String)> {
+/// Headings of the half widths of 95 % confidence intervals, each with its places: of the mean over an ensemble's
+/// members, else of the mean over the window of a run.
+fn intervals(measures: &[&str]) -> Vec<(String, [String; 2])> {
     let means = COLUMNS.iter().filter_map(|(heading, at)| {
-        Some((format!("{}_ci95", heading.strip_suffix(DEVIATION)?), (*at).to_owned()))
+        if let Some(entry) = at.strip_prefix("/check/slip_zone/") {
+            let entry = entry.strip_suffix("/value")?;
+            let place = format!("/check/slip_zone/{entry}/ci95");
+            return Some((format!("{heading}_ci95"), [place, String::new()]));
+        }
+        let name = heading.strip_suffix(DEVIATION)?;
+        let in_check = name.strip_prefix("patch_").unwrap_or(name);
+        let places =
+            [format!("/summary/window/ci95/{name}"), format!("/check/patch/{in_check}/ci95")];
+        Some((format!("{name}_ci95"), places))
     });
-    let measures = measures
-        .iter()
-        .map(|name| (format!("check_{name}_ci95"), format!("/check/metrics/{name}/deviation")));
+    let measures = measures.iter().map(|name| {
+        (format!("check_{name}_ci95"), [format!("/check/metrics/{name}/ci95"), String::new()])
+    });
     means.chain(measures).collect()
+}
+
+/// The first of the places that an entry has.
+fn first<'a>(entry: &'a Value, places: &[String; 2]) -> &'a Value {
+    let there = places.iter().map(|at| if at.is_empty() { &Value::Null } else { shown(entry, at) });
+    there.into_iter().find(|value| !value.is_null()).unwrap_or(&Value::Null)
 }
 
 /// A value of a run; means over the evaluation window only where the run came to its end.
 fn shown<'a>(run: &'a Value, at: &str) -> &'a Value {
-    let mean = at.starts_with("/summary/contact/") || at.starts_with("/summary/window/");
+    let mean = ["/summary/contact/", "/summary/window/", "/check/patch/", "/check/slip_zone/"]
+        .iter()
+        .any(|section| at.starts_with(section));
     match run.pointer(at) {
         Some(value) if !mean || run["status"] == "completed" => value,
         _ => &Value::Null,

@@ -54,9 +54,20 @@ fn four_keys_make_the_reference_case() {
 }
 
 #[test]
+fn a_window_of_transits_is_as_many_patch_lengths_of_rolling() {
+    let mut case = read(SHORT).unwrap();
+    let half = crate::hertz::hertz(&case).a;
+    case.evaluate = crate::schema::Evaluate { last: None, transits: Some(3.0) };
+    assert!((case.evaluate_last() / (6.0 * half) - 1.0).abs() < 1e-15);
+    let [from, to] = case.evaluation_window();
+    assert!(((to - from) * case.drive.speed / (6.0 * half) - 1.0).abs() < 1e-12);
+}
+
+#[test]
 fn the_resolved_case_loads_to_itself() {
     for sets in [
         vec![],
+        vec!["evaluate.transits=1.5"],
         vec!["friction.law=exponential", "name=other", "disk.material.young=200e9"],
         vec!["time.duration=1e-3", "contact.penalty.normal={ stiffness = 3.5e13 }"],
         vec!["drive.torque=1e4", "bar.crown_radius=0.2", "disk.radius=0.123456789012345678"],

@@ -150,6 +150,8 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         ("output.window=[{from=2e-4,to=1e-4}]", vec!["output.window[0].to", "greater"]),
         ("output.window=3", vec!["output.window = 3", "list"]),
         ("evaluate.last=0.07", vec!["evaluate.last = 0.07", "0.06"]),
+        ("evaluate.transits=9", vec!["evaluate.transits = 9 transits", "0.06"]),
+        ("evaluate={last=0.01,transits=1}", vec!["two lengths of one window"]),
         ("name=\"../up\"", vec!["name", "cannot name a folder"]),
         ("name=\"..\"", vec!["name", "cannot name a folder"]),
         ("drive.mode=torque", vec!["drive.torque is missing"]),

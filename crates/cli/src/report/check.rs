@@ -59,6 +59,7 @@ pub fn text(document: &Value) -> String {
         let _ = writeln!(out, "{}", line.trim_end());
     }
     patch(&mut out, document);
+    slip_zone(&mut out, document);
     let notes = document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str);
     for note in notes {
         let _ = writeln!(out, "note: {note}");
@@ -121,16 +122,44 @@ fn place(metric: &Value) -> String {
     text
 }
 
+/// Slip over the slip zone along the centre line.
+fn slip_zone(out: &mut String, document: &Value) {
+    let at = |pointer: &str| number(document, &format!("/slip_zone/{pointer}"));
+    let Some([from, to]) = at("from").zip(at("to")).map(|(from, to)| [1e3 * from, 1e3 * to]) else {
+        return;
+    };
+    heading(out, &format!("Slip zone along the centre line, x from {from:.2} to {to:.2} mm"));
+    for (label, key, unit) in [
+        ("mean slip speed", "mean", "m/s"),
+        ("fluctuation, rms", "deviation", "m/s"),
+        ("fluctuating share", "fluctuating_share", ""),
+        ("largest slip speed", "largest", "m/s"),
+    ] {
+        let half = at(&format!("{key}/ci95")).map(|half| format!("+- {}", digits(Some(half), 2)));
+        let line = format!(
+            "  {label:<22}{:>11} {unit:<5}{}",
+            digits(at(&format!("{key}/value")), 4),
+            half.unwrap_or_default()
+        );
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+}
+
 fn patch(out: &mut String, document: &Value) {
-    heading(out, "Patch, mean and standard deviation");
+    heading(
+        out,
+        "Patch: mean with its 95 % confidence interval, standard deviation over the records",
+    );
     for post::PatchLine { label, key, factor, unit } in post::PATCH_TABLE {
         let at = |part: &str| number(document, &format!("/patch/{key}/{part}"));
         let note = word(document, &format!("/patch/{key}/note"));
         let note = if note.is_empty() { String::new() } else { format!("  ({note})") };
         if let Some(mean) = at("mean") {
+            let half = at("ci95").map(|half| format!("+- {}", digits(Some(half * factor), 2)));
             let line = format!(
-                "  {label:<22}{:>11} {unit:<5}+- {}",
+                "  {label:<22}{:>11} {unit:<5}{:<12}sd {}",
                 digits(Some(mean * factor), 4),
+                half.unwrap_or_default(),
                 digits(at("deviation").map(|d| d * factor), 2)
             );
             let _ = writeln!(out, "{}{note}", line.trim_end());

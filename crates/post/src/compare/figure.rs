@@ -1,6 +1,7 @@
 //! The slip speed of all runs along the centre line.
 
-use super::line::{Line, PLACES};
+use super::Line;
+use crate::centreline::profile;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 
 const COLOURS: [[u8; 3]; 6] =
@@ -11,11 +12,10 @@ pub(super) fn figure(names: &[&str], lines: &[Line], [from, to]: [f64; 2]) -> Fi
     let mut series = Vec::new();
     for (k, (name, line)) in names.iter().zip(lines).enumerate() {
         let colour = COLOURS[k % COLOURS.len()];
-        let profile = line.slip.profile();
+        let profile = profile(&line.line.slip, &line.weights);
         let curve = |sign: f64| -> Vec<[f64; 2]> {
-            let place = |i: usize| line.reach * (2.0 * i as f64 / (PLACES - 1) as f64 - 1.0);
             let at = |(i, [mean, deviation]): (usize, &[f64; 2])| {
-                [1e3 * place(i), f64::max(mean + sign * deviation, 0.0)]
+                [1e3 * line.line.place(i), f64::max(mean + sign * deviation, 0.0)]
             };
             profile.iter().enumerate().map(at).collect()
         };

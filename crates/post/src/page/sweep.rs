@@ -116,7 +116,7 @@ fn table(out: &mut String, sweep: &Sweep<'_>) {
         let _ = write!(out, "<td>{}</td>", escape(&status));
         for measure in &columns {
             let point = measure.of(*run);
-            let half = point.and_then(|point| point.deviation).filter(|_| sweep.ensemble);
+            let half = point.and_then(|point| point.half);
             let half = half.map_or(String::new(), |half| format!(" \u{b1} {}", digits(half, 2)));
             let text = point.map_or("\u{2013}".into(), |point| digits(point.value, 4) + &half);
             let _ = write!(out, "<td class=\"n\">{text}</td>");

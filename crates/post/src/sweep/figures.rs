@@ -68,7 +68,7 @@ fn axis_over(text: &str, values: &[f64]) -> Axis {
     if log { Axis::log(text) } else { Axis::linear(text) }
 }
 
-/// Every measure over an axis, a line for each group, with the deviation over the window.
+/// Every measure over an axis, a line for each group, with its scatter.
 fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figure> {
     let x = axis_over(&label(axis), &sweep.values(axis));
     let mut panels = Vec::new();
@@ -120,8 +120,8 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     };
     let refined = if towards_zero(axis) { "left" } else { "right" };
     let caption = format!(
-        "Measures over {axis}; bars: the standard deviation over the records of the evaluation \
-         window, where it is known. Verdicts follow the axis to the {refined}.{left_out}"
+        "Measures over {axis}; bars: the 95 % confidence interval of the mean, where there is none the \
+         standard deviation over the records of the evaluation window. Verdicts follow the axis to the {refined}.{left_out}"
     );
     let size = [1080, 270 * panels.len().div_ceil(3) as u32 + 50];
     Some(Figure { size, columns: 3, panels, caption })
@@ -130,8 +130,8 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
 /// A linear axis that does not blow up changes of less than a few percent.
 fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>) -> Axis {
     let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
-        let deviation = point.deviation.unwrap_or(0.0);
-        [low.min(point.value - deviation), high.max(point.value + deviation)]
+        let scatter = point.scatter().unwrap_or(0.0);
+        [low.min(point.value - scatter), high.max(point.value + scatter)]
     });
     let middle = 0.5 * (ends[0] + ends[1]);
     let half = (0.52 * (ends[1] - ends[0])).max(0.03 * middle.abs());
@@ -139,15 +139,15 @@ fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>
     if half > 0.0 { axis.over(middle - half, middle + half) } else { axis }
 }
 
-/// The deviation of a point as a line with a gap behind it.
+/// The scatter of a point as a line with a gap behind it.
 fn bar(x: f64, point: &Point, log: bool) -> Vec<[f64; 2]> {
-    let Some(deviation) = point.deviation.filter(|deviation| *deviation > 0.0) else {
+    let Some(scatter) = point.scatter().filter(|scatter| *scatter > 0.0) else {
         return Vec::new();
     };
     // on a logarithmic axis a bar that reaches below zero ends a decade down
-    let low = point.value - deviation;
+    let low = point.value - scatter;
     let low = if log { low.max(0.1 * point.value) } else { low };
-    vec![[x, low], [x, point.value + deviation], [x, f64::NAN]]
+    vec![[x, low], [x, point.value + scatter], [x, f64::NAN]]
 }
 
 /// The centre lines of a group of runs, coloured by the axis.

@@ -12,19 +12,31 @@ pub(crate) struct SweepMeasure {
     pub unit: &'static str,
     /// From SI.
     pub factor: f64,
-    /// Where a run's entry holds it: pointers to the value and to its deviation over the window,
-    /// the first that is there.
-    places: &'static [(&'static str, &'static str)],
+    /// Where a run's entry holds it, the first that is there.
+    places: &'static [Place],
     /// Whether the table of runs shows it.
     pub in_table: bool,
 }
+
+/// Pointers to a value, to half the width of its confidence interval (the first that is there), and to its deviation
+/// over the window.
+type Place = (&'static str, &'static [&'static str], &'static str);
 
 /// A measure of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
     pub value: f64,
+    /// Half the width of its 95 % confidence interval, where it has one.
+    pub half: Option<f64>,
     /// Its deviation over the window, where it is known.
     pub deviation: Option<f64>,
+}
+
+impl Point {
+    /// How well it is known: by its interval, without one by its deviation.
+    pub fn scatter(&self) -> Option<f64> {
+        self.half.or(self.deviation)
+    }
 }
 
 const fn measure(
@@ -32,7 +44,7 @@ const fn measure(
     unit: &'static str,
     factor: f64,
     in_table: bool,
-    places: &'static [(&'static str, &'static str)],
+    places: &'static [Place],
 ) -> SweepMeasure {
     SweepMeasure { name, unit, factor, places, in_table }
 }
@@ -42,6 +54,7 @@ macro_rules! metric {
     ($name:literal) => {
         (
             concat!("/check/metrics/", $name, "/value"),
+            &[concat!("/check/metrics/", $name, "/ci95")],
             concat!("/check/metrics/", $name, "/deviation"),
         )
     };
@@ -50,17 +63,25 @@ macro_rules! metric {
 /// Place of a patch measure.
 macro_rules! patch {
     ($name:literal) => {
-        (concat!("/check/patch/", $name, "/mean"), concat!("/check/patch/", $name, "/deviation"))
+        (
+            concat!("/check/patch/", $name, "/mean"),
+            &[concat!("/check/patch/", $name, "/ci95")],
+            concat!("/check/patch/", $name, "/deviation"),
+        )
     };
 }
 
-/// Places of a mean over the evaluation window: what the table of the sweep holds, and for runs of
-/// other codes what their check found.
+/// Places of a mean over the evaluation window: of an ensemble's point, of a run, and for runs of other codes
+/// what their check found.
 macro_rules! mean {
     ($section:literal, $name:literal, $patch:literal) => {
         &[
             (
                 concat!("/summary/", $section, "/", $name),
+                &[
+                    concat!("/summary/window/ci95/", $name),
+                    concat!("/check/patch/", $patch, "/ci95"),
+                ],
                 concat!("/summary/window/deviation/", $name),
             ),
             patch!($patch),
@@ -68,8 +89,19 @@ macro_rules! mean {
     };
 }
 
+/// Place of a statistic of the slip zone.
+macro_rules! slip_zone {
+    ($name:literal) => {
+        (
+            concat!("/check/slip_zone/", $name, "/value"),
+            &[concat!("/check/slip_zone/", $name, "/ci95")],
+            "",
+        )
+    };
+}
+
 /// All of them, in the order of figures and tables.
-pub(crate) const MEASURES: [SweepMeasure; 20] = [
+pub(crate) const MEASURES: [SweepMeasure; 23] = [
     measure(
         "peak pressure (fit)",
         "MPa",
@@ -83,14 +115,17 @@ pub(crate) const MEASURES: [SweepMeasure; 20] = [
     measure("half length", "mm", 1e3, true, mean!("contact", "patch_half_length", "half_length")),
     measure("stick fraction", "", 1.0, true, mean!("contact", "stick_fraction", "stick_fraction")),
     measure("power of friction", "kW", 1e-3, false, &[patch!("power")]),
+    measure("mean slip", "m/s", 1.0, true, &[slip_zone!("mean")]),
+    measure("fluctuation of slip", "m/s", 1.0, true, &[slip_zone!("deviation")]),
+    measure("fluctuating share", "", 1.0, true, &[slip_zone!("fluctuating_share")]),
     measure(
         "slip_roughness",
         "",
         1.0,
         true,
         &[
-            ("/check/metrics/roughness_ratio/sides/bar/before/deviation_slip", ""),
-            ("/check/metrics/roughness_ratio/sides/disk/before/deviation_slip", ""),
+            ("/check/metrics/roughness_ratio/sides/bar/before/deviation_slip", &[], ""),
+            ("/check/metrics/roughness_ratio/sides/disk/before/deviation_slip", &[], ""),
         ],
     ),
     measure("roughness_ratio", "", 1.0, true, &[metric!("roughness_ratio")]),
@@ -114,13 +149,12 @@ impl SweepMeasure {
         let number = |pointer: &str| {
             run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
         };
-        let whole =
-            |place: &&(&str, &str)| run.completed() || place.0.starts_with("/check/metrics/");
-        self.places.iter().filter(whole).find_map(|(value, deviation)| {
-            let value = number(value)?;
-            let deviation = (!deviation.is_empty()).then(|| number(deviation)).flatten();
-            let scaled = deviation.map(|deviation| self.factor * deviation);
-            Some(Point { value: self.factor * value, deviation: scaled })
+        let whole = |place: &&Place| run.completed() || place.0.starts_with("/check/metrics/");
+        self.places.iter().filter(whole).find_map(|(value, halves, deviation)| {
+            let scaled = |pointer: &str| number(pointer).map(|number| self.factor * number);
+            let half = halves.iter().find_map(|place| scaled(place));
+            let deviation = (!deviation.is_empty()).then(|| scaled(deviation)).flatten();
+            Some(Point { value: scaled(value)?, half, deviation })
         })
     }
 

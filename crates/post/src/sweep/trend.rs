@@ -14,8 +14,9 @@ pub struct Sample {
     pub x: f64,
     /// The measure.
     pub value: f64,
-    /// Its standard deviation over the window; zero where it is not known.
-    pub deviation: f64,
+    /// How well it is known: half the width of its confidence interval, else its standard deviation over the
+    /// window; zero where neither is known.
+    pub scatter: f64,
 }
 
 /// What a trend comes to.
@@ -62,7 +63,7 @@ pub enum Trend {
         mean: f64,
         /// Largest less smallest value.
         range: f64,
-        /// Mean standard deviation over the window.
+        /// Mean scatter of the points.
         scatter: f64,
     },
     /// The points do not tell for another reason.
@@ -85,9 +86,9 @@ pub enum Verdict {
 
 /// The rule of the verdicts, for people.
 pub const RULE: &str = "Settles: the values differ by at most 2 % of the largest, or q is at least \
-    0.25 and the last value is within 5 % of v\u{221e}; and the scatter, the standard deviation over \
-    the records of the window (of an ensemble: half the 95 % confidence interval of the mean), is at most \
-    5 %. Does not settle: q is at most 0.1, the last value is farther from v\u{221e}, or \
+    0.25 and the last value is within 5 % of v\u{221e}; and the scatter, half the 95 % confidence \
+    interval of the mean (of an ensemble by its members, of a run by batches in time; without one the \
+    standard deviation over the records of the window), is at most 5 %. Does not settle: q is at most 0.1, the last value is farther from v\u{221e}, or \
     v\u{221e} is zero. Cannot be told (scatter): the values differ by no more than the scatter, or the \
     scatter is above 5 % where the values alone would say that it settles. Cannot be told: fewer than three points, no trend that the fit follows, or q in between.";
 
@@ -110,21 +111,21 @@ const STEEPEST: f64 = 6.0;
 /// The trend of a measure along an axis, refined towards zero or upwards.
 ///
 /// 1. Fewer than three points say nothing about a limit.
-/// 2. *Flat*: the range of the values is below `FLAT` of the largest, and the mean deviation over the
-///    window below `REACHED` of it. *Hidden*: otherwise, where the range is below that deviation.
+/// 2. *Flat*: the range of the values is below `FLAT` of the largest, and the mean scatter below
+///    `REACHED` of it. *Hidden*: otherwise, where the range is below that scatter.
 /// 3. A measure that turns back by more than `TURN` of its range, and by more than the mean
-///    deviation, has no trend that a fit could tell.
+///    scatter, has no trend that a fit could tell.
 /// 4. Otherwise the fit must hold: its root mean square residual is below `RESIDUAL` of the range,
-///    or below the mean deviation. Three points determine the fit and cannot contradict it, which
+///    or below the mean scatter. Three points determine the fit and cannot contradict it, which
 ///    the words say.
 /// 5. q >= `SETTLES`: a limit. It is zero where |v_inf| is below `REACHED` of the range or has the
 ///    other sign than the last value; it is *reached* where the last point is within `REACHED` of it.
-///    Where the deviation of the last point exceeds `REACHED` of the limit and is no less than what is
+///    Where the scatter of the last point exceeds `REACHED` of the limit and is no less than what is
 ///    left, the limit is *hidden*. q <= `GOES_ON`: none. In between the points do not tell.
 pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     let mut points: Vec<Sample> = samples
         .iter()
-        .filter(|s| s.x > 0.0 && [s.x, s.value, s.deviation].iter().all(|n| n.is_finite()))
+        .filter(|s| s.x > 0.0 && [s.x, s.value, s.scatter].iter().all(|n| n.is_finite()))
         .map(|s| Sample { x: if towards_zero { 1.0 / s.x } else { s.x }, ..*s })
         .collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -139,7 +140,7 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     let values = || points.iter().map(|p| p.value);
     let range = values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min);
     let largest = values().fold(0.0, |most: f64, v| most.max(v.abs()));
-    let noise = points.iter().map(|p| p.deviation).sum::<f64>() / n as f64;
+    let noise = points.iter().map(|p| p.scatter).sum::<f64>() / n as f64;
     let mean = values().sum::<f64>() / n as f64;
     if range <= FLAT * largest && noise <= REACHED * largest {
         return Trend::Flat { mean, range };
@@ -181,8 +182,8 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     }
     let away = (last.value - limit).abs();
     let near = REACHED * limit.abs();
-    if last.deviation > near && last.deviation >= away {
-        Trend::Hidden { mean, range, scatter: last.deviation }
+    if last.scatter > near && last.scatter >= away {
+        Trend::Hidden { mean, range, scatter: last.scatter }
     } else if away <= near {
         Trend::Reached { limit, exponent }
     } else {
@@ -317,7 +318,7 @@ mod tests {
     use super::*;
 
     fn sampled(of: impl Fn(f64) -> f64, xs: &[f64]) -> Vec<Sample> {
-        xs.iter().map(|&x| Sample { x, value: of(x), deviation: 0.0 }).collect()
+        xs.iter().map(|&x| Sample { x, value: of(x), scatter: 0.0 }).collect()
     }
 
     const DECADES: [f64; 5] = [0.1, 1.0, 10.0, 100.0, 1000.0];
@@ -381,7 +382,7 @@ mod tests {
         let points: Vec<Sample> = DECADES
             .iter()
             .zip(zigzag)
-            .map(|(&x, value)| Sample { x, value, deviation: 0.0 })
+            .map(|(&x, value)| Sample { x, value, scatter: 0.0 })
             .collect();
         assert_eq!(trend(&points, false).word(), "cannot be told");
         let turns = sampled(|x| 1.0 + 0.3 / x - 0.1 * (x - 100.0).max(0.0) / 900.0, &DECADES);
@@ -392,9 +393,9 @@ mod tests {
         assert!(found.sentence(5, "").contains("turns back"), "{found:?}");
     }
 
-    fn scattering(values: &[f64], deviation: f64) -> Vec<Sample> {
+    fn scattering(values: &[f64], scatter: f64) -> Vec<Sample> {
         let points = DECADES.iter().zip(values);
-        points.map(|(&x, &value)| Sample { x, value, deviation }).collect()
+        points.map(|(&x, &value)| Sample { x, value, scatter }).collect()
     }
 
     #[test]

@@ -38,14 +38,8 @@ impl SweepVerdict {
 }
 
 /// Keys that are refined towards zero; others are followed upwards.
-const TOWARDS_ZERO: [&str; 6] = [
-    "mesh.zone.size",
-    "mesh.growth",
-    "mesh.coarsest",
-    "time.factor",
-    "time.step",
-    "friction.memory.length",
-];
+const TOWARDS_ZERO: [&str; 5] =
+    ["mesh.zone.size", "mesh.growth", "mesh.coarsest", "time.factor", "time.step"];
 
 /// Whether an axis is refined towards zero.
 pub(crate) fn towards_zero(axis: &str) -> bool {
@@ -68,8 +62,8 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
                     .iter()
                     .filter_map(|(x, run)| {
                         let point = measure.of(*run)?;
-                        let deviation = point.deviation.unwrap_or(0.0);
-                        Some(Sample { x: *x, value: point.value, deviation })
+                        let scatter = point.scatter().unwrap_or(0.0);
+                        Some(Sample { x: *x, value: point.value, scatter })
                     })
                     .collect();
                 if !samples.is_empty() {

@@ -1,0 +1,155 @@
+//! Statistics of slip over the slip zone: the places along the centre line that slip on the mean over time, on
+//! the side where the conditions are enforced.
+//!
+//! What fluctuates is what differs from the mean over a tenth of a contact transit, 2a/(10 V), about the instant,
+//! as in the measure of roughness: the slow change of a run that is not quite steady does not count.
+
+use crate::centreline::{CentreLine, PLACES, Rows, profile};
+use output::confidence::of_batches;
+use serde_json::{Map, Value, json};
+
+/// A place slips where its mean slip speed over time is at least this part of the largest such mean.
+pub(crate) const SLIPS: f64 = 0.1;
+
+/// Slip of the zone over a window.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SlipZone {
+    /// Indices of its places.
+    places: Vec<usize>,
+    /// Mean over its places and time (m/s).
+    pub mean: f64,
+    /// Root mean square over its places and time of what fluctuates (m/s).
+    pub deviation: f64,
+    /// That over the root mean square of all slip there.
+    pub fluctuating_share: f64,
+    /// The largest value (m/s).
+    pub largest: f64,
+    /// Half widths of the 95 % confidence intervals of mean, deviation and share, or why there is none.
+    halves: [Result<f64, &'static str>; 3],
+}
+
+impl SlipZone {
+    /// Of the slip in `line`, the records counting with `weights` (s); none where nothing slips.
+    pub fn of(line: &CentreLine, weights: &[f64]) -> Option<Self> {
+        let slip = &line.slip;
+        let means = profile(slip, weights);
+        let most = means.iter().map(|[mean, _]| *mean).fold(0.0, f64::max);
+        let slips = |place: &usize| means[*place][0] >= SLIPS * most;
+        let places: Vec<usize> = (0..means.len()).filter(slips).collect();
+        if most <= 0.0 {
+            return None;
+        }
+        let about = running_means(&line.times, weights, slip, 0.1 * line.transit());
+        let over = |records: &[(usize, f64)]| {
+            let (mut weight, mut sum, mut away, mut all) = (0.0, 0.0, 0.0, 0.0);
+            for &(record, span) in records {
+                for &place in &places {
+                    let value = slip[record][place];
+                    weight += span;
+                    sum += span * value;
+                    away += span * (value - about[record][place]).powi(2);
+                    all += span * value * value;
+                }
+            }
+            [sum / weight, (away / weight).sqrt(), (away / all).sqrt()]
+        };
+        let whole: Vec<(usize, f64)> = weights.iter().copied().enumerate().collect();
+        let [mean, deviation, fluctuating_share] = over(&whole);
+        let counts = slip.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
+        let values = counts.flat_map(|(row, _)| places.iter().map(|&place| row[place]));
+        let largest = values.fold(0.0, f64::max);
+        let halves = [0, 1, 2].map(|i| of_batches(weights, |batch| over(batch)[i]));
+        Some(Self { places, mean, deviation, fluctuating_share, largest, halves })
+    }
+
+    /// The object `slip_zone` of documents; `line` gave the slip.
+    pub fn document(&self, line: &CentreLine) -> Value {
+        let mut found = Map::new();
+        let values = [
+            ("mean", self.mean, "m/s", "mean slip speed"),
+            (
+                "deviation",
+                self.deviation,
+                "m/s",
+                "rms of what differs from the mean over 2a/(10 V)",
+            ),
+            ("fluctuating_share", self.fluctuating_share, "1", "that over the rms of all slip"),
+        ];
+        for ((name, value, units, about), half) in values.into_iter().zip(&self.halves) {
+            let mut entry =
+                json!({ "value": value, "ci95": half.ok(), "units": units, "about": about });
+            if let Err(why) = half {
+                entry["note"] = json!(format!("no interval: {why}"));
+            }
+            found.insert(name.into(), entry);
+        }
+        let largest =
+            json!({ "value": self.largest, "units": "m/s", "about": "largest slip speed" });
+        found.insert("largest".into(), largest);
+        let ends = [self.places.first(), self.places.last()];
+        let [from, to] = ends.map(|place| place.map(|&place| line.place(place)));
+        found.insert("from".into(), json!(from));
+        found.insert("to".into(), json!(to));
+        Value::Object(found)
+    }
+}
+
+/// The mean of every place over the records within half of `span` (s) before and after each record.
+fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> Rows {
+    // sums over all records before, so that a mean is a difference of two
+    let (mut weight, mut sums) = (vec![0.0], vec![vec![0.0; PLACES]]);
+    for (row, w) in rows.iter().zip(weights) {
+        let before = &sums[sums.len() - 1];
+        let next = before.iter().zip(row).map(|(sum, value)| sum + w * value).collect();
+        sums.push(next);
+        weight.push(weight[weight.len() - 1] + w);
+    }
+    let slack = 1e-9 * span;
+    let mean = |(row, time): (&Vec<f64>, &f64)| -> Vec<f64> {
+        let from = times.partition_point(|t| *t < time - 0.5 * span - slack);
+        let to = times.partition_point(|t| *t <= time + 0.5 * span + slack);
+        let whole = weight[to] - weight[from];
+        let of = |place: usize| (sums[to][place] - sums[from][place]) / whole;
+        // a record beside the window stands for no time
+        if whole > 0.0 { (0..PLACES).map(of).collect() } else { row.clone() }
+    };
+    rows.iter().zip(times).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// A centre line with `count` records of slip by its value at place 0 to 1 and record; a tenth of a transit
+    /// takes 20 of them.
+    fn line(count: usize, of: impl Fn(f64, usize) -> f64) -> CentreLine {
+        let place = |i: usize| i as f64 / (PLACES - 1) as f64;
+        let times = (0..count).map(|k| 1e-6 * k as f64).collect();
+        let row = |k: usize| (0..PLACES).map(|i| of(place(i), k)).collect();
+        CentreLine::planted(times, (0..count).map(row).collect(), 4e-3, 40.0)
+    }
+
+    #[test]
+    fn places_that_stick_on_the_mean_do_not_count() {
+        // stick in the first half but for one instant, slip of 2 m/s in the second
+        let slip = line(100, |x, k| if x > 0.5 { 2.0 } else { f64::from(u8::from(k == 7)) });
+        let zone = SlipZone::of(&slip, &[1e-6; 100]).unwrap();
+        assert_eq!(zone.places.len(), PLACES / 2);
+        assert!((zone.mean - 2.0).abs() < 1e-14 && zone.deviation < 1e-7 && zone.largest == 2.0);
+        assert_eq!(SlipZone::of(&line(50, |_, _| 0.0), &[1e-6; 50]), None);
+    }
+
+    #[test]
+    fn what_alternates_from_record_to_record_fluctuates_and_what_changes_slowly_does_not() {
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let slip = line(1000, |x, k| 1.0 + x + 1e-3 * k as f64 + 0.3 * sign(k));
+        let zone = SlipZone::of(&slip, &[1e-6; 1000]).unwrap();
+        assert!((zone.mean - 1.9995).abs() < 1e-3, "{}", zone.mean);
+        // 21 records about each: the mean over an odd number of them keeps one of the alternating
+        assert!((zone.deviation - 0.3 * (20.0 / 21.0)).abs() < 2e-3, "{}", zone.deviation);
+        let [mean, deviation, _] = zone.halves;
+        assert!(mean.is_err(), "a drift has no mean");
+        assert!(deviation.unwrap() < 2e-3);
+    }
+}
