@@ -68,6 +68,28 @@ pub fn results(options: &Options) -> ExitCode {
     }
 }
 
+/// Makes all long tables that were made before again, and compares; gives what there is to say of it, too.
+pub fn compare_long(root: &Path) -> (Outcome, String) {
+    let mut faults = Vec::new();
+    let tables = Tables::read(root, &mut faults);
+    let long = tables
+        .manifests
+        .iter()
+        .filter(|(name, manifest)| manifest.long && tables.records.contains_key(*name));
+    let names: Vec<String> = long.map(|(name, _)| name.clone()).collect();
+    let count = names.len();
+    let options =
+        Options { names, list: false, check: false, print: false, compare: true, program: None };
+    if let Err(found) = run(root, &options) {
+        faults.extend(found);
+    }
+    faults.iter().for_each(|fault| eprintln!("error: {fault}"));
+    if faults.is_empty() {
+        return (Outcome::Passed, format!("{count} long tables came out again"));
+    }
+    (Outcome::Failed, format!("of {count} long tables {} did not come out again", faults.len()))
+}
+
 /// The step of `validate`: documents say what results say, short tables come out again, and ages are told.
 pub fn step(root: &Path) -> Outcome {
     let options = Options {

@@ -1,10 +1,17 @@
-//! `cargo xtask soak`: long trials of the whole program, each a part by itself.
+//! `cargo xtask soak`: long trials of the whole program, each a part by itself. What each found last stands in
+//! `docs/soak.md`.
 
 mod damage;
+mod fuzzing;
 mod kills;
+mod record;
 
+use std::path::Path;
 use std::process::ExitCode;
+use std::time::Instant;
 
+use self::record::Trial;
+use crate::results;
 use crate::validate::{self, Outcome};
 
 pub use damage::sample as sample_of_damage;
@@ -28,19 +35,54 @@ pub enum Part {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<String>,
     },
+    /// Run every fuzz target for a while
+    Fuzzing(fuzzing::Options),
+    /// Make the long tables of the documents again, and compare
+    Tables,
 }
 
-/// Runs one part, or all with their default options.
+/// Mutations of each run that damage is tried with.
+const MUTATIONS: &str = "500";
+/// Minutes of each fuzz target.
+const MINUTES: u32 = 10;
+
+/// Runs one part, or all in full.
 pub fn soak(part: Option<Part>) -> ExitCode {
     let root = validate::root();
-    let outcomes = match part {
-        Some(Part::Damage { options }) => vec![damage::damage(&root, &options)],
-        Some(Part::Kills { options }) => vec![kills::kills(&root, &options)],
-        None => vec![damage::damage(&root, &[]), kills::kills(&root, &[])],
+    let parts = part.map_or_else(all, |part| vec![part]);
+    let outcomes: Vec<Outcome> = parts.iter().map(|part| run(&root, part)).collect();
+    if outcomes.contains(&Outcome::Failed) { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+fn all() -> Vec<Part> {
+    let damage = Part::Damage { options: vec!["--mutations".into(), MUTATIONS.into()] };
+    let fuzzing = Part::Fuzzing(fuzzing::Options::all(MINUTES));
+    vec![damage, Part::Kills { options: Vec::new() }, fuzzing, Part::Tables]
+}
+
+/// Runs a part and keeps what it said.
+fn run(root: &Path, part: &Part) -> Outcome {
+    let typed = |name: &str, options: &[String]| {
+        let options: String = options.iter().map(|option| format!(" {option}")).collect();
+        format!("cargo xtask soak {name}{options}")
     };
-    if outcomes.iter().all(|outcome| *outcome == Outcome::Passed) {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
+    let start = Instant::now();
+    let (name, command, found) = match part {
+        Part::Damage { options } => {
+            ("damage", typed("damage", options), damage::damage(root, options))
+        }
+        Part::Kills { options } => ("kills", typed("kills", options), kills::kills(root, options)),
+        Part::Fuzzing(options) => ("fuzzing", options.shown(), fuzzing::fuzzing(root, options)),
+        Part::Tables => ("tables", typed("tables", &[]), results::compare_long(root)),
+    };
+    let outcome = found.0;
+    let kept = Trial::ended(root, command, found, start.elapsed())
+        .map_or(Ok(()), |trial| record::keep(root, name, trial));
+    match kept {
+        Ok(()) => outcome,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            Outcome::Failed
+        }
     }
 }

@@ -1,8 +1,9 @@
 //! `cargo xtask validate`: what the continuous integration runs and what a contributor runs.
 
 use std::env;
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, ExitStatus, Stdio};
 use std::time::Instant;
 
 /// How a step ended.
@@ -313,7 +314,30 @@ pub fn built(root: &Path, name: &str) -> Option<PathBuf> {
 
 /// Runs a command to its end.
 pub fn execute(command: &mut Command) -> Outcome {
-    match command.status() {
+    let status = command.status();
+    ended(command, status)
+}
+
+/// Runs a command; gives the last line on its standard output, too.
+pub fn telling(command: &mut Command) -> (Outcome, String) {
+    let mut last = String::new();
+    let status = command.stdout(Stdio::piped()).spawn().and_then(|mut child| {
+        if let Some(out) = child.stdout.take() {
+            for line in BufReader::new(out).lines() {
+                let line = line?;
+                println!("{line}");
+                if !line.trim().is_empty() {
+                    last = line;
+                }
+            }
+        }
+        child.wait()
+    });
+    (ended(command, status), last)
+}
+
+fn ended(command: &Command, status: io::Result<ExitStatus>) -> Outcome {
+    match status {
         Ok(status) if status.success() => Outcome::Passed,
         Ok(status) => {
             eprintln!("{command:?}: {status}");

@@ -393,7 +393,7 @@ pub struct Evaluate {
     /// the last third of a run shorter than 0.060 m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub last: Option<f64>,
-    /// The same distance in contact transits (-), instead of `last`: a transit is 2a with a Hertz's half axis
+    /// The same distance in contact transits (dimensionless), instead of `last`: a transit is 2a with a Hertz's half axis
     /// along the rolling direction. Where slip fluctuates a mean needs several. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transits: Option<f64>,

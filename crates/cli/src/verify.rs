@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use miette::miette;
-use serde_json::json;
+use serde_json::{Value, json};
 use verify::{PROBLEMS, Problem, Row, Size, VerifyError};
 
 use crate::args::Args;
@@ -73,6 +73,7 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
     }
     let pass = rows.iter().all(|row| row.pass);
     if args.json {
+        let rows: Vec<Value> = rows.iter().map(document).collect();
         args.print_json(&json!({ "results": rows, "pass": pass }));
     } else if !args.quiet {
         let failed = rows.iter().filter(|row| !row.pass).count();
@@ -84,6 +85,16 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Failure> {
         );
     }
     Ok(if pass { 0 } else { FAILED })
+}
+
+/// A row with the signed error on each mesh beside the values, over the reference where that is not zero.
+fn document(row: &Row) -> Value {
+    let mut document = json!(row);
+    let scale = if row.reference == 0.0 { 1.0 } else { row.reference };
+    let errors: Vec<f64> =
+        row.meshes.iter().map(|sample| (sample.value - row.reference) / scale).collect();
+    document["mesh_errors"] = json!(errors);
+    document
 }
 
 fn chosen(options: &VerifyArgs) -> Result<Vec<&'static Problem>, Failure> {
@@ -108,7 +119,7 @@ fn list(args: &Args) {
         return;
     }
     for problem in PROBLEMS {
-        let _ = writeln!(std::io::stdout(), "{:<20}{}", problem.name, problem.about);
+        let _ = writeln!(std::io::stdout(), "{:<22}{}", problem.name, problem.about);
     }
 }
 

@@ -42,6 +42,13 @@ fn a_run_is_itself_a_twin_parts_a_little_and_another_friction_differs() {
     assert!(local(1) > 0.0 && local(1) < 1e-3, "{}", local(1));
     assert!(local(2) > 0.05, "{}", local(2));
     assert_eq!(found["runs"][0]["side"], "disk");
+    // the dense span is not asked for: the window ends with the evaluation window, so many transits long
+    let output = creepage(&["check", runs[0], "--transits", "0.1", "--json"]);
+    let checked: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let scale = |name: &str| checked["scales"][name]["value"].as_f64().unwrap();
+    let [from, to] = [0, 1].map(|i| checked["window"][i].as_f64().unwrap());
+    let transits = (to - from) * scale("speed") / (2.0 * scale("half_length"));
+    assert!((transits - 0.1).abs() < 1e-9, "{transits}");
     assert!(std::fs::read_to_string(&figure).unwrap().contains("slip speed (m/s)"));
     let text = creepage(&["compare", runs[0], runs[2]]);
     assert!(String::from_utf8_lossy(&text.stdout).contains("twins: "));
@@ -56,6 +63,9 @@ fn one_run_a_window_without_records_and_a_figure_of_another_kind_are_refused() {
     for (args, word) in [
         (&["compare", run][..], "2 values"),
         (&["compare", run, run, "--window", "1:2"], "there is no record"),
+        (&["compare", run, run, "--transits", "1000"], "before the first record"),
+        (&["check", run, "--transits", "0"], "greater than 0"),
+        (&["check", run, "--transits", "1", "--window", "0:1"], "cannot be used with"),
         (&["compare", run, run, "--plot", "slip.pdf"], "must end in .svg or .png"),
         (&["compare", run, "nowhere"], "no contact.vtkhdf"),
     ] {

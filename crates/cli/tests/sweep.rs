@@ -158,7 +158,7 @@ fn the_members_of_an_ensemble_differ_and_their_point_has_an_interval() {
     assert_eq!(points[0]["parameters"], serde_json::json!({ "friction.static": 0.2 }));
     let mean = (of(0) + of(1) + of(2)) / 3.0;
     assert!((at(&points[0], traction) - mean).abs() < 1e-15);
-    let half = at(&points[0], "/summary/window/deviation/traction_coefficient");
+    let half = at(&points[0], "/summary/window/ci95/traction_coefficient");
     assert!(half > 0.0 && half < 1e-5 * mean, "{half}");
     let table = fs::read_to_string(place.path("here/sweep.csv")).unwrap();
     let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
@@ -168,10 +168,16 @@ fn the_members_of_an_ensemble_differ_and_their_point_has_an_interval() {
         (9, "mean of 3", "ensemble")
     );
     assert_eq!(lines[7][column("traction_coefficient_ci95")].parse::<f64>().unwrap(), half);
-    assert_eq!(
-        (lines[1][column("traction_coefficient_ci95")], lines[7][column("torque_sd")]),
-        ("", "")
-    );
+    assert_eq!(lines[7][column("torque_sd")], "", "deviations over a window are of a run");
+    // a run has the interval of its batches in time, if they give one
+    let number = |line: usize, name: &str| lines[line][column(name)].parse::<f64>().ok();
+    let of_batches = runs[0].pointer("/check/patch/traction_coefficient/ci95").unwrap();
+    assert_eq!(number(1, "traction_coefficient_ci95"), of_batches.as_f64());
+    let slip = "/check/slip_zone/mean/value";
+    assert_eq!(number(1, "slip_zone_mean"), Some(at(&runs[0], slip)));
+    let mean = (at(&runs[0], slip) + at(&runs[1], slip) + at(&runs[2], slip)) / 3.0;
+    assert!((number(7, "slip_zone_mean").unwrap() / mean - 1.0).abs() < 1e-12);
+    assert!(number(7, "slip_zone_mean_ci95").is_some_and(|half| half > 0.0));
 }
 
 #[test]

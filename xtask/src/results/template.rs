@@ -9,7 +9,7 @@
 //! | `s` | a text as it is |
 //! | `pass` | pass or FAIL |
 //!
-//! `*1e-6` before it is a factor, `+` a sign on every number; null is a dash.
+//! `*1e-6` before it is a factor, `+` a sign on every number; null is a dash, a list its values with blanks between.
 
 use serde_json::Value;
 
@@ -116,6 +116,11 @@ fn print(value: &Value, format: &Format) -> Option<String> {
         (Value::Null, _) => Some("-".into()),
         (Value::String(text), Kind::Text) => Some(text.clone()),
         (Value::Bool(pass), Kind::Pass) => Some(if *pass { "pass" } else { "FAIL" }.into()),
+        (Value::Array(values), _) => {
+            let printed: Option<Vec<String>> =
+                values.iter().map(|value| print(value, format)).collect();
+            Some(printed?.join(" "))
+        }
         (Value::Number(number), _) => {
             let value = format.factor * number.as_f64()?;
             let sign = if format.sign && value >= 0.0 { "+" } else { "" };
@@ -188,6 +193,8 @@ mod tests {
             (json!(true), "pass", "pass"),
             (json!(false), "pass", "FAIL"),
             (Value::Null, ".2", "-"),
+            (json!([-0.0198, 0.0013]), "*100 +.2", "-1.98 +0.13"),
+            (json!([]), ".2", ""),
         ] {
             assert_eq!(printed(value.clone(), format), wanted, "{value} as {format}");
         }
@@ -212,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_text_is_not_printed_as_a_number_nor_a_number_as_a_text() {
-        for (value, format) in [(json!("a"), ".2"), (json!(1.0), "s"), (json!([1]), ".2")] {
+        for (value, format) in [(json!("a"), ".2"), (json!(1.0), "s"), (json!(["a"]), ".2")] {
             let text = format!("{{a :{format}}}");
             let error =
                 fill(&text, &placeholders(&text).unwrap(), |_| Ok(value.clone())).unwrap_err();

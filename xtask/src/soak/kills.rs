@@ -6,8 +6,8 @@ use std::process::{Command, Stdio};
 use crate::kill_loop::with_program;
 use crate::validate::Outcome;
 
-/// Builds program and kills and runs the latter with `options`.
-pub fn kills(root: &Path, options: &[String]) -> Outcome {
+/// Builds program and kills and runs the latter with `options`; gives what it said last, too.
+pub fn kills(root: &Path, options: &[String]) -> (Outcome, String) {
     with_program(root, "kill-points", options)
 }
 
@@ -24,5 +24,5 @@ pub fn sample(root: &Path) -> Outcome {
         );
         return Outcome::Skipped;
     }
-    kills(root, &["--points".into(), SAMPLE.into()])
+    kills(root, &["--points".into(), SAMPLE.into()]).0
 }
