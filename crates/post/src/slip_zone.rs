@@ -2,7 +2,9 @@
 //! the side where the conditions are enforced.
 //!
 //! What fluctuates is what differs from the mean over a tenth of a contact transit, 2a/(10 V), about the instant,
-//! as in the measure of roughness: the slow change of a run that is not quite steady does not count.
+//! as in the measure of roughness: the slow change of a run that is not quite steady does not count. The square is
+//! divided by the share of the others in that mean, (n - 1)/n of n like records (Bessel), so that few records show as
+//! much as many.
 
 use crate::centreline::{CentreLine, PLACES, Rows, profile};
 use output::confidence::of_batches;
@@ -39,26 +41,40 @@ impl SlipZone {
         if most <= 0.0 {
             return None;
         }
-        let about = running_means(&line.times, weights, slip, 0.1 * line.transit());
+        let (about, others) = running_means(&line.times, weights, slip, 0.1 * line.transit());
+        // means over the zone and records: slip speed, the square of what fluctuates, the square of all
         let over = |records: &[(usize, f64)]| {
-            let (mut weight, mut sum, mut away, mut all) = (0.0, 0.0, 0.0, 0.0);
+            let (mut weight, mut sums) = (0.0, [0.0; 3]);
             for &(record, span) in records {
                 for &place in &places {
                     let value = slip[record][place];
+                    let away = value - about[record][place];
                     weight += span;
-                    sum += span * value;
-                    away += span * (value - about[record][place]).powi(2);
-                    all += span * value * value;
+                    sums[0] += span * value;
+                    sums[1] += span * away * away / others[record];
+                    sums[2] += span * value * value;
                 }
             }
-            [sum / weight, (away / weight).sqrt(), (away / all).sqrt()]
+            sums.map(|sum| sum / weight)
         };
         let whole: Vec<(usize, f64)> = weights.iter().copied().enumerate().collect();
-        let [mean, deviation, fluctuating_share] = over(&whole);
+        let [mean, fluctuating, all] = over(&whole);
+        let (deviation, fluctuating_share) = (fluctuating.sqrt(), (fluctuating / all).sqrt());
         let counts = slip.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
         let values = counts.flat_map(|(row, _)| places.iter().map(|&place| row[place]));
         let largest = values.fold(0.0, f64::max);
-        let halves = [0, 1, 2].map(|i| of_batches(weights, |batch| over(batch)[i]));
+        // of a root half the interval of its square over twice the root; of a ratio by what a batch has too much
+        let of_root = |half: f64, root: f64| if half > 0.0 { 0.5 * half / root } else { 0.0 };
+        let square = of_batches(weights, |batch| over(batch)[1]);
+        let ratio = of_batches(weights, |batch| {
+            let [_, part, all_of_batch] = over(batch);
+            (part - fluctuating / all * all_of_batch) / all
+        });
+        let halves = [
+            of_batches(weights, |batch| over(batch)[0]),
+            square.map(|half| of_root(half, deviation)),
+            ratio.map(|half| of_root(half, fluctuating_share)),
+        ];
         Some(Self { places, mean, deviation, fluctuating_share, largest, halves })
     }
 
@@ -94,8 +110,9 @@ impl SlipZone {
     }
 }
 
-/// The mean of every place over the records within half of `span` (s) before and after each record.
-fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> Rows {
+/// The mean of every place over the records within half of `span` (s) before and after each record, and the share of
+/// the other records in it.
+fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> (Rows, Vec<f64>) {
     // sums over all records before, so that a mean is a difference of two
     let (mut weight, mut sums) = (vec![0.0], vec![vec![0.0; PLACES]]);
     for (row, w) in rows.iter().zip(weights) {
@@ -105,15 +122,19 @@ fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> Rows
         weight.push(weight[weight.len() - 1] + w);
     }
     let slack = 1e-9 * span;
-    let mean = |(row, time): (&Vec<f64>, &f64)| -> Vec<f64> {
+    let mean = |(record, time): (usize, &f64)| -> (Vec<f64>, f64) {
         let from = times.partition_point(|t| *t < time - 0.5 * span - slack);
         let to = times.partition_point(|t| *t <= time + 0.5 * span + slack);
         let whole = weight[to] - weight[from];
+        let others = 1.0 - weights[record] / whole;
+        // alone, or beside the window where a record stands for no time: nothing to differ from
+        if !(whole > 0.0 && others > slack / span) {
+            return (rows[record].clone(), 1.0);
+        }
         let of = |place: usize| (sums[to][place] - sums[from][place]) / whole;
-        // a record beside the window stands for no time
-        if whole > 0.0 { (0..PLACES).map(of).collect() } else { row.clone() }
+        ((0..PLACES).map(of).collect(), others)
     };
-    rows.iter().zip(times).map(mean).collect()
+    times.iter().enumerate().map(mean).unzip()
 }
 
 #[cfg(test)]
@@ -147,9 +168,22 @@ mod tests {
         let zone = SlipZone::of(&slip, &[1e-6; 1000]).unwrap();
         assert!((zone.mean - 1.9995).abs() < 1e-3, "{}", zone.mean);
         // 21 records about each: the mean over an odd number of them keeps one of the alternating
-        assert!((zone.deviation - 0.3 * (20.0 / 21.0)).abs() < 2e-3, "{}", zone.deviation);
+        let wanted = 0.3 * (20.0_f64 / 21.0).sqrt();
+        assert!((zone.deviation - wanted).abs() < 2e-3, "{}", zone.deviation);
         let [mean, deviation, _] = zone.halves;
         assert!(mean.is_err(), "a drift has no mean");
         assert!(deviation.unwrap() < 2e-3);
+    }
+
+    #[test]
+    fn bursts_with_rest_between_have_an_interval_that_holds_their_share() {
+        // one burst of 5 records in 40, not at the same places of the batches
+        let burst = |k: usize| (k * 7919 / 40) % 3 != 0 && (k % 37) < 5;
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let slip = line(2000, |_, k| if burst(k) { 1.0 + 0.5 * sign(k) } else { 0.0 });
+        let zone = SlipZone::of(&slip, &[1e-6; 2000]).unwrap();
+        let [_, deviation, share] = zone.halves;
+        assert!(deviation.unwrap() < 0.3 * zone.deviation, "{deviation:?} {}", zone.deviation);
+        assert!(share.unwrap() < 0.1 && zone.fluctuating_share < 1.0, "{share:?}");
     }
 }
