@@ -59,7 +59,7 @@ fn exact_and_mortar_contact_with_memory_and_full_elements_give_the_same_bits_on_
 
 #[test]
 fn pinned_kernels_are_written_down_and_are_those_that_every_processor_can_follow() {
-    let sets = ["deterministic=true", "preload.method=relaxation", "time.roll=0.0004"];
+    let sets = ["deterministic=true", "time.roll=0.0004"];
     let case = load(&project("tests/small.toml"), &sets);
     let first = run(&case, 2);
     let kernels = first.summary["kernels"].as_str().unwrap();

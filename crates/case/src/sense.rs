@@ -822,13 +822,6 @@ pub fn warnings(case: &Case) -> Vec<String> {
             steps * 1e-3 / 3600.0
         ),
     );
-    warn(
-        case.deterministic && case.preload.method == PreloadMethod::Static,
-        "deterministic = true pins the time loop, but the factorisation of preload.method = \
-         \"static\" rounds by the processor: for the same bits on different ones take \"relaxation\", \
-         or bring the preload along with --preload-cache"
-            .into(),
-    );
     let patch = hertz(case);
     let size = case.mesh.zone.size;
     // a slice is not resolved across

@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn bursts_with_rest_between_have_an_interval_that_holds_their_share() {
         // one burst of 5 records in 40, not at the same places of the batches
-        let burst = |k: usize| (k * 7919 / 40) % 3 != 0 && (k % 37) < 5;
+        let burst = |k: usize| !(k * 7919 / 40).is_multiple_of(3) && (k % 37) < 5;
         let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let slip = line(2000, |_, k| if burst(k) { 1.0 + 0.5 * sign(k) } else { 0.0 });
         let zone = SlipZone::of(&slip, &[1e-6; 2000]).unwrap();

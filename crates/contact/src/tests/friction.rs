@@ -248,26 +248,6 @@ fn zero_tangential_stiffness_is_contact_without_friction() {
 }
 
 #[test]
-fn bits_do_not_depend_on_the_number_of_threads() {
-    let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| {
-            let mut rig = Rig::plates(40, 37, exponential());
-            let mut sums = Vec::new();
-            for step in 0..20 {
-                let t = f64::from(step);
-                sums.push(rig.shift([1e-6 * t, 3e-7 * t * t, -DEPTH - 1e-8 * t]));
-            }
-            (rig.force, sums)
-        })
-    };
-    let one: (Vec<Padded>, _) = run(1);
-    assert!(one.1[19].closed > 2000, "{:?}", one.1[19]);
-    assert_eq!(one, run(2));
-    assert_eq!(one, run(3));
-}
-
-#[test]
 fn the_state_of_a_law_begins_with_the_preload() {
     let steady = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
     let memory = Memory { distance: 1e-3, floor: 1e-2 };
