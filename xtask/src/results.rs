@@ -70,24 +70,28 @@ pub fn results(options: &Options) -> ExitCode {
 
 /// Makes all long tables that were made before again, and compares; gives what there is to say of it, too.
 pub fn compare_long(root: &Path) -> (Outcome, String) {
-    let mut faults = Vec::new();
-    let tables = Tables::read(root, &mut faults);
+    let tables = Tables::read(root, &mut Vec::new());
     let long = tables
         .manifests
         .iter()
         .filter(|(name, manifest)| manifest.long && tables.records.contains_key(*name));
     let names: Vec<String> = long.map(|(name, _)| name.clone()).collect();
+    if names.is_empty() {
+        eprintln!("warning: no long table was made yet");
+        return (Outcome::Skipped, String::new());
+    }
     let count = names.len();
     let options =
         Options { names, list: false, check: false, print: false, compare: true, program: None };
-    if let Err(found) = run(root, &options) {
-        faults.extend(found);
-    }
+    let faults = run(root, &options).err().unwrap_or_default();
     faults.iter().for_each(|fault| eprintln!("error: {fault}"));
     if faults.is_empty() {
         return (Outcome::Passed, format!("{count} long tables came out again"));
     }
-    (Outcome::Failed, format!("of {count} long tables {} did not come out again", faults.len()))
+    (
+        Outcome::Failed,
+        format!("{count} long tables, faults: {}", faults.join("; ").replace('\n', " ")),
+    )
 }
 
 /// The step of `validate`: documents say what results say, short tables come out again, and ages are told.
@@ -120,11 +124,14 @@ fn run(root: &Path, options: &Options) -> Result<(), Vec<String>> {
         return Err(faults);
     }
     let runner = runner(root, options, &chosen).map_err(|problem| vec![problem])?;
+    // of what the program was built from: long commands outlive commits
+    let sources: BTreeMap<&str, Sources> =
+        chosen.iter().map(|(name, manifest)| (*name, Sources::of(root, manifest))).collect();
     for (name, manifest) in chosen {
         eprintln!("{name}: {}", manifest.title);
         let done = runner.gather(manifest).and_then(|gathered| match tables.records.get(name) {
             Some(record) if options.compare => compare(manifest, record, &gathered),
-            _ => keep(root, name, manifest, &runner, &gathered),
+            _ => keep(root, name, manifest, &runner, &gathered, &sources[name]),
         });
         if let Err(problem) = done {
             faults.push(format!("table `{name}`: {problem}"));
@@ -175,7 +182,9 @@ fn runner<'a>(
         false => None,
     };
     let python = python.as_deref().and_then(Path::parent);
-    Runner::new(root, &validate::target(root), &program, python)
+    // a comparison with what was kept would compare results with themselves
+    let since = if options.compare { SystemTime::now() } else { SystemTime::UNIX_EPOCH };
+    Runner::new(root, &validate::target(root), &program, python, since)
 }
 
 fn compare(manifest: &Manifest, record: &Record, gathered: &Gathered) -> Result<(), String> {
@@ -185,6 +194,23 @@ fn compare(manifest: &Manifest, record: &Record, gathered: &Gathered) -> Result<
     if differences.is_empty() { Ok(()) } else { Err(differences.join("\n  ")) }
 }
 
+/// What a table depends on, as it is now.
+struct Sources {
+    /// The last commit that changed it.
+    commit: String,
+    /// What of it is changed and not committed.
+    uncommitted: Vec<String>,
+}
+
+impl Sources {
+    fn of(root: &Path, manifest: &Manifest) -> Self {
+        Self {
+            commit: age::last_change(root, &manifest.depends).unwrap_or_default(),
+            uncommitted: age::uncommitted(root, &manifest.depends),
+        }
+    }
+}
+
 /// Keeps what was found, with the pictures.
 fn keep(
     root: &Path,
@@ -192,6 +218,7 @@ fn keep(
     manifest: &Manifest,
     runner: &Runner,
     gathered: &Gathered,
+    sources: &Sources,
 ) -> Result<(), String> {
     let found = Found::take(manifest, &gathered.documents)?;
     found.print(manifest)?;
@@ -203,8 +230,9 @@ fn keep(
     }
     let record = Record {
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        commit: age::last_change(root, &manifest.depends).unwrap_or_default(),
-        uncommitted: age::uncommitted(root, &manifest.depends),
+        steps: manifest.steps_sum(),
+        commit: sources.commit.clone(),
+        uncommitted: sources.uncommitted.clone(),
         version: runner.version()?,
         program: runner.program.clone(),
         kernels: kernels().to_owned(),
@@ -240,6 +268,9 @@ fn list(root: &Path) -> Result<(), Vec<String>> {
             let day = record.date.split('T').next().unwrap_or_default();
             let changes = age::changes_since(root, &record.commit, &record.date, &manifest.depends);
             match changes.as_deref() {
+                Some([]) if !record.uncommitted.is_empty() => {
+                    format!("{day}, made with changes that were not committed")
+                }
                 None => format!("{day}, of unknown age: there is no git repository"),
                 Some([]) => format!("{day}, as new as what it depends on"),
                 Some([newest, ..]) => {

@@ -333,7 +333,12 @@ pub fn telling(command: &mut Command) -> (Outcome, String) {
         }
         child.wait()
     });
-    (ended(command, status), last)
+    let told = status.as_ref().map_or_else(ToString::to_string, ToString::to_string);
+    let outcome = ended(command, status);
+    if outcome == Outcome::Failed {
+        last = format!("{last} ({told})");
+    }
+    (outcome, last)
 }
 
 fn ended(command: &Command, status: io::Result<ExitStatus>) -> Outcome {

@@ -418,7 +418,7 @@ mod tests {
         settle(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(())).unwrap()
     }
 
-    /// Of the displacement of every node, of the stable step, and of the radius.
+    /// Of the displacement of every node and of the stable step.
     fn bits(settled: &Settled) -> Vec<u64> {
         let displacement = &settled.preloaded.displacement;
         let numbers = displacement.iter().flat_map(|u| u.0).chain([settled.limit]);
@@ -435,7 +435,8 @@ mod tests {
             &["element.contact_layers=one-point"][..],
             &["contact.enforcement=exact", "contact.rows=mortar", "element.contact_layers=full"],
         ] {
-            let [wide, plain] = [Level::Avx2, Level::Fused].map(|level| bits(&settled(sets, level)));
+            let [wide, plain] =
+                [Level::Avx2, Level::Fused].map(|level| bits(&settled(sets, level)));
             assert_eq!(wide, plain, "{sets:?}");
             // a kernel that rounds in another order shows: the comparison can fail
             assert_ne!(wide, bits(&settled(sets, Level::Portable)), "{sets:?}");

@@ -41,6 +41,8 @@ fn a_run_is_itself_a_twin_parts_a_little_and_another_friction_differs() {
     assert_eq!(found["differences"][0]["growth"]["reason"], "both runs have the same bits");
     assert!(local(1) > 0.0 && local(1) < 1e-3, "{}", local(1));
     assert!(local(2) > 0.05, "{}", local(2));
+    assert!(!found["differences"][1]["growth"].is_null());
+    assert!(found["differences"][2]["growth"].is_null(), "another friction is no disturbance");
     assert_eq!(found["runs"][0]["side"], "disk");
     // the dense span is not asked for: the window ends with the evaluation window, so many transits long
     let output = creepage(&["check", runs[0], "--transits", "0.1", "--json"]);

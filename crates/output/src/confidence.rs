@@ -42,8 +42,8 @@ pub fn batches(weights: &[f64], count: usize) -> Vec<Vec<(usize, f64)>> {
 
 /// Half the width of the 95 % confidence interval of a mean over time, by the means of successive batches
 /// (Conway 1963): of `of`, a number of each batch. The batches must be unrelated: none where neighbours
-/// correlate (lag-one coefficient, von Neumann 1941, one in twenty by chance) or where there are fewer than
-/// two records in a batch.
+/// correlate by the ratio of von Neumann (1941), which one in twenty does by chance, or where a record takes
+/// more than half of a batch.
 ///
 /// # Errors
 /// Why there is none.
@@ -51,9 +51,12 @@ pub fn of_batches(
     weights: &[f64],
     of: impl Fn(&[(usize, f64)]) -> f64,
 ) -> Result<f64, &'static str> {
-    let mut why = "there are fewer than 20 records";
+    let mut why = "there are fewer than two records in a tenth of the window";
+    let whole: f64 = weights.iter().sum();
+    let largest = weights.iter().copied().fold(0.0, f64::max);
     for count in BATCHES {
-        if weights.iter().filter(|weight| **weight > 0.0).count() < 2 * count {
+        // to round-off: records at equal intervals fill a batch two by two
+        if largest * count as f64 > 0.5 * whole * (1.0 + 1e-9) {
             continue;
         }
         let means: Vec<f64> = batches(weights, count).iter().map(|batch| of(batch)).collect();
@@ -61,7 +64,10 @@ pub fn of_batches(
             why = "not every part of the window has a value";
             continue;
         };
-        if correlation(&means, mean) <= ONE_IN_TWENTY / (count as f64).sqrt() {
+        // of independent normal numbers the ratio has this variance (Young 1941)
+        let n = count as f64;
+        let by_chance = ((n - 2.0) / (n * n - 1.0)).sqrt();
+        if correlation(&means, mean) <= ONE_IN_TWENTY * by_chance {
             return Ok(half);
         }
         why = "it drifts, or varies as slowly as the window is long";
@@ -80,12 +86,13 @@ pub fn of_series(weights: &[f64], values: &[f64]) -> Result<f64, &'static str> {
     })
 }
 
-/// Correlation of successive values; 0 where all are one.
+/// Correlation of successive values by their squared differences, 1 - sum (x_{i+1} - x_i)^2 / (2 sum (x_i - m)^2);
+/// 0 where all are one.
 fn correlation(values: &[f64], mean: f64) -> f64 {
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    let products: f64 = values.windows(2).map(|pair| (pair[0] - mean) * (pair[1] - mean)).sum();
+    let steps: f64 = values.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
     // what is left of equal numbers is round-off
-    if squares <= (1e-12 * mean).powi(2) { 0.0 } else { products / squares }
+    if squares <= (1e-12 * mean).powi(2) { 0.0 } else { 1.0 - 0.5 * steps / squares }
 }
 
 /// The 0.975 quantile of Student's distribution with `freedom` degrees of freedom, to 1e-3: tabulated below
@@ -145,8 +152,18 @@ mod tests {
             of_series(&weights, &values).is_ok_and(|half| mean.abs() <= half)
         };
         let found = (0..400).filter(held).count();
-        // refused by chance: the correlation of one in twenty with 20 batches and again with 10
+        // one in twenty misses, a few more are refused by chance with 20 batches and again with 10
         assert!((360..=392).contains(&found), "{found} of 400");
+        let refused = |seed: &u64| of_series(&weights, &series(*seed, 2000, 0.1)).is_err();
+        // one in twenty with 20, of these again some with 10
+        assert!((1..=12).contains(&(0..400).filter(refused).count()));
+        let with_20 = |seed: &u64| {
+            let means: Vec<f64> = noise(*seed).take(20).collect();
+            let mean = means.iter().sum::<f64>() / 20.0;
+            correlation(&means, mean) > ONE_IN_TWENTY * (18.0_f64 / 399.0).sqrt()
+        };
+        let found = (0..2000).filter(with_20).count();
+        assert!((75..=125).contains(&found), "{found} of 2000 correlate by chance");
         // the error of independent records would be far too small
         let naive = |seed: &u64| {
             let [mean, half] = interval(&series(*seed, 2000, 5.0)).unwrap();

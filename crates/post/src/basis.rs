@@ -148,7 +148,7 @@ impl Basis {
     /// The first of the spans (s) that the case records by themselves, `[[output.window]]`.
     pub(crate) fn recorded_window(&self) -> Option<[f64; 2]> {
         let window = self.case.as_ref()?.get("output")?.get("window")?.get(0)?;
-        let end = |key: &str| window.get(key).and_then(toml::Value::as_float);
+        let end = |key: &str| number_at(window.as_table()?, key);
         Some([end("from")?, end("to")?])
     }
 

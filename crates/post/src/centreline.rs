@@ -13,7 +13,7 @@ pub(crate) const PLACES: usize = 141;
 pub(crate) type Rows = Vec<Vec<f64>>;
 
 /// What the records hold along the centre line of the body at whose nodes the conditions are enforced, else of
-/// the disk.
+/// the first that there is, the disk.
 pub(crate) struct CentreLine {
     /// Time of each record (s).
     pub times: Vec<f64>,
@@ -45,9 +45,15 @@ impl CentreLine {
             .scale("half_length")
             .ok_or(needed("Hertz's half axis", "the run's summary or case.toml gives it"))?;
         let surface = &history.surface;
-        let body = history.enforced_on.unwrap_or(0);
+        let bodies = surface.bodies();
+        let there = history.enforced_on.filter(|body| bodies.contains(body));
+        let body = there.or(bodies.first().copied()).unwrap_or(0);
         let area = surface.area.iter().sum::<f64>() / surface.area.len().max(1) as f64;
         let nodes = surface.centreline(body, basis.scale("size").unwrap_or(area.sqrt()));
+        if nodes.is_empty() {
+            let what = "it has no node near the centre line".into();
+            return Err(PostError::Lacks { path: history.path().into(), what });
+        }
         let (times, slip, shear) = (Vec::new(), Vec::new(), Vec::new());
         Ok(Self { times, slip, shear, speed, body, reach, nodes })
     }

@@ -20,6 +20,7 @@ use pass::Pass;
 use serde_json::{Value, json};
 use std::path::Path;
 
+pub(crate) use pass::judged_faces;
 pub(crate) use scales::Scales;
 
 /// Which pairing in time of slip and traction a check reports.

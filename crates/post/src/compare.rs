@@ -11,6 +11,7 @@ mod growth;
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};
 use crate::centreline::{CentreLine, PLACES};
+use crate::check::judged_faces;
 use crate::conditions::IN_CONTACT;
 use crate::frames::ContactHistory;
 use crate::slip_zone::SlipZone;
@@ -48,8 +49,8 @@ struct Line {
     mesh_mode: MeshMode,
 }
 
-/// Compares runs of one geometry and speed, each with the one before it, over `window`: the span that the
-/// first run records most densely unless it is given.
+/// Compares runs of one geometry and speed, each with the one before it, over `window`: the first
+/// `[[output.window]]` of the first run unless it is given.
 ///
 /// # Errors
 /// Fewer than two runs, files that cannot be read, a window without records in every run, a case without
@@ -84,7 +85,7 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
             "from": runs[k - 1].basis.name, "to": runs[k].basis.name,
             "slip": difference::of([a, b], |line| &line.slip, window),
             "shear": difference::of([a, b], |line| &line.shear, window),
-            "growth": growth::growth(&histories[k - 1], &histories[k])?,
+            "growth": growth::growth([&runs[k - 1].basis, &runs[k].basis], [&histories[k - 1], &histories[k]])?,
         }));
     }
     let reach = lines.iter().map(|line| line.line.reach).fold(0.0, f64::max);
@@ -104,8 +105,8 @@ fn describe(run: &Compared, line: &Line) -> Value {
     json!({
         "name": run.basis.name, "folder": run.paths.folder, "side": body_name(line.line.body),
         "largest": zone.map(|zone| zone.largest), "mean": zone.map(|zone| zone.mean),
-        "deviation": zone.map(|zone| zone.deviation),
-        "fluctuating_share": zone.map(|zone| zone.fluctuating_share),
+        "fluctuation": zone.and_then(|zone| zone.fluctuation),
+        "fluctuating_share": zone.and_then(|zone| zone.fluctuating_share),
         "slip_zone": zone.map(|zone| zone.document(&line.line)),
         "alternating_slip": line.mesh_mode.share(LEAST_SLIP * line.line.speed.abs()),
     })
@@ -119,26 +120,22 @@ fn read(history: &ContactHistory, basis: &mut Basis, window: [f64; 2]) -> Result
         remedy: "the run's summary or case.toml gives it",
     })?;
     let surface = &history.surface;
-    let faces: Vec<[u32; 4]> = surface
-        .faces
-        .iter()
-        .zip(&surface.face_body)
-        .filter(|(_, of)| **of == line.body)
-        .map(|(face, _)| *face)
-        .collect();
+    let faces = judged_faces(history);
     let records = history.window(window)?;
+    let all = time_weights(&history.times, window);
     // one more at each end, where there is one: instants lie between records
     let around = records.start.saturating_sub(1)..(records.end + 1).min(history.times.len());
     let mut mesh_mode = MeshMode::default();
-    history.stream(around, |frame| {
+    history.stream(around.clone(), |frame| {
         if records.contains(&frame.index) {
             let in_contact = |node: usize| frame.pressure[node] > IN_CONTACT * p0;
-            mesh_mode.add(1.0, &faces, &frame.slip_velocity, in_contact);
+            mesh_mode.add(all[frame.index], &faces, &frame.slip_velocity, in_contact);
         }
         line.take(surface, &frame);
         Ok(())
     })?;
-    let weights = time_weights(&line.times, window);
+    let weights: Vec<f64> =
+        around.map(|record| if records.contains(&record) { all[record] } else { 0.0 }).collect();
     let zone = SlipZone::of(&line, &weights);
     Ok(Line { line, weights, zone, mesh_mode })
 }

@@ -58,7 +58,7 @@ pub(crate) struct Replay {
     noise: f64,
     /// Part of the coefficient to which the law itself is known.
     known_to: f64,
-    nodes: Vec<Followed>,
+    nodes: Vec<NodeState>,
     time: Option<f64>,
     /// Feet of the slaves of both passes.
     feet: Option<[Pair; 2]>,
@@ -69,7 +69,7 @@ type States = [[f64; 2]; 4];
 
 /// What is kept of a node from record to record.
 #[derive(Clone, Copy, Debug, Default)]
-struct Followed {
+struct NodeState {
     closed: bool,
     slip: f64,
     pressure: f64,
@@ -78,13 +78,11 @@ struct Followed {
     states: States,
 }
 
-/// A node's own coefficient.
-type Own = Option<Allowed>;
 
 /// Part of the coefficient within which states are one.
 const ONE: f64 = 1e-10;
 /// Slip speeds between two records are taken to go so much beyond those of both.
-const BEYOND: f64 = 2.0;
+const SPEED_MARGIN: f64 = 2.0;
 /// Parts at most into which steps without a record are cut.
 const PARTS: u64 = 16;
 /// Round-off of recorded slip over the rolling speed: what the sweeps of exact enforcement leave.
@@ -128,7 +126,7 @@ impl Replay {
             method,
             dt,
             noise: ROUND_OFF * basis.scale("speed").map_or(1.0, f64::abs),
-            nodes: vec![Followed::default(); surface.points.len()],
+            nodes: vec![NodeState::default(); surface.points.len()],
             time: None,
             feet: two.then(|| [0, 1].map(|slave| Pair::over_ridges(surface, slave))),
         })
@@ -153,14 +151,14 @@ impl Replay {
     }
 
     /// Takes in the next record; what the law allows at each node, where the node is in contact.
-    pub fn follow(&mut self, surface: &Surface, frame: &Frame) -> Vec<Own> {
+    pub fn follow(&mut self, surface: &Surface, frame: &Frame) -> Vec<Option<Allowed>> {
         let steps = self.time.map(|before| (frame.time - before) / self.dt);
         let first = steps.is_none() && frame.index == 0 && frame.time.abs() < 0.5 * self.dt;
-        let way = match steps {
-            None if first => Way::Start,
-            None => Way::Unknown,
-            Some(steps) if (steps - 1.0).abs() < 0.01 => Way::Step,
-            Some(steps) => Way::Steps(steps.round().max(2.0) as u64),
+        let between = match steps {
+            None if first => Between::Start,
+            None => Between::Unknown,
+            Some(steps) if (steps - 1.0).abs() < 0.01 => Between::Step,
+            Some(steps) => Between::Steps(steps.round().max(2.0) as u64),
         };
         let interval = self.time.map_or(self.dt, |before| frame.time - before);
         let rule = Rule {
@@ -172,12 +170,12 @@ impl Replay {
             known_to: self.known_to,
             interval,
         };
-        let own: Vec<Own> = self
+        let own: Vec<Option<Allowed>> = self
             .nodes
             .par_iter_mut()
             .with_min_len(256)
             .enumerate()
-            .map(|(row, node)| rule.advance(node, row, surface, frame, way))
+            .map(|(row, node)| rule.advance(node, row, surface, frame, between))
             .collect();
         self.time = Some(frame.time);
         match self.method {
@@ -187,7 +185,12 @@ impl Replay {
     }
 
     /// Of two passes: the mean over the pairs that load a node, weighted with their normal force.
-    fn means(&mut self, surface: &Surface, frame: &Frame, own: Vec<Own>) -> Vec<Own> {
+    fn means(
+        &mut self,
+        surface: &Surface,
+        frame: &Frame,
+        own: Vec<Option<Allowed>>,
+    ) -> Vec<Option<Allowed>> {
         let Some((feet, [displacement, _])) = self.feet.as_mut().zip(frame.motion.as_ref()) else {
             return own;
         };
@@ -216,7 +219,7 @@ impl Replay {
 
 /// How the records reach from the one before to this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+enum Between {
     /// The start of the run: contact begins.
     Start,
     /// No record before, though the run has begun.
@@ -243,12 +246,12 @@ struct Rule<'a> {
 impl Rule<'_> {
     fn advance(
         &self,
-        node: &mut Followed,
+        node: &mut NodeState,
         row: usize,
         surface: &Surface,
         frame: &Frame,
-        way: Way,
-    ) -> Own {
+        between: Between,
+    ) -> Option<Allowed> {
         let closed = match self.method {
             Method::Exact { slaves } => surface.body[row] == slaves && frame.pressure[row] > 0.0,
             Method::Passes => match &frame.gap {
@@ -273,36 +276,37 @@ impl Rule<'_> {
         let begun = self.begin(&at);
         // of a pair that has just closed the first slip counts for the coefficient, and then again
         let mut shown = None;
-        node.states = match way {
+        node.states = match between {
             // with the pressure of the preload, which has no dampers yet
-            Way::Start if self.method == Method::Passes => [0.0, 2.0, 1.0, 1.0].map(|part| {
+            Between::Start if self.method == Method::Passes => [0.0, 2.0, 1.0, 1.0].map(|part| {
                 let preload = Place { pressure: part * pressure, ..at };
                 self.law.advance(self.law.begin(&preload), 0.0, &at, self.dt)
             }),
-            Way::Start => [begun; 4],
-            Way::Step if before => {
+            Between::Start => [begun; 4],
+            Between::Step if before => {
                 let told = self.told(&at, old.pressure);
                 old.states.map(|state| self.law.advance(state, old.slip, &told, self.dt))
             }
-            Way::Step => {
+            Between::Step => {
                 if self.method == Method::Passes {
                     shown = Some([self.law.advance(begun, slip, &at, self.dt); 4]);
                 }
                 [begun; 4]
             }
-            Way::Steps(steps) if before => {
-                let [slow, fast] = [old.slip.min(slip) / BEYOND, old.slip.max(slip) * BEYOND];
+            Between::Steps(steps) if before => {
+                let [slow, fast] =
+                    [old.slip.min(slip) / SPEED_MARGIN, old.slip.max(slip) * SPEED_MARGIN];
                 let [_, _, a, b] = old.states;
                 let along = |state, speed| self.along(state, speed, &old, &at, steps);
                 let [new, worn] = self.extremes(&at);
                 [new, worn, along(a, slow), along(b, fast)]
             }
-            Way::Steps(steps) => {
+            Between::Steps(steps) => {
                 let [new, worn] = self.extremes(&at);
-                let outset = Followed { pressure: 0.0, position, ..old };
+                let outset = NodeState { pressure: 0.0, position, ..old };
                 [new, worn, begun, self.along(begun, slip, &outset, &at, steps)]
             }
-            Way::Unknown => {
+            Between::Unknown => {
                 let [new, worn] = self.extremes(&at);
                 [new, worn, new, worn]
             }
@@ -338,7 +342,7 @@ impl Rule<'_> {
         &self,
         mut state: [f64; 2],
         speed: f64,
-        from: &Followed,
+        from: &NodeState,
         to: &Place,
         steps: u64,
     ) -> [f64; 2] {
@@ -356,13 +360,14 @@ impl Rule<'_> {
         state
     }
 
-    fn allowed(&self, states: &States, slip: f64, at: &Place) -> Own {
+    fn allowed(&self, states: &States, slip: f64, at: &Place) -> Option<Allowed> {
+        // not `min` and `max`: what is no number must show
+        let widened = |[low, high]: [f64; 2], mu: f64| {
+            if mu.is_nan() || low.is_nan() { [f64::NAN; 2] } else { [mu.min(low), mu.max(high)] }
+        };
         let ends = |states: &[[f64; 2]]| {
             let mu = states.iter().map(|state| self.law.mu(*state, slip, at));
-            mu.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], mu| {
-                // not `min`: what is no number must show
-                [if mu >= low { low } else { mu }, if mu <= high { high } else { mu }]
-            })
+            mu.fold([f64::INFINITY, f64::NEG_INFINITY], widened)
         };
         let [low, high] = ends(states);
         let known = high - low <= ONE * high;
@@ -372,7 +377,7 @@ impl Rule<'_> {
             for state in if known { &states[..] } else { &states[2..] } {
                 for speed in [(slip - self.noise).max(0.0), slip + self.noise] {
                     let mu = self.law.mu(*state, speed, at);
-                    (low, high) = (low.min(mu), high.max(mu));
+                    [low, high] = widened([low, high], mu);
                 }
             }
         }
@@ -420,7 +425,7 @@ impl Mean {
 
     /// Of a node that carries `force` (N). The weights come from feet that are found here: how far they may
     /// be off is seen from the forces, which must add up.
-    fn allowed(&self, force: f64) -> Own {
+    fn allowed(&self, force: f64) -> Option<Allowed> {
         if !(self.force > 0.0 && force > 0.0) {
             return None;
         }

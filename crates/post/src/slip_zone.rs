@@ -7,6 +7,7 @@
 //! much as many.
 
 use crate::centreline::{CentreLine, PLACES, Rows, profile};
+use crate::statistics::mean_and_deviation;
 use output::confidence::of_batches;
 use serde_json::{Map, Value, json};
 
@@ -20,14 +21,35 @@ pub(crate) struct SlipZone {
     places: Vec<usize>,
     /// Mean over its places and time (m/s).
     pub mean: f64,
-    /// Root mean square over its places and time of what fluctuates (m/s).
-    pub deviation: f64,
+    /// Root mean square over its places and time of what fluctuates (m/s); none where the records lie too far apart.
+    pub fluctuation: Option<f64>,
     /// That over the root mean square of all slip there.
-    pub fluctuating_share: f64,
+    pub fluctuating_share: Option<f64>,
     /// The largest value (m/s).
     pub largest: f64,
-    /// Half widths of the 95 % confidence intervals of mean, deviation and share, or why there is none.
+    /// Half widths of the 95 % confidence intervals of mean, fluctuation and share, or why there is none.
     halves: [Result<f64, &'static str>; 3],
+    /// Standard deviations over the records of the same of single ones.
+    deviations: [Option<f64>; 3],
+}
+
+/// Sums over the zone and records.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    weight: f64,
+    slip: f64,
+    /// Weight of the records with others about them, and of these the square of what fluctuates and of all slip.
+    among: f64,
+    fluctuating: f64,
+    all: f64,
+}
+
+impl Sums {
+    /// Mean, root mean square of what fluctuates, its share; NaN where there is none.
+    fn values(&self) -> [f64; 3] {
+        let share = if self.all > 0.0 { (self.fluctuating / self.all).sqrt() } else { f64::NAN };
+        [self.slip / self.weight, (self.fluctuating / self.among).sqrt(), share]
+    }
 }
 
 impl SlipZone {
@@ -42,59 +64,86 @@ impl SlipZone {
             return None;
         }
         let (about, others) = running_means(&line.times, weights, slip, 0.1 * line.transit());
-        // means over the zone and records: slip speed, the square of what fluctuates, the square of all
         let over = |records: &[(usize, f64)]| {
-            let (mut weight, mut sums) = (0.0, [0.0; 3]);
+            let mut sums = Sums::default();
             for &(record, span) in records {
                 for &place in &places {
                     let value = slip[record][place];
-                    let away = value - about[record][place];
-                    weight += span;
-                    sums[0] += span * value;
-                    sums[1] += span * away * away / others[record];
-                    sums[2] += span * value * value;
+                    sums.weight += span;
+                    sums.slip += span * value;
+                    if others[record] > 0.0 {
+                        let away = value - about[record][place];
+                        sums.among += span;
+                        sums.fluctuating += span * away * away / others[record];
+                        sums.all += span * value * value;
+                    }
                 }
             }
-            sums.map(|sum| sum / weight)
+            sums
         };
         let whole: Vec<(usize, f64)> = weights.iter().copied().enumerate().collect();
-        let [mean, fluctuating, all] = over(&whole);
-        let (deviation, fluctuating_share) = (fluctuating.sqrt(), (fluctuating / all).sqrt());
+        let sums = over(&whole);
+        let [mean, fluctuation, share] = sums.values();
+        let some = |value: f64| Some(value).filter(|value| value.is_finite());
         let counts = slip.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
         let values = counts.flat_map(|(row, _)| places.iter().map(|&place| row[place]));
         let largest = values.fold(0.0, f64::max);
         // of a root half the interval of its square over twice the root; of a ratio by what a batch has too much
         let of_root = |half: f64, root: f64| if half > 0.0 { 0.5 * half / root } else { 0.0 };
-        let square = of_batches(weights, |batch| over(batch)[1]);
+        let square = of_batches(weights, |batch| {
+            let batch = over(batch);
+            batch.fluctuating / batch.among
+        });
         let ratio = of_batches(weights, |batch| {
-            let [_, part, all_of_batch] = over(batch);
-            (part - fluctuating / all * all_of_batch) / all
+            let batch = over(batch);
+            let too_much = batch.fluctuating - sums.fluctuating / sums.all * batch.all;
+            too_much / batch.among / (sums.all / sums.among)
         });
         let halves = [
-            of_batches(weights, |batch| over(batch)[0]),
-            square.map(|half| of_root(half, deviation)),
-            ratio.map(|half| of_root(half, fluctuating_share)),
+            of_batches(weights, |batch| {
+                let batch = over(batch);
+                batch.slip / batch.weight
+            }),
+            square.map(|half| of_root(half, fluctuation)),
+            ratio.map(|half| of_root(half, share)),
         ];
-        Some(Self { places, mean, deviation, fluctuating_share, largest, halves })
+        let of_records: Vec<[f64; 3]> = whole.iter().map(|one| over(&[*one]).values()).collect();
+        let deviations = [0, 1, 2].map(|i| {
+            let values = of_records.iter().map(|values| values[i]);
+            mean_and_deviation(weights, values).map(|[_, deviation]| deviation)
+        });
+        Some(Self {
+            places,
+            mean,
+            fluctuation: some(fluctuation),
+            fluctuating_share: some(share),
+            largest,
+            halves,
+            deviations,
+        })
     }
 
     /// The object `slip_zone` of documents; `line` gave the slip.
     pub fn document(&self, line: &CentreLine) -> Value {
         let mut found = Map::new();
         let values = [
-            ("mean", self.mean, "m/s", "mean slip speed"),
+            ("mean", Some(self.mean), "m/s", "mean slip speed"),
             (
-                "deviation",
-                self.deviation,
+                "fluctuation",
+                self.fluctuation,
                 "m/s",
                 "rms of what differs from the mean over 2a/(10 V)",
             ),
             ("fluctuating_share", self.fluctuating_share, "1", "that over the rms of all slip"),
         ];
-        for ((name, value, units, about), half) in values.into_iter().zip(&self.halves) {
-            let mut entry =
-                json!({ "value": value, "ci95": half.ok(), "units": units, "about": about });
-            if let Err(why) = half {
+        for (i, (name, value, units, about)) in values.into_iter().enumerate() {
+            let half = self.halves[i].ok().filter(|_| value.is_some());
+            let mut entry = json!({ "value": value, "ci95": half, "deviation": self.deviations[i],
+                                    "units": units, "about": about });
+            if value.is_none() {
+                entry["note"] =
+                    json!("the records lie farther apart than a twentieth of a transit");
+            } else if let Err(why) = self.halves[i] {
                 entry["note"] = json!(format!("no interval: {why}"));
             }
             found.insert(name.into(), entry);
@@ -111,7 +160,7 @@ impl SlipZone {
 }
 
 /// The mean of every place over the records within half of `span` (s) before and after each record, and the share of
-/// the other records in it.
+/// the other records in it: zero for a record that is alone there, or stands for no time.
 fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> (Rows, Vec<f64>) {
     // sums over all records before, so that a mean is a difference of two
     let (mut weight, mut sums) = (vec![0.0], vec![vec![0.0; PLACES]]);
@@ -127,9 +176,8 @@ fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> (Row
         let to = times.partition_point(|t| *t <= time + 0.5 * span + slack);
         let whole = weight[to] - weight[from];
         let others = 1.0 - weights[record] / whole;
-        // alone, or beside the window where a record stands for no time: nothing to differ from
-        if !(whole > 0.0 && others > slack / span) {
-            return (rows[record].clone(), 1.0);
+        if !(whole > 0.0 && others > 1e-9) {
+            return (rows[record].clone(), 0.0);
         }
         let of = |place: usize| (sums[to][place] - sums[from][place]) / whole;
         ((0..PLACES).map(of).collect(), others)
@@ -157,7 +205,11 @@ mod tests {
         let slip = line(100, |x, k| if x > 0.5 { 2.0 } else { f64::from(u8::from(k == 7)) });
         let zone = SlipZone::of(&slip, &[1e-6; 100]).unwrap();
         assert_eq!(zone.places.len(), PLACES / 2);
-        assert!((zone.mean - 2.0).abs() < 1e-14 && zone.deviation < 1e-7 && zone.largest == 2.0);
+        assert!(
+            (zone.mean - 2.0).abs() < 1e-14
+                && zone.fluctuation.unwrap() < 1e-7
+                && zone.largest == 2.0
+        );
         assert_eq!(SlipZone::of(&line(50, |_, _| 0.0), &[1e-6; 50]), None);
     }
 
@@ -169,10 +221,10 @@ mod tests {
         assert!((zone.mean - 1.9995).abs() < 1e-3, "{}", zone.mean);
         // 21 records about each: the mean over an odd number of them keeps one of the alternating
         let wanted = 0.3 * (20.0_f64 / 21.0).sqrt();
-        assert!((zone.deviation - wanted).abs() < 2e-3, "{}", zone.deviation);
-        let [mean, deviation, _] = zone.halves;
+        assert!((zone.fluctuation.unwrap() - wanted).abs() < 2e-3, "{:?}", zone.fluctuation);
+        let [mean, fluctuation, _] = zone.halves;
         assert!(mean.is_err(), "a drift has no mean");
-        assert!(deviation.unwrap() < 2e-3);
+        assert!(fluctuation.unwrap() < 2e-3);
     }
 
     #[test]
@@ -183,7 +235,21 @@ mod tests {
         let slip = line(2000, |_, k| if burst(k) { 1.0 + 0.5 * sign(k) } else { 0.0 });
         let zone = SlipZone::of(&slip, &[1e-6; 2000]).unwrap();
         let [_, deviation, share] = zone.halves;
-        assert!(deviation.unwrap() < 0.3 * zone.deviation, "{deviation:?} {}", zone.deviation);
-        assert!(share.unwrap() < 0.1 && zone.fluctuating_share < 1.0, "{share:?}");
+        let fluctuation = zone.fluctuation.unwrap();
+        assert!(deviation.unwrap() < 0.3 * fluctuation, "{deviation:?} {fluctuation}");
+        assert!(share.unwrap() < 0.1 && zone.fluctuating_share.unwrap() < 1.0, "{share:?}");
+    }
+
+    #[test]
+    fn records_too_far_apart_to_show_a_fluctuation_show_none_instead_of_zero() {
+        // a transit of 200 us, records every 11
+        let mut sparse = line(60, |x, k| 1.0 + x + f64::from(u8::from(k % 2 == 0)));
+        sparse.times.iter_mut().for_each(|time| *time *= 11.0);
+        let zone = SlipZone::of(&sparse, &[11e-6; 60]).unwrap();
+        assert_eq!((zone.fluctuation, zone.fluctuating_share), (None, None));
+        assert!((zone.mean - 2.0).abs() < 1e-12);
+        let document = zone.document(&sparse);
+        assert!(document["fluctuation"]["note"].as_str().unwrap().contains("farther apart"));
+        assert!(document["fluctuation"]["ci95"].is_null());
     }
 }

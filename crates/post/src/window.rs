@@ -35,7 +35,13 @@ impl Span {
                 remedy: "give --scale half_length=M and --scale speed=M/S",
             })?;
         let [first, last] = [history.times[0], history.times[history.times.len() - 1]];
-        let to = basis.window.map_or(last, |[_, to]| to.min(last));
+        let interval = match history.times[..] {
+            [.., before, last] => last - before,
+            _ => 0.0,
+        };
+        // a record need not fall on the end of the window; a run may have ended before it
+        let whole = |to: f64| last + interval * (1.0 + SAME) >= to;
+        let to = basis.window.map(|[_, to]| to).filter(|to| whole(*to)).unwrap_or(last);
         let from = to - transits * 2.0 * a / speed.abs();
         if from < first - SAME * last.abs() {
             return Err(PostError::Asked(format!(

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use serde::Deserialize;
+use sha2::{Digest, Sha256};
 
 use super::template::{Placeholder, placeholders};
 
@@ -84,6 +85,16 @@ impl Part {
 }
 
 impl Manifest {
+    /// SHA-256 of the commands and of what is read of each: results of other ones are no longer the table's.
+    pub fn steps_sum(&self) -> String {
+        let mut sum = Sha256::new();
+        for Step { name, command, read, exit, .. } in &self.steps {
+            let read = read.as_deref().unwrap_or_default();
+            sum.update(format!("{name}\n{command}\n{read}\n{exit}\n"));
+        }
+        sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
     /// Reads a manifest.
     pub fn read(text: &str) -> Result<Self, String> {
         let manifest: Self = toml::from_str(text).map_err(|error| error.to_string())?;

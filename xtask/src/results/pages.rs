@@ -71,10 +71,20 @@ pub fn check(root: &Path) -> Vec<String> {
         if !manifest.parts.is_empty() && !shown.contains(name) {
             faults.push(format!("{FOLDER}/{name}.toml: no document has its markers"));
         }
-        let Some(record) = tables.records.get(name) else { continue };
+        let Some(record) = tables.records.get(name) else {
+            if !manifest.long {
+                faults.push(format!(
+                    "{FOLDER}/{name}.toml: was not made yet: cargo xtask results {name}"
+                ));
+            }
+            continue;
+        };
+        if record.steps != manifest.steps_sum() {
+            faults.push(format!("{FOLDER}/{name}.toml: its commands changed since it was made"));
+        }
         for picture in &manifest.pictures {
             let kept = record.pictures.get(&picture.to);
-            if sum(&root.join(&picture.to)).ok().as_ref() != kept {
+            if kept.is_none() || sum(&root.join(&picture.to)).ok().as_ref() != kept {
                 faults.push(format!("{}: is not the picture that `{name}` drew", picture.to));
             }
         }
@@ -149,7 +159,12 @@ mod tests {
                             tolerance = { relative = 0.0, absolute = 0.0 }\n\
                             [[step]]\nname = \"a\"\ncommand = \"true\"\n\
                             [[part]]\ntext = \"| T/N | {a > t :.3} |\"\n";
-    const RECORD: &str = r#"{"date": "2000-01-01T00:00:00Z", "commit": "0", "uncommitted": [],
+    /// Results of the commands of the manifest.
+    fn record() -> String {
+        RECORD.replace("STEPS", &Manifest::read(MANIFEST).unwrap().steps_sum())
+    }
+
+    const RECORD: &str = r#"{"date": "2000-01-01T00:00:00Z", "steps": "STEPS", "commit": "0", "uncommitted": [],
         "version": "0", "program": "0", "kernels": "avx2", "threads": 1, "cases": {},
         "found": {"values": {"a > t": 0.2605}, "rows": {}}, "pictures": {}}"#;
     const PAGE: &str =
@@ -167,7 +182,7 @@ mod tests {
             project.put("README.md", "# A\n");
             project.put("docs/page.md", PAGE);
             project.put("docs/results/a.toml", MANIFEST);
-            project.put("docs/results/a.json", RECORD);
+            project.put("docs/results/a.json", &record());
             assert_eq!(check(&project.0), Vec::<String>::new());
             project
         }
@@ -198,7 +213,7 @@ mod tests {
     #[test]
     fn a_changed_digit_in_the_results_is_told_too() {
         let project = Project::new("json");
-        project.put("docs/results/a.json", &RECORD.replace("0.2605", "0.2705"));
+        project.put("docs/results/a.json", &record().replace("0.2605", "0.2705"));
         assert!(check(&project.0)[0].contains("table `a`"));
     }
 
@@ -207,7 +222,7 @@ mod tests {
     {
         let project = Project::new("orphans");
         project.put("docs/page.md", &PAGE.replace("results: a", "results: b"));
-        project.put("docs/results/c.json", RECORD);
+        project.put("docs/results/c.json", &record());
         assert_eq!(
             check(&project.0),
             [
@@ -223,9 +238,20 @@ mod tests {
         let project = Project::new("never");
         fs::remove_file(project.0.join("docs/results/a.json")).unwrap();
         project.put("docs/page.md", &PAGE.replace("0.261", "0.3"));
-        assert_eq!(check(&project.0), Vec::<String>::new());
+        let told = "docs/results/a.toml: was not made yet: cargo xtask results a";
+        assert_eq!(check(&project.0), [told]);
         write(&project.0).unwrap();
         assert!(fs::read_to_string(project.0.join("docs/page.md")).unwrap().contains("0.3 |"));
+        project.put("docs/results/a.toml", &MANIFEST.replace("depends", "long = true\ndepends"));
+        assert_eq!(check(&project.0), Vec::<String>::new(), "long ones may wait");
+    }
+
+    #[test]
+    fn a_command_that_changed_since_the_table_was_made_is_told() {
+        let project = Project::new("command");
+        project.put("docs/results/a.toml", &MANIFEST.replace("\"true\"", "\"true --set\""));
+        let told = "docs/results/a.toml: its commands changed since it was made";
+        assert_eq!(check(&project.0), [told]);
     }
 
     #[test]
@@ -235,7 +261,7 @@ mod tests {
         project.put("docs/results/a.toml", &format!("{MANIFEST}{picture}"));
         project.put("docs/p.svg", "<svg/>");
         let kept = sum(&project.0.join("docs/p.svg")).unwrap();
-        let record = RECORD
+        let record = record()
             .replace("\"pictures\": {}", &format!("\"pictures\": {{\"docs/p.svg\": \"{kept}\"}}"));
         project.put("docs/results/a.json", &record);
         assert_eq!(check(&project.0), Vec::<String>::new());

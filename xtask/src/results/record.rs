@@ -20,7 +20,9 @@ pub type Values = BTreeMap<String, Value>;
 pub struct Record {
     /// When, in UTC.
     pub date: String,
-    /// The last commit that changed what the table depends on.
+    /// SHA-256 of the commands and of what was read of each.
+    pub steps: String,
+    /// The last commit that changed what the table depends on, when its commands began.
     pub commit: String,
     /// What of it was changed and not committed.
     pub uncommitted: Vec<String>,
@@ -161,7 +163,13 @@ fn difference(path: &str, old: &Value, new: Option<&Value>, allowed: Tolerance) 
         (Some(old), Some(new)) => {
             (new - old).abs() <= allowed.relative * old.abs() + allowed.absolute
         }
-        _ => new == Some(old),
+        _ => match (old.as_array(), new.and_then(Value::as_array)) {
+            (Some(old), Some(new)) if old.len() == new.len() => old
+                .iter()
+                .zip(new)
+                .all(|(old, new)| difference(path, old, Some(new), allowed).is_none()),
+            _ => new == Some(old),
+        },
     };
     let now = new.map_or("nothing".to_owned(), Value::to_string);
     (!near).then(|| format!("{{{path}}} is {now} now, the document has {old}"))

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::time::{Instant, SystemTime};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -29,6 +29,8 @@ pub struct Runner<'a> {
     /// SHA-256 of the program's file.
     pub program: String,
     inputs: String,
+    /// What commands left before this is made anew.
+    since: SystemTime,
 }
 
 /// What a table's commands gave.
@@ -50,11 +52,13 @@ struct Kept {
 
 impl<'a> Runner<'a> {
     /// A runner of `program`; what it keeps lies below `target`. Commands find `python` in its folder.
+    /// What commands left before `since` is not taken.
     pub fn new(
         root: &'a Path,
         target: &Path,
         program: &Path,
         python: Option<&Path>,
+        since: SystemTime,
     ) -> Result<Self, String> {
         let mut inputs = Sha256::new();
         for folder in INPUTS {
@@ -67,7 +71,7 @@ impl<'a> Runner<'a> {
         let before = env::var_os("PATH").unwrap_or_default();
         let search = env::join_paths(folders.chain(env::split_paths(&before)))
             .map_err(|error| error.to_string())?;
-        Ok(Self { root, kept, search, program: sum, inputs: hexadecimal(inputs) })
+        Ok(Self { root, kept, search, program: sum, inputs: hexadecimal(inputs), since })
     }
 
     /// The program's version.
@@ -92,7 +96,7 @@ impl<'a> Runner<'a> {
 
     /// Runs a step, or finds that it ran, and reads what it left.
     fn step(&self, step: &Step) -> Result<Value, String> {
-        let key = text_sum(&[&self.program, &self.inputs, &step.command]);
+        let key = text_sum(&[&self.program, &self.inputs, super::kernels(), &step.command]);
         let file = self.kept.join(format!("{}.json", text_sum(&[&step.command])));
         let read = step.read.as_ref().map(|read| self.root.join(read));
         let said = match self.kept(step, &file, &key, read.as_deref()) {
@@ -131,6 +135,10 @@ impl<'a> Runner<'a> {
     fn kept(&self, step: &Step, file: &Path, key: &str, read: Option<&Path>) -> Option<String> {
         let long = ["run", "sweep", "verify"];
         if !long.iter().any(|word| step.command.starts_with(&format!("creepage {word} "))) {
+            return None;
+        }
+        let left = file.metadata().and_then(|file| file.modified()).ok()?;
+        if left < self.since {
             return None;
         }
         let kept: Kept = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
@@ -251,7 +259,8 @@ mod tests {
                 chaotic: false,
             };
             let target = self.0.join("target");
-            Runner::new(&self.0, &target, &self.0.join("creepage"), None)?.step(&step)
+            Runner::new(&self.0, &target, &self.0.join("creepage"), None, SystemTime::UNIX_EPOCH)?
+                .step(&step)
         }
 
         fn calls(&self) -> usize {
@@ -286,11 +295,28 @@ mod tests {
     fn a_program_that_is_built_anew_meanwhile_does_not_take_part() {
         let project = Project::new("meanwhile");
         let (program, target) = (project.0.join("creepage"), project.0.join("target"));
-        let runner = Runner::new(&project.0, &target, &program, None).unwrap();
+        let runner =
+            Runner::new(&project.0, &target, &program, None, SystemTime::UNIX_EPOCH).unwrap();
         let before = sum(&program).unwrap();
         project.program("echo other");
         let said = runner.execute("creepage run a.toml", 1).unwrap();
         assert_eq!((said.as_str(), &runner.program), ("{\"n\": 1}\n", &before));
+    }
+
+    #[test]
+    fn what_was_kept_before_a_comparison_began_is_made_anew() {
+        let project = Project::new("compare");
+        let step = || project.step("creepage run a.toml", None, 1);
+        step().unwrap();
+        let later = SystemTime::now() + std::time::Duration::from_secs(60);
+        let (target, program) = (project.0.join("target"), project.0.join("creepage"));
+        let manifest = Manifest::read(
+            "title = \"A\"\ndepends = [\"a\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
+             [[step]]\nname = \"a\"\ncommand = \"creepage run a.toml\"\nexit = 1\n",
+        );
+        let runner = Runner::new(&project.0, &target, &program, None, later).unwrap();
+        runner.gather(&manifest.unwrap()).unwrap();
+        assert_eq!(project.calls(), 2);
     }
 
     #[test]
@@ -313,7 +339,14 @@ mod tests {
              [[step]]\nname = \"a\"\ncommand = \"creepage sweep a.toml --out runs/s\"\n",
         );
         let target = project.0.join("target");
-        let runner = Runner::new(&project.0, &target, &project.0.join("creepage"), None).unwrap();
+        let runner = Runner::new(
+            &project.0,
+            &target,
+            &project.0.join("creepage"),
+            None,
+            SystemTime::UNIX_EPOCH,
+        )
+        .unwrap();
         let cases = runner.gather(&manifest.unwrap()).unwrap().cases;
         let files: Vec<_> = cases.keys().map(String::as_str).collect();
         assert_eq!(files, ["runs/s/case.toml", "runs/s/cases/000.toml"]);

@@ -44,7 +44,7 @@ const COLUMNS: [(&str, &str); 51] = [
     ("max_penetration", "/summary/window/max_penetration"),
     ("max_penetration_sd", "/summary/window/deviation/max_penetration"),
     ("slip_zone_mean", "/check/slip_zone/mean/value"),
-    ("slip_zone_deviation", "/check/slip_zone/deviation/value"),
+    ("slip_zone_fluctuation", "/check/slip_zone/fluctuation/value"),
     ("slip_zone_fluctuating_share", "/check/slip_zone/fluctuating_share/value"),
     ("slip_zone_largest", "/check/slip_zone/largest/value"),
     ("energy_kinetic", "/summary/energy/kinetic"),

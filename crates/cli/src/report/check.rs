@@ -126,12 +126,16 @@ fn place(metric: &Value) -> String {
 fn slip_zone(out: &mut String, document: &Value) {
     let at = |pointer: &str| number(document, &format!("/slip_zone/{pointer}"));
     let Some([from, to]) = at("from").zip(at("to")).map(|(from, to)| [1e3 * from, 1e3 * to]) else {
+        let note = word(document, "/slip_zone/note");
+        if !note.is_empty() {
+            heading(out, &format!("Slip zone: {note}"));
+        }
         return;
     };
     heading(out, &format!("Slip zone along the centre line, x from {from:.2} to {to:.2} mm"));
     for (label, key, unit) in [
         ("mean slip speed", "mean", "m/s"),
-        ("fluctuation, rms", "deviation", "m/s"),
+        ("fluctuation, rms", "fluctuation", "m/s"),
         ("fluctuating share", "fluctuating_share", ""),
         ("largest slip speed", "largest", "m/s"),
     ] {
@@ -141,7 +145,9 @@ fn slip_zone(out: &mut String, document: &Value) {
             digits(at(&format!("{key}/value")), 4),
             half.unwrap_or_default()
         );
-        let _ = writeln!(out, "{}", line.trim_end());
+        let note = word(document, &format!("/slip_zone/{key}/note"));
+        let note = if note.is_empty() { String::new() } else { format!("  ({note})") };
+        let _ = writeln!(out, "{}{note}", line.trim_end());
     }
 }
 

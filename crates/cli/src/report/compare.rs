@@ -18,8 +18,8 @@ pub fn text(document: &Value) -> String {
         "run",
         "largest",
         "mean",
-        "deviation",
-        "fluctuates",
+        "fluctuation",
+        "share",
         "alternates"
     );
     let entries = |key: &str| document[key].as_array().cloned().unwrap_or_default();
@@ -31,7 +31,7 @@ pub fn text(document: &Value) -> String {
             word(&run, "/name"),
             digits(at("largest"), 3),
             digits(at("mean"), 4),
-            digits(at("deviation"), 4),
+            digits(at("fluctuation"), 4),
             share(at("fluctuating_share")),
             share(at("alternating_slip")),
         );

@@ -321,7 +321,7 @@ fn pair_slips(
 }
 
 /// The faces of the body at whose nodes the conditions are enforced; of both where that is stated of none.
-fn judged_faces(history: &ContactHistory) -> Vec<[u32; 4]> {
+pub(crate) fn judged_faces(history: &ContactHistory) -> Vec<[u32; 4]> {
     let surface = &history.surface;
     let judged = |body: u8| history.enforced_on.is_none_or(|on| on == body);
     let faces = surface.faces.iter().zip(&surface.face_body);

@@ -2,6 +2,7 @@
 //! members of an ensemble, differ more and more until the difference is as large as the slip itself.
 
 use crate::PostError;
+use crate::basis::Basis;
 use crate::frames::ContactHistory;
 use crate::vector::{dot, sub};
 use serde_json::{Value, json};
@@ -14,8 +15,10 @@ const LEAST_GROWTH: f64 = 10.0;
 
 /// Rate of growth of the slip's difference (1/s) with what it was found over, or why there is none; null for runs
 /// that are no twins.
-pub(super) fn growth(a: &ContactHistory, b: &ContactHistory) -> Result<Value, PostError> {
-    let alike = a.surface.points == b.surface.points
+pub(super) fn growth(bases: [&Basis; 2], [a, b]: [&ContactHistory; 2]) -> Result<Value, PostError> {
+    let [case, other] = bases.map(undisturbed);
+    let alike = case == other
+        && a.surface.points == b.surface.points
         && a.times.len() == b.times.len()
         && a.times.iter().zip(&b.times).all(|(s, t)| (s - t).abs() <= 1e-9 * t.abs());
     if !alike {
@@ -37,6 +40,18 @@ pub(super) fn growth(a: &ContactHistory, b: &ContactHistory) -> Result<Value, Po
     // not by the slip of the same record, which is nothing while everything sticks
     series.iter_mut().for_each(|[_, apart]| *apart /= largest.max(f64::MIN_POSITIVE));
     Ok(rate(&series))
+}
+
+/// The case of a run without its name and without what disturbs its preload.
+fn undisturbed(basis: &Basis) -> Option<toml::Table> {
+    let mut case = basis.case.clone()?;
+    case.remove("name");
+    case.remove("title");
+    if let Some(preload) = case.get_mut("preload").and_then(toml::Value::as_table_mut) {
+        preload.remove("seed");
+        preload.remove("disturbance");
+    }
+    Some(case)
 }
 
 /// Least-squares slope of the logarithm of the difference over time, from the first difference to the last

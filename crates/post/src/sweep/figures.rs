@@ -130,7 +130,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
 /// A linear axis that does not blow up changes of less than a few percent.
 fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>) -> Axis {
     let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
-        let scatter = point.scatter().unwrap_or(0.0);
+        let scatter = point.bar().unwrap_or(0.0);
         [low.min(point.value - scatter), high.max(point.value + scatter)]
     });
     let middle = 0.5 * (ends[0] + ends[1]);
@@ -141,7 +141,7 @@ fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>
 
 /// The scatter of a point as a line with a gap behind it.
 fn bar(x: f64, point: &Point, log: bool) -> Vec<[f64; 2]> {
-    let Some(scatter) = point.scatter().filter(|scatter| *scatter > 0.0) else {
+    let Some(scatter) = point.bar().filter(|scatter| *scatter > 0.0) else {
         return Vec::new();
     };
     // on a logarithmic axis a bar that reaches below zero ends a decade down

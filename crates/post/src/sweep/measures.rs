@@ -33,8 +33,13 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// How well it is known: by its interval, without one by its deviation.
+    /// The change that it hides: the width of its interval, without one its deviation.
     pub fn scatter(&self) -> Option<f64> {
+        self.half.map(|half| 2.0 * half).or(self.deviation)
+    }
+
+    /// The bar of a figure to either side: half its interval, without one its deviation.
+    pub fn bar(&self) -> Option<f64> {
         self.half.or(self.deviation)
     }
 }
@@ -95,7 +100,7 @@ macro_rules! slip_zone {
         (
             concat!("/check/slip_zone/", $name, "/value"),
             &[concat!("/check/slip_zone/", $name, "/ci95")],
-            "",
+            concat!("/check/slip_zone/", $name, "/deviation"),
         )
     };
 }
@@ -116,7 +121,7 @@ pub(crate) const MEASURES: [SweepMeasure; 23] = [
     measure("stick fraction", "", 1.0, true, mean!("contact", "stick_fraction", "stick_fraction")),
     measure("power of friction", "kW", 1e-3, false, &[patch!("power")]),
     measure("mean slip", "m/s", 1.0, true, &[slip_zone!("mean")]),
-    measure("fluctuation of slip", "m/s", 1.0, true, &[slip_zone!("deviation")]),
+    measure("fluctuation of slip", "m/s", 1.0, true, &[slip_zone!("fluctuation")]),
     measure("fluctuating share", "", 1.0, true, &[slip_zone!("fluctuating_share")]),
     measure(
         "slip_roughness",

@@ -14,7 +14,7 @@ pub struct Sample {
     pub x: f64,
     /// The measure.
     pub value: f64,
-    /// How well it is known: half the width of its confidence interval, else its standard deviation over the
+    /// The change that it hides: the width of its confidence interval, else its standard deviation over the
     /// window; zero where neither is known.
     pub scatter: f64,
 }
@@ -86,7 +86,7 @@ pub enum Verdict {
 
 /// The rule of the verdicts, for people.
 pub const RULE: &str = "Settles: the values differ by at most 2 % of the largest, or q is at least \
-    0.25 and the last value is within 5 % of v\u{221e}; and the scatter, half the 95 % confidence \
+    0.25 and the last value is within 5 % of v\u{221e}; and the scatter, the width of the 95 % confidence \
     interval of the mean (of an ensemble by its members, of a run by batches in time; without one the \
     standard deviation over the records of the window), is at most 5 %. Does not settle: q is at most 0.1, the last value is farther from v\u{221e}, or \
     v\u{221e} is zero. Cannot be told (scatter): the values differ by no more than the scatter, or the \

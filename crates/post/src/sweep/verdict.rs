@@ -60,6 +60,8 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
                 let samples: Vec<Sample> = group
                     .members
                     .iter()
+                    // a value of zero has no place on the fitted trend
+                    .filter(|(x, _)| *x > 0.0)
                     .filter_map(|(x, run)| {
                         let point = measure.of(*run)?;
                         let scatter = point.scatter().unwrap_or(0.0);
