@@ -78,7 +78,6 @@ struct NodeState {
     states: States,
 }
 
-
 /// Part of the coefficient within which states are one.
 const ONE: f64 = 1e-10;
 /// Slip speeds between two records are taken to go so much beyond those of both.
