@@ -1,5 +1,5 @@
-//! Statistics of slip over the slip zone: the places along the centre line that slip on the mean over time, on
-//! the side where the conditions are enforced.
+//! Statistics of slip over the slip zone: the places along the centre line whose mean slip speed over time
+//! is not small, on the side where the conditions are enforced.
 //!
 //! What fluctuates is what differs from the mean over a tenth of a contact transit, 2a/(10 V), about the instant,
 //! as in the measure of roughness: the slow change of a run that is not quite steady does not count. The square is
@@ -12,7 +12,7 @@ use output::confidence::of_batches;
 use serde_json::{Map, Value, json};
 
 /// A place slips where its mean slip speed over time is at least this part of the largest such mean.
-pub(crate) const SLIPS: f64 = 0.1;
+const SLIPS: f64 = 0.1;
 
 /// Slip of the zone over a window.
 #[derive(Clone, Debug, PartialEq)]
