@@ -75,7 +75,7 @@ fn ellipse(load: f64, low: f64, high: f64, modulus: f64) -> Hertz {
     let m = 0.5 * (below + above);
     let (k, e) = elliptic(m);
     // low = (p0/E*) b (K - E)/(m a^2) with p0 = 3 P/(2 pi a b): a^3 = 3 P (K - E)/(2 pi E* m low).
-    let a = (1.5 * load * (k - e) / (PI * modulus * m * low)).cbrt();
+    let a = libm::cbrt(1.5 * load * (k - e) / (PI * modulus * m * low));
     let b = a * (1.0 - m).sqrt();
     let p0 = 1.5 * load / (PI * a * b);
     Hertz { a, b, p0, approach: p0 / modulus * b * k }

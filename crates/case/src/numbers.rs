@@ -148,6 +148,6 @@ impl Numbers {
 
 /// Three digits, as people read them.
 fn three(x: f64) -> String {
-    let after = (2.0 - x.abs().log10().floor()).clamp(0.0, 9.0);
+    let after = (2.0 - libm::log10(x.abs()).floor()).clamp(0.0, 9.0);
     format!("{x:.0$}", after as usize)
 }

@@ -50,7 +50,7 @@ impl Probes {
         // The tread point at arc length s lies at angle s/R from the lowest point.
         let on_disk = |[s, y]: [f64; 2]| {
             let angle = s / radius;
-            [radius * angle.sin(), y, radius * (1.0 - angle.cos())]
+            [radius * libm::sin(angle), y, radius * (1.0 - libm::cos(angle))]
         };
         let wanted: Vec<(usize, [f64; 3])> = (probes.disk.iter().map(|p| (DISK, on_disk(*p))))
             .chain(probes.bar.iter().map(|p| (BAR, [p[0], p[1], 0.0])))

@@ -56,7 +56,7 @@ fn shows(page: &str, before: &str, column: usize, value: f64) {
     let cell = row.split("<td").nth(column).unwrap();
     let text = cell[cell.find('>').unwrap() + 1..cell.find('<').unwrap()].replace('\u{2212}', "-");
     let shown: f64 = text.trim().parse().unwrap();
-    let unit = 10f64.powi(value.abs().log10().floor() as i32 - 3);
+    let unit = 10f64.powi(libm::log10(value.abs()).floor() as i32 - 3);
     assert!((shown - value).abs() <= 0.501 * unit, "{before}: {shown} is not {value}");
 }
 

@@ -40,7 +40,7 @@ struct Brought;
 
 impl OwnLaw for Brought {
     fn mu(&self, slip_speeds: &[f64], mu: &mut [f64]) {
-        mu.iter_mut().zip(slip_speeds).for_each(|(mu, s)| *mu = 0.2 + 0.1 * (-6.0 * s).exp());
+        mu.iter_mut().zip(slip_speeds).for_each(|(mu, s)| *mu = 0.2 + 0.1 * libm::exp(-6.0 * s));
     }
 
     fn failure(&self) -> Option<String> {

@@ -33,7 +33,7 @@ impl NodeFriction for Polishing {
     }
 
     fn mu(&self, [work, _]: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
-        self.smooth + (self.rough - self.smooth) * (-work / self.work).exp()
+        self.smooth + (self.rough - self.smooth) * libm::exp(-work / self.work)
     }
 
     fn mu_static(&self) -> f64 {
@@ -136,7 +136,7 @@ mod tests {
         let mut work = 0.0;
         for (i, &speed) in speeds[..speeds.len() - 1].iter().enumerate() {
             let mu = (before - speed) / (DT * weight);
-            let law = LAW.smooth + (LAW.rough - LAW.smooth) * (-work / LAW.work).exp();
+            let law = LAW.smooth + (LAW.rough - LAW.smooth) * libm::exp(-work / LAW.work);
             assert!((mu - law).abs() < 1e-6, "{i}: {mu} {law}");
             work += mu * pressure * speed * DT;
             before = speed;

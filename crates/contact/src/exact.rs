@@ -160,7 +160,7 @@ impl ExactContact {
             return true;
         }
         let (opening, slip) = self.rates_of(row, motion);
-        let speed = opening.hypot(norm(slip));
+        let speed = libm::hypot(opening, norm(slip));
         row.sleep = sleep(row.gap, speed, self.search.margin, motion.dt);
         let may_close = row.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed;
         if !may_close {

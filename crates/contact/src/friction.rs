@@ -4,6 +4,7 @@ mod expression;
 mod memory;
 mod node;
 mod numbers;
+mod operators;
 mod prakash_clifton;
 mod rate_state;
 mod slip_weakening;
@@ -80,7 +81,7 @@ pub struct Exponential {
 
 impl FrictionLaw for Exponential {
     fn mu(&self, slip_speed: f64) -> f64 {
-        self.mu_dynamic + (self.mu_static - self.mu_dynamic) * (-self.decay * slip_speed).exp()
+        self.mu_dynamic + (self.mu_static - self.mu_dynamic) * libm::exp(-self.decay * slip_speed)
     }
 
     fn mu_static(&self) -> f64 {
@@ -88,7 +89,7 @@ impl FrictionLaw for Exponential {
     }
 
     fn slope(&self, slip_speed: f64) -> f64 {
-        -self.decay * (self.mu_static - self.mu_dynamic) * (-self.decay * slip_speed).exp()
+        -self.decay * (self.mu_static - self.mu_dynamic) * libm::exp(-self.decay * slip_speed)
     }
 }
 

@@ -149,7 +149,7 @@ impl Mean {
         let distance = dot(normal, to_node);
         let moved = norm(axpy(to_node, -distance, normal));
         let seen = seen(&footing, normal, sub(positions.at(self.far), x));
-        let turned = (seen[0] - self.seen[0]).hypot(seen[1] - self.seen[1]);
+        let turned = libm::hypot(seen[0] - self.seen[0], seen[1] - self.seen[1]);
         let stale = (moved + turned) / self.reach;
         Standing { footing, normal, gap: distance - self.beyond, stale }
     }
@@ -512,7 +512,7 @@ mod tests {
                 plate([0.0, 0.0], [8e-3, 8e-3], [5, 5], 0.0, 1e-3, false),
                 plate(low, high, [cells; 2], 0.0, 1e-3, true),
             );
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = libm::sincos(angle);
             for x in &mut rig.reference[rig.upper..] {
                 let [a, b, z] = x.xyz();
                 let (a, b) = (a - 4e-3, b - 4e-3);
@@ -635,7 +635,7 @@ mod tests {
         rig.put(0, |x| [x[0], x[1], x[2] + 1e-5]);
         let means = rig.means(false);
         let slaves: Vec<usize> = (0..means.len()).step_by(5).collect();
-        let (sin, cos) = 0.7_f64.sin_cos();
+        let (sin, cos) = libm::sincos(0.7_f64);
         rig.put(1, |[x, y, z]| [cos * x + sin * z, y, cos * z - sin * x]);
         rig.put(0, |[x, y, z]| [cos * x + sin * (z + 1e-5), y, cos * (z + 1e-5) - sin * x]);
         for slave in slaves {

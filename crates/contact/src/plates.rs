@@ -33,7 +33,7 @@ pub(crate) fn tread(
     let smooth = SmoothSurface::Tread { centre: [0.0, 0.0, radius], radius, crown: None };
     mapped(cells, false, Some(smooth), |s, t, inside| {
         let (angle, r) = ((2.0 * s - 1.0) * half_angle, radius - depth * inside);
-        [r * angle.sin(), (t - 0.5) * width, radius - r * angle.cos()]
+        [r * libm::sin(angle), (t - 0.5) * width, radius - r * libm::cos(angle)]
     })
 }
 

@@ -35,7 +35,7 @@ pub(crate) struct RigidMotion {
 impl RigidMotion {
     pub(crate) fn new(hub: &Hub) -> Self {
         let s = hub.state;
-        Self { centre: hub.centre, turn: s.angle.sin_cos(), v: [s.vx, s.vz], omega: s.omega }
+        Self { centre: hub.centre, turn: libm::sincos(s.angle), v: [s.vx, s.vz], omega: s.omega }
     }
 
     pub(crate) fn is_at_rest(&self) -> bool {

@@ -215,8 +215,8 @@ struct Placement {
 impl Placement {
     fn new(state: HubState) -> Self {
         // cos - 1 = -2 sin^2(angle/2), without cancellation
-        let half = (0.5 * state.angle).sin();
-        Self { state, sin: state.angle.sin(), cos_minus_one: -2.0 * half * half }
+        let half = libm::sin(0.5 * state.angle);
+        Self { state, sin: libm::sin(state.angle), cos_minus_one: -2.0 * half * half }
     }
 
     /// Displacement (m) of the point at `arm` from the centre: turned about +y and moved.

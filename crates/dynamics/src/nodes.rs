@@ -255,7 +255,7 @@ mod tests {
             (0..9001)
                 .map(|i| {
                     let k = f64::from(i);
-                    Padded::new([1.7 * k, 2.3 * k + 1.0, 0.9 * k].map(|x| scale * x.sin()))
+                    Padded::new([1.7 * k, 2.3 * k + 1.0, 0.9 * k].map(|x| scale * libm::sin(x)))
                 })
                 .collect()
         };

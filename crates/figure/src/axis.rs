@@ -78,17 +78,17 @@ impl Ticked {
     fn linear(low: f64, high: f64) -> Self {
         // 1, 2 or 5 times a power of ten, three to eight ticks
         let rough = (high - low) / 7.0;
-        let power = 10f64.powf(rough.log10().floor());
+        let power = libm::pow(10f64, libm::log10(rough).floor());
         let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|s| *s >= rough);
         let step = step.unwrap_or(rough);
         let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
         let ticks = (first..=last).map(|i| i as f64 * step).collect();
-        let decimals = (-step.log10() + 1e-9).ceil().max(0.0) as usize;
+        let decimals = (-libm::log10(step) + 1e-9).ceil().max(0.0) as usize;
         Self { range: low..high, ticks, log: false, decimals }
     }
 
     fn log(low: f64, high: f64) -> Self {
-        let (low, high) = (low.log10(), high.log10());
+        let (low, high) = (libm::log10(low), libm::log10(high));
         let every = ((high - low) / 8.0).ceil().max(1.0) as usize;
         let decades = (low - 1e-9).ceil() as i32..=(high + 1e-9).floor() as i32;
         let ticks = decades.step_by(every).map(f64::from).collect();
@@ -105,7 +105,7 @@ impl Ticked {
 
     /// A value in drawing coordinates; `None` if it cannot be drawn.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
-        let place = if self.log { value.log10() } else { value };
+        let place = if self.log { libm::log10(value) } else { value };
         place.is_finite().then_some(place)
     }
 

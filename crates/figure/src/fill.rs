@@ -47,7 +47,7 @@ impl Key {
                 viridis((value - low) / (high - low))
             }
             Self::Values { range: [low, high], scale: Scale::Log, .. } => {
-                viridis((value / low).ln() / (high / low).ln())
+                viridis(libm::log(value / low) / libm::log(high / low))
             }
             Self::Classes(_) => [0; 3],
         }

@@ -182,7 +182,7 @@ mod tests {
     use crate::{Axis, Cell, Draw, Fill, Key, Mark, Panel, Scale, Series, colour};
 
     fn figure() -> Figure {
-        let points = (0..100).map(|i| [f64::from(i), f64::from(i).sin()]).collect();
+        let points = (0..100).map(|i| [f64::from(i), libm::sin(f64::from(i))]).collect();
         let panel = Panel {
             title: "A title".into(),
             x: Axis::linear("t (s)"),

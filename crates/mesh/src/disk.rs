@@ -65,7 +65,7 @@ pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
 
     let mut nodes = Vec::with_capacity(ring.nodes.len() * (ny + 1));
     for &[angle, r] in &ring.nodes {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         let fade = (r - hub_radius) / (radius - hub_radius);
         nodes.extend(y.points.iter().map(|&y| {
             let r = r - sag(crown, y) * fade;

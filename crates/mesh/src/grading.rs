@@ -52,7 +52,7 @@ impl Axis {
     /// Estimate of the number of cells that [`new`](Self::new) would make, without making them.
     pub fn estimate(span: f64, fine: f64, size: f64, growth: f64, coarsest: f64) -> f64 {
         let gap = (span - fine).max(0.0);
-        let graded = 2.0 * (coarsest / size).ln() / growth.ln();
+        let graded = 2.0 * libm::log(coarsest / size) / libm::log(growth);
         fine / size + (gap / coarsest + graded).min(gap / size)
     }
 }

@@ -45,7 +45,7 @@ pub fn across(mesh: &Mesh) -> Result<Vec<[u32; 2]>, NoSlice> {
             let [first, second] = [hex[a], hex[b]];
             let known = [partner[first as usize], partner[second as usize]];
             let like = known == [NONE; 2] || known == [second, first];
-            if !like || dx.hypot(dz) > SLACK * dy {
+            if !like || libm::hypot(dx, dz) > SLACK * dy {
                 return Err(NoSlice { element, centre });
             }
             if known == [NONE; 2] {

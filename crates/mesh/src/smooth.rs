@@ -27,15 +27,15 @@ impl SmoothSurface {
     pub fn offset(&self, p: [f64; 3]) -> f64 {
         match *self {
             Self::Tread { centre, radius, crown } => {
-                let rho = (p[0] - centre[0]).hypot(p[2] - centre[2]);
+                let rho = libm::hypot(p[0] - centre[0], p[2] - centre[2]);
                 match crown {
                     None => radius - rho,
-                    Some(c) => c - (rho - (radius - c)).hypot(p[1] - centre[1]),
+                    Some(c) => c - libm::hypot(rho - (radius - c), p[1] - centre[1]),
                 }
             }
             Self::Top { apex, crown } => match crown {
                 None => apex - p[2],
-                Some(c) => c - (p[2] - (apex - c)).hypot(p[1]),
+                Some(c) => c - libm::hypot(p[2] - (apex - c), p[1]),
             },
         }
     }
@@ -46,12 +46,12 @@ impl SmoothSurface {
         match *self {
             Self::Tread { centre, radius, crown } => {
                 let (dx, dz) = (p[0] - centre[0], p[2] - centre[2]);
-                let rho = dx.hypot(dz);
+                let rho = libm::hypot(dx, dz);
                 match crown {
                     None => [dx / rho, 0.0, dz / rho],
                     Some(c) => {
                         let (a, b) = (rho - (radius - c), p[1] - centre[1]);
-                        let d = a.hypot(b);
+                        let d = libm::hypot(a, b);
                         [a / d * dx / rho, b / d, a / d * dz / rho]
                     }
                 }
@@ -60,7 +60,7 @@ impl SmoothSurface {
                 None => [0.0, 0.0, 1.0],
                 Some(c) => {
                     let (a, b) = (p[2] - (apex - c), p[1]);
-                    let d = a.hypot(b);
+                    let d = libm::hypot(a, b);
                     [0.0, b / d, a / d]
                 }
             },

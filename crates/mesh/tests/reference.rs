@@ -30,7 +30,7 @@ fn body<'a>(mesh: &'a Mesh, name: &str) -> &'a Body {
 
 /// Arc length of a point of the disk from the first contact.
 fn arc(p: [f64; 3]) -> f64 {
-    DISK.radius * p[0].atan2(DISK.radius - p[2])
+    DISK.radius * libm::atan2(p[0], DISK.radius - p[2])
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn sets_hold_the_nodes_that_their_names_say() {
         assert_eq!(mesh.nodes.iter().filter(|&&p| test(p)).count(), set.len());
     };
     let sets = &body(&d, "disk").node_sets;
-    let rho = |p: [f64; 3]| p[0].hypot(p[2] - 0.46);
+    let rho = |p: [f64; 3]| libm::hypot(p[0], p[2] - 0.46);
     whole(&d, &sets["hub"], &|p| (rho(p) - 0.10).abs() < 1e-12);
     let smooth = body(&d, "disk").surfaces["tread"].smooth.unwrap();
     whole(&d, &sets["tread"], &|p| smooth.offset(p).abs() < 1e-12);
@@ -143,7 +143,7 @@ fn crowned_bar_has_the_volume_under_its_crown() {
     let volume = quality(&bar(&BAR, &zone(1e-3)).unwrap()).volume;
     // Circular segment: 2 * integral of c - sqrt(c^2 - y^2) from 0 to h.
     let (c, h): (f64, f64) = (0.30, 0.03);
-    let segment = 2.0 * c * h - h * (c * c - h * h).sqrt() - c * c * (h / c).asin();
+    let segment = 2.0 * c * h - h * (c * c - h * h).sqrt() - c * c * libm::asin(h / c);
     let exact = 0.24 * (0.06 * 0.07 - segment);
     // The facets cut the corners of the circle: sum over faces of w^3/(12 c), 5 mm at most.
     let cut = 0.24 * 0.06 * 0.0052f64.powi(2) / (12.0 * c);
@@ -176,7 +176,7 @@ fn elements_run_along_the_rolling_direction_in_slabs() {
     assert!(top > DISK.radius, "the seam is on the side of the contact: {top}");
     // Angle from the far side of the zone's middle, which is at the arc 30 mm.
     let start = 0.03 / DISK.radius - PI;
-    let angle = |p: [f64; 3]| (p[0].atan2(DISK.radius - p[2]) - start).rem_euclid(2.0 * PI);
+    let angle = |p: [f64; 3]| (libm::atan2(p[0], DISK.radius - p[2]) - start).rem_euclid(2.0 * PI);
     let n = d.hexes.len();
     let angles: Vec<f64> =
         d.hexes[n / 20..n - n / 20].iter().map(|h| middle(&d, h, &angle)).collect();

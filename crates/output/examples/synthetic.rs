@@ -65,7 +65,7 @@ impl Model {
         let disk = |i: usize, j: usize, k: usize| {
             let angle = TAU * i as f64 / around as f64;
             let radius = HUB + (RADIUS - HUB) * (k as f64 / through as f64).sqrt();
-            [radius * angle.sin(), lateral(j), RADIUS - radius * angle.cos()]
+            [radius * libm::sin(angle), lateral(j), RADIUS - radius * libm::cos(angle)]
         };
         let near = around / 13;
         model.block(0, [around, across, through], true, disk, |i| (i + near) % around < 2 * near);
@@ -132,12 +132,12 @@ impl Model {
 
 fn bump(p: [f64; 3], x0: f64) -> f64 {
     let r2 = (p[0] - x0).powi(2) + p[1].powi(2) + (1.5 * p[2]).powi(2);
-    (-r2 / (2.0 * PATCH * PATCH)).exp()
+    libm::exp(-r2 / (2.0 * PATCH * PATCH))
 }
 
 /// Small waves everywhere, so that no number is trivially compressible, as in a real run.
 fn wave(p: [f64; 3], time: f64) -> f64 {
-    (90.0 * p[0] + 70.0 * p[1] - 50.0 * p[2] + 3e5 * time).sin()
+    libm::sin(90.0 * p[0] + 70.0 * p[1] - 50.0 * p[2] + 3e5 * time)
 }
 
 fn time_of(step: usize) -> f64 {
@@ -170,7 +170,7 @@ fn write_fields(
     for step in 0..steps {
         let time = time_of(step);
         let x0 = SPEED * time;
-        let (sin, cos) = (x0 / RADIUS).sin_cos();
+        let (sin, cos) = libm::sincos(x0 / RADIUS);
         let mut displacement = Vec::with_capacity(model.points.len());
         let mut velocity = Vec::with_capacity(model.points.len());
         for &p in &model.points {

@@ -134,7 +134,7 @@ mod tests {
 
     /// A series that forgets what it was within `memory` records, of mean zero.
     fn series(seed: u64, count: usize, memory: f64) -> Vec<f64> {
-        let keep = (-1.0 / memory).exp();
+        let keep = libm::exp(-1.0 / memory);
         let mut value = 0.0;
         let mut next = |force: f64| {
             value = keep * value + force;
@@ -182,7 +182,7 @@ mod tests {
                 .map(|(n, i)| value(f64::from(i) / 500.0) + 0.1 * n)
                 .collect()
         };
-        for values in [of(|t| 5.0 + t), of(|t| (6.3 * t).sin())] {
+        for values in [of(|t| 5.0 + t), of(|t| libm::sin(6.3 * t))] {
             assert!(of_series(&weights, &values).is_err_and(|why| why.contains("drifts")));
         }
         assert!(of_series(&weights[..19], &[1.0; 19]).is_err());

@@ -70,7 +70,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for step in 0..steps {
         let pressure: Vec<f64> = (0..count).map(|_| 0.5e9 + 0.5e9 * noise()).collect();
         let speed: Vec<f64> = (0..count).map(|_| noise()).collect();
-        let mu: Vec<f64> = speed.iter().map(|s| 0.32 + 0.18 * (-6.0 * s).exp()).collect();
+        let mu: Vec<f64> = speed.iter().map(|s| 0.32 + 0.18 * libm::exp(-6.0 * s)).collect();
         let sign = |row: usize| if row < count / 2 { 1.0 } else { -1.0 };
         let vectors = |of: &dyn Fn(usize) -> f64, z: f64| -> Vec<[f64; 3]> {
             (0..count).map(|row| [of(row), 0.1 * of(row), z]).collect()

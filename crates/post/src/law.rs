@@ -93,9 +93,9 @@ mod tests {
         ] {
             let branch = (0..=4_000_000).map(|i| f64::from(i) * 1e-6);
             let sliding = branch
-                .map(|s| ((speed - s) / scale).hypot(ratio - law.mu(s)))
+                .map(|s| libm::hypot((speed - s) / scale, ratio - law.mu(s)))
                 .fold(f64::INFINITY, f64::min);
-            let sticking = (speed / scale).hypot((ratio - 0.5f64).max(0.0));
+            let sticking = libm::hypot(speed / scale, (ratio - 0.5f64).max(0.0));
             let expected = sliding.min(sticking);
             let found = law.distance(speed, law.mu(speed), ratio, scale);
             assert!((found - expected).abs() < 1e-9, "{speed} {ratio}: {found} {expected}");

@@ -83,7 +83,7 @@ pub(crate) fn digits(value: f64, significant: i32) -> String {
     let text = if size == 0.0 {
         "0".into()
     } else if (1e-3..1e6).contains(&size) {
-        let decimals = (significant - 1 - size.log10().floor() as i32).max(0) as usize;
+        let decimals = (significant - 1 - libm::log10(size).floor() as i32).max(0) as usize;
         format!("{value:.decimals$}")
     } else {
         format!("{value:.*e}", (significant - 1).max(0) as usize)

@@ -29,5 +29,5 @@ pub(crate) fn norm(a: Vec3) -> f64 {
 
 /// The angle between `a` and `b` in degrees, accurate near 0 and 180 where the arc cosine is not.
 pub(crate) fn angle(a: Vec3, b: Vec3) -> f64 {
-    norm(cross(a, b)).atan2(dot(a, b)).to_degrees()
+    libm::atan2(norm(cross(a, b)), dot(a, b)).to_degrees()
 }

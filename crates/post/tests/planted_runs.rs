@@ -122,7 +122,7 @@ fn traction_off_the_bound_by_a_factor_is_found_with_its_factor() {
 fn a_rotated_traction_is_found_with_its_angle() {
     for angle in [3.0f64, 30.0, 120.0] {
         let folder = tempfile::tempdir().unwrap();
-        let (sin, cos) = angle.to_radians().sin_cos();
+        let (sin, cos) = libm::sincos(angle.to_radians());
         write(folder.path(), COULOMB, "penalty", 10, |x, _| {
             let mut node = perfect(COULOMB, x, 0);
             let [sx, sy, _] = node.shear;

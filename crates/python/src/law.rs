@@ -102,7 +102,7 @@ const EQUAL: f64 = 1e-12;
 /// Tries `function` at rest and at slip velocities from 1e-9 to 1e3 m/s; says what makes it no friction law.
 #[pyfunction]
 pub fn check_law(py: Python<'_>, function: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
-    let decades = (0..=240).map(|i| 10f64.powf(-9.0 + f64::from(i) / 20.0));
+    let decades = (0..=240).map(|i| libm::pow(10f64, -9.0 + f64::from(i) / 20.0));
     let speeds: Vec<f64> = std::iter::once(0.0).chain(decades).collect();
     let give = |speeds: &[f64]| -> PyResult<Vec<f64>> {
         let mut mu = vec![0.0; speeds.len()];

@@ -133,12 +133,12 @@ mod tests {
             Parameters {
                 belt,
                 normal_force,
-                mass: 10f64.powf(mass),
+                mass: libm::pow(10f64, mass),
                 spring,
                 damping,
-                adhesion: 10f64.powf(adhesion),
+                adhesion: libm::pow(10f64, adhesion),
                 law: SteadyLaw::Exponential(Exponential { mu_static, mu_dynamic, decay }),
-                dt: 10f64.powf(dt),
+                dt: libm::pow(10f64, dt),
                 x0,
                 v0,
                 ..Parameters::default()

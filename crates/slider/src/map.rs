@@ -33,7 +33,7 @@ pub fn map(p: &Parameters, method: Method, from: i32, to: i32) -> Vec<MapPoint> 
     (from * PER_DECADE..=to * PER_DECADE)
         .into_par_iter()
         .filter_map(|i| {
-            let dt = 10f64.powf(f64::from(i) / f64::from(PER_DECADE));
+            let dt = libm::pow(10f64, f64::from(i) / f64::from(PER_DECADE));
             let p = Parameters { dt, end, ..p.clone() };
             if method == Method::Penalty && dt > penalty_stable_step(&p) {
                 return None;

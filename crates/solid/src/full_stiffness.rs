@@ -73,5 +73,5 @@ pub(crate) fn largest_eigenvalue_bound(matrix: [[f64; 24]; 24]) -> f64 {
         power = square;
     }
     // tr K^16 is the squared norm of K^8.
-    scale * norm(&power).powf(0.125)
+    scale * libm::pow(norm(&power), 0.125)
 }

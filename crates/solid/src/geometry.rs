@@ -100,9 +100,9 @@ pub(crate) mod tests {
         let mut x = CORNERS.map(|c| [c[0] * 0.5, c[1] * 0.4, c[2] * 0.6]);
         for (i, p) in x.iter_mut().enumerate() {
             let k = i as f64;
-            p[0] += 0.07 * (1.3 * k).sin();
-            p[1] += 0.06 * (2.1 * k + 0.4).sin();
-            p[2] += 0.08 * (0.7 * k + 1.1).cos();
+            p[0] += 0.07 * libm::sin(1.3 * k);
+            p[1] += 0.06 * libm::sin(2.1 * k + 0.4);
+            p[2] += 0.08 * libm::cos(0.7 * k + 1.1);
         }
         x
     }

@@ -105,7 +105,7 @@ impl Coulomb<'_> {
         let m = self.bound.len();
         let most: f64 = self.bound.iter().sum();
         let asked = rigid.map(|r| if let Rigid::Forced(f) = r { f } else { 0.0 });
-        let force = asked[0].hypot(asked[1]);
+        let force = libm::hypot(asked[0], asked[1]);
         if force.is_nan() || force >= most {
             return Err(FrictionError::Slides { force, most });
         }
@@ -172,7 +172,8 @@ impl Coulomb<'_> {
         }
         for (i, &g) in self.bound.iter().enumerate() {
             let p = project(self.trial(state, i), g);
-            let off = (p[0] - state.force[2 * i]).hypot(p[1] - state.force[2 * i + 1]) / largest;
+            let off =
+                libm::hypot(p[0] - state.force[2 * i], p[1] - state.force[2 * i + 1]) / largest;
             if off > worst.0 || off.is_nan() {
                 worst = (off, i);
             }
@@ -195,7 +196,7 @@ impl Coulomb<'_> {
         for (i, &g) in self.bound.iter().enumerate() {
             let r = self.weight(i);
             let q = self.trial(state, i);
-            let length = q[0].hypot(q[1]);
+            let length = libm::hypot(q[0], q[1]);
             if length <= g {
                 slip[i] = [[1.0, 0.0], [0.0, 1.0]];
                 for a in 0..2 {
@@ -286,7 +287,7 @@ struct State {
 
 /// Projection on the disk of radius `g`.
 fn project(q: [f64; 2], g: f64) -> [f64; 2] {
-    let length = q[0].hypot(q[1]);
+    let length = libm::hypot(q[0], q[1]);
     if length <= g { q } else { [q[0] * g / length, q[1] * g / length] }
 }
 
@@ -299,15 +300,15 @@ fn point_force(w: [[f64; 2]; 2], s0: [f64; 2], g: f64) -> [f64; 2] {
         [(-d * s0[0] + w[0][1] * s0[1]) / det, (w[1][0] * s0[0] - a * s0[1]) / det]
     };
     let stick = at(0.0);
-    if stick[0].hypot(stick[1]) <= g {
+    if libm::hypot(stick[0], stick[1]) <= g {
         return stick;
     }
     // |p| falls with l; above |s_0|/g it is below g.
-    let (mut low, mut high) = (0.0, s0[0].hypot(s0[1]) / g);
+    let (mut low, mut high) = (0.0, libm::hypot(s0[0], s0[1]) / g);
     for _ in 0..60 {
         let l = 0.5 * (low + high);
         let p = at(l);
-        if p[0].hypot(p[1]) > g { low = l } else { high = l }
+        if libm::hypot(p[0], p[1]) > g { low = l } else { high = l }
     }
     project(at(0.5 * (low + high)), g)
 }

@@ -57,7 +57,7 @@ pub fn ellipsoid(influence: &Influence, pressed: &Pressed) -> Option<Ellipsoid> 
 /// Largest shear traction of a patch (Pa).
 pub fn peak_shear(influence: &Influence, rolling: &Rolling<'_>) -> f64 {
     let shear = rolling.contact().iter().zip(rolling.force());
-    shear.map(|(&i, f)| f[0].hypot(f[1]) / influence.points()[i].area).fold(0.0, f64::max)
+    shear.map(|(&i, f)| libm::hypot(f[0], f[1]) / influence.points()[i].area).fold(0.0, f64::max)
 }
 
 /// Fraction of the area in contact that sticks.

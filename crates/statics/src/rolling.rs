@@ -267,7 +267,7 @@ impl<'a> Rolling<'a> {
         let bounds = self.bound.iter().zip(self.force.chunks_exact(2));
         bounds
             .map(|(g, p)| {
-                let slips = p[0].hypot(p[1]) >= g * (1.0 - 1e-9);
+                let slips = libm::hypot(p[0], p[1]) >= g * (1.0 - 1e-9);
                 if slips { Adhesion::Slip } else { Adhesion::Stick }
             })
             .collect()

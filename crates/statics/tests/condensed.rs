@@ -29,7 +29,7 @@ fn the_solution_balances_the_load_in_the_kernel_of_the_dynamic_stage() {
     let symbolic = Symbolic::new(&stiffness).unwrap();
     let factor = symbolic.factor(&stiffness, &unknowns).unwrap();
     // Loads so small that the kernel, which is not linear, is linear to round-off.
-    let loads: Vec<f64> = (0..2 * unknowns.count()).map(|i| 1e-4 * (i as f64).sin()).collect();
+    let loads: Vec<f64> = (0..2 * unknowns.count()).map(|i| 1e-4 * libm::sin(i as f64)).collect();
     let mut solutions = loads.clone();
     factor.solve(&mut solutions, 2).unwrap();
     let mut solid =

@@ -13,7 +13,7 @@ fn slice(size: f64, extent: f64) -> Influence {
         reach: [9e-3, 0.0],
         depth: 7e-3,
         extent,
-        growth: 1.7f64.powf(size / 1e-3),
+        growth: libm::pow(1.7f64, size / 1e-3),
         lateral: Lateral::PlaneStrain,
         material: STEEL,
     }

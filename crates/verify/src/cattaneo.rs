@@ -66,7 +66,7 @@ fn contacts(blocks: &HalfSpaces<'_>, influence: &Influence, apex: f64) -> Result
         let (mut reserve, mut moment) = (0.0, 0.0);
         for (k, &i) in contact.contact().iter().enumerate() {
             let [fx, fy] = contact.force()[k];
-            let left = (contact.bound()[k] - fx.hypot(fy)).max(0.0);
+            let left = (contact.bound()[k] - libm::hypot(fx, fy)).max(0.0);
             let [x, y, _] = influence.points()[i].at;
             reserve += left;
             moment += left * ((x - apex).powi(2) + y * y);

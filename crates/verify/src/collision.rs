@@ -155,7 +155,7 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
         moment += force * report.time;
         let phase = (report.time / time - 0.25) / 0.5;
         if (0.0..1.0).contains(&phase) {
-            let weight = (std::f64::consts::PI * phase).sin().powi(2);
+            let weight = libm::sin(std::f64::consts::PI * phase).powi(2);
             weighted += weight * force;
             weights += weight;
         }

@@ -127,7 +127,7 @@ fn gaps(curvature: bool) -> Result<f64, Cause> {
     let mut worst = 0.0_f64;
     for step in 0..200 {
         let along = f64::from(step) * 6e-5 - 6e-3;
-        let (s, c) = (along / radius).sin_cos();
+        let (s, c) = libm::sincos(along / radius);
         rig.step(|i, x| {
             let z = x[2] - radius;
             let rolled = [c * x[0] + s * z + along, x[1], radius - depth - s * x[0] + c * z];
@@ -136,7 +136,7 @@ fn gaps(curvature: bool) -> Result<f64, Cause> {
         rig.contact.nodal(&mut table);
         for (&node, gap) in table.nodes.iter().zip(&table.gap).filter(|(_, gap)| **gap < 0.0) {
             let x = rig.reference[node as usize].xyz();
-            let exact = (x[0] - along).hypot(x[2] - radius + depth) - radius;
+            let exact = libm::hypot(x[0] - along, x[2] - radius + depth) - radius;
             worst = worst.max((gap - exact).abs());
         }
     }
@@ -177,14 +177,14 @@ fn turned_friction(
         let force = rig.step(|i, x| turned(axis, turn, placed(i, x, 1.0)));
         let expected = turned(axis, turn, start);
         let off = (0..3).map(|k| (force[k] - expected[k]).powi(2)).sum::<f64>().sqrt();
-        worst = worst.max(off / start[0].hypot(start[1]));
+        worst = worst.max(off / libm::hypot(start[0], start[1]));
     }
     Ok(worst)
 }
 
 /// A vector turned about a unit axis by an angle (Rodrigues).
 fn turned(n: [f64; 3], angle: f64, x: [f64; 3]) -> [f64; 3] {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = libm::sincos(angle);
     let along: f64 = (0..3).map(|k| n[k] * x[k]).sum();
     let cross = [n[1] * x[2] - n[2] * x[1], n[2] * x[0] - n[0] * x[2], n[0] * x[1] - n[1] * x[0]];
     [0, 1, 2].map(|k| c * x[k] + s * cross[k] + (1.0 - c) * along * n[k])

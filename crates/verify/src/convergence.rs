@@ -83,8 +83,11 @@ impl Convergence {
             return None;
         }
         let ratio = (c.value - b.value) / (b.value - a.value);
-        let excess =
-            |p: f64| (c.size.powf(p) - b.size.powf(p)) / (b.size.powf(p) - a.size.powf(p)) - ratio;
+        let excess = |p: f64| {
+            (libm::pow(c.size, p) - libm::pow(b.size, p))
+                / (libm::pow(b.size, p) - libm::pow(a.size, p))
+                - ratio
+        };
         let (mut low, mut high) = (*BELIEVED.start(), *BELIEVED.end());
         // the left-hand side rises with p
         if !(excess(low) <= 0.0 && excess(high) >= 0.0) {
@@ -117,7 +120,7 @@ impl Convergence {
     /// Richardson's estimate of what the finest value still lacks.
     fn lacking(&self) -> f64 {
         let [.., b, a] = self.samples[..] else { return f64::NAN };
-        (a.value - b.value) / ((b.size / a.size).powf(self.used().0) - 1.0)
+        (a.value - b.value) / (libm::pow(b.size / a.size, self.used().0) - 1.0)
     }
 
     /// Uncertainty of the finest value, in its unit; infinite for one mesh.

@@ -134,7 +134,7 @@ fn stretched(influence: &Influence, pressed: &Pressed) -> Result<f64, Cause> {
         let (middle, a) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]) + 0.5 * h);
         let integral = |x: f64| {
             let s = (x - middle).clamp(-a, a);
-            a * (s / a).asin() - (a * a - s * s).sqrt()
+            a * libm::asin(s / a) - (a * a - s * s).sqrt()
         };
         for (x, strain) in strip {
             let weight = integral(x + h) - integral(*x);

@@ -37,7 +37,7 @@ pub(crate) fn run_with(size: Size, reweigh: impl Fn(&mut [f64])) -> Outcome {
     let mut rows = Vec::new();
     for &(n, reference) in blocks {
         // half a unit of the seventh digit
-        let digit = 0.5e-6 * 10f64.powf(reference.abs().log10().floor());
+        let digit = 0.5e-6 * libm::pow(10f64, libm::log10(reference.abs()).floor());
         let limit = (digit / reference.abs(), "half of the last printed digit");
         let quantity = format!("u_z of the corner, n = {n} (m)");
         let source = "Akantu, Kratos, MFEM, SciPy and fenris";

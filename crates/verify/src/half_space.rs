@@ -66,7 +66,7 @@ impl Hertz {
             reach: [1.3 * a, 1.3 * b],
             depth: if b > 0.0 { b } else { a },
             extent,
-            growth: 1.7f64.powf(size / self.coarse),
+            growth: libm::pow(1.7f64, size / self.coarse),
             lateral,
             material: STEEL,
         }

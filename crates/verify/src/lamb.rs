@@ -161,7 +161,7 @@ fn quotient(x: Complex, [c, d]: Complex) -> Complex {
 
 /// The root with positive real part.
 fn root([a, b]: Complex) -> Complex {
-    let length = a.hypot(b);
+    let length = libm::hypot(a, b);
     let (re, im) = ((0.5 * (length + a)).max(0.0).sqrt(), (0.5 * (length - a)).max(0.0).sqrt());
     [re, im.copysign(b)]
 }
@@ -210,7 +210,7 @@ impl Lamb {
             let i = (at as usize).min(cells - 1);
             return self.table[i] + (at - i as f64) * (self.table[i + 1] - self.table[i]);
         }
-        let angle = |tau: f64| (tau / self.gamma).min(1.0).asin();
+        let angle = |tau: f64| libm::asin((tau / self.gamma).min(1.0));
         self.table[cells] + (tau - 1.0) - self.rayleigh * (angle(tau) - angle(1.0))
     }
 
@@ -246,7 +246,7 @@ fn patch_distances(r: f64) -> Vec<f64> {
         let point = move |i: isize, g: f64| h * (i as f64 + 0.5 + g / 12f64.sqrt());
         (from..CELLS as isize).flat_map(move |i| [point(i, -1.0), point(i, 1.0)])
     };
-    let rows = |x: f64| points(0).map(move |y| (r - x).hypot(y));
+    let rows = |x: f64| points(0).map(move |y| libm::hypot(r - x, y));
     points(-(CELLS as isize)).flat_map(rows).collect()
 }
 

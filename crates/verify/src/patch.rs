@@ -160,7 +160,7 @@ fn affine(mesh: &Mesh, h: Matrix) -> Vec<Padded> {
 /// R - I for a turn about (1, 2, 2)/3 (Rodrigues).
 fn turn(angle: f64) -> Matrix {
     let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
-    let (s, c) = angle.sin_cos();
+    let (s, c) = libm::sincos(angle);
     let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
     let mut h = [[0.0; 3]; 3];
     for i in 0..3 {

@@ -92,7 +92,7 @@ pub(crate) fn run(size: Size) -> Outcome {
         if exact.im > 0.5 * exact.re {
             let frequency = study(|q| q.im);
             // two parts of one root, whose error has no direction of its own
-            let uncertain = growth.uncertainty().hypot(frequency.uncertainty()) / exact.im;
+            let uncertain = libm::hypot(growth.uncertainty(), frequency.uncertainty()) / exact.im;
             let from = format!("{}, of the complex root", frequency.explain());
             let (what, limit) = (format!("{case}: frequency (rad/s)"), (uncertain, from.as_str()));
             let row = Row::new(what, [exact.im, frequency.finest()], exact.im, limit, SOURCE);
@@ -168,7 +168,7 @@ impl Mode {
             .nodes
             .iter()
             .zip(&table.area)
-            .map(|(&n, area)| area * (self.wave_number * reference[n as usize][0]).cos())
+            .map(|(&n, area)| area * libm::cos(self.wave_number * reference[n as usize][0]))
             .collect();
         let radians = LONGEST / (self.wave_number * SHEARED.c_s());
         let end = radians.min(GROWN / self.growth.re);
@@ -218,7 +218,7 @@ impl Mode {
                 let inside = z.abs() < 0.5 * h;
                 setup.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
                 let down = if inside { 0.0 } else { -side * approach };
-                let half = 0.5 * side * (self.wave_number * x).cos();
+                let half = 0.5 * side * libm::cos(self.wave_number * x);
                 let mode = half * self.slip() * (-self.decay * z.abs()).exp();
                 setup.displacement[n] = Padded::new([0.0, stress / shear * z + mode.re, down]);
                 let speed = 0.5 * side * self.speed + (mode * self.growth * before).re;
@@ -274,7 +274,7 @@ struct Begun {
 
 impl NodeFriction for Begun {
     fn begin(&self, at: &Place) -> [f64; 2] {
-        [self.steady + self.mode * (self.wave_number * at.position[0]).cos(), 0.0]
+        [self.steady + self.mode * libm::cos(self.wave_number * at.position[0]), 0.0]
     }
 
     fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
@@ -296,7 +296,7 @@ fn slope(values: &[f64], dt: f64) -> f64 {
     let (mut along, mut squares) = (0.0, 0.0);
     for (i, value) in values.iter().enumerate() {
         let t = i as f64 - middle;
-        along += t * value.abs().ln();
+        along += t * libm::log(value.abs());
         squares += t * t;
     }
     along / squares / dt
@@ -333,7 +333,8 @@ mod tests {
                 .collect();
             assert!((prony(&values, 1.1 * q, dt) - q).norm() < 1e-6, "{q}");
         }
-        let values: Vec<f64> = (0..300).map(|i| -0.2 * (3.0 * dt * f64::from(i)).exp()).collect();
+        let values: Vec<f64> =
+            (0..300).map(|i| -0.2 * libm::exp(3.0 * dt * f64::from(i))).collect();
         assert!((slope(&values, dt) - 3.0).abs() < 1e-12);
     }
 }

@@ -125,7 +125,7 @@ fn friction_that_does_not_turn_with_the_face_is_caught_by_a_turn() {
             let (normals, mut framed) = (reals("normal"), reals("framed_friction"));
             for (n, f) in normals.chunks_exact(3).zip(framed.chunks_exact_mut(2)) {
                 let angle: f64 = (0..3).map(|k| n[k] * turn[k]).sum();
-                let (s, c) = angle.sin_cos();
+                let (s, c) = libm::sincos(angle);
                 f.copy_from_slice(&[c * f[0] + s * f[1], c * f[1] - s * f[0]]);
             }
             let name = format!("{pass}/framed_friction");

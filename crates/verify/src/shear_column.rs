@@ -173,7 +173,7 @@ pub(crate) fn impedance() -> f64 {
 pub(crate) fn least() -> f64 {
     let fall = LAW.mu_static - LAW.mu_dynamic;
     let r = PRESSURE * LAW.decay * fall / impedance();
-    LAW.mu_dynamic + fall * (1.0 + r.ln()) / r
+    LAW.mu_dynamic + fall * (1.0 + libm::log(r)) / r
 }
 
 /// How the interface is enforced, and how finely.
@@ -293,7 +293,7 @@ fn shear(cells: usize, law: Box<dyn NodeFriction>) -> Result<Jumps, Cause> {
         }
         let phase = (share - HELD[0]) / (HELD[1] - HELD[0]);
         if (0.0..1.0).contains(&phase) {
-            let weight = (std::f64::consts::PI * phase).sin().powi(2);
+            let weight = libm::sin(std::f64::consts::PI * phase).powi(2);
             let speeds = table.slip_velocity.iter().map(|s| s[1].abs());
             weighted += weight * speeds.sum::<f64>() / table.slip_velocity.len() as f64;
             weights += weight;

@@ -147,7 +147,7 @@ fn shear(cells: usize, k: f64, finer: f64) -> Result<Found, Cause> {
         }
         let phase = (share - RISE) / (HOLD - RISE);
         if (0.0..1.0).contains(&phase) {
-            let weight = (std::f64::consts::PI * phase).sin().powi(2);
+            let weight = libm::sin(std::f64::consts::PI * phase).powi(2);
             let velocities = table.slip_velocity.iter().map(|s| s[1]);
             slip += weight * velocities.sum::<f64>() / table.slip_velocity.len() as f64;
             weights += weight;

@@ -160,10 +160,10 @@ fn inclines(size: Size, method: Method) -> Outcome {
     };
     let mut rows = Vec::new();
     for share in [0.5, 0.9] {
-        let angle = (share * MU).atan();
+        let angle = libm::atan(share * MU);
         let x = Block::new(size, method, weight(angle), 0.0, MU)?.slide_until(time);
         // a block without friction sets the scale
-        let free = 0.5 * GRAVITY * angle.sin() * time * time;
+        let free = 0.5 * GRAVITY * libm::sin(angle) * time * time;
         let held = f64::max(2.0, 0.5 / (1.0 - share)) * give(method);
         rows.push(Row::new(
             format!("tan(angle) = {share} mu: x over that without friction"),
@@ -174,12 +174,12 @@ fn inclines(size: Size, method: Method) -> Outcome {
         ));
     }
     for share in [1.2, 2.0] {
-        let angle = (share * MU).atan();
-        let acceleration = GRAVITY * (angle.sin() - MU * angle.cos());
+        let angle = libm::atan(share * MU);
+        let acceleration = GRAVITY * (libm::sin(angle) - MU * libm::cos(angle));
         let x = Block::new(size, method, weight(angle), 0.0, MU)?.slide_until(time);
         let exact = 0.5 * acceleration * time * time;
         let ahead =
-            (2.0 * GRAVITY * angle.sin() * give(method)).sqrt() * time + SUDDEN * give(method);
+            (2.0 * GRAVITY * libm::sin(angle) * give(method)).sqrt() * time + SUDDEN * give(method);
         rows.push(Row::new(
             format!("tan(angle) = {share} mu: 2 x/t^2 (m/s^2)"),
             [acceleration, 2.0 * x / (time * time)],
@@ -192,7 +192,7 @@ fn inclines(size: Size, method: Method) -> Outcome {
 }
 
 fn weight(angle: f64) -> [f64; 3] {
-    [GRAVITY * angle.sin(), 0.0, -GRAVITY * angle.cos()]
+    [GRAVITY * libm::sin(angle), 0.0, -GRAVITY * libm::cos(angle)]
 }
 
 /// d = mu p/k_t + mu rho g H^2/(2G) (m).

@@ -178,9 +178,9 @@ impl Profiles {
             let [.., slip] = self.at(x + 0.5 * h);
             let pressure = rolling.bound()[k] / MU / point.area / WHEEL.p0;
             let carried = rolling.force()[k];
-            let carried = carried[0].hypot(carried[1]) / point.area / (MU * WHEEL.p0);
+            let carried = libm::hypot(carried[0], carried[1]) / point.area / (MU * WHEEL.p0);
             let slipped = rolling.slip()[k];
-            let slipped = slipped[0].hypot(slipped[1]) / h * SPEED / self.slip;
+            let slipped = libm::hypot(slipped[0], slipped[1]) / h * SPEED / self.slip;
             for (square, d) in
                 squares.iter_mut().zip([pressure - p, carried - shear, slipped - slip])
             {

@@ -110,7 +110,7 @@ pub(crate) fn set_off_pulse(
     for (i, x) in nodes.iter().enumerate() {
         let arms = [x[1] - middle[0], x[2] - middle[1]];
         let slopes = |s: f64| {
-            let u = amplitude * (-s * s).exp();
+            let u = amplitude * libm::exp(-s * s);
             [u, -2.0 * s / width * u, (4.0 * s * s - 2.0) / (width * width) * u]
         };
         let s = (x[0] - centre) / width;
@@ -167,7 +167,7 @@ fn impact_stress(n: usize, confined: bool, c: f64, speed: f64) -> Result<f64, So
     simulation.solid().cauchy_stress(simulation.displacement(), &mut stress);
     let (mut sum, mut weights) = (0.0, 0.0);
     for (element, s) in stress[..n / 2].iter().enumerate() {
-        let weight = (std::f64::consts::TAU * (element as f64 + 0.5) / n as f64).sin().powi(2);
+        let weight = libm::sin(std::f64::consts::TAU * (element as f64 + 0.5) / n as f64).powi(2);
         sum -= weight * s[0];
         weights += weight;
     }

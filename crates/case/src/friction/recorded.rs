@@ -18,7 +18,7 @@ pub(crate) fn sampled(law: &dyn OwnLaw) -> Option<Vec<[f64; 2]>> {
         return None;
     }
     let decades = f64::from(PER_DECADE);
-    let speeds = (0..=8 * PER_DECADE).map(|i| 10f64.powf(-6.0 + f64::from(i) / decades));
+    let speeds = (0..=8 * PER_DECADE).map(|i| libm::pow(10f64, -6.0 + f64::from(i) / decades));
     let speeds: Vec<f64> = std::iter::once(0.0).chain(speeds).collect();
     let mut mu = vec![0.0; speeds.len()];
     law.mu(&speeds, &mut mu);

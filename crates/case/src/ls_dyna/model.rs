@@ -216,7 +216,7 @@ impl Model {
         let points = &self.foreign.points;
         let from_axis = |n: u32| {
             let p = points[n as usize];
-            p[0].hypot(p[2] - radius)
+            libm::hypot(p[0], p[2] - radius)
         };
         let hub = self.foreign.sets["hub"].nodes.iter().map(|&n| from_axis(n));
         let rim: Vec<[f64; 2]> = self
@@ -287,7 +287,7 @@ impl Model {
                 ([at(0), at(1)], area.sqrt())
             })
             .collect();
-        let distance = |f: &&([f64; 2], f64)| f.0[0].hypot(f.0[1]);
+        let distance = |f: &&([f64; 2], f64)| libm::hypot(f.0[0], f.0[1]);
         let nearest = faces.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let size = nearest.map_or(1e-3, |f| f.1);
         let (mut x, mut y) = ([0.0f64; 2], 0.0f64);

@@ -529,7 +529,7 @@ impl Reading<'_> {
             match i {
                 0 => from,
                 _ if i + 1 == n => to,
-                _ if log => from * (to / from).powf(part),
+                _ if log => from * libm::pow(to / from, part),
                 _ => from + (to - from) * part,
             }
         };
@@ -588,7 +588,7 @@ impl Reading<'_> {
                 self.refuse(&join(at, "from"), &message, "let it follow an axis of numbers");
                 return;
             };
-            if !self.allowed(&join(at, "key"), key, &Value::Float(factor * x.powf(power))) {
+            if !self.allowed(&join(at, "key"), key, &Value::Float(factor * libm::pow(x, power))) {
                 return;
             }
         }

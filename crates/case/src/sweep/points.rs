@@ -79,7 +79,7 @@ impl Sweep {
         sets.extend(chosen.iter().map(|(key, value)| format!("{key}={value}")));
         for follow in &self.follows {
             let x = check::float(chosen[follow.axis].1).unwrap_or(f64::NAN);
-            let value = Value::Float(follow.factor * x.powf(follow.power));
+            let value = Value::Float(follow.factor * libm::pow(x, follow.power));
             sets.push(format!("{}={value}", follow.key));
         }
         sets.push(format!("name=\"{name}\""));

@@ -26,7 +26,7 @@ pub fn digits(x: Option<f64>, significant: i32) -> String {
     if size == 0.0 {
         "0".into()
     } else if (1e-3..1e7).contains(&size) {
-        let decimals = (significant - 1 - size.log10().floor() as i32).clamp(0, 9) as usize;
+        let decimals = (significant - 1 - libm::log10(size).floor() as i32).clamp(0, 9) as usize;
         if decimals == 0 { count(Some(x)) } else { format!("{x:.decimals$}") }
     } else {
         format!("{x:.*e}", (significant - 1).clamp(0, 9) as usize)

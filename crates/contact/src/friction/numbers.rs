@@ -52,8 +52,8 @@ pub fn falling(law: &Exponential, at: &Interface) -> Option<Falling> {
     Some(Falling {
         r,
         n2: at.dt * slope / at.surface_mass,
-        f_min: unstable.then(|| law.mu_dynamic + drop * (1.0 + r.ln()) / r),
-        s_m: unstable.then(|| r.ln() / law.decay),
+        f_min: unstable.then(|| law.mu_dynamic + drop * (1.0 + libm::log(r)) / r),
+        s_m: unstable.then(|| libm::log(r) / law.decay),
         s_jump: unstable.then(|| jump(law, at)),
     })
 }
@@ -65,7 +65,7 @@ fn jump(law: &Exponential, at: &Interface) -> f64 {
     let q = at.pressure * (law.mu_static - law.mu_dynamic) / at.impedance;
     let mut s = q;
     for _ in 0..200 {
-        let left = (-law.decay * s).exp();
+        let left = libm::exp(-law.decay * s);
         let step = (s - q * (1.0 - left)) / (1.0 - q * law.decay * left);
         s -= step;
         if step.abs() <= 1e-15 * q {
@@ -112,7 +112,7 @@ mod tests {
         let r: f64 = 1e9 * 6.0 * 0.18 / 12.6e6;
         near(n.r, r);
         near(n.n2, 0.9e-3 / 6001.0 * 1e9 * 6.0 * 0.18 / (7.85 / 4.0));
-        near(n.f_min.unwrap(), 0.32 + 0.18 * (1.0 + r.ln()) / r);
+        near(n.f_min.unwrap(), 0.32 + 0.18 * (1.0 + libm::log(r)) / r);
         // so fast that friction has fallen by all it can: 14.286 m/s
         near(n.s_jump.unwrap(), 0.18e9 / 12.6e6);
         let metres = nucleation_length(&LAW, 1e-6, &steel());
@@ -124,7 +124,7 @@ mod tests {
         let at = steel();
         let n = falling(&LAW, &at).unwrap();
         let (s, f) = (n.s_m.unwrap(), n.f_min.unwrap());
-        let above = |s: f64| 0.32 + 0.18 * (-6.0 * s).exp() + at.impedance * s / at.pressure;
+        let above = |s: f64| 0.32 + 0.18 * libm::exp(-6.0 * s) + at.impedance * s / at.pressure;
         assert!((above(s) - f).abs() < 1e-14, "{} {f}", above(s));
         assert!(above(0.99 * s) > f && above(1.01 * s) > f);
     }
@@ -133,7 +133,7 @@ mod tests {
     fn the_jump_ends_where_radiated_and_lost_shear_are_equal() {
         let at = steel();
         let s = falling(&LAW, &at).unwrap().s_jump.unwrap();
-        let lost = at.pressure * 0.18 * (1.0 - (-6.0 * s).exp());
+        let lost = at.pressure * 0.18 * (1.0 - libm::exp(-6.0 * s));
         assert!((at.impedance * s - lost).abs() < 1e-9 * lost);
         assert!(s > 1.0, "the root at rest is another one");
     }

@@ -14,7 +14,7 @@ const ARC: f64 = 2e-3 * CELLS as f64 / RADIUS;
 const SAG: f64 = 2e-3 * 2e-3 / (8.0 * RADIUS);
 
 fn turned(x: Vec3, angle: f64) -> Vec3 {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = libm::sincos(angle);
     let z = x[2] - RADIUS;
     [c * x[0] + s * z, x[1], RADIUS - s * x[0] + c * z]
 }
@@ -33,10 +33,13 @@ fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
         let phi = (f64::from(i) / 199.0 - 0.5) * 0.8 * ARC;
         for gap in [-5e-5, 1e-4] {
             let r = RADIUS + gap;
-            let at = [r * phi.sin(), 1.1e-3, RADIUS - r * phi.cos()];
+            let at = [r * libm::sin(phi), 1.1e-3, RADIUS - r * libm::cos(phi)];
             let (node, outward) = (
                 turned(at, angle),
-                sub(turned([phi.sin(), 0.0, RADIUS - phi.cos()], angle), [0.0, 0.0, RADIUS]),
+                sub(
+                    turned([libm::sin(phi), 0.0, RADIUS - libm::cos(phi)], angle),
+                    [0.0, 0.0, RADIUS],
+                ),
             );
             let exact = project(&surface, &positions, true, node, 30, 0.0, 0.0).foot.unwrap();
             assert!((exact.gap - gap).abs() < 1e-6 * SAG, "{:e}", exact.gap - gap);
@@ -75,7 +78,7 @@ fn rolling(curvature: bool) -> (f64, f64) {
         for pair in rig.contact.pairs[1].iter().filter(|p| p.is_closed()) {
             let node = rig.contact.nodes(1)[pair.slave as usize] as usize;
             let at = rig.reference[node].xyz();
-            let gap = (at[0] - x).hypot(at[2] - RADIUS + depth) - RADIUS;
+            let gap = libm::hypot(at[0] - x, at[2] - RADIUS + depth) - RADIUS;
             worst = worst.max((pair.gap - gap).abs());
             checked += 1;
         }

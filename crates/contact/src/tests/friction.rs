@@ -12,7 +12,7 @@ const DEPTH: f64 = 3e-6;
 /// Rotation of `x` about the axis through `centre` along the unit vector `axis`.
 fn rotated(x: Vec3, centre: Vec3, axis: Vec3, angle: f64) -> Vec3 {
     let r = sub(x, centre);
-    let (s, c) = angle.sin_cos();
+    let (s, c) = libm::sincos(angle);
     let across = crate::vector::cross(axis, r);
     let along = scale(dot(axis, r) * (1.0 - c), axis);
     add(centre, add(add(scale(c, r), scale(s, across)), along))
@@ -66,8 +66,8 @@ fn nodal_shear_never_exceeds_mu_times_pressure() {
     let mut rig = Rig::slider(exponential(), &SETTINGS);
     for step in 0..200 {
         let t = f64::from(step) * 0.05;
-        let depth = DEPTH * (1.0 + 0.3 * t.sin());
-        rig.shift([4e-6 * (2.0 * t).sin(), 3e-6 * (3.1 * t).cos(), -depth]);
+        let depth = DEPTH * (1.0 + 0.3 * libm::sin(t));
+        rig.shift([4e-6 * libm::sin(2.0 * t), 3e-6 * libm::cos(3.1 * t), -depth]);
         for side in 0..2 {
             let mut table = rig.contact.nodal_table(side);
             rig.contact.nodal(&mut table);
@@ -153,7 +153,7 @@ fn work_on_a_path_is_stored_or_dissipated() {
         let mut at = [0.0; 3];
         for step in 1..=400 {
             let t = f64::from(step) * std::f64::consts::TAU / 400.0;
-            let to = [2e-6 * (2.0 * t).sin(), 3e-6 * (1.0 - t.cos()), 0.0];
+            let to = [2e-6 * libm::sin(2.0 * t), 3e-6 * (1.0 - libm::cos(t)), 0.0];
             let sums = rig.shift(add(to, [0.0, 0.0, -DEPTH]));
             let d = sub(to, at);
             let share = 0.5 * (dot(last.force[0], d) + dot(sums.force[0], d));

@@ -74,7 +74,7 @@ fn on_unequal_elements(x: &[f64]) -> f64 {
     let (mut mesh, surface) = plate([0.0, 0.0], [8e-3, 8e-3], [8, 8], 0.0, 1e-3, true);
     for node in mesh.nodes.iter_mut().filter(|node| node[2] < 0.0) {
         let phase: f64 = 900.0 * node[0] + 400.0 * node[1];
-        node[2] *= 1.0 + 0.4 * phase.sin();
+        node[2] *= 1.0 + 0.4 * libm::sin(phase);
     }
     let upper = plate([2e-3, 2e-3], [6e-3, 6e-3], [4, 4], 0.0, 1e-3, false);
     let mut rig = Rig::new(upper, (mesh, surface), &settings, Coulomb { mu: 0.3 });
@@ -172,7 +172,11 @@ fn stiffness_product_is_the_change_of_force() {
     let x: Vec<Padded> = (0..n)
         .map(|i| {
             let s = i as f64;
-            Padded::new([(1.3 * s).sin() * 1e-12, (2.1 * s).cos() * 1e-12, (0.7 * s).sin() * 1e-12])
+            Padded::new([
+                libm::sin(1.3 * s) * 1e-12,
+                libm::cos(2.1 * s) * 1e-12,
+                libm::sin(0.7 * s) * 1e-12,
+            ])
         })
         .collect();
     rig.apply();
@@ -203,7 +207,7 @@ fn diagonal_bounds_hold_for_the_largest_eigenvalue() {
         // Largest eigenvalue of bound^-1 K and of M^-1 K by power iteration.
         let eigenvalue = |inverse: &[f64]| {
             let mut x: Vec<Padded> =
-                (0..n).map(|i| Padded::new([0.1, 0.2, (1.7 * i as f64).sin()])).collect();
+                (0..n).map(|i| Padded::new([0.1, 0.2, libm::sin(1.7 * i as f64)])).collect();
             let mut value = 0.0;
             for _ in 0..400 {
                 let mut y = vec![Padded::ZERO; n];

@@ -55,12 +55,12 @@ proptest! {
         for step in 0..400 {
             let t = f64::from(step) * rig.dt;
             let omega = frequency * 1e5;
-            let drop = bounce / omega * (omega * t).sin() - 1e-5;
+            let drop = bounce / omega * libm::sin(omega * t) - 1e-5;
             let sums = rig.step(|body, x: Vec3| {
                 if body == 1 {
                     return x;
                 }
-                let (s, c) = (spin * t).sin_cos();
+                let (s, c) = libm::sincos(spin * t);
                 let z = x[2] - radius;
                 let (px, pz) = (c * x[0] + s * z, c * z - s * x[0]);
                 [px + speed * t, x[1] + sideways * t, pz + radius + drop]
@@ -87,7 +87,7 @@ fn resting_contact_is_searched_once() {
     let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.3 });
     assert!(rig.shift([0.0, 0.0, -1e-6]).searched);
     for step in 0..500 {
-        let wobble = 1e-7 * f64::from(step).sin();
+        let wobble = 1e-7 * libm::sin(f64::from(step));
         assert!(!rig.shift([0.0, 0.0, -1e-6 + wobble]).searched);
     }
 }

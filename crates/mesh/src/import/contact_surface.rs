@@ -148,7 +148,7 @@ fn winding(imported: &Imported, border: &[[u32; 2]], axis: usize) -> i64 {
         .iter()
         .map(|&[a, b]| {
             let ([x, z], [u, w]) = (arm(a), arm(b));
-            (x * w - z * u).atan2(x * u + z * w)
+            libm::atan2(x * w - z * u, x * u + z * w)
         })
         .sum();
     (turn / TAU).round() as i64

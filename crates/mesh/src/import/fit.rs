@@ -122,7 +122,7 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     let [x, z] = [0, 2].map(|a| 0.5 * (tread.low[a] + tread.high[a]));
     let hub = mesh.bodies[0].node_sets["hub"].iter().map(|&n| {
         let p = mesh.nodes[n as usize];
-        (p[0] - x).hypot(p[2] - z)
+        libm::hypot(p[0] - x, p[2] - z)
     });
     let hub = hub.fold(0.0, f64::max);
     let nearly = |what, found: f64, expected: f64, room: f64| {
@@ -225,7 +225,7 @@ fn face_area(mesh: &Mesh, face: &Face) -> f64 {
 /// contact, as the generated zone.
 fn in_zone(p: &[f64; 3], body: usize, shape: &Shape) -> bool {
     let Shape { disk, zone, .. } = *shape;
-    let along = if body == 0 { disk.radius * p[0].atan2(disk.radius - p[2]) } else { p[0] };
+    let along = if body == 0 { disk.radius * libm::atan2(p[0], disk.radius - p[2]) } else { p[0] };
     let room = 1e-6 * zone.size;
     along >= zone.start - room
         && along <= zone.start + zone.length + room

@@ -225,7 +225,7 @@ impl Pass<'_> {
             _ => true,
         };
         let badness = |value: f64| match measure.name {
-            "roughness_ratio" => value.ln().abs(),
+            "roughness_ratio" => libm::log(value).abs(),
             _ => value,
         };
         // What the faces hand on to the nodes of the other body obeys the law only on the mean; conditions

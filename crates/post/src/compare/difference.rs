@@ -51,7 +51,7 @@ mod tests {
         let wave = |phase: f64| -> Rows {
             let value = |t: f64, i: usize| {
                 let x = i as f64 / (PLACES - 1) as f64;
-                1.0 + 0.5 * (2.0 * std::f64::consts::PI * (4.0 * t + x) + phase).sin()
+                1.0 + 0.5 * libm::sin(2.0 * std::f64::consts::PI * (4.0 * t + x) + phase)
             };
             times.iter().map(|&t| (0..PLACES).map(|i| value(t, i)).collect()).collect()
         };

@@ -66,15 +66,15 @@ fn rate(series: &[[f64; 2]]) -> Value {
     let small: Vec<[f64; 2]> = series[first..end]
         .iter()
         .filter(|[_, apart]| *apart > 0.0)
-        .map(|[t, d]| [*t, d.ln()])
+        .map(|[t, d]| [*t, libm::log(*d)])
         .collect();
     let ends = small.first().zip(small.last()).map(|(a, b)| [*a, *b]);
     let Some([start, last]) = ends.filter(|_| small.len() >= LEAST_RECORDS) else {
         return json!({ "rate": null, "reason": "the difference is small in fewer than five records" });
     };
     let span = json!({ "from": start[0], "to": last[0], "records": small.len(),
-                       "start": start[1].exp(), "end": last[1].exp() });
-    if last[1] - start[1] < LEAST_GROWTH.ln() {
+                       "start": libm::exp(start[1]), "end": libm::exp(last[1]) });
+    if last[1] - start[1] < libm::log(LEAST_GROWTH) {
         return json!({ "rate": null, "reason": "the difference does not grow tenfold", "over": span });
     }
     let count = small.len() as f64;
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_rate_of_an_exponential_is_its_own_until_it_saturates() {
-        let found = rate(&series(|t| (1e-9 * (2e5 * t).exp()).min(0.7)));
+        let found = rate(&series(|t| (1e-9 * libm::exp(2e5 * t)).min(0.7)));
         assert!((found["rate"].as_f64().unwrap() / 2e5 - 1.0).abs() < 1e-6, "{found}");
         assert!(found["over"]["end"].as_f64().unwrap() <= SMALL);
     }

@@ -101,8 +101,8 @@ fn state_colour(state: Option<u8>) -> [u8; 3] {
 /// Speeds over whole decades up to the largest, at most four.
 fn speeds(values: impl Iterator<Item = f64>) -> Key {
     let largest = values.filter(|v| v.is_finite()).fold(0.0f64, f64::max);
-    let top = if largest > 0.0 { largest.log10().ceil() } else { 0.0 };
-    let range = [10f64.powf(top - 3.0), 10f64.powf(top)];
+    let top = if largest > 0.0 { libm::log10(largest).ceil() } else { 0.0 };
+    let range = [libm::pow(10f64, top - 3.0), libm::pow(10f64, top)];
     Key::Values { label: "|s| (m/s), logarithmic".into(), range, scale: Scale::Log }
 }
 

@@ -88,7 +88,7 @@ fn density(values: &[f64], dt: f64) -> Vec<[f64; 2]> {
         let mut wave = vec![[0.0; 2]; size];
         let mut squares = 0.0;
         for (i, value) in values[segment..segment + n].iter().enumerate() {
-            let hann = 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos();
+            let hann = 0.5 - 0.5 * libm::cos(TAU * i as f64 / n as f64);
             wave[i][0] = hann * (value - mean);
             squares += hann * hann;
         }
@@ -121,7 +121,7 @@ fn transform(wave: &mut [[f64; 2]]) {
     while length <= n {
         for start in (0..n).step_by(length) {
             for k in 0..length / 2 {
-                let (sin, cos) = (-2.0 * PI * k as f64 / length as f64).sin_cos();
+                let (sin, cos) = libm::sincos(-2.0 * PI * k as f64 / length as f64);
                 let [a, b] = [wave[start + k], wave[start + k + length / 2]];
                 let turned = [b[0] * cos - b[1] * sin, b[0] * sin + b[1] * cos];
                 wave[start + k] = [a[0] + turned[0], a[1] + turned[1]];
@@ -140,7 +140,7 @@ mod tests {
     fn a_sine_has_its_power_at_its_frequency() {
         let (dt, frequency, amplitude) = (1e-7, 1e6 / 1.024, 0.3);
         let values: Vec<f64> =
-            (0..1024).map(|i| amplitude * (TAU * frequency * dt * f64::from(i)).sin()).collect();
+            (0..1024).map(|i| amplitude * libm::sin(TAU * frequency * dt * f64::from(i))).collect();
         let spectrum = density(&values, dt);
         let top = spectrum.iter().max_by(|a, b| a[1].total_cmp(&b[1])).map_or(0.0, |p| p[0]);
         assert!((top / frequency - 1.0).abs() < 1e-3, "{top}");

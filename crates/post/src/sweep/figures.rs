@@ -275,7 +275,7 @@ fn rounded(value: f64) -> f64 {
 /// Ends of the cells around values: half-way between neighbours, as the axis counts.
 fn edges(values: &[f64]) -> Vec<f64> {
     let log = spans_decades(values.iter().copied());
-    let [to, from]: [fn(f64) -> f64; 2] = if log { [f64::ln, f64::exp] } else { [|v| v, |v| v] };
+    let [to, from]: [fn(f64) -> f64; 2] = if log { [libm::log, libm::exp] } else { [|v| v, |v| v] };
     let places: Vec<f64> = values.iter().map(|value| to(*value)).collect();
     let n = places.len();
     let half = |i: usize| 0.5 * (places[i + 1] - places[i]);

@@ -17,7 +17,7 @@ pub const COULOMB: &str = "law = \"coulomb\"\nstatic = 0.5";
 pub const FALLING: &str = "law = \"exponential\"\nstatic = 0.5\ndynamic = 0.32\ndecay = 6.0";
 
 pub fn mu(friction: &str, speed: f64) -> f64 {
-    if friction == COULOMB { 0.5 } else { 0.32 + 0.18 * (-6.0 * speed).exp() }
+    if friction == COULOMB { 0.5 } else { 0.32 + 0.18 * libm::exp(-6.0 * speed) }
 }
 
 /// What a node carries: pressure, shear and slip velocity of the *bar* (the disk's are opposite),
@@ -88,13 +88,13 @@ pub fn perfect(friction: &str, x: [f64; 3], step: usize) -> Node {
     if pressure <= 0.0 {
         return OPEN;
     }
-    let along = -(step as f64 * 0.7 + 900.0 * x[0]).sin() * 0.1;
-    let direction = [along.cos(), along.sin(), 0.0];
+    let along = -libm::sin(step as f64 * 0.7 + 900.0 * x[0]) * 0.1;
+    let direction = [libm::cos(along), libm::sin(along), 0.0];
     let (slip, used, state, ratio) = if x[0] > -2e-3 {
         (0.0, 0.5, 1, 0.3)
     } else {
         // a speed that fluctuates from step to step, and with it mu(|s|)
-        let speed = SLIP * (3.0 + (1.3 * step as f64 + 500.0 * x[0]).sin());
+        let speed = SLIP * (3.0 + libm::sin(1.3 * step as f64 + 500.0 * x[0]));
         (speed, mu(friction, speed), 2, mu(friction, speed))
     };
     Node {

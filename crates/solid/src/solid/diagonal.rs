@@ -38,9 +38,9 @@ mod tests {
         let mut mesh = mesh::block([2, 2, 2], [2.0, 1.7, 2.4]);
         for (i, x) in mesh.nodes.iter_mut().enumerate() {
             let k = i as f64;
-            x[0] += 0.1 * (1.3 * k).sin();
-            x[1] += 0.08 * (2.1 * k).sin();
-            x[2] += 0.09 * (0.7 * k).cos();
+            x[0] += 0.1 * libm::sin(1.3 * k);
+            x[1] += 0.08 * libm::sin(2.1 * k);
+            x[2] += 0.09 * libm::cos(0.7 * k);
         }
         let material = Material { young: 2.1e11, poisson: 0.3, density: 7800.0 };
         let elements =

@@ -173,7 +173,7 @@ mod tests {
     fn energies_of_the_elements_add_up_to_those_of_the_kernels() {
         let mesh = mesh::block([4, 3, 3], [4e-3, 3e-3, 3e-3]);
         let wave = |x: &[f64; 3], i: usize| {
-            1e-5 * (900.0 * x[(i + 1) % 3] + i as f64).sin() * (700.0 * x[(i + 2) % 3]).cos()
+            1e-5 * libm::sin(900.0 * x[(i + 1) % 3] + i as f64) * libm::cos(700.0 * x[(i + 2) % 3])
         };
         let u: Vec<_> =
             mesh.nodes.iter().map(|x| Padded::new([0, 1, 2].map(|i| wave(x, i)))).collect();

@@ -19,9 +19,9 @@ fn shaken(n: [usize; 3]) -> Mesh {
     let mut mesh = mesh::block(n, [1.0, 1.0, 1.0]);
     for (i, p) in mesh.nodes.iter_mut().enumerate() {
         let k = i as f64;
-        p[0] += 0.1 / n[0] as f64 * (1.7 * k).sin();
-        p[1] += 0.1 / n[1] as f64 * (2.3 * k + 1.0).sin();
-        p[2] += 0.1 / n[2] as f64 * (0.9 * k + 2.0).sin();
+        p[0] += 0.1 / n[0] as f64 * libm::sin(1.7 * k);
+        p[1] += 0.1 / n[1] as f64 * libm::sin(2.3 * k + 1.0);
+        p[2] += 0.1 / n[2] as f64 * libm::sin(0.9 * k + 2.0);
     }
     mesh
 }
@@ -31,9 +31,9 @@ fn field(mesh: &Mesh, amplitude: f64) -> Vec<Padded> {
         .map(|i| {
             let k = i as f64;
             Padded::new([
-                amplitude * (3.1 * k).sin(),
-                amplitude * (1.9 * k + 0.5).cos(),
-                amplitude * (2.7 * k + 1.5).sin(),
+                amplitude * libm::sin(3.1 * k),
+                amplitude * libm::cos(1.9 * k + 0.5),
+                amplitude * libm::sin(2.7 * k + 1.5),
             ])
         })
         .collect()
@@ -49,7 +49,7 @@ fn affine(mesh: &Mesh, h: [[f64; 3]; 3]) -> Vec<Padded> {
 fn rotation(angle: f64) -> [[f64; 3]; 3] {
     // about (1, 2, 2)/3, minus the identity
     let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
-    let (s, c) = angle.sin_cos();
+    let (s, c) = libm::sincos(angle);
     let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
     let mut h = [[0.0; 3]; 3];
     for i in 0..3 {

@@ -21,7 +21,7 @@ pub fn sphere(size: f64, extent: f64, lateral: Lateral) -> Influence {
         reach: [1.3 * SPHERE, 1.3 * SPHERE],
         depth: SPHERE,
         extent,
-        growth: 1.7f64.powf(size / coarse),
+        growth: libm::pow(1.7f64, size / coarse),
         lateral,
         material: STEEL,
     }
@@ -39,7 +39,7 @@ pub fn ellipse(size: f64, extent: f64) -> Influence {
         reach: [1.3 * ELLIPSE[0], 1.3 * ELLIPSE[1]],
         depth: ELLIPSE[1],
         extent,
-        growth: 1.7f64.powf(size / 1.4e-3),
+        growth: libm::pow(1.7f64, size / 1.4e-3),
         lateral: Lateral::Symmetric,
         material: STEEL,
     }
