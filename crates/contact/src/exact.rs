@@ -24,6 +24,7 @@ use crate::penalty::{check_common, in_range};
 use crate::row::{Footing, Leg, Row, Rows, face_shares, within};
 use crate::search::Search;
 use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
+use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::touch::{Listed, State, WATCHED, finer, follow_first, sleep};
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
@@ -386,7 +387,7 @@ impl Contact for ExactContact {
     ) -> ContactSums {
         let positions =
             Positions { reference: motion.reference, displacement: motion.displacement };
-        let mut sums = ContactSums { searched: self.searched, ..ContactSums::default() };
+        let mut sums = Accumulator::new(self.searched);
         let own = self.slave;
         let mut rows = std::mem::take(&mut self.rows[own]);
         let mut active = std::mem::take(&mut self.active);
@@ -428,7 +429,7 @@ impl Contact for ExactContact {
                 row.memory = slid.state;
             }
         }
-        sums.integrated = self.integrated;
+        sums.other.integrated = self.integrated;
         // Only now: all velocities are free ones.
         for &i in &active {
             let row = &rows[i as usize];
@@ -438,12 +439,12 @@ impl Contact for ExactContact {
         }
 
         for _ in 0..SWEEPS {
-            sums.sweeps += 1;
+            sums.other.sweeps += 1;
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for &i in &active {
                 let row = &mut rows[i as usize];
                 let [changed, force] = self.visit(row, &positions, motion);
-                if sums.sweeps > SETTLED {
+                if sums.other.sweeps > SETTLED {
                     row.slipped = row.state == State::Slip;
                 }
                 change = change.max(changed);
@@ -456,7 +457,6 @@ impl Contact for ExactContact {
             }
         }
 
-        let (mut on_slaves, mut on_masters) = ([0.0; 3], [0.0; 3]);
         for &i in &active {
             let row = &mut rows[i as usize];
             if !row.is_closed() {
@@ -472,36 +472,36 @@ impl Contact for ExactContact {
             // round-off of a node that sticks is no friction
             let slips = row.state == State::Slip;
             let heat = if slips { -motion.dt * dot(row.friction, slip) } else { 0.0 };
-            sums.friction_ahead += heat;
-            sums.damping_work -= work(before);
-            sums.damping_ahead -= work((opening, slip)) + heat;
+            sums.friction_ahead.add(heat);
+            sums.damping_work.add(-work(before));
+            sums.damping_ahead.add(-(work((opening, slip)) + heat));
 
             let on_slave = axpy(row.friction, row.normal_force, row.normal);
             let node = self.sides[own].nodes[row.slave as usize];
             add_to(&mut force[node as usize], on_slave);
-            on_slaves = add(on_slaves, on_slave);
+            sums.push(own, on_slave);
+            let mut on_masters = [0.0; 3];
             for leg in &self.legs[row.legs()] {
                 let on_leg = row.reaction(leg, row.normal_force, row.friction);
                 let node = self.sides[1 - own].nodes[leg.node as usize];
                 add_to(&mut force[node as usize], on_leg);
                 on_masters = add(on_masters, on_leg);
             }
+            sums.push(1 - own, on_masters);
             row.framed = row.frame.map(|e| dot(row.friction, e));
             row.slip_velocity = slip;
             row.slip = axpy(row.slip, motion.dt, slip);
-            sums.normal_force += row.normal_force;
-            sums.closed += 1;
-            sums.slipping += usize::from(row.state == State::Slip);
-            sums.max_penetration = sums.max_penetration.max(-row.gap);
+            sums.normal_force.add(row.normal_force);
             sums.meet(row.mu);
-            sums.manifold += usize::from(self.is_manifold(row, &positions, motion));
+            let other = &mut sums.other;
+            other.closed += 1;
+            other.slipping += usize::from(row.state == State::Slip);
+            other.max_penetration = other.max_penetration.max(-row.gap);
+            other.manifold += usize::from(self.is_manifold(row, &positions, motion));
         }
-        sums.sticking = sums.closed - sums.slipping;
-        sums.force[own] = on_slaves;
-        sums.force[1 - own] = on_masters;
         self.rows[own] = rows;
         self.active = active;
-        sums
+        sums.finish()
     }
 
     fn follow_first(&mut self, pairs: &[[u32; 2]]) {

@@ -16,6 +16,7 @@ mod gap;
 mod local;
 pub mod mesh_mode;
 mod mortar;
+mod motion;
 mod nodal;
 mod pair;
 pub mod patch;
@@ -27,6 +28,7 @@ mod search;
 mod segment;
 mod snapshot;
 mod stiffness;
+mod sums;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -43,8 +45,10 @@ pub use friction::{
     nucleation_length, spring_number,
 };
 pub use gap::Gap;
+pub use motion::Motion;
 pub use nodal::NodalContact;
-pub use penalty::{ContactSums, Motion, PenaltyContact, PenaltySettings};
+pub use penalty::{PenaltyContact, PenaltySettings};
 pub use row::Rows;
 pub use snapshot::{Column, ContactState, Numbers, StateError};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
+pub use sums::ContactSums;

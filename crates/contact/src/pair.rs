@@ -1,8 +1,8 @@
 //! One slave node and its foot on the master surface: normal spring and damper, friction spring.
 
+use crate::Motion;
 use crate::face::{Positions, SurfacePoint, project, shape};
 use crate::friction::{NodeFriction, Place, Slid};
-use crate::penalty::Motion;
 use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};

@@ -4,10 +4,11 @@ use crate::face::Positions;
 use crate::friction::{NodeFriction, Slid};
 use crate::pair::{Pair, Pass, scatter};
 use crate::search::{Search, neighbours};
+use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::touch::{Listed, State};
-use crate::vector::{Vec3, add, axpy, dot, scale};
-use crate::{BodyMaterial, ContactError, StabilityScale, Stiffness};
+use crate::vector::{Vec3, axpy, dot, scale};
+use crate::{BodyMaterial, ContactError, ContactSums, Motion, StabilityScale, Stiffness};
 use mesh::{Mesh, Padded, Surface};
 
 /// Settings of [`PenaltyContact`].
@@ -21,72 +22,6 @@ pub struct PenaltySettings {
     pub damping: f64,
     /// Corrects gap and normal with the exact surface where the master has one.
     pub curvature: bool,
-}
-
-/// The motion that contact answers to; all slices have one entry per mesh node.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion<'a> {
-    /// Reference positions `X` (m).
-    pub reference: &'a [Padded],
-    /// Displacements `u^n` (m).
-    pub displacement: &'a [Padded],
-    /// Velocities `v^{n-1/2}` of the step that led to `u^n` (m/s).
-    pub velocity: &'a [Padded],
-    /// Inverse lumped masses (1/kg), zero for nodes that are held.
-    pub inverse_mass: &'a [f64],
-    /// Time t^n (s).
-    pub time: f64,
-    /// Time step (s).
-    pub dt: f64,
-}
-
-/// Sums over the contact at one instant.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactSums {
-    /// Resultant of the forces applied to the nodes of each side (N).
-    pub force: [[f64; 3]; 2],
-    /// Sum of the normal forces of all pairs of both passes (N).
-    pub normal_force: f64,
-    /// Energy stored in the normal springs (J).
-    pub stored_normal: f64,
-    /// Energy stored in the friction springs (J).
-    pub stored_tangential: f64,
-    /// Work dissipated by friction in the step that ended at `x^n` (J).
-    pub friction_work: f64,
-    /// Work dissipated by the normal dampers in that step, and the energy of the normal springs of
-    /// nodes that slid off the border of the other surface (J).
-    pub damping_work: f64,
-    /// Work that friction dissipates in the step that leaves `x^n` (J), of a method that knows it.
-    pub friction_ahead: f64,
-    /// What else contact dissipates in that step (J).
-    pub damping_ahead: f64,
-    /// Sweeps over the contact nodes that exact enforcement took.
-    pub sweeps: usize,
-    /// Slave nodes at which the law of friction had more than one solution.
-    pub manifold: usize,
-    /// Mortar rows whose integrals were taken in this step.
-    pub integrated: usize,
-    /// Pairs in contact.
-    pub closed: usize,
-    /// Pairs that stick.
-    pub sticking: usize,
-    /// Pairs that slip.
-    pub slipping: usize,
-    /// Largest penetration (m).
-    pub max_penetration: f64,
-    /// Largest coefficient of friction that the law gave; NaN where it gave none.
-    pub largest_mu: f64,
-    /// Whether the search was refreshed.
-    pub searched: bool,
-}
-
-impl ContactSums {
-    /// Takes a coefficient into the largest; one that is no number stays.
-    pub(crate) fn meet(&mut self, mu: f64) {
-        if mu.is_nan() || mu > self.largest_mu {
-            self.largest_mu = mu;
-        }
-    }
 }
 
 /// Two-pass penalty contact of two surfaces with friction springs.
@@ -211,36 +146,33 @@ impl PenaltyContact {
 
     /// Adds the forces of the pairs to `force`.
     pub(crate) fn load(&self, force: &mut [Padded]) -> ContactSums {
-        let mut sums = ContactSums { searched: self.searched, ..ContactSums::default() };
+        let mut sums = Accumulator::new(self.searched);
         for (slave, list) in self.pairs.iter().enumerate() {
             let sides = [&self.sides[slave], &self.sides[1 - slave]];
-            // The forces that really reach the nodes of either side, for the sums.
-            let (mut own, mut other) = ([0.0; 3], [0.0; 3]);
             for pair in list {
-                sums.friction_work += pair.friction_work;
-                sums.damping_work += pair.damping_work;
+                sums.friction_work.add(pair.friction_work);
+                sums.damping_work.add(pair.damping_work);
                 if !pair.is_closed() {
                     continue;
                 }
                 let on_slave = axpy(pair.friction, pair.normal_force, pair.normal);
                 scatter(sides, pair, on_slave, force);
-                own = add(own, on_slave);
-                for &weight in &pair.weights {
-                    other = axpy(other, -weight, on_slave);
-                }
-                sums.normal_force += pair.normal_force;
-                sums.stored_normal += pair.stored_normal();
-                sums.stored_tangential += pair.stored_tangential();
-                sums.closed += 1;
-                sums.slipping += usize::from(pair.state == State::Slip);
-                sums.max_penetration = sums.max_penetration.max(-pair.gap);
+                // the forces that really reach the nodes of either side
+                sums.push(slave, on_slave);
+                let on_corners =
+                    pair.weights.iter().fold([0.0; 3], |sum, w| axpy(sum, -w, on_slave));
+                sums.push(1 - slave, on_corners);
+                sums.normal_force.add(pair.normal_force);
+                sums.stored_normal.add(pair.stored_normal());
+                sums.stored_tangential.add(pair.stored_tangential());
                 sums.meet(pair.mu);
+                let other = &mut sums.other;
+                other.closed += 1;
+                other.slipping += usize::from(pair.state == State::Slip);
+                other.max_penetration = other.max_penetration.max(-pair.gap);
             }
-            sums.force[slave] = add(sums.force[slave], own);
-            sums.force[1 - slave] = add(sums.force[1 - slave], other);
         }
-        sums.sticking = sums.closed - sums.slipping;
-        sums
+        sums.finish()
     }
 
     fn pass(&self, slave: usize) -> Pass<'_> {

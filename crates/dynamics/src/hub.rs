@@ -1,5 +1,6 @@
 //! The rigid hub: its nodes follow one rigid body in the plane of rolling.
 
+use exact_sum::ExactSum;
 use mesh::Padded;
 
 /// What turns the hub about y.
@@ -101,23 +102,23 @@ impl Hub {
                 [x.0[0] - centre[0], x.0[1] - centre[1], x.0[2] - centre[2]]
             })
             .collect();
-        let mut mass = extra_mass;
-        let mut inertia = 0.0;
+        let [mut mass, mut inertia] = [ExactSum::ZERO; 2];
+        mass.add(extra_mass);
         let mut radius_squared: f64 = 0.0;
         for (&n, arm) in nodes.iter().zip(&arms) {
             let m = nodal_mass[n as usize];
             let r2 = arm[0] * arm[0] + arm[2] * arm[2];
-            mass += m;
-            inertia += m * r2;
+            mass.add(m);
+            inertia.add(m * r2);
             radius_squared = radius_squared.max(r2);
         }
-        inertia += 0.5 * extra_mass * radius_squared;
+        inertia.add(0.5 * extra_mass * radius_squared);
         Self {
             centre,
             nodes: nodes.to_vec(),
             arms,
-            mass,
-            inertia,
+            mass: mass.value(),
+            inertia: inertia.value(),
             spin,
             vertical,
             state: HubState::default(),
@@ -127,16 +128,16 @@ impl Hub {
 
     /// Resultant force (x, z) and torque about y of `force` on the hub's nodes (N, N m).
     pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
+        let mut sum = [ExactSum::ZERO; 3];
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (f, u) = (force[n as usize], displacement[n as usize]);
             let rx = arm[0] + u.0[0] - self.state.x;
             let rz = arm[2] + u.0[2] - self.state.z;
-            sum[0] += f.0[0];
-            sum[1] += f.0[2];
-            sum[2] += rz * f.0[0] - rx * f.0[2];
+            sum[0].add(f.0[0]);
+            sum[1].add(f.0[2]);
+            sum[2].add(rz * f.0[0] - rx * f.0[2]);
         }
-        sum
+        sum.map(|s| s.value())
     }
 
     /// The displacement (m) of any reference position (m) that moves with the hub as one rigid body.

@@ -35,7 +35,7 @@ impl Load {
             let v = velocity[*n as usize].0;
             f[0] * v[0] + f[1] * v[1] + f[2] * v[2]
         };
-        smoothstep(time, self.ramp) * self.forces.iter().map(power).sum::<f64>()
+        smoothstep(time, self.ramp) * exact_sum::sum(self.forces.iter().map(power))
     }
 }
 

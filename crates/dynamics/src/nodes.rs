@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use solid::Level;
 use std::ops::Range;
 
-/// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads.
+/// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads. Sums over chunks
+/// are exact: the chunks may come in any order.
 const CHUNK: usize = 4096;
 
 /// What the update sums up over the free nodes.
@@ -22,6 +23,16 @@ pub(crate) struct NodeSums {
 }
 
 impl NodeSums {
+    /// The sums of all chunks, in whatever order they arrive.
+    fn total(chunks: &[Self]) -> Self {
+        let sum = |of: fn(&Self) -> f64| exact_sum::sum(chunks.iter().map(of));
+        Self {
+            kinetic: sum(|c| c.kinetic),
+            dashpot_power: sum(|c| c.dashpot_power),
+            reaction: [sum(|c| c.reaction[0]), sum(|c| c.reaction[1]), sum(|c| c.reaction[2])],
+        }
+    }
+
     fn add(&mut self, other: &Self) {
         self.kinetic += other.kinetic;
         self.dashpot_power += other.dashpot_power;
@@ -58,9 +69,7 @@ pub(crate) fn advance(
             let chunk = Chunk { u, v, f, inverse_mass, first: chunk * CHUNK };
             *sums = advance_chunk(level, chunk, pass);
         });
-    let mut total = NodeSums::default();
-    partial.iter().for_each(|p| total.add(p));
-    total
+    if kinetic || dashpots.is_some() { NodeSums::total(partial) } else { NodeSums::default() }
 }
 
 /// The nodes of a chunk, from node `first` on.

@@ -1,6 +1,7 @@
 //! Lysmer's quiet boundary at the ends of the bar.
 
 use crate::load::Fixed;
+use exact_sum::ExactSum;
 use mesh::{Mesh, Padded, Surface, quad_corner_areas};
 use solid::Material;
 
@@ -98,22 +99,27 @@ impl QuietEnd {
         dt: f64,
         force: &mut [Padded],
     ) -> QuietWork {
-        let mut work = QuietWork::default();
+        let mut work = [ExactSum::ZERO; 4];
+        let half = 0.5 * dt;
         for n in &self.nodes {
             let (f, v) = (&mut force[n.node as usize], velocity[n.node as usize]);
             let w = inverse_mass[n.node as usize];
+            let mut of_node = [0.0; 4];
             for i in 0..3 {
                 let free = f.0[i] + n.reaction[i];
                 let beta = 0.5 * dt * n.dashpot[i] * w;
                 let after = ((1.0 - beta) * v.0[i] + dt * w * free) / (1.0 + beta);
                 let dashpot = -n.dashpot[i] * 0.5 * (v.0[i] + after);
                 f.0[i] = free + dashpot;
-                work.dissipated_before -= 0.5 * dt * dashpot * v.0[i];
-                work.dissipated_after -= 0.5 * dt * dashpot * after;
-                work.external_before += 0.5 * dt * n.reaction[i] * v.0[i];
-                work.external_after += 0.5 * dt * n.reaction[i] * after;
+                of_node[0] -= half * dashpot * v.0[i];
+                of_node[1] -= half * dashpot * after;
+                of_node[2] += half * n.reaction[i] * v.0[i];
+                of_node[3] += half * n.reaction[i] * after;
             }
+            work.iter_mut().zip(of_node).for_each(|(sum, w)| sum.add(w));
         }
-        work
+        let [dissipated_before, dissipated_after, external_before, external_after] =
+            work.map(|sum| sum.value());
+        QuietWork { dissipated_before, dissipated_after, external_before, external_after }
     }
 }

@@ -155,10 +155,8 @@ pub fn relax(
         hub.z += hub.v;
         hub.force_before = hub_force;
         advance(setup, keep, kick, hub.v, &mut nodes, &mut u, &force, &mut partial);
-        for p in &partial {
-            motion.stiffness += p.stiffness;
-            motion.mass += p.mass;
-        }
+        motion.stiffness += exact_sum::sum(partial.iter().map(|p| p.stiffness));
+        motion.mass += exact_sum::sum(partial.iter().map(|p| p.mass));
         if check {
             report = RelaxationReport {
                 iterations: iteration,
@@ -241,7 +239,7 @@ fn centrifugal(
             }
         },
     );
-    partial.iter().map(|p| p.pull).sum()
+    exact_sum::sum(partial.iter().map(|p| p.pull))
 }
 
 /// One damped step of all nodes; the disk moves with the hub by `shift` besides.
@@ -288,7 +286,7 @@ fn contact_stiffness(contact: &PenaltyContact, disk: &std::ops::Range<usize>, n:
     lift[disk.clone()].fill(Padded::new([0.0, 0.0, 1.0]));
     let mut force = vec![Padded::ZERO; n];
     contact.stiffness_product(&lift, &mut force);
-    force[disk.clone()].iter().map(|f| f.0[2]).sum()
+    exact_sum::sum(force[disk.clone()].iter().map(|f| f.0[2]))
 }
 
 /// The hub's vertical motion in fictitious time.

@@ -319,14 +319,9 @@ impl Solid {
             let force = || colours.iter().for_each(|colour| colour.par_iter().for_each(run));
             rayon::join(force, || beside(reference)).1
         };
-        let mut total = [0.0; 3];
-        if energies || viscous {
-            for s in &self.sums {
-                for i in 0..3 {
-                    total[i] += s[i];
-                }
-            }
-        }
+        let wanted = energies || viscous;
+        let sum = |i: usize| exact_sum::sum(self.sums.iter().map(|s| s[i]));
+        let total = if wanted { [sum(0), sum(1), sum(2)] } else { [0.0; 3] };
         let sums = ForceSums { internal: total[0], hourglass: total[1], viscous_power: total[2] };
         (sums, done_beside)
     }

@@ -69,7 +69,7 @@ pub(crate) fn solve(
             .collect();
         let widest = closed.iter().fold(0.0, |w: f64, g| w.max(g.gap.abs()));
         at.closed = pressed.len();
-        at.normal_force = pressed.iter().map(|p| p.1).sum();
+        at.normal_force = exact_sum::sum(pressed.iter().map(|p| p.1));
         let drift = system.unresisted(&links);
         system.space.set_links(links);
         r.copy_from_slice(&force);

@@ -49,7 +49,7 @@ pub(crate) struct Group {
 impl Group {
     /// Resultant of `force` on the group along its axis (N).
     pub(crate) fn resultant(&self, force: &[Padded]) -> f64 {
-        self.nodes.iter().map(|&n| force[n as usize][self.axis]).sum()
+        exact_sum::sum(self.nodes.iter().map(|&n| force[n as usize][self.axis]))
     }
 
     /// Sets the displacement of all its nodes.
@@ -181,7 +181,7 @@ impl Space {
             },
         );
         // A linked slave's residual has no normal part: `T` changes nothing in `r . z`.
-        let mut rz: f64 = partial.iter().sum();
+        let mut rz = exact_sum::sum(partial.iter().copied());
         for (g, group) in groups.iter().enumerate() {
             let pull = group.resultant(r);
             let value = pull / group.stiffness + coarse.group_motion(g);
@@ -194,13 +194,13 @@ impl Space {
         rz
     }
 
-    /// `a . b`, summed in fixed chunks.
+    /// `a . b`, summed in fixed chunks, which may come in any order.
     pub(crate) fn inner(&mut self, a: &[Padded], b: &[Padded]) -> f64 {
         self.partial
             .par_iter_mut()
             .zip(a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)))
             .for_each(|(sum, (a, b))| *sum = a.iter().zip(b).map(|(a, b)| product(a, b)).sum());
-        self.partial.iter().sum()
+        exact_sum::sum(self.partial.iter().copied())
     }
 
     /// Euclidean norm (N) of the reduced residual on the free coordinates.
@@ -212,8 +212,8 @@ impl Space {
                 let free = r.iter().zip(diagonal).filter(|(_, d)| d[0] > 0.0);
                 *sum = free.map(|(r, _)| product(r, r)).sum();
             });
-        let groups: f64 = self.groups.iter().map(|g| g.resultant(reduced).powi(2)).sum();
-        (self.partial.iter().sum::<f64>() + groups).sqrt()
+        let groups = self.groups.iter().map(|g| g.resultant(reduced).powi(2));
+        exact_sum::sum(self.partial.iter().copied().chain(groups)).sqrt()
     }
 
     /// The free node with the largest residual, and that residual (N); a group counts as its first

@@ -287,7 +287,7 @@ impl<'a> System<'a> {
     ) -> Result<(), StaticsError> {
         const FIRST: f64 = 1e-9;
         let nodes: Vec<usize> = (0..u.len()).filter(|&n| self.parts.contains(drift, n)).collect();
-        let pull: f64 = nodes.iter().map(|&n| force[n][drift.axis]).sum();
+        let pull = exact_sum::sum(nodes.iter().map(|&n| force[n][drift.axis]));
         let start: Vec<f64> = nodes.iter().map(|&n| u[n][drift.axis]).collect();
         let reach = self.extent();
         let mut shift = FIRST;

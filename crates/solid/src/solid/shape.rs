@@ -96,7 +96,7 @@ impl Solid {
             let (x, u) = self.corners(displacement, body, element);
             hourglass_energy(&x, &u, coefficient * self.bodies[body].1.p_modulus())
         };
-        (0..self.elements()).map(of).sum()
+        exact_sum::sum((0..self.elements()).map(of))
     }
 
     /// The state of every element.
