@@ -2,9 +2,8 @@
 //! creepage-benches --bench contact`.
 #![allow(missing_docs)]
 
-use contact::{
-    BodyMaterial, Exponential, Lagged, Motion, PenaltyContact, PenaltySettings, Stiffness,
-};
+use contact::{BodyMaterial, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use friction::{Exponential, Lagged};
 use mesh::{Bar, Disk, FineZone, Padded, bar, disk, join};
 
 fn main() {

@@ -2,9 +2,10 @@
 //! are elements.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Stiffness};
 use divan::counter::ItemsCount;
 use dynamics::{Hub, Load, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
+use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use std::time::Duration;

@@ -2,7 +2,8 @@
 //! slid, and the nodal forces are summed up apart from the contact's own sums.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, ContactSums, Coulomb, Motion, PenaltyContact, PenaltySettings};
+use contact::{BodyMaterial, ContactSums, Motion, PenaltyContact, PenaltySettings};
+use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Mesh, Padded};
 
 const RADIUS: f64 = 0.46;

@@ -3,9 +3,9 @@
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
-use crate::friction::USES;
 use crate::keys::{self, Form, KEYS, Key, STIFFNESS, number};
 use crate::layers::{Layers, get, join, key_error_in};
+use friction::USES;
 
 /// So many mistakes are told at once; more hide the first.
 const MOST_MISTAKES: usize = 20;
@@ -163,7 +163,7 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
         }),
         (Form::Curve, Value::Array(points)) => match crate::table::points(points) {
             None => false,
-            Some(points) => match contact::Table::new(points) {
+            Some(points) => match friction::Table::new(points) {
                 Ok(_) => true,
                 Err(error) => return Some(format!("{}: {error}", show(value))),
             },

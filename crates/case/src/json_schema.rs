@@ -3,9 +3,9 @@
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
-use crate::friction::USES;
 use crate::keys::{End, Form, KEYS, Key, Range};
 use crate::schema::Case;
+use friction::USES;
 
 /// The JSON Schema (draft 2020-12) of a case file, with every key's unit and allowed range.
 pub fn json_schema() -> Value {

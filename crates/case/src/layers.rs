@@ -15,8 +15,9 @@ use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
 use crate::excerpt::Excerpt;
-use crate::friction::{self, USES};
+use crate::friction_law;
 use crate::keys;
+use friction::USES;
 
 /// A chain of `extends` longer than this is taken for a mistake.
 const LONGEST_CHAIN: usize = 16;
@@ -244,9 +245,9 @@ impl Layers {
         }
         let law = get(&top, "friction.law").and_then(Value::as_str);
         if let Some(chosen) = USES.iter().find(|uses| Some(uses.word) == law) {
-            friction::all_keys()
+            friction::all_parameters()
                 .filter(|key| !chosen.has(key))
-                .for_each(|key| self.drop_key(&friction::path(key)));
+                .for_each(|key| self.drop_key(&friction_law::path(key)));
         }
         merge(&mut self.table, top, "", &mut self.origins);
         self.origins.extend(origins);

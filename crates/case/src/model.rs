@@ -1,15 +1,15 @@
 //! A case's mesh, masses and sets: all that follows from geometry and material alone.
 
-use crate::friction::{self, OwnLaw};
+use crate::friction_law;
 use crate::memory::enough_for_mesh;
 use crate::mesh_file;
 use crate::run_error::RunError;
-use crate::schema::{Case, ContactLayers, Ends, FrictionMode};
+use crate::schema::{Case, ContactLayers, Ends};
 use crate::sense::LAYERS;
 use contact::{
-    BodyMaterial, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
-    StabilityScale,
+    BodyMaterial, ExactContact, ExactSettings, PenaltyContact, PenaltySettings, StabilityScale,
 };
+use friction::{Coulomb, Mode, OwnLaw};
 use mesh::{Face, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 use std::sync::Arc;
@@ -130,8 +130,8 @@ impl Model {
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
         };
-        let mut law = friction::law(case, self.law.as_ref())?;
-        if case.friction.mode == Some(FrictionMode::Exact) {
+        let mut law = friction_law::law(case, self.law.as_ref())?;
+        if case.friction.mode == Some(Mode::Exact) {
             // no friction acts in the preload
             law = Box::new(Coulomb { mu: law.mu_static() });
         }
@@ -145,7 +145,7 @@ impl Model {
             curvature: case.contact.curvature,
             rows: rows(case),
         };
-        let law = friction::law(case, self.law.as_ref())?;
+        let law = friction_law::law(case, self.law.as_ref())?;
         Ok(ExactContact::new(&self.mesh, self.sides(), &settings, law)?)
     }
 

@@ -1,10 +1,11 @@
 //! The dimensionless numbers of a case, before it rolls: what to expect of its friction law.
 
-use crate::friction;
+use crate::friction_law;
 use crate::hertz::hertz;
 use crate::model::{BAR, DISK, Model};
 use crate::schema::{Case, DriveMode, Enforcement};
-use contact::{Falling, Interface, Stiffness};
+use contact::Stiffness;
+use friction::{Falling, Interface};
 use serde_json::json;
 use solid::Material;
 
@@ -39,12 +40,12 @@ pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
         surface_mass: in_series(surface(disk), surface(bar)),
         dt,
     };
-    let falls = case.friction.exponential().filter(|law| contact::falling(law, &at).is_some());
+    let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
     let memory = case.friction.memory.map(|memory| memory.distance);
     Numbers {
-        n1: tangential(case, model, depth).map(|k| contact::spring_number(k, &at)),
-        falling: falls.and_then(|law| contact::falling(&law, &at)),
-        nucleation: falls.zip(memory).map(|(law, d)| contact::nucleation_length(&law, d, &at)),
+        n1: tangential(case, model, depth).map(|k| friction::spring_number(k, &at)),
+        falling: falls.and_then(|law| friction::falling(&law, &at)),
+        nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
         slip_length: 2.0 * patch.a * slipping(case, model, patch.a),
         at,
     }
@@ -69,7 +70,7 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
 /// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
 /// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
 fn slipping(case: &Case, model: &Model, half_length: f64) -> f64 {
-    let mu = friction::law(case, model.law.as_ref()).map_or(f64::NAN, |law| law.mu_static());
+    let mu = friction_law::law(case, model.law.as_ref()).map_or(f64::NAN, |law| law.mu_static());
     let share = match case.drive.mode {
         DriveMode::Creepage => {
             case.drive.creepage.unwrap_or(0.0).abs() * case.disk.radius / (mu * half_length)

@@ -10,7 +10,6 @@ use std::time::{Duration, Instant, SystemTime};
 use crate::checkpoint::{Clock, State};
 use crate::disk::Disk;
 use crate::folder::{self, Content, LOG};
-use crate::friction::{self, FrictionLaw, OwnLaw};
 use crate::guards::READING;
 use crate::hertz::hertz;
 use crate::load::inputs;
@@ -27,6 +26,7 @@ use crate::sense;
 use crate::start::{Start, restart, start};
 use crate::summary::{Ending, summary, without_rolling, write as write_summary};
 use dynamics::Energies;
+use friction::{Kind, OwnLaw};
 use output::summary::Status;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 
@@ -90,7 +90,7 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
-    if case.friction.law == FrictionLaw::Python && options.law.is_none() {
+    if case.friction.law == Kind::Python && options.law.is_none() {
         return Err(RunError::NoLaw);
     }
     let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
@@ -320,9 +320,9 @@ fn run_in_pool(
         log.warn(&warning)?;
     }
     let mut summary = summary(case, &simulation, &facts, &hertz, &ending);
-    let own = options.law.as_deref().filter(|_| case.friction.law == FrictionLaw::Python);
+    let own = options.law.as_deref().filter(|_| case.friction.law == Kind::Python);
     if let Some(points) = own.and_then(friction::sampled) {
-        summary.extra.insert(friction::SAMPLED_LAW.into(), serde_json::json!(points));
+        summary.extra.insert(output::SAMPLED_LAW.into(), serde_json::json!(points));
     }
     held.prove()?;
     let document = write_summary(&options.out, &summary)?;

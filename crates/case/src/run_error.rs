@@ -39,6 +39,10 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("change the keys of [contact.penalty]"))]
     Contact(#[from] contact::ContactError),
+    /// There is no friction law.
+    #[error(transparent)]
+    #[diagnostic(help("change the keys of [friction]"))]
+    Friction(#[from] friction::LawError),
     /// The machine has too little memory for the mesh.
     #[error(
         "the run of {elements} elements needs about {} GB of memory, more than the {} GB that are free: \
@@ -122,7 +126,11 @@ impl RunError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,
-            Self::Folder(_) | Self::Mesh(_) | Self::Solid(_) | Self::Contact(_) => 2,
+            Self::Folder(_)
+            | Self::Mesh(_)
+            | Self::Solid(_)
+            | Self::Contact(_)
+            | Self::Friction(_) => 2,
             Self::MeshFile(_)
             | Self::Slice(_)
             | Self::NoContact

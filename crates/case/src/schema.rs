@@ -12,7 +12,6 @@ pub use crate::bodies::{
     Bar, Disk, Ends, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Zone,
 };
 pub use crate::forms::{Crown, Stiffness};
-pub use crate::friction::{Friction, FrictionLaw, FrictionMemory, FrictionMode, StateLaw};
 
 /// A case: a disk pressed on a bar and rolled along it. SI units throughout.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,7 +52,7 @@ pub struct Case {
     /// What makes the disk roll.
     pub drive: Drive,
     /// The friction law.
-    pub friction: Friction,
+    pub friction: friction::Parameters,
     /// How contact is enforced.
     #[serde(default)]
     pub contact: Contact,
@@ -579,7 +578,7 @@ impl Case {
 
     /// Largest coefficient of friction (dimensionless), if there is a limit.
     pub fn largest_friction(&self) -> Option<f64> {
-        let lags = self.friction.law == FrictionLaw::PrakashClifton;
+        let lags = self.friction.law == friction::Kind::PrakashClifton;
         self.guards.friction.or((!lags).then_some(5.0))
     }
 

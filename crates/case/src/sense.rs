@@ -2,16 +2,17 @@
 
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
-use crate::friction::{self, DYNAMIC, USES, Uses};
+use crate::friction_law;
 use crate::hertz::hertz;
 use crate::keys::{self, number};
 use crate::layers::{Layers, Origin, key_error_in};
 use crate::name;
 use crate::schema::{
-    Case, ContactLayers, Crown, DriveMode, Enforcement, Friction, FrictionMode, LoadMode, Material,
-    PreloadMethod, Stiffness, Time, Window,
+    Case, ContactLayers, Crown, DriveMode, Enforcement, LoadMode, Material, PreloadMethod,
+    Stiffness, Time, Window,
 };
-use contact::Expression;
+use friction::Expression;
+use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 
 /// Fully integrated layers where a case with them does not say how many.
 pub const LAYERS: u64 = 2;
@@ -175,7 +176,7 @@ fn check_choices(case: &Case, found: &mut Findings) {
     check_friction(&case.friction, found);
     let friction = &case.friction;
     let exact = case.contact.enforcement == Enforcement::Exact;
-    if friction.mode == Some(FrictionMode::Exact) {
+    if friction.mode == Some(Mode::Exact) {
         found.require(
             exact,
             &["friction.mode", "contact.enforcement"],
@@ -267,11 +268,11 @@ fn check_choices(case: &Case, found: &mut Findings) {
 }
 
 /// The friction law has the keys that it uses, no others, and they agree.
-fn check_friction(friction: &Friction, found: &mut Findings) {
+fn check_friction(friction: &Parameters, found: &mut Findings) {
     let uses = Uses::of(friction.law);
     let law = format!("friction.law = \"{}\"", uses.word);
     for key in friction.given().filter(|key| !uses.has(key)) {
-        let path = friction::path(key);
+        let path = friction_law::path(key);
         let others = USES.iter().filter(|other| other.has(key)).map(|other| other.word);
         found.require(
             false,
@@ -284,7 +285,7 @@ fn check_friction(friction: &Friction, found: &mut Findings) {
         );
     }
     for key in uses.needs.iter().filter(|&&key| !friction.given().any(|given| given == key)) {
-        let path = friction::path(key);
+        let path = friction_law::path(key);
         let row = keys::find(&path);
         let allowed = row.map_or(String::new(), |row| row.form.allowed(row.unit));
         found.require(
@@ -330,7 +331,7 @@ fn check_formula(case: &Case, found: &mut Findings) {
     if length > LONGEST_FORMULA {
         return;
     }
-    let wrong = Expression::over(text, &friction::domain(case)).err();
+    let wrong = Expression::over(text, &friction_law::domain(case)).err();
     found.require(
         wrong.is_none(),
         &["friction.expression"],

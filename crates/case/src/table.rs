@@ -1,7 +1,7 @@
 //! A friction table in a file of its own, taken into the case.
 
-use contact::{Table, TableError};
 use files::input;
+use friction::{Table, TableError};
 use toml::Value;
 
 use crate::error::CaseError;

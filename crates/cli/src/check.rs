@@ -116,11 +116,6 @@ pub fn basis(run: &Path, options: &BasisArgs, depth: Depth) -> Result<(RunPaths,
         paths.case = case.clone();
     }
     let mut basis = Basis::read(&paths)?;
-    if let Some(case) = &basis.case {
-        let sampled = basis.summary.as_ref().map(|summary| &summary[case::SAMPLED_LAW]);
-        basis.friction = case::recorded_law(case, sampled)
-            .map(|(law, known_to)| post::RecordedLaw { law: law.into(), known_to });
-    }
     for (name, value) in &options.scales {
         basis.set(name, *value)?;
     }

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use case::Progress;
 use case::sweep::Watched;
-use case::{OwnLaw, Progress};
+use friction::OwnLaw;
 use serde_json::Value;
 
 /// What a command tells the program that holds it, instead of writing it to the terminal.

@@ -2,7 +2,8 @@
 //! solver to round-off, and one that was planted in a copied run.
 #![allow(clippy::unwrap_used)]
 
-use case::{OwnLaw, RunOptions};
+use case::RunOptions;
+use friction::OwnLaw;
 use output::{
     Cells, FieldSpec, GridFile, GridSpec, Provenance, StaticField, TransientGrid, Values,
 };

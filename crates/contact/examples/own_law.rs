@@ -6,9 +6,8 @@
 //! cargo run --release -p creepage-contact --example own_law
 //! ```
 
-use contact::{
-    BodyMaterial, Contact, ExactContact, ExactSettings, Motion, NodeFriction, Place, Trial,
-};
+use contact::{BodyMaterial, Contact, ExactContact, ExactSettings, Motion, Trial};
+use friction::{NodeFriction, Place};
 use mesh::{Face, Mesh, Padded, Surface};
 use std::error::Error;
 

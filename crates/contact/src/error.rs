@@ -54,12 +54,6 @@ pub enum ContactError {
     /// A law that is to hold at the slip of the same instant, with springs.
     #[error("friction that holds at the slip velocity of the same instant needs exact enforcement")]
     ImplicitLaw,
-    /// A formula that gives no coefficient of friction.
-    #[error(transparent)]
-    Expression(#[from] crate::ExpressionError),
-    /// Points that give none.
-    #[error(transparent)]
-    Table(#[from] crate::TableError),
     /// `StabilityFraction` without the scale that it is a fraction of.
     #[error(
         "a stiffness as a fraction of the stability limit needs the elastic frequency and the \

@@ -15,8 +15,6 @@
 
 use crate::enforcement::{Contact, Trial};
 use crate::face::{Positions, project};
-use crate::friction::{NodeFriction, Place, Slid};
-use crate::local;
 use crate::mortar::{Mean, Mortar, restore_means, save_means};
 use crate::nodal::NodalContact;
 use crate::pair::lay_into;
@@ -29,6 +27,8 @@ use crate::surface::ContactSurface;
 use crate::touch::{Listed, State, WATCHED, finer, follow_first, sleep};
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
 use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError};
+use friction::slip_speed;
+use friction::{NodeFriction, Place, Slid};
 use mesh::{Face, Mesh, Padded, Surface};
 
 /// Sweeps end when no force changes by more than this part of the largest.
@@ -311,7 +311,7 @@ impl ExactContact {
         if self.law.is_implicit() {
             let curve =
                 |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
-            let Some((_, mu)) = local::solve(speed, c, row.slipped, &curve) else {
+            let Some((_, mu)) = slip_speed::solve(speed, c, row.slipped, &curve) else {
                 row.mu = self.law.mu(row.memory, 0.0, &at);
                 return sticking;
             };
@@ -334,7 +334,7 @@ impl ExactContact {
         let (_, slip) = self.rates(row);
         let free = norm(axpy(slip, -row.mobility, row.friction));
         let curve = |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
-        local::is_manifold(free, row.mobility * row.normal_force, &curve)
+        slip_speed::is_non_unique(free, row.mobility * row.normal_force, &curve)
     }
 }
 

@@ -1,5 +1,5 @@
 //! Contact of two deformable surfaces: search, gap and slip kinematics, enforcement by penalty in
-//! two passes with a friction spring or exactly in one, friction laws, patch measures.
+//! two passes with a friction spring or exactly in one, patch measures.
 //!
 //! Side 0 is the first surface given (the disk's tread), side 1 the second (the bar's top). In
 //! pass `i` the nodes of side `i` are slaves and the faces of the other side are masters; the
@@ -11,9 +11,7 @@ mod enforcement;
 mod error;
 mod exact;
 mod face;
-mod friction;
 mod gap;
-mod local;
 pub mod mesh_mode;
 mod mortar;
 mod motion;
@@ -38,12 +36,6 @@ mod vector;
 pub use enforcement::{Contact, Trial};
 pub use error::ContactError;
 pub use exact::{ExactContact, ExactSettings};
-pub use friction::{
-    Coulomb, Domain, Exponential, Expression, ExpressionError, Falling, FrictionLaw, Implicit,
-    Interface, Lagged, Memory, NodeFriction, Place, PrakashClifton, RateState, Remembering,
-    Remembers, Slid, SlipWeakening, StateLaw, SteadyLaw, Strengthens, Table, TableError, falling,
-    nucleation_length, spring_number,
-};
 pub use gap::Gap;
 pub use motion::Motion;
 pub use nodal::NodalContact;

@@ -2,12 +2,12 @@
 
 use crate::Motion;
 use crate::face::{Positions, SurfacePoint, project, shape};
-use crate::friction::{NodeFriction, Place, Slid};
 use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::touch::{Listed, State, Touch, relative_velocity, sleep};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
+use friction::{NodeFriction, Place, Slid};
 use mesh::Padded;
 
 /// A slave node near the master surface.

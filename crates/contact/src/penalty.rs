@@ -1,7 +1,6 @@
 //! Two-pass penalty contact: the criticised method of surface-to-surface contact.
 
 use crate::face::Positions;
-use crate::friction::{NodeFriction, Slid};
 use crate::pair::{Pair, Pass, scatter};
 use crate::search::{Search, neighbours};
 use crate::sums::Accumulator;
@@ -9,6 +8,7 @@ use crate::surface::ContactSurface;
 use crate::touch::{Listed, State};
 use crate::vector::{Vec3, axpy, dot, scale};
 use crate::{BodyMaterial, ContactError, ContactSums, Motion, StabilityScale, Stiffness};
+use friction::{NodeFriction, Slid};
 use mesh::{Mesh, Padded, Surface};
 
 /// Settings of [`PenaltyContact`].

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use case::Case;
 use case::sweep::Sweep;
-use contact::{Domain, Expression, FrictionLaw, Place};
+use friction::{Domain, Expression, FrictionLaw, Place};
 use tempfile::TempDir;
 
 /// A case file, from its text to the resolved case and to the file that a run writes of it.

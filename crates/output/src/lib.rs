@@ -59,6 +59,10 @@ pub use reader::{FieldInfo, GridFile, HistoryFile};
 pub use sums::{Kept, prove};
 pub use vtu::write_vtu;
 
+/// Key of the summary: points of a friction law that was handed over with the run, pairs of slip speed (m/s)
+/// and coefficient.
+pub const SAMPLED_LAW: &str = "friction_law";
+
 /// Where a file comes from: the root attributes of every HDF5 file of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Provenance {

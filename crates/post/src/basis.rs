@@ -3,14 +3,14 @@
 use crate::PostError;
 use crate::frames::open_history;
 use crate::law::Law;
+use crate::recorded_law::{RecordedLaw, recorded_law};
 use contact::patch::PatchShape;
-use contact::{Coulomb, Exponential, NodeFriction};
 use files::input::{self, Kind};
-use output::read_summary;
+use friction::{Parameters, all_parameters};
+use output::{SAMPLED_LAW, read_summary};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// A scale with where it comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,15 +47,6 @@ pub enum Bound {
     Used,
 }
 
-/// The law of a contact node with its state.
-#[derive(Clone, Debug)]
-pub struct RecordedLaw {
-    /// The law.
-    pub law: Arc<dyn NodeFriction>,
-    /// Part of the coefficient to which it is known: zero for a law that the case writes out.
-    pub known_to: f64,
-}
-
 /// The friction law and the scales of a run.
 #[derive(Clone, Debug)]
 pub struct Basis {
@@ -64,7 +55,7 @@ pub struct Basis {
     /// The law, where it is one of those known here.
     pub law: Option<Law>,
     /// The law of a contact node with its state, with which the coefficient is made again from the records; or
-    /// why there is none, empty where nobody has looked for it: a case is read by the crate `case`.
+    /// why there is none, empty where there is no case.
     pub friction: Result<RecordedLaw, String>,
     /// Which coefficient bounds the shear.
     pub bound: Bound,
@@ -197,6 +188,13 @@ impl Basis {
         }
     }
 
+    /// The parameters of friction, those that this version knows.
+    fn parameters(&self) -> Option<Parameters> {
+        let mut table = self.case.as_ref()?.get("friction")?.as_table()?.clone();
+        table.retain(|key, _| key == "law" || all_parameters().any(|known| known == key));
+        table.try_into().ok()
+    }
+
     fn number(&self, path: &str) -> Option<f64> {
         number_at(self.case.as_ref()?, path)
     }
@@ -210,19 +208,14 @@ impl Basis {
             self.name = name;
         }
         self.enforcement = self.word("contact.enforcement");
-        let law = self.word("friction.law").unwrap_or_else(|| "coulomb".into());
-        self.law = match (law.as_str(), self.number("friction.static")) {
-            ("coulomb", Some(mu)) => Some(Law::Coulomb(Coulomb { mu })),
-            ("exponential", Some(mu_static)) => Some(Law::Exponential(Exponential {
-                mu_static,
-                mu_dynamic: self.number("friction.dynamic").unwrap_or(0.32),
-                decay: self.number("friction.decay").unwrap_or(6.0),
-            })),
-            _ => None,
-        };
+        self.law = self.parameters().and_then(|parameters| Law::of(&parameters));
         let remembers = self.case.as_ref().and_then(|case| value_at(case, "friction.memory"));
         if self.law.is_some() && remembers.is_none() {
             self.bound = Bound::Law;
+        }
+        if let Some(case) = &self.case {
+            let sampled = self.summary.as_ref().map(|summary| &summary[SAMPLED_LAW]);
+            self.friction = recorded_law(case, sampled);
         }
         let given: Vec<_> = SCALES
             .iter()

@@ -1,6 +1,6 @@
 //! The friction law that a run is measured against.
 
-use contact::{Coulomb, Exponential, FrictionLaw};
+use friction::{Coulomb, Exponential, FrictionLaw, Kind, Parameters};
 
 /// The laws of a case file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +12,15 @@ pub enum Law {
 }
 
 impl Law {
+    /// The law of these parameters, if it is one of the two.
+    pub(crate) fn of(parameters: &Parameters) -> Option<Self> {
+        let mu_static = parameters.static_?;
+        match parameters.law {
+            Kind::Coulomb => Some(Self::Coulomb(Coulomb { mu: mu_static })),
+            _ => parameters.exponential().map(Self::Exponential),
+        }
+    }
+
     /// Coefficient at a slip speed (m/s).
     pub fn mu(&self, speed: f64) -> f64 {
         match self {

@@ -28,6 +28,7 @@ mod map;
 mod means;
 mod page;
 mod patch_series;
+mod recorded_law;
 mod replay;
 mod roughness;
 mod slip_zone;
@@ -38,7 +39,7 @@ mod tally;
 mod vector;
 mod window;
 
-pub use basis::{Basis, Bound, RecordedLaw, RunPaths, SCALES, Scale};
+pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
 pub use check::{CheckOptions, Checked, Report, check};
 pub use compare::{Compared, Comparison, compare};
 pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};

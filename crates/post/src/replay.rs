@@ -11,12 +11,13 @@
 //! later steps are all recorded and the law forgets, the four become one again, and the coefficient is
 //! known. A history that begins later than the run begins with the last two.
 
-use crate::basis::{Basis, RecordedLaw};
+use crate::basis::Basis;
 use crate::foot::Pair;
 use crate::frames::{ContactHistory, Frame};
+use crate::recorded_law::RecordedLaw;
 use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, norm};
-use contact::{NodeFriction, Place, Remembers};
+use friction::{NodeFriction, Place, Remembers};
 use rayon::prelude::*;
 use std::sync::Arc;
 

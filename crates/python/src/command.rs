@@ -1,8 +1,9 @@
 //! Commands held by Python.
 
 use crate::law::PythonLaw;
-use case::{OwnLaw, Progress, Stage};
+use case::{Progress, Stage};
 use cli::{Embedded, Failure, Told};
+use friction::OwnLaw;
 use miette::MietteHandlerOpts;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

@@ -111,7 +111,7 @@ fn advanced(p: &Parameters, state: &State, slip: f64) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use contact::{Exponential, SteadyLaw};
+    use friction::{Exponential, SteadyLaw};
     use proptest::prelude::*;
 
     prop_compose! {

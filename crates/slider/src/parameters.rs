@@ -1,7 +1,7 @@
 //! Table 1, and what the further methods need.
 
 use crate::State;
-use contact::{Exponential, FrictionLaw, Memory, SteadyLaw};
+use friction::{Exponential, FrictionLaw, Memory, SteadyLaw};
 use thiserror::Error;
 
 /// Parameters of the slider; the default is Table 1.

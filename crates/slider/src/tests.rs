@@ -1,7 +1,7 @@
 //! What the methods do over a whole run.
 
 use crate::*;
-use contact::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
+use friction::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
 use std::ops::ControlFlow;
 
 fn at(dt: f64) -> Parameters {
@@ -113,7 +113,7 @@ fn one_law_in_three_forms_gives_one_motion() {
     let forms = |method| {
         let points = (0..=30_000).map(|i| f64::from(i) * 5e-4);
         let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
-        let table = points.map(|s| [s, contact::FrictionLaw::mu(&law, s)]).collect();
+        let table = points.map(|s| [s, friction::FrictionLaw::mu(&law, s)]).collect();
         [
             SteadyLaw::Exponential(law),
             SteadyLaw::Expression(Expression::new("0.32 + 0.18*exp(-6*s)").unwrap()),

@@ -144,7 +144,7 @@ fn collapses_early(p: &Parameters, dt: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use contact::{Coulomb, Exponential, SteadyLaw};
+    use friction::{Coulomb, Exponential, SteadyLaw};
 
     /// Relative differences of the bisections from the formulas.
     fn differences(p: &Parameters) -> [f64; 2] {

@@ -8,7 +8,8 @@
 //! of the penalty.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{Axis, Enforcement, Problem, Supports, Tied};

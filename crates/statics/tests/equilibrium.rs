@@ -1,7 +1,8 @@
 //! Blocks in compression: closed forms, both enforcements, convergence, bits, failures.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, Coulomb, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use friction::Coulomb;
 use mesh::{Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{

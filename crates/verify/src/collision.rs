@@ -29,8 +29,9 @@ use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use crate::waves::slender;
-use contact::{Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Stiffness};
 use dynamics::Simulation;
+use friction::Coulomb;
 use mesh::Padded;
 use solid::Material;
 

@@ -12,7 +12,8 @@
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Coulomb, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{Motion, PenaltyContact, PenaltySettings, Stiffness};
+use friction::Coulomb;
 use mesh::{Disk, FineZone, Mesh, Padded, Surface};
 use std::f64::consts::TAU;
 

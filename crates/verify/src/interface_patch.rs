@@ -15,7 +15,8 @@
 use crate::body::{STEEL, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Coulomb, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use contact::{PenaltyContact, PenaltySettings, Rows, Stiffness};
+use friction::Coulomb;
 use mesh::{Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{Axis, Enforcement, Problem, Supports, Tied};

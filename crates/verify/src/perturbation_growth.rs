@@ -22,10 +22,9 @@ use crate::convergence::Convergence;
 use crate::dispersion::Sliding;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{
-    ExactContact, ExactSettings, Exponential, FrictionLaw, Memory, NodeFriction, Place, Remembering,
-};
+use contact::{ExactContact, ExactSettings};
 use dynamics::{Fixed, Setup, Simulation};
+use friction::{Exponential, FrictionLaw, Memory, NodeFriction, Place, Remembering};
 use mesh::Padded;
 use nalgebra::{Complex, Matrix2, Vector2};
 use solid::{Level, Solid, Viscosity, Volumetric};

@@ -10,7 +10,8 @@ use crate::row::Row;
 use crate::{
     Size, contact_turn, finite_body, free_block, interface_patch, patch, shear_column, sliding,
 };
-use contact::{Contact, Implicit, Lagged, Numbers, PenaltyContact};
+use contact::{Contact, Numbers, PenaltyContact};
+use friction::{Implicit, Lagged};
 use mesh::Mesh;
 use solid::Element;
 

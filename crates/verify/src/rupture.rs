@@ -41,10 +41,9 @@ use crate::body::{ONE_POINT, at_rest_with, contact_material, side_nodes};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::{Field, Row};
-use contact::{
-    Contact, ExactContact, ExactSettings, NodalContact, NodeFriction, Place, SlipWeakening,
-};
+use contact::{Contact, ExactContact, ExactSettings, NodalContact};
 use dynamics::{Fixed, Setup, Simulation};
+use friction::{NodeFriction, Place, SlipWeakening};
 use mesh::{Mesh, quad_corner_areas};
 use solid::{Elements, Material, Volumetric};
 

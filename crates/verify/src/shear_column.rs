@@ -27,11 +27,9 @@ use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{
-    ExactContact, ExactSettings, Exponential, FrictionLaw, Implicit, Lagged, NodeFriction,
-    PenaltyContact, PenaltySettings, Stiffness,
-};
+use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Stiffness};
 use dynamics::{Fixed, Setup, Simulation};
+use friction::{Exponential, FrictionLaw, Implicit, Lagged, NodeFriction};
 use mesh::Padded;
 use solid::{Element, Level, Solid, Viscosity};
 

@@ -18,8 +18,8 @@ use crate::shear_column::{
     Interface, LAW, LENGTH, PRESSURE, SCALE, STRAIN, Waves, columns, impedance, least,
     speed_at_1_gpa, strain,
 };
-use contact::FrictionLaw;
 use dynamics::Simulation;
+use friction::FrictionLaw;
 
 /// LS-DYNA's default for steel elements of 1 mm (N/m^3, both passes), ten and a hundred times as much.
 const STIFFNESS: [f64; 3] = [3.5e13, 3.5e14, 3.5e15];

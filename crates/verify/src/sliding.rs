@@ -35,10 +35,11 @@ use crate::body::{STEEL, at_rest, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
-    BodyMaterial, Contact, Coulomb, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
-    Rows, Stiffness,
+    BodyMaterial, Contact, ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Rows,
+    Stiffness,
 };
 use dynamics::{Load, Setup, Simulation};
+use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
 use solid::{Element, Level, Material, Solid, Viscosity};
 

@@ -2,7 +2,8 @@
 
 use super::{Translation, Units, translate};
 use crate::Case;
-use crate::schema::{ContactLayers, Crown, FrictionLaw, Stiffness};
+use crate::schema::{ContactLayers, Crown, Stiffness};
+use friction::Kind;
 use mesh::import::{ImportError, SetNames, Unit, bodies, read_abaqus};
 use std::fs;
 use std::path::Path;
@@ -35,7 +36,7 @@ fn the_cards_of_the_small_model_become_the_keys_of_the_table() {
     assert_eq!(case.drive.speed, 16.0);
     // 160.32 rad/s at 0.1 m and 16 m/s
     assert!((case.drive.creepage.unwrap() - 2e-3).abs() < 1e-12);
-    assert_eq!(case.friction.law, FrictionLaw::Exponential);
+    assert_eq!(case.friction.law, Kind::Exponential);
     // 0.006 s/mm
     assert_eq!(
         (case.friction.static_, case.friction.dynamic, case.friction.decay),
@@ -94,7 +95,7 @@ fn equal_coefficients_of_friction_or_no_decay_are_coulombs_law() {
     ] {
         let old = "       0.5      0.32    0.0060       0.0      10.0";
         let case = case(&import(&DECK.replace(old, line)).unwrap());
-        assert_eq!((case.friction.law, case.friction.static_), (FrictionLaw::Coulomb, Some(0.5)));
+        assert_eq!((case.friction.law, case.friction.static_), (Kind::Coulomb, Some(0.5)));
     }
 }
 

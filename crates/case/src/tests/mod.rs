@@ -308,7 +308,7 @@ fn a_law_needs_and_gets_only_its_own_keys() {
     let case =
         set(&["contact.enforcement=exact", "friction.law=rate_state", "friction.distance=1"]);
     let case = case.unwrap();
-    assert_eq!(case.friction.mode, Some(crate::schema::FrictionMode::Exact));
+    assert_eq!(case.friction.mode, Some(friction::Mode::Exact));
     assert_eq!(case.contact.rows, Some(crate::schema::Rows::NodeToFace));
 }
 

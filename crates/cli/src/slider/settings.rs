@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use case::Excerpt;
 use clap::ValueEnum;
-use contact::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
 use files::{input, printable};
+use friction::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
 use miette::{Diagnostic, SourceSpan};
 use serde::{Deserialize, Serialize};
 use slider::{Method, ParameterError, Parameters};
@@ -414,9 +414,9 @@ fn read_table(path: &Path) -> Result<Table, Box<SettingError>> {
     }
     Table::new(points).map_err(|error| {
         let number = match error {
-            contact::TableError::Range { number, .. }
-            | contact::TableError::Order { number, .. } => number,
-            contact::TableError::Start { .. } | contact::TableError::Empty => 1,
+            friction::TableError::Range { number, .. }
+            | friction::TableError::Order { number, .. } => number,
+            friction::TableError::Start { .. } | friction::TableError::Empty => 1,
         };
         let line = lines.get(number - 1).copied().unwrap_or(1);
         failed(format!("{name}:{line}: {error}"))

@@ -1,10 +1,11 @@
 use super::{Rig, SETTINGS};
+use crate::PenaltySettings;
 use crate::face::{Positions, project};
 use crate::plates::{STEEL, plate, tread};
 use crate::surface::ContactSurface;
 use crate::touch::Listed;
 use crate::vector::{Vec3, norm, sub};
-use crate::{Coulomb, PenaltySettings};
+use friction::Coulomb;
 use mesh::Padded;
 
 const RADIUS: f64 = 0.46;

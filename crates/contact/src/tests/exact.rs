@@ -1,10 +1,8 @@
 use crate::enforcement::Trial;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
-use crate::{
-    Contact, ContactSums, Coulomb, ExactContact, ExactSettings, Exponential, Implicit, Motion,
-    NodalContact, NodeFriction, Rows,
-};
+use crate::{Contact, ContactSums, ExactContact, ExactSettings, Motion, NodalContact, Rows};
+use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
 
 /// Two bodies whose nodes are masses without springs: what contact does to them in a step.
@@ -251,7 +249,7 @@ fn falling_friction_of_the_same_instant_obeys_equation_8_and_counts_where_it_has
         manifold += sums.manifold;
         let table = masses.table(0);
         for i in (0..table.nodes.len()).filter(|&i| table.state[i] == 2) {
-            let mu = crate::FrictionLaw::mu(&law, norm(table.slip_velocity[i]));
+            let mu = friction::FrictionLaw::mu(&law, norm(table.slip_velocity[i]));
             assert!((norm(table.shear[i]) / (mu * table.pressure[i]) - 1.0).abs() < 1e-9);
             slips += 1;
         }

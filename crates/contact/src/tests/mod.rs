@@ -3,13 +3,14 @@
 
 mod curvature;
 mod exact;
-mod friction;
 mod normal;
 mod search;
+mod slip;
 
 use crate::plates::{STEEL, plate, together};
 use crate::vector::{Vec3, add, sub};
-use crate::{ContactSums, Motion, NodeFriction, PenaltyContact, PenaltySettings, Stiffness};
+use crate::{ContactSums, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use friction::NodeFriction;
 use mesh::{Mesh, Padded, Surface};
 
 /// Areal stiffness of both passes together (N/m^3).

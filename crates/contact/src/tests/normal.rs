@@ -1,7 +1,8 @@
 use super::{K, Rig, SETTINGS};
 use crate::plates::plate;
 use crate::vector::{Vec3, add, cross, norm};
-use crate::{ContactError, Coulomb, PenaltyContact, PenaltySettings, Stiffness};
+use crate::{ContactError, PenaltyContact, PenaltySettings, Stiffness};
+use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
 
 const AREA: f64 = 64e-6;

@@ -1,9 +1,9 @@
 use super::{K, Rig, SETTINGS};
-use crate::Coulomb;
 use crate::face::{Positions, project};
 use crate::plates::{plate, tread};
 use crate::touch::Listed;
 use crate::vector::Vec3;
+use friction::Coulomb;
 use proptest::prelude::*;
 
 /// Every penetration that projecting all nodes on the master from all of its faces finds, against

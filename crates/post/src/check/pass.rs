@@ -11,9 +11,9 @@ use crate::replay::{Allowed, Replay};
 use crate::surface::{Surface, body_name};
 use crate::tally::{SideTally, Tally};
 use crate::vector::{Vec3, axpy, norm};
-use contact::Place;
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
+use friction::Place;
 
 /// A part of the interface on which the tangential conditions are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,12 +1,16 @@
 //! Friction of rate and state.
 
-use super::{NodeFriction, Place};
+use crate::{NodeFriction, Place};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_2;
 
-/// How the state evolves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How the state of rate-and-state friction evolves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum StateLaw {
     /// `d theta/dt = 1 - V theta/L` (Dieterich 1979): contacts age at rest.
+    #[default]
     Ageing,
     /// `d theta/dt = -(V theta/L) ln(V theta/L)` (Ruina 1983): the state changes in slip alone.
     Slip,

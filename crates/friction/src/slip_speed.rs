@@ -15,11 +15,13 @@
 const ROUNDS: usize = 100;
 
 /// A coefficient of friction and its slope (s/m) over the slip speed (m/s).
-pub(crate) trait Curve {
+pub trait Curve {
+    /// Both at a slip speed.
     fn at(&self, speed: f64) -> (f64, f64);
 }
 
 impl<F: Fn(f64) -> (f64, f64)> Curve for F {
+    /// Both at a slip speed.
     fn at(&self, speed: f64) -> (f64, f64) {
         self(speed)
     }
@@ -27,7 +29,7 @@ impl<F: Fn(f64) -> (f64, f64)> Curve for F {
 
 /// Slip speed (m/s) and coefficient of friction with a coefficient that depends on the speed; no
 /// speed where the node sticks.
-pub(crate) fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option<(f64, f64)> {
+pub fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option<(f64, f64)> {
     let sticks = c * mu.at(0.0).0 >= free;
     if sticks && !slipped {
         return None;
@@ -36,7 +38,7 @@ pub(crate) fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option
 }
 
 /// Whether adhesion and slip are both solutions.
-pub(crate) fn is_manifold(free: f64, c: f64, mu: &impl Curve) -> bool {
+pub fn is_non_unique(free: f64, c: f64, mu: &impl Curve) -> bool {
     c * mu.at(0.0).0 >= free && fastest(free, c, mu).is_some_and(|(speed, _)| speed > 0.0)
 }
 
@@ -158,9 +160,9 @@ mod tests {
         let least = 0.32 + 0.18 * (1.0 + libm::log(r)) / r;
         assert!(solve((least + 1e-5) * C, C, true, &paper).is_some());
         assert_eq!(solve((least - 1e-5) * C, C, true, &paper), None);
-        assert!(is_manifold(0.4 * C, C, &paper));
-        assert!(!is_manifold(0.51 * C, C, &paper));
-        assert!(!is_manifold(0.3 * C, C, &paper));
+        assert!(is_non_unique(0.4 * C, C, &paper));
+        assert!(!is_non_unique(0.51 * C, C, &paper));
+        assert!(!is_non_unique(0.3 * C, C, &paper));
     }
 
     #[test]
@@ -170,7 +172,7 @@ mod tests {
         for i in 1..200 {
             let free = f64::from(i) * 5e-3;
             assert_eq!(solve(free, c, true, &paper), solve(free, c, false, &paper), "{free}");
-            assert!(!is_manifold(free, c, &paper));
+            assert!(!is_non_unique(free, c, &paper));
         }
     }
 }

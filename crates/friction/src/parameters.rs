@@ -1,27 +1,31 @@
-//! The keys of the friction law, and which law uses which.
+//! The parameters of the laws: which law has which, their defaults, and the law that they make.
 
-mod own;
-mod recorded;
-
-pub use own::OwnLaw;
-pub(crate) use recorded::sampled;
-pub use recorded::{SAMPLED_LAW, recorded_law};
-
-use crate::hertz::hertz;
-use crate::schema::Case;
-use contact::{
-    ContactError, Coulomb, Domain, Exponential, Expression, ExpressionError, Implicit, Lagged,
-    Memory, NodeFriction, PrakashClifton, RateState, Remembering, SlipWeakening, SteadyLaw, Table,
+use crate::{
+    Coulomb, Exponential, Expression, ExpressionError, Implicit, Lagged, Memory, NodeFriction, Own,
+    OwnLaw, PrakashClifton, RateState, Remembering, SlipWeakening, StateLaw, SteadyLaw, Table,
+    TableError,
 };
-use own::Own;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The friction law.
+/// Why parameters make no law.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LawError {
+    /// A formula that gives no coefficient of friction.
+    #[error(transparent)]
+    Expression(#[from] ExpressionError),
+    /// Points that give none.
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+/// A friction law and its parameters, as a table of a case file has them.
+///
+/// A parameter that is not given has its default or belongs to another law.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Friction {
+pub struct Parameters {
     /// `"coulomb"` (one coefficient, `static`), `"exponential"` (Eq 8 of the paper:
     /// mu(s) = dynamic + (static - dynamic) exp(-decay |s|)), `"slip_weakening"` (linear from `static`
     /// to `dynamic` over `distance`), `"rate_state"` (Dieterich-Ruina), `"prakash_clifton"` (shear
@@ -29,7 +33,7 @@ pub struct Friction {
     /// `"python"` (a function that the Python package hands over with the run).
     /// Default `"coulomb"`.
     #[serde(default)]
-    pub law: FrictionLaw,
+    pub law: Kind,
     /// Coefficient of friction at zero slip velocity (dimensionless). Required; refused with the laws
     /// `"rate_state"`, `"table"`, `"expression"` and `"python"`.
     #[serde(rename = "static", default, skip_serializing_if = "Option::is_none")]
@@ -93,11 +97,11 @@ pub struct Friction {
     /// laws `"exponential"`, `"table"`, `"expression"`, `"python"` and `"rate_state"`. Default `"lagged"`; of
     /// `"rate_state"` with exact enforcement `"exact"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mode: Option<FrictionMode>,
+    pub mode: Option<Mode>,
     /// Memory of the coefficient: it follows the law over a distance of slip. Only with the laws
     /// `"exponential"`, `"table"`, `"expression"` and `"python"`; default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub memory: Option<FrictionMemory>,
+    pub memory: Option<Memory>,
 }
 
 fn file_or_points(_: &mut SchemaGenerator) -> Schema {
@@ -114,7 +118,7 @@ fn file_or_points(_: &mut SchemaGenerator) -> Schema {
 /// Which slip velocity the coefficient belongs to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum FrictionMode {
+pub enum Mode {
     /// That of the step before.
     #[default]
     Lagged,
@@ -122,38 +126,10 @@ pub enum FrictionMode {
     Exact,
 }
 
-/// How the state of rate-and-state friction evolves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum StateLaw {
-    /// Also at rest (Dieterich).
-    #[default]
-    Ageing,
-    /// In slip alone (Ruina).
-    Slip,
-}
-
-/// Memory of friction: d(mu)/dt = -(max(|s|, floor)/distance) (mu - mu_law(|s|)), back at mu_law(0)
-/// out of contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct FrictionMemory {
-    /// Distance of slip over which the coefficient adapts (m). Default 1e-6, as in CONTACT.
-    pub distance: f64,
-    /// Slip speed below which it adapts in time instead (m/s). Default 10e-3, as in CONTACT.
-    pub floor: f64,
-}
-
-impl Default for FrictionMemory {
-    fn default() -> Self {
-        Self { distance: 1e-6, floor: 10e-3 }
-    }
-}
-
 /// The friction laws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum FrictionLaw {
+pub enum Kind {
     /// A constant coefficient.
     #[default]
     Coulomb,
@@ -173,85 +149,78 @@ pub enum FrictionLaw {
     Python,
 }
 
-/// A law with the keys of `[friction]` that it uses.
-pub(crate) struct Uses {
-    pub(crate) law: FrictionLaw,
-    pub(crate) word: &'static str,
+/// A law with the names of the parameters that it uses.
+pub struct Uses {
+    /// The law.
+    pub law: Kind,
+    /// Its name.
+    pub word: &'static str,
     /// Those that must be given.
-    pub(crate) needs: &'static [&'static str],
+    pub needs: &'static [&'static str],
     /// The others.
-    pub(crate) takes: &'static [&'static str],
+    pub takes: &'static [&'static str],
 }
 
-/// Which law uses which keys.
-pub(crate) const USES: [Uses; 8] = [
-    Uses { law: FrictionLaw::Coulomb, word: "coulomb", needs: &["static"], takes: &[] },
+/// Which law uses which parameters.
+pub const USES: [Uses; 8] = [
+    Uses { law: Kind::Coulomb, word: "coulomb", needs: &["static"], takes: &[] },
     Uses {
-        law: FrictionLaw::Exponential,
+        law: Kind::Exponential,
         word: "exponential",
         needs: &["static"],
         takes: &["dynamic", "decay", "mode", "memory"],
     },
     Uses {
-        law: FrictionLaw::SlipWeakening,
+        law: Kind::SlipWeakening,
         word: "slip_weakening",
         needs: &["static", "distance"],
         takes: &["dynamic"],
     },
     Uses {
-        law: FrictionLaw::RateState,
+        law: Kind::RateState,
         word: "rate_state",
         needs: &["distance"],
         takes: &["reference", "reference_speed", "direct", "evolution", "state", "age", "mode"],
     },
     Uses {
-        law: FrictionLaw::PrakashClifton,
+        law: Kind::PrakashClifton,
         word: "prakash_clifton",
         needs: &["static", "distance"],
         takes: &["relaxation_speed"],
     },
-    Uses { law: FrictionLaw::Table, word: "table", needs: &["table"], takes: &["mode", "memory"] },
+    Uses { law: Kind::Table, word: "table", needs: &["table"], takes: &["mode", "memory"] },
     Uses {
-        law: FrictionLaw::Expression,
+        law: Kind::Expression,
         word: "expression",
         needs: &["expression"],
         takes: &["mode", "memory"],
     },
-    Uses {
-        law: FrictionLaw::Python,
-        word: "python",
-        needs: &["source"],
-        takes: &["mode", "memory"],
-    },
+    Uses { law: Kind::Python, word: "python", needs: &["source"], takes: &["mode", "memory"] },
 ];
 
 impl Uses {
-    /// The keys of a law.
-    pub(crate) fn of(law: FrictionLaw) -> &'static Self {
+    /// The parameters of a law.
+    pub fn of(law: Kind) -> &'static Self {
         USES.iter().find(|uses| uses.law == law).unwrap_or(&USES[0])
     }
 
-    pub(crate) fn has(&self, key: &str) -> bool {
+    /// Whether the law uses a parameter.
+    pub fn has(&self, key: &str) -> bool {
         self.needs.contains(&key) || self.takes.contains(&key)
     }
 }
 
-/// Dotted path of a key that some law uses.
-pub(crate) fn path(key: &str) -> String {
-    format!("friction.{key}")
-}
-
-/// Every key that some law uses, each once.
-pub(crate) fn all_keys() -> impl Iterator<Item = &'static str> {
+/// Every parameter that some law uses, each once.
+pub fn all_parameters() -> impl Iterator<Item = &'static str> {
     let keys = |i: usize| USES[i].needs.iter().chain(USES[i].takes).copied();
     (0..USES.len()).flat_map(move |i| {
         keys(i).filter(move |key| !USES[..i].iter().any(|before| before.has(key)))
     })
 }
 
-impl Friction {
-    /// The keys given besides the law.
-    pub(crate) fn given(&self) -> impl Iterator<Item = &'static str> {
+impl Parameters {
+    /// The parameters given besides the law.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
         [
             ("static", self.static_.is_some()),
             ("dynamic", self.dynamic.is_some()),
@@ -275,36 +244,96 @@ impl Friction {
     }
 
     /// Writes the law's defaults out. `exact` says whether contact is enforced exactly.
-    pub(crate) fn write_defaults(&mut self, exact: bool) {
+    pub fn write_defaults(&mut self, exact: bool) {
         match self.law {
-            FrictionLaw::Exponential => {
+            Kind::Exponential => {
                 self.dynamic.get_or_insert(DYNAMIC);
                 self.decay.get_or_insert(DECAY);
             }
-            FrictionLaw::SlipWeakening => {
+            Kind::SlipWeakening => {
                 self.dynamic.get_or_insert(DYNAMIC);
             }
-            FrictionLaw::RateState => {
+            Kind::RateState => {
                 self.reference.get_or_insert(REFERENCE);
                 let speed = *self.reference_speed.get_or_insert(REFERENCE_SPEED);
                 self.direct.get_or_insert(DIRECT);
                 self.evolution.get_or_insert(EVOLUTION);
                 self.state.get_or_insert_default();
                 self.age.get_or_insert(self.distance.unwrap_or(0.0) / speed);
-                self.mode.get_or_insert(if exact {
-                    FrictionMode::Exact
-                } else {
-                    FrictionMode::Lagged
-                });
+                self.mode.get_or_insert(if exact { Mode::Exact } else { Mode::Lagged });
             }
-            FrictionLaw::PrakashClifton => {
+            Kind::PrakashClifton => {
                 self.relaxation_speed.get_or_insert(RELAXATION_SPEED);
             }
-            FrictionLaw::Coulomb
-            | FrictionLaw::Table
-            | FrictionLaw::Expression
-            | FrictionLaw::Python => {}
+            Kind::Coulomb | Kind::Table | Kind::Expression | Kind::Python => {}
         }
+    }
+
+    /// A parameter that the law needs and that is not given.
+    pub fn missing(&self) -> Option<&'static str> {
+        let given = |key: &str| self.given().any(|given| given == key);
+        Uses::of(self.law).needs.iter().copied().find(|key| !given(key))
+    }
+
+    /// The law, with `formula` to read an expression and what was handed over with the run. Without `own` the
+    /// law `"python"` is no friction: nothing that does without it rolls.
+    ///
+    /// # Errors
+    /// A formula or points that give no coefficient of self.
+    pub fn node_friction(
+        &self,
+        formula: impl FnOnce(&str) -> Result<Expression, ExpressionError>,
+        own: Option<&Arc<dyn OwnLaw>>,
+    ) -> Result<Box<dyn NodeFriction>, LawError> {
+        let distance = self.distance.unwrap_or(0.0);
+        let memory = self.memory;
+        let mode = self.mode.unwrap_or_default();
+        let steady = match self.law {
+            Kind::Coulomb => return Ok(Box::new(Coulomb { mu: self.at_rest() })),
+            Kind::SlipWeakening => {
+                return Ok(Box::new(SlipWeakening {
+                    mu_static: self.at_rest(),
+                    mu_dynamic: self.dynamic.unwrap_or(DYNAMIC),
+                    distance,
+                }));
+            }
+            Kind::RateState => {
+                let reference_speed = self.reference_speed.unwrap_or(REFERENCE_SPEED);
+                return Ok(Box::new(RateState {
+                    reference: self.reference.unwrap_or(REFERENCE),
+                    reference_speed,
+                    direct: self.direct.unwrap_or(DIRECT),
+                    evolution: self.evolution.unwrap_or(EVOLUTION),
+                    distance,
+                    law: self.state.unwrap_or_default(),
+                    initial: self.age.unwrap_or(distance / reference_speed),
+                    lagged: self.mode.unwrap_or_default() == Mode::Lagged,
+                }));
+            }
+            Kind::PrakashClifton => {
+                return Ok(Box::new(PrakashClifton {
+                    mu: self.at_rest(),
+                    distance,
+                    speed: self.relaxation_speed.unwrap_or(RELAXATION_SPEED),
+                }));
+            }
+            Kind::Exponential => SteadyLaw::Exponential(self.eq_8()),
+            Kind::Table => SteadyLaw::Table(Table::new(self.table.clone().unwrap_or_default())?),
+            Kind::Expression => {
+                let text = self.expression.as_deref().unwrap_or_default();
+                SteadyLaw::Expression(formula(text)?)
+            }
+            Kind::Python => {
+                let Some(own) = own else { return Ok(Box::new(Coulomb { mu: 0.0 })) };
+                let implicit = memory.is_none() && mode == Mode::Exact;
+                return Ok(Box::new(Own::new(Arc::clone(own), memory, implicit)));
+            }
+        };
+        Ok(match (memory, mode) {
+            (Some(memory), _) => Box::new(Remembering { steady, memory }),
+            (None, Mode::Lagged) => Box::new(Lagged(steady)),
+            (None, Mode::Exact) => Box::new(Implicit(steady)),
+        })
     }
 
     /// The coefficient `static`; zero for a law without it.
@@ -312,7 +341,7 @@ impl Friction {
         self.static_.unwrap_or(0.0)
     }
 
-    /// Eq. (8) with the keys of the case.
+    /// Eq. (8) with these parameters.
     fn eq_8(&self) -> Exponential {
         Exponential {
             mu_static: self.at_rest(),
@@ -321,14 +350,14 @@ impl Friction {
         }
     }
 
-    /// Eq. (8), of a case with this law.
-    pub(crate) fn exponential(&self) -> Option<Exponential> {
-        (self.law == FrictionLaw::Exponential).then(|| self.eq_8())
+    /// Eq. (8), if it is this law.
+    pub fn exponential(&self) -> Option<Exponential> {
+        (self.law == Kind::Exponential).then(|| self.eq_8())
     }
 }
 
 /// Coefficient at high slip velocity, or after slip, where a case gives none.
-pub(crate) const DYNAMIC: f64 = 0.32;
+pub const DYNAMIC: f64 = 0.32;
 /// Decay (s/m) where an exponential law gives none.
 const DECAY: f64 = 6.0;
 /// Rate and state where a case gives none: the benchmarks TPV101 and 102 (Harris et al. 2009).
@@ -338,87 +367,3 @@ const DIRECT: f64 = 0.008;
 const EVOLUTION: f64 = 0.012;
 /// V* (m/s) where a case gives none: the benchmarks TPV6 and 7 (Harris et al. 2009).
 const RELAXATION_SPEED: f64 = 1.0;
-
-/// Where a formula must give a coefficient: pressures up to three times Hertz's, which shocks and
-/// coarse meshes may reach, the time of rolling, and the fine zone.
-pub(crate) fn domain(case: &Case) -> Domain {
-    let zone = &case.mesh.zone;
-    Domain {
-        pressure: 3.0 * hertz(case).p0,
-        duration: case.duration(),
-        along: [zone.start, zone.start + zone.length],
-    }
-}
-
-/// The friction law of a case; `own` is what was handed over with the run. Without it the law
-/// `"python"` is no friction: nothing that does without it rolls.
-pub(crate) fn law(
-    case: &Case,
-    own: Option<&Arc<dyn OwnLaw>>,
-) -> Result<Box<dyn NodeFriction>, ContactError> {
-    let formula = |text: &str| Expression::over(text, &domain(case));
-    node_friction(&case.friction, formula, own)
-}
-
-/// The friction law that the keys of `[friction]` say, with `formula` to read an expression.
-fn node_friction(
-    friction: &Friction,
-    formula: impl FnOnce(&str) -> Result<Expression, ExpressionError>,
-    own: Option<&Arc<dyn OwnLaw>>,
-) -> Result<Box<dyn NodeFriction>, ContactError> {
-    let distance = friction.distance.unwrap_or(0.0);
-    let memory =
-        friction.memory.map(|memory| Memory { distance: memory.distance, floor: memory.floor });
-    let mode = friction.mode.unwrap_or_default();
-    let steady = match friction.law {
-        FrictionLaw::Coulomb => return Ok(Box::new(Coulomb { mu: friction.at_rest() })),
-        FrictionLaw::SlipWeakening => {
-            return Ok(Box::new(SlipWeakening {
-                mu_static: friction.at_rest(),
-                mu_dynamic: friction.dynamic.unwrap_or(DYNAMIC),
-                distance,
-            }));
-        }
-        FrictionLaw::RateState => {
-            let reference_speed = friction.reference_speed.unwrap_or(REFERENCE_SPEED);
-            return Ok(Box::new(RateState {
-                reference: friction.reference.unwrap_or(REFERENCE),
-                reference_speed,
-                direct: friction.direct.unwrap_or(DIRECT),
-                evolution: friction.evolution.unwrap_or(EVOLUTION),
-                distance,
-                law: match friction.state.unwrap_or_default() {
-                    StateLaw::Ageing => contact::StateLaw::Ageing,
-                    StateLaw::Slip => contact::StateLaw::Slip,
-                },
-                initial: friction.age.unwrap_or(distance / reference_speed),
-                lagged: friction.mode.unwrap_or_default() == FrictionMode::Lagged,
-            }));
-        }
-        FrictionLaw::PrakashClifton => {
-            return Ok(Box::new(PrakashClifton {
-                mu: friction.at_rest(),
-                distance,
-                speed: friction.relaxation_speed.unwrap_or(RELAXATION_SPEED),
-            }));
-        }
-        FrictionLaw::Exponential => SteadyLaw::Exponential(friction.eq_8()),
-        FrictionLaw::Table => {
-            SteadyLaw::Table(Table::new(friction.table.clone().unwrap_or_default())?)
-        }
-        FrictionLaw::Expression => {
-            let text = friction.expression.as_deref().unwrap_or_default();
-            SteadyLaw::Expression(formula(text)?)
-        }
-        FrictionLaw::Python => {
-            let Some(own) = own else { return Ok(Box::new(Coulomb { mu: 0.0 })) };
-            let implicit = memory.is_none() && mode == FrictionMode::Exact;
-            return Ok(Box::new(Own::new(Arc::clone(own), memory, implicit)));
-        }
-    };
-    Ok(match (memory, mode) {
-        (Some(memory), _) => Box::new(Remembering { steady, memory }),
-        (None, FrictionMode::Lagged) => Box::new(Lagged(steady)),
-        (None, FrictionMode::Exact) => Box::new(Implicit(steady)),
-    })
-}

@@ -1,7 +1,7 @@
 //! Friction given by a formula.
 
-use super::operators::Operators;
-use super::{FrictionLaw, Place};
+use crate::operators::Operators;
+use crate::{FrictionLaw, Place};
 use exmex::{Express, FlatEx, MatchLiteral};
 use std::sync::Arc;
 use thiserror::Error;

@@ -1,7 +1,7 @@
 //! The dimensionless numbers of friction that falls with the slip speed, Eq. (8) of Vollebregt
 //! (2017), between elastic bodies: what to expect of a run before it is made.
 
-use super::Exponential;
+use crate::Exponential;
 
 /// What the numbers are made of, at one pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]

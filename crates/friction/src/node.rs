@@ -1,6 +1,6 @@
 //! Friction of a contact node: a law together with the state that it keeps from step to step.
 
-use super::{Coulomb, FrictionLaw, Memory};
+use crate::{Coulomb, FrictionLaw, Memory};
 use std::fmt::Debug;
 
 /// Where a contact node is, when, and what presses it.

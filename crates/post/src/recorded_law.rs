@@ -1,61 +1,47 @@
 //! The friction law of a run from what the run left, to make its coefficients again.
 
-use super::own::OwnLaw;
-use super::{Friction, FrictionLaw, Uses, node_friction, path};
-use contact::{Expression, FrictionLaw as _, NodeFriction, Table};
+use friction::{Expression, FrictionLaw as _, Kind, NodeFriction, Parameters, Table};
 use serde_json::Value;
+use std::sync::Arc;
 
-/// Key of the summary: points of a law that was handed over with the run, pairs of slip speed (m/s) and
-/// coefficient.
-pub const SAMPLED_LAW: &str = "friction_law";
-
-/// Slip speeds at which such a law is sampled: at rest, and so many per decade from 1e-6 to 1e2 m/s.
-const PER_DECADE: u32 = 100;
-
-/// Points of a law that was handed over with the run; none of one that failed.
-pub(crate) fn sampled(law: &dyn OwnLaw) -> Option<Vec<[f64; 2]>> {
-    if law.failure().is_some() {
-        return None;
-    }
-    let decades = f64::from(PER_DECADE);
-    let speeds = (0..=8 * PER_DECADE).map(|i| libm::pow(10f64, -6.0 + f64::from(i) / decades));
-    let speeds: Vec<f64> = std::iter::once(0.0).chain(speeds).collect();
-    let mut mu = vec![0.0; speeds.len()];
-    law.mu(&speeds, &mut mu);
-    let points = speeds.into_iter().zip(mu).map(|(speed, mu)| [speed, mu]);
-    law.failure().is_none().then(|| points.collect())
+/// The law of a contact node with its state.
+#[derive(Clone, Debug)]
+pub struct RecordedLaw {
+    /// The law.
+    pub law: Arc<dyn NodeFriction>,
+    /// Part of the coefficient to which it is known: zero for a law that the case writes out.
+    pub known_to: f64,
 }
 
-/// The friction law of a case as it lies beside results, whatever its other keys, and the part of the
-/// coefficient to which it is known. `sampled` are the points of a law that was handed over with the run.
+/// The friction law of a case as it lies beside results, whatever its other tables. `sampled` are the points
+/// of a law that was handed over with the run.
 ///
 /// # Errors
 /// Why there is none, as half a sentence.
-pub fn recorded_law(
+pub(crate) fn recorded_law(
     case: &toml::Table,
     sampled: Option<&Value>,
-) -> Result<(Box<dyn NodeFriction>, f64), String> {
+) -> Result<RecordedLaw, String> {
     let table = case.get("friction").ok_or("the case has no [friction]")?;
-    let mut friction: Friction = table
+    let mut parameters: Parameters = table
         .clone()
         .try_into()
         .map_err(|error: toml::de::Error| format!("[friction] of the case: {}", error.message()))?;
-    let needed = Uses::of(friction.law).needs;
-    if let Some(key) = needed.iter().find(|key| !friction.given().any(|given| given == **key)) {
-        return Err(format!("{} is missing in the case", path(key)));
+    if let Some(key) = parameters.missing() {
+        return Err(format!("friction.{key} is missing in the case"));
     }
     let mut known_to = 0.0;
-    if friction.law == FrictionLaw::Python {
+    if parameters.law == Kind::Python {
         let points = sampled.and_then(|points| serde_json::from_value(points.clone()).ok());
         let points: Vec<[f64; 2]> =
             points.ok_or("the run has left no points of its law \"python\" (summary.json)")?;
         known_to = interpolation_error(&points);
-        friction = Friction { law: FrictionLaw::Table, table: Some(points), ..friction };
+        parameters = Parameters { law: Kind::Table, table: Some(points), ..parameters };
     }
     let contact = case.get("contact").and_then(|contact| contact.get("enforcement"));
-    friction.write_defaults(contact.and_then(toml::Value::as_str) == Some("exact"));
-    let law = node_friction(&friction, Expression::untried, None).map_err(|e| e.to_string())?;
-    Ok((law, known_to))
+    parameters.write_defaults(contact.and_then(toml::Value::as_str) == Some("exact"));
+    let law = parameters.node_friction(Expression::untried, None).map_err(|e| e.to_string())?;
+    Ok(RecordedLaw { law: law.into(), known_to })
 }
 
 /// What linear interpolation between every second point is off at those between, relative: of a smooth law
@@ -71,17 +57,30 @@ fn interpolation_error(points: &[[f64; 2]]) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::friction::own::tests::Brought;
-    use contact::{Exponential, Implicit, Place};
+    use friction::{Exponential, Implicit, OwnLaw, Place, sampled};
 
     const PAPER: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+
+    /// Eq. (8) brought along.
+    #[derive(Debug)]
+    struct Brought;
+
+    impl OwnLaw for Brought {
+        fn mu(&self, slip_speeds: &[f64], mu: &mut [f64]) {
+            mu.iter_mut().zip(slip_speeds).for_each(|(mu, s)| *mu = PAPER.mu(*s));
+        }
+
+        fn failure(&self) -> Option<String> {
+            None
+        }
+    }
 
     #[test]
     fn a_law_that_was_brought_along_is_known_from_its_points_to_what_is_said() {
         let points = serde_json::json!(sampled(&Brought).unwrap());
         let case =
             "[friction]\nlaw = \"python\"\nsource = \"-\"\nmode = \"exact\"".parse().unwrap();
-        let (law, known_to) = recorded_law(&case, Some(&points)).unwrap();
+        let RecordedLaw { law, known_to } = recorded_law(&case, Some(&points)).unwrap();
         assert!(known_to < 1e-4, "{known_to:e}");
         let (at, same) = (Place::default(), Implicit(PAPER));
         for s in [0.0, 3e-7, 0.0123, 0.17, 2.9] {
@@ -96,8 +95,8 @@ mod tests {
         let read = |text: &str| recorded_law(&text.parse().unwrap(), None);
         let text = "other = 1\n[friction]\nlaw = \"rate_state\"\ndistance = 2e-6\n[contact]\n\
                     enforcement = \"exact\"";
-        assert!(read(text).unwrap().0.is_implicit());
-        assert!(!read(&text.replace("exact", "penalty")).unwrap().0.is_implicit());
+        assert!(read(text).unwrap().law.is_implicit());
+        assert!(!read(&text.replace("exact", "penalty")).unwrap().law.is_implicit());
         for (text, word) in [
             ("name = \"x\"", "no [friction]"),
             ("[friction]\nlaw = \"prakash_clifton\"\nstatic = 0.3", "friction.distance"),

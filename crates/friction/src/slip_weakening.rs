@@ -1,6 +1,6 @@
 //! Friction that weakens with the slip made so far.
 
-use super::{NodeFriction, Place};
+use crate::{NodeFriction, Place};
 
 /// `mu = mu_S - (mu_S - mu_D) min(|slip|/d_0, 1)`: linear slip weakening (Ida 1972; Andrews 1976), the
 /// law of the dynamic rupture benchmarks (Harris et al. 2009, TPV3).

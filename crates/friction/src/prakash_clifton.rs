@@ -1,6 +1,6 @@
 //! Friction whose shear strength remembers the pressure.
 
-use super::{NodeFriction, Place};
+use crate::{NodeFriction, Place};
 
 /// `d tau_s/dt = -((|s| + V*)/L) (tau_s - mu p)`: the shear strength `tau_s` relaxes towards Coulomb's
 /// over the distance `L` of slip, and at rest in the time `L/V*`. Prakash and Clifton's (1993) response to

@@ -1,17 +1,21 @@
 //! Friction that remembers: the coefficient follows its steady law over a distance.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// Memory of friction: `d(mu)/dt = -(max(|s|, s_0)/d_c) (mu - mu_steady(|s|))`, the regularisation
 /// of falling friction that CONTACT uses; with it the problem of two elastic bodies is well posed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Out of contact the coefficient returns to that at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct Memory {
-    /// Distance `d_c` of slip over which friction adapts (m).
+    /// Distance of slip `d_c` over which the coefficient adapts (m). Default 1e-6, as in CONTACT.
     pub distance: f64,
-    /// Slip speed `s_0` below which it adapts in time instead (m/s).
+    /// Slip speed `s_0` below which it adapts in time instead (m/s). Default 10e-3, as in CONTACT.
     pub floor: f64,
 }
 
 impl Default for Memory {
-    /// CONTACT's defaults: 1 um and 10 mm/s.
     fn default() -> Self {
         Self { distance: 1e-6, floor: 1e-2 }
     }

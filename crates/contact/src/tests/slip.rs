@@ -1,9 +1,9 @@
 use super::{K, Rig, SETTINGS};
 use crate::touch::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::{
-    Contact, Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeFriction, PenaltySettings,
-    Place, Remembering, Stiffness,
+use crate::{Contact, PenaltySettings, Stiffness};
+use friction::{
+    Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeFriction, Place, Remembering,
 };
 use mesh::Padded;
 

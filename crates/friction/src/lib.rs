@@ -1,12 +1,22 @@
-//! Friction laws: the coefficient of friction as a function of the slip speed.
+//! Friction laws: the coefficient of friction as a function of the slip speed, of place, time and pressure,
+//! and of a state; each declared once for the solver, the slider, the checks and the case file.
+//!
+//! A steady law is a [`FrictionLaw`]; [`Lagged`], [`Implicit`] and [`Remembering`] make a law of a contact
+//! node of it, a [`NodeFriction`], which the laws with a state are by themselves. [`Parameters`] makes any of
+//! them from its parameters. [`slip_speed`] solves a node's tangential problem with a law. SI units.
+
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod expression;
 mod memory;
 mod node;
 mod numbers;
 mod operators;
+mod own;
+mod parameters;
 mod prakash_clifton;
 mod rate_state;
+pub mod slip_speed;
 mod slip_weakening;
 mod steady;
 mod table;
@@ -15,6 +25,8 @@ pub use expression::{Domain, Expression, ExpressionError};
 pub use memory::Memory;
 pub use node::{Implicit, Lagged, NodeFriction, Place, Remembering, Remembers, Slid};
 pub use numbers::{Falling, Interface, falling, nucleation_length, spring_number};
+pub use own::{Own, OwnLaw, sampled};
+pub use parameters::{DYNAMIC, Kind, LawError, Mode, Parameters, USES, Uses, all_parameters};
 pub use prakash_clifton::PrakashClifton;
 pub use rate_state::{RateState, StateLaw};
 pub use slip_weakening::SlipWeakening;

@@ -1,6 +1,6 @@
 //! Friction given by points.
 
-use super::FrictionLaw;
+use crate::FrictionLaw;
 use thiserror::Error;
 
 /// `mu(|s|)` by linear interpolation between points; beyond the last point it stays constant.

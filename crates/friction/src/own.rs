@@ -1,6 +1,6 @@
 //! A friction law that whoever starts the run brings along: `friction.law = "python"`.
 
-use contact::{Memory, NodeFriction, Place, Remembers, Slid};
+use crate::{Memory, NodeFriction, Place, Remembers, Slid};
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -23,7 +23,7 @@ pub trait OwnLaw: Send + Sync + Debug {
 /// coefficient, and the law is asked once per step and surface; at the same instant it is asked at
 /// every trial of every node.
 #[derive(Debug)]
-pub(super) struct Own {
+pub struct Own {
     law: Arc<dyn OwnLaw>,
     memory: Option<Memory>,
     implicit: bool,
@@ -33,7 +33,8 @@ pub(super) struct Own {
 }
 
 impl Own {
-    pub(super) fn new(law: Arc<dyn OwnLaw>, memory: Option<Memory>, implicit: bool) -> Self {
+    /// `memory` and whether it is asked at the slip speed of the same instant.
+    pub fn new(law: Arc<dyn OwnLaw>, memory: Option<Memory>, implicit: bool) -> Self {
         let mut at_rest = [0.0];
         law.mu(&[0.0], &mut at_rest);
         let [at_rest] = at_rest;
@@ -116,16 +117,33 @@ impl NodeFriction for Own {
     }
 }
 
+/// Slip speeds at which such a law is sampled: at rest, and so many per decade from 1e-6 to 1e2 m/s.
+const PER_DECADE: u32 = 100;
+
+/// Points of a law that was handed over with the run; none of one that failed.
+pub fn sampled(law: &dyn OwnLaw) -> Option<Vec<[f64; 2]>> {
+    if law.failure().is_some() {
+        return None;
+    }
+    let decades = f64::from(PER_DECADE);
+    let speeds = (0..=8 * PER_DECADE).map(|i| libm::pow(10f64, -6.0 + f64::from(i) / decades));
+    let speeds: Vec<f64> = std::iter::once(0.0).chain(speeds).collect();
+    let mut mu = vec![0.0; speeds.len()];
+    law.mu(&speeds, &mut mu);
+    let points = speeds.into_iter().zip(mu).map(|(speed, mu)| [speed, mu]);
+    law.failure().is_none().then(|| points.collect())
+}
+
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
-    use contact::{Exponential, FrictionLaw, Implicit, Lagged, Remembering};
+    use crate::{Exponential, FrictionLaw, Implicit, Lagged, Remembering};
 
     const PAPER: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
 
     /// Eq. (8) brought along.
     #[derive(Debug)]
-    pub(in crate::friction) struct Brought;
+    struct Brought;
 
     impl OwnLaw for Brought {
         fn mu(&self, slip_speeds: &[f64], mu: &mut [f64]) {

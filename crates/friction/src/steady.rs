@@ -1,7 +1,7 @@
 //! The friction laws that a user can choose by name.
 
-use super::expression::{self, Expression};
-use super::{Coulomb, Exponential, FrictionLaw, Place, Table};
+use crate::expression::{self, Expression};
+use crate::{Coulomb, Exponential, FrictionLaw, Place, Table};
 use thiserror::Error;
 
 /// A friction law without memory, as plain data.
