@@ -9,7 +9,7 @@ use crate::convergence::Convergence;
 use crate::half_space::{HalfSpaces, LINE, LINE_EXTENT, LINE_SIZES, column, on_meshes, sizes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use statics::{Adhesion, Lateral, Rigid, stick_border};
+use reference::{Adhesion, Lateral, Rigid, stick_border};
 
 const MU: f64 = 0.3;
 const SOURCE: &str = "Carter (1926)";

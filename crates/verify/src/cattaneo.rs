@@ -15,7 +15,7 @@ use crate::half_space::{
 };
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use statics::{Influence, Lateral, Rigid, Rolling};
+use reference::{Influence, Lateral, Rigid, Rolling};
 
 const MU: f64 = 0.3;
 const SOURCE: &str = "Cattaneo (1938), Mindlin (1949)";

@@ -19,10 +19,10 @@ use crate::half_space::{
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use mesh::{Bar, Disk, FineZone, Mesh};
-use statics::{
-    Influence, Lateral, Point, Press, Pressed, Rigid, Rolling, Supports, SurfaceCompliance,
-    ellipsoid, press,
+use reference::{
+    Influence, Lateral, Point, Press, Pressed, Rigid, Rolling, SurfaceCompliance, ellipsoid, press,
 };
+use statics::Supports;
 
 const MU: f64 = 0.5;
 const TRACTIONS: [f64; 3] = [0.15, 0.28, 0.40];

@@ -1,14 +1,14 @@
 //! Half-spaces as finite bodies: the blocks of the static problems, and contacts of Hertz on them.
 //!
-//! A body on its own mirror image stands for two equal half-spaces ([`statics::Block`]). What the
+//! A body on its own mirror image stands for two equal half-spaces ([`reference::Block`]). What the
 //! block, which ends at L, changes in a patch of half axis a is the field of the traction far away:
 //! of order (a/L)^3 in the strain over the patch, (a/L)^2 in plane strain.
 
 use crate::body::STEEL;
 use crate::problem::{Cause, Size};
 use rayon::prelude::*;
+use reference::{Block, Influence, Lateral, Press, Pressed, Rigid, Rolling, ellipsoid, press};
 use solid::{Element, Material, element_stiffness};
-use statics::{Block, Influence, Lateral, Press, Pressed, Rigid, Rolling, ellipsoid, press};
 
 /// Stiffness of an element, with the hourglass coefficient of rolling runs.
 pub(crate) fn element(x: &[[f64; 3]; 8], m: &Material) -> [[f64; 24]; 24] {

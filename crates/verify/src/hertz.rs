@@ -11,7 +11,7 @@ use crate::half_space::{
 };
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use statics::{Lateral, Rigid};
+use reference::{Lateral, Rigid};
 
 const SOURCE: &str = "Hertz (1882)";
 const SPRINGS: &str = "a half-space with springs, one pass, d = 0.5 mm, computed for this project";

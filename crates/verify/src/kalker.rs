@@ -12,8 +12,8 @@ use crate::half_space::{
 };
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
+use reference::{Block, Influence, Lateral, Rigid, Rolling};
 use solid::Material;
-use statics::{Block, Influence, Lateral, Rigid, Rolling};
 
 const MU: f64 = 0.3;
 const SMALL: f64 = 1e-4;

@@ -10,7 +10,7 @@ use crate::convergence::Convergence;
 use crate::half_space::{HalfSpaces, WHEEL, WHEEL_EXTENT, WHEEL_SIZES, column, on_meshes, sizes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use statics::{Influence, Lateral, Rigid, Rolling, peak_shear, stick_border, stick_fraction};
+use reference::{Influence, Lateral, Rigid, Rolling, peak_shear, stick_border, stick_fraction};
 
 const MU: f64 = 0.5;
 /// Speed of rolling of the reference (m/s).

@@ -8,8 +8,9 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh::{Bar, Disk, FineZone};
+use reference::{Stiffness, Symbolic, Unknowns};
 use solid::{Element, Material, element_stiffness};
-use statics::{Stiffness, Supports, Symbolic, Unknowns};
+use statics::Supports;
 use std::time::Instant;
 
 fn main() {

@@ -1,7 +1,6 @@
 //! The stiffness of supported bodies as a sparse matrix, and its Cholesky factor.
 
 use crate::dissection::{Graph, nested_dissection};
-use crate::{Axis, Supports};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
@@ -14,6 +13,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, MatRef, Par, Side, Spec};
 use mesh::Mesh;
 use solid::Material;
+use statics::{Axis, Supports};
 use thiserror::Error;
 
 /// Stiffness of one hexahedron with given corners (m) and material, about the undeformed state

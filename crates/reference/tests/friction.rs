@@ -3,8 +3,8 @@
 
 mod common;
 use common::{SPHERE, sphere};
-use statics::{Adhesion, FrictionError, Influence, Lateral, Press, Rigid, Rolling, RollingError};
-use statics::{Pressed, press};
+use reference::{Adhesion, FrictionError, Influence, Lateral, Press, Rigid, Rolling, RollingError};
+use reference::{Pressed, press};
 
 const LOAD: f64 = 1e4;
 const MU: f64 = 0.3;

@@ -1,8 +1,8 @@
 //! Shared problems. What they give beside closed forms and CONTACT is verified in `verify`.
 #![allow(dead_code)]
 
+use reference::{Block, Influence, Lateral};
 use solid::{Element, Material, element_stiffness};
-use statics::{Block, Influence, Lateral};
 
 pub const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 

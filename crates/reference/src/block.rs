@@ -2,9 +2,10 @@
 //! mirror image.
 
 use crate::sparse::{ElementStiffness, SparseError};
-use crate::{Axis, Influence, InfluenceError, Point, Supports, SurfaceCompliance, Tied};
+use crate::{Influence, InfluenceError, Point, SurfaceCompliance};
 use mesh::{Mesh, MeshError, graded_block, graded_line};
 use solid::Material;
+use statics::{Axis, Supports, Tied};
 use thiserror::Error;
 
 /// The largest elements, over the half extent of the block.

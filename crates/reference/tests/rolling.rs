@@ -3,7 +3,7 @@
 
 mod common;
 use common::{STEEL, element, ellipse};
-use statics::{Block, Influence, Lateral, Press, Rigid, Rolling, press};
+use reference::{Block, Influence, Lateral, Press, Rigid, Rolling, press};
 
 const STEPS: usize = 3000;
 

@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh::{Mesh, Padded, graded_block, graded_line};
-use solid::{Element, Level, Material, Solid, Viscosity, element_stiffness};
-use statics::{
-    Axis, Block, Influence, InfluenceError, Lateral, Point, Press, SparseError, Stiffness,
-    Supports, SurfaceCompliance, Symbolic, Tied, Unknowns, press,
+use reference::{
+    Block, Influence, InfluenceError, Lateral, Point, Press, SparseError, Stiffness,
+    SurfaceCompliance, Symbolic, Unknowns, press,
 };
+use solid::{Element, Level, Material, Solid, Viscosity, element_stiffness};
+use statics::{Axis, Supports, Tied};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 const ELEMENT: Element = Element { hourglass: 0.05 };

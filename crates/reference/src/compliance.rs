@@ -1,10 +1,10 @@
 //! The compliance of a body as its contact surface feels it.
 
-use crate::Supports;
 use crate::sparse::{ElementStiffness, NONE, SparseError, Stiffness, Symbolic, Unknowns};
 use faer::Mat;
 use mesh::Mesh;
 use solid::Material;
+use statics::Supports;
 
 /// Displacements of some nodes of supported bodies per force on them: the block of K^-1 (m/N).
 pub struct SurfaceCompliance {
