@@ -88,7 +88,7 @@ impl State {
                 "guards",
                 "1, s",
                 "1 if there was contact; since when there is none, negative if there is",
-                &[f64::from(u8::from(watch.touched)), watch.parted.unwrap_or(-1.0)],
+                &[f64::from(u8::from(watch.touched)), watch.lost.unwrap_or(-1.0)],
             ),
             real("recorder/next_fields", "s", "next snapshot", &[self.recorder.next_fields]),
             real(
@@ -159,8 +159,8 @@ impl State {
         };
         let watch = match find("guards") {
             Ok(numbers) => {
-                let [touched, parted] = fixed(numbers)?;
-                Watch { touched: touched != 0.0, parted: (parted >= 0.0).then_some(parted) }
+                let [touched, lost] = fixed(numbers)?;
+                Watch { touched: touched != 0.0, lost: (lost >= 0.0).then_some(lost) }
             }
             Err(_) => Watch::default(),
         };

@@ -44,13 +44,13 @@ pub mod resume;
 pub mod run;
 mod run_error;
 pub mod schema;
-mod sense;
 mod start;
 mod summary;
 pub mod sweep;
 mod table;
 #[cfg(test)]
 mod tests;
+mod validation;
 
 pub use bench::{BlockElement, bench, bench_block};
 pub use error::{CaseError, KeyError};

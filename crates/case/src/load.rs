@@ -13,8 +13,8 @@ use crate::preload::store::hexadecimal;
 use crate::schema::{
     Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing, Time,
 };
-use crate::sense;
 use crate::table;
+use crate::validation;
 
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
@@ -50,7 +50,7 @@ impl Case {
 
     /// What is allowed but deserves a warning, one sentence each.
     pub fn warnings(&self) -> Vec<String> {
-        sense::warnings(self)
+        validation::warnings(self)
     }
 }
 
@@ -105,7 +105,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     if case.name.is_empty() && get(&layers.table, "name").is_none() {
         case.name = name_from(path);
     }
-    sense::check(&case, &layers)?;
+    validation::check(&case, &layers)?;
     write_defaults(&mut case);
     Ok(case)
 }
@@ -123,7 +123,7 @@ fn write_defaults(case: &mut Case) {
         case.contact.rows.get_or_insert_default();
     }
     if case.element.contact_layers == ContactLayers::Full {
-        case.element.layers.get_or_insert(sense::LAYERS);
+        case.element.layers.get_or_insert(validation::LAYERS);
         case.element.volumetric.get_or_insert_default();
     }
     if case.time.step.is_none() {

@@ -59,7 +59,7 @@ pub(crate) struct Means {
     /// Most sweeps of exact enforcement in a step.
     pub(crate) most_sweeps: usize,
     /// Nodes and steps in which the law of friction had more than one solution.
-    pub(crate) manifold: u64,
+    pub(crate) non_unique: u64,
     /// Integrals of mortar rows, in all steps.
     pub(crate) integrated: u64,
     pub(crate) mesh_mode: MeshModeSums,
@@ -95,7 +95,7 @@ impl Means {
     pub(crate) fn numbers(&self) -> Vec<f64> {
         let mut copy = self.clone();
         let means = copy.each().into_iter().flat_map(|m| [m.count, m.mean, m.squares]);
-        let counts = [self.most_sweeps as f64, self.manifold as f64, self.integrated as f64];
+        let counts = [self.most_sweeps as f64, self.non_unique as f64, self.integrated as f64];
         let rest = [self.worst_cone, self.worst_mismatch].into_iter().chain(counts);
         means.chain(rest).chain(self.mesh_mode.numbers()).collect()
     }
@@ -103,13 +103,14 @@ impl Means {
     /// The reverse of [`Self::numbers`].
     pub(crate) fn from_numbers(numbers: &[f64; Self::NUMBERS]) -> Self {
         let mut means = Self::default();
-        let [samples @ .., cone, mismatch, sweeps, manifold, integrated, a, b, c, d, e] = *numbers;
+        let [samples @ .., cone, mismatch, sweeps, non_unique, integrated, a, b, c, d, e] =
+            *numbers;
         for (mean, &[count, value, squares]) in means.each().into_iter().zip(samples.as_chunks().0)
         {
             *mean = Mean { count, mean: value, squares };
         }
         (means.worst_cone, means.worst_mismatch) = (cone, mismatch);
-        (means.most_sweeps, means.manifold) = (sweeps as usize, manifold as u64);
+        (means.most_sweeps, means.non_unique) = (sweeps as usize, non_unique as u64);
         means.integrated = integrated as u64;
         means.mesh_mode = MeshModeSums::from_numbers([a, b, c, d, e]);
         means

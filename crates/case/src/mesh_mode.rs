@@ -3,7 +3,7 @@
 use crate::model::{BAR, DISK, Model};
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers};
-use crate::sense::LAYERS;
+use crate::validation::LAYERS;
 use contact::NodalContact;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
 use contact::patch::IN_CONTACT;

@@ -5,7 +5,7 @@ use crate::memory::enough_for_mesh;
 use crate::mesh_file;
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers, Ends};
-use crate::sense::LAYERS;
+use crate::validation::LAYERS;
 use contact::{
     BodyMaterial, ExactContact, ExactSettings, PenaltyContact, PenaltySettings, StabilityScale,
 };

@@ -314,7 +314,7 @@ fn loads_of_slaves(slave: usize, pressed: &[(Gap, f64)]) -> [Vec<(u32, f64)>; 2]
     let mut loads = [Vec::new(), Vec::new()];
     for (gap, force) in pressed {
         loads[slave].push((gap.node, *force));
-        loads[1 - slave].extend(gap.foot.iter().map(|&(n, weight)| (n, weight * force)));
+        loads[1 - slave].extend(gap.projection.iter().map(|&(n, weight)| (n, weight * force)));
     }
     loads
 }

@@ -358,7 +358,7 @@ impl Recorder {
         }
         self.means.most_sweeps = self.means.most_sweeps.max(report.contact.sweeps);
         self.means.integrated += report.contact.integrated as u64;
-        self.means.manifold += report.contact.manifold as u64;
+        self.means.non_unique += report.contact.non_unique as u64;
         let inside = (self.evaluate[0]..=self.evaluate[1]).contains(&report.time);
         if inside {
             for (mean, f) in self.means.force.iter_mut().zip([tangential, lateral, normal]) {
@@ -456,7 +456,7 @@ impl Recorder {
                 cone,
                 e.contact_damping,
                 report.contact.sweeps as f64,
-                report.contact.manifold as f64,
+                report.contact.non_unique as f64,
                 mismatch,
             ]);
             if self.rows.len() >= HISTORY_BATCH * HISTORY.len() {

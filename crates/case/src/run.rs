@@ -22,9 +22,9 @@ use crate::record::{Basis, Recorder};
 use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;
-use crate::sense;
 use crate::start::{Start, restart, start};
 use crate::summary::{Ending, summary, without_rolling, write as write_summary};
+use crate::validation;
 use dynamics::Energies;
 use friction::{Kind, OwnLaw};
 use output::summary::Status;
@@ -192,7 +192,7 @@ fn run_in_pool(
         log.warn(&line)?;
     }
     if resumed.is_none() {
-        let below = sense::below_the_step(case, simulation.dt());
+        let below = validation::below_the_step(case, simulation.dt());
         below.iter().try_for_each(|line| log.warn(line))?;
     }
     if let (None, Some(line)) =

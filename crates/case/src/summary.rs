@@ -98,7 +98,7 @@ pub(crate) fn summary(
     let checks = json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch,
         "contact_damping": last.contact_damping });
     let exact = (case.contact.enforcement == Enforcement::Exact).then(|| {
-        json!({ "most_sweeps": means.most_sweeps, "manifold_node_steps": means.manifold,
+        json!({ "most_sweeps": means.most_sweeps, "manifold_node_steps": means.non_unique,
             "mortar_integrals": means.integrated })
     });
     let preload = facts.preload.map(|p| p.json());

@@ -1,7 +1,7 @@
 //! What a time loop asks of a method of contact.
 
+use crate::point::follow_first;
 use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
-use crate::touch::follow_first;
 use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
@@ -70,7 +70,7 @@ pub trait Contact: Send + Debug {
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError>;
 }
 
-/// Tables of the pairs of each pass in a state.
+/// Tables of the springs of each pass in a state.
 const PASSES: [&str; 2] = ["pass_0", "pass_1"];
 
 impl Contact for PenaltyContact {
@@ -83,8 +83,8 @@ impl Contact for PenaltyContact {
     }
 
     fn follow_first(&mut self, pairs: &[[u32; 2]]) {
-        for (rows, own) in self.pairs.iter_mut().zip(&self.sides) {
-            follow_first(rows, own, pairs);
+        for (points, own) in self.points.iter_mut().zip(&self.sides) {
+            follow_first(points, own, pairs);
         }
     }
 
@@ -110,8 +110,8 @@ impl Contact for PenaltyContact {
 
     fn snapshot(&self) -> ContactState {
         let mut state = ContactState::default();
-        for (table, pairs) in PASSES.iter().zip(&self.pairs) {
-            save_rows(table, pairs, &mut state);
+        for (table, points) in PASSES.iter().zip(&self.points) {
+            save_rows(table, points, &mut state);
         }
         save_search(&self.search, &mut state);
         state
@@ -120,7 +120,7 @@ impl Contact for PenaltyContact {
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
         for (slave, table) in PASSES.iter().enumerate() {
             let (own, masters) = (&self.sides[slave], &self.sides[1 - slave]);
-            self.pairs[slave] = restore_rows(table, state, own, masters)?;
+            self.points[slave] = restore_rows(table, state, own, masters)?;
         }
         restore_search(&mut self.search, state, &self.sides)
     }

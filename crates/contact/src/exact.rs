@@ -10,21 +10,21 @@
 //! Nodes of one side, the slaves, meet the other at one face, or in the mean over all faces near them
 //! ([`Rows`]). The system is solved by projected block Gauss–Seidel: a node's own block
 //! `W_ii = (1/m_s + sum w_J^2/m_J) I` is isotropic for lumped masses, so that its normal problem, and then
-//! its tangential one (module `local`) are closed; blocks of neighbouring nodes couple little. The order is
+//! its tangential one (`friction::slip_speed`) are closed; blocks of neighbouring nodes couple little. The order is
 //! fixed, hence the bits are.
 
+use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, Trial};
 use crate::face::{Positions, project};
 use crate::mortar::{Mean, Mortar, restore_means, save_means};
 use crate::nodal::NodalContact;
-use crate::pair::lay_into;
 use crate::penalty::{check_common, in_range};
-use crate::row::{Footing, Leg, Row, Rows, face_shares, within};
+use crate::penalty_point::lay_into;
+use crate::point::{ContactPoint, State, WATCHED, finer, follow_first, sleep};
 use crate::search::Search;
 use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
-use crate::touch::{Listed, State, WATCHED, finer, follow_first, sleep};
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
 use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError};
 use friction::slip_speed;
@@ -39,10 +39,10 @@ const SWEEPS: usize = 100;
 /// sweep found, not on that of the step before: near the end of a branch neighbours could else drive
 /// one another to and fro.
 const SETTLED: usize = 20;
-/// A mortar row far from closing may have moved so much further along the master before its integrals are
+/// A mortar constraint far from closing may have moved so much further along the master before its integrals are
 /// taken anew.
 const FAR: f64 = 10.0;
-/// Table of the rows in a state.
+/// Table of the constraints in a state.
 const ROWS: &str = "rows";
 
 /// Settings of [`ExactContact`].
@@ -65,21 +65,21 @@ pub struct ExactSettings {
 pub struct ExactContact {
     sides: [ContactSurface; 2],
     slave: usize,
-    /// The rows, ascending by slave, in the list of the slaves' side.
-    rows: [Vec<Row>; 2],
+    /// The constraints, ascending by slave, in the list of the slaves' side.
+    constraints: [Vec<Constraint>; 2],
     law: Box<dyn NodeFriction>,
     search: Search,
     /// Whether the search was refreshed in the last step.
     searched: bool,
     curvature: bool,
-    /// Integration of mortar rows, and the mean that each slave follows.
+    /// Integration of mortar constraints, and the mean that each slave follows.
     mortar: Option<(Mortar, Vec<Mean>)>,
-    /// Rows that may carry force in this step, and their legs.
+    /// Constraints that may carry force in this step, and their legs.
     active: Vec<u32>,
     legs: Vec<Leg>,
     /// What the law of friction is told about those that were closed before, in their order.
     slid: Vec<Slid>,
-    /// Mortar rows whose integrals were taken in this step.
+    /// Mortar constraints whose integrals were taken in this step.
     integrated: usize,
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step.
     velocity: [Vec<Vec3>; 2],
@@ -115,7 +115,7 @@ impl ExactContact {
             search: Search::new(&sides),
             searched: false,
             slave,
-            rows: [Vec::new(), Vec::new()],
+            constraints: [Vec::new(), Vec::new()],
             law,
             curvature: settings.curvature,
             active: Vec::new(),
@@ -135,95 +135,115 @@ impl ExactContact {
         self.slave
     }
 
-    /// Follows a row to the positions of the step. Returns whether it may close.
-    fn stand(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
-        row.slipped = row.state == State::Slip;
-        if row.sleep > 0 {
-            row.sleep -= 1;
+    /// Follows a constraint to the positions of the step. Returns whether it may close.
+    fn update_kinematics(
+        &mut self,
+        constraint: &mut Constraint,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> bool {
+        constraint.slipped = constraint.state == State::Slip;
+        if constraint.sleep > 0 {
+            constraint.sleep -= 1;
             return false;
         }
-        let x = positions.at(self.sides[self.slave].nodes[row.slave as usize]);
+        let x = positions.at(self.sides[self.slave].nodes[constraint.slave as usize]);
         let old = match &self.mortar {
-            None => self.stand_on_face(row, positions, x),
-            Some(_) => self.stand_on_mean(row, positions, x),
+            None => self.kinematics_on_face(constraint, positions, x),
+            Some(_) => self.kinematics_in_mean(constraint, positions, x),
         };
         let Some(old) = old else {
-            row.gap = f64::INFINITY;
-            row.open();
+            constraint.gap = f64::INFINITY;
+            constraint.open();
             // Walk anew from the middle of the face.
-            (row.xi, row.eta) = (0.0, 0.0);
+            (constraint.xi, constraint.eta) = (0.0, 0.0);
             return false;
         };
-        if row.is_closed() {
+        if constraint.is_closed() {
             // the force of the last step turns with the master and is laid into the new plane
-            let turned = axpy(scale(row.framed[0], old[0]), row.framed[1], old[1]);
-            row.friction = lay_into(turned, row.normal);
+            let turned = axpy(scale(constraint.framed[0], old[0]), constraint.framed[1], old[1]);
+            constraint.friction = lay_into(turned, constraint.normal);
             return true;
         }
-        let (opening, slip) = self.rates_of(row, motion);
+        let (opening, slip) = self.rates_of(constraint, motion);
         let speed = libm::hypot(opening, norm(slip));
-        row.sleep = sleep(row.gap, speed, self.search.margin, motion.dt);
-        let may_close = row.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed;
+        constraint.sleep = sleep(constraint.gap, speed, self.search.margin, motion.dt);
+        let may_close = constraint.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed;
         if !may_close {
-            row.withdraw(&mut self.legs);
+            constraint.withdraw(&mut self.legs);
         }
         may_close
     }
 
-    /// Sets up a row over the face under it. Returns where its frame of the last step is now, or nothing
+    /// Sets up a constraint over the face under it. Returns where its frame of the last step is now, or nothing
     /// where the node lies beside the master.
-    fn stand_on_face(
+    fn kinematics_on_face(
         &mut self,
-        row: &mut Row,
+        constraint: &mut Constraint,
         positions: &Positions<'_>,
         x: Vec3,
     ) -> Option<[Vec3; 2]> {
         let master = &self.sides[1 - self.slave];
-        let followed = project(master, positions, self.curvature, x, row.face, row.xi, row.eta);
-        let foot = followed.foot?;
-        (row.face, row.xi, row.eta, row.gap) = (foot.face, foot.xi, foot.eta, foot.gap);
-        let [xi, eta] = within(&foot);
-        let shares = face_shares(&master.faces[foot.face as usize], xi, eta);
-        let footing = Footing::new(&shares, master, positions);
-        row.place(&shares, &footing, foot.point.normal, x, &mut self.legs);
+        let followed = project(
+            master,
+            positions,
+            self.curvature,
+            x,
+            constraint.face,
+            constraint.xi,
+            constraint.eta,
+        );
+        let projection = followed.projection?;
+        (constraint.face, constraint.xi, constraint.eta, constraint.gap) =
+            (projection.face, projection.xi, projection.eta, projection.gap);
+        let [xi, eta] = within(&projection);
+        let shares = face_shares(&master.faces[projection.face as usize], xi, eta);
+        let master_point = MasterPoint::new(&shares, master, positions);
+        constraint.place(&shares, &master_point, projection.point.normal, x, &mut self.legs);
         Some(frame(followed.old.tangent, followed.old.normal))
     }
 
-    /// The same over the mean of a mortar row, which is integrated where there is none yet or the slave has
+    /// The same over the mean of a mortar constraint, which is integrated where there is none yet or the slave has
     /// moved along the master. Far from closing an older mean serves: its gap is good enough to wait by.
-    fn stand_on_mean(
+    fn kinematics_in_mean(
         &mut self,
-        row: &mut Row,
+        constraint: &mut Constraint,
         positions: &Positions<'_>,
         x: Vec3,
     ) -> Option<[Vec3; 2]> {
         let (mortar, means) = self.mortar.as_mut()?;
         let sides = [&self.sides[self.slave], &self.sides[1 - self.slave]];
-        let mean = &mut means[row.slave as usize];
+        let mean = &mut means[constraint.slave as usize];
         let mut old = None;
-        let mut standing = None;
+        let mut kinematics = None;
         if !mean.shares.is_empty() {
-            let now = mean.standing(sides[1], positions, x);
-            old = Some(frame(now.footing.tangents[0], now.normal));
-            let near = row.is_closed() || now.gap < WATCHED * self.search.margin;
-            standing = (now.stale <= if near { 1.0 } else { FAR }).then_some(now);
+            let now = mean.kinematics(sides[1], positions, x);
+            old = Some(frame(now.master_point.tangents[0], now.normal));
+            let near = constraint.is_closed() || now.gap < WATCHED * self.search.margin;
+            kinematics = (now.stale <= if near { 1.0 } else { FAR }).then_some(now);
         }
-        let standing = match standing {
-            Some(standing) => standing,
+        let kinematics = match kinematics {
+            Some(kinematics) => kinematics,
             None => {
                 self.integrated += 1;
                 let (face, on_master) =
-                    mortar.integrate(sides, positions, row.slave, row.face, mean);
-                row.face = face;
+                    mortar.integrate(sides, positions, constraint.slave, constraint.face, mean);
+                constraint.face = face;
                 if !on_master {
                     return None;
                 }
-                mean.standing(sides[1], positions, x)
+                mean.kinematics(sides[1], positions, x)
             }
         };
-        row.gap = standing.gap;
-        row.place(&mean.shares, &standing.footing, standing.normal, x, &mut self.legs);
-        Some(old.unwrap_or(row.frame))
+        constraint.gap = kinematics.gap;
+        constraint.place(
+            &mean.shares,
+            &kinematics.master_point,
+            kinematics.normal,
+            x,
+            &mut self.legs,
+        );
+        Some(old.unwrap_or(constraint.frame))
     }
 
     /// Takes the velocity without contact of a node of `side`.
@@ -239,102 +259,118 @@ impl ExactContact {
     }
 
     /// Rates at the velocities that the forces found so far give.
-    fn rates(&self, row: &Row) -> (f64, Vec3) {
+    fn rates(&self, constraint: &Constraint) -> (f64, Vec3) {
         let master = &self.velocity[1 - self.slave];
-        let slave = self.velocity[self.slave][row.slave as usize];
-        row.rates(slave, &self.legs[row.legs()], |node| master[node as usize])
+        let slave = self.velocity[self.slave][constraint.slave as usize];
+        constraint.rates(slave, &self.legs[constraint.legs()], |node| master[node as usize])
     }
 
     /// Rates at the velocities of a motion.
-    fn rates_of(&self, row: &Row, motion: &Motion<'_>) -> (f64, Vec3) {
+    fn rates_of(&self, constraint: &Constraint, motion: &Motion<'_>) -> (f64, Vec3) {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
         let at = |node: u32| motion.velocity[node as usize].xyz();
-        let slave = at(own.nodes[row.slave as usize]);
-        row.rates(slave, &self.legs[row.legs()], |node| at(master.nodes[node as usize]))
+        let slave = at(own.nodes[constraint.slave as usize]);
+        constraint
+            .rates(slave, &self.legs[constraint.legs()], |node| at(master.nodes[node as usize]))
     }
 
-    /// Adds what the forces of a row change in the velocities.
-    fn push(&mut self, row: &Row, normal: f64, friction: Vec3) {
-        let (i, own) = (row.slave as usize, self.slave);
-        let on_slave = axpy(friction, normal, row.normal);
+    /// Adds what the forces of a constraint change in the velocities.
+    fn push(&mut self, constraint: &Constraint, normal: f64, friction: Vec3) {
+        let (i, own) = (constraint.slave as usize, self.slave);
+        let on_slave = axpy(friction, normal, constraint.normal);
         self.velocity[own][i] = axpy(self.velocity[own][i], self.pace[own][i], on_slave);
         let (velocity, pace) = (&mut self.velocity[1 - own], &self.pace[1 - own]);
-        for leg in &self.legs[row.legs()] {
+        for leg in &self.legs[constraint.legs()] {
             let node = leg.node as usize;
-            velocity[node] = axpy(velocity[node], pace[node], row.reaction(leg, normal, friction));
+            velocity[node] =
+                axpy(velocity[node], pace[node], constraint.reaction(leg, normal, friction));
         }
     }
 
-    fn at(&self, row: &Row, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
+    fn at(&self, constraint: &Constraint, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
         let own = &self.sides[self.slave];
         Place {
-            position: positions.at(own.nodes[row.slave as usize]),
+            position: positions.at(own.nodes[constraint.slave as usize]),
             time: motion.time,
-            pressure: row.normal_force / own.area[row.slave as usize],
+            pressure: constraint.normal_force / own.area[constraint.slave as usize],
         }
     }
 
-    /// One visit of Gauss–Seidel; returns the change of the force and its size (N).
-    fn visit(&mut self, row: &mut Row, positions: &Positions<'_>, motion: &Motion<'_>) -> [f64; 2] {
-        let (opening, slip) = self.rates(row);
-        let (pressed, rubbed) = (row.normal_force, row.friction);
-        let free_gap = row.gap + motion.dt * (opening - row.mobility * pressed);
-        let needed = -free_gap / (motion.dt * row.mobility);
+    /// One update of Gauss–Seidel; returns the change of the force and its size (N).
+    fn gauss_seidel_update(
+        &mut self,
+        constraint: &mut Constraint,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> [f64; 2] {
+        let (opening, slip) = self.rates(constraint);
+        let (pressed, frictional) = (constraint.normal_force, constraint.friction);
+        let free_gap = constraint.gap + motion.dt * (opening - constraint.delassus * pressed);
+        let needed = -free_gap / (motion.dt * constraint.delassus);
         // not `max`: what is no number must reach the guards
-        row.normal_force = if needed <= 0.0 { 0.0 } else { needed };
-        let free = axpy(slip, -row.mobility, rubbed);
-        (row.friction, row.state) = self.rub(row, free, positions, motion);
-        let change = sub(row.friction, rubbed);
-        self.push(row, row.normal_force - pressed, change);
+        constraint.normal_force = if needed <= 0.0 { 0.0 } else { needed };
+        let free = axpy(slip, -constraint.delassus, frictional);
+        (constraint.friction, constraint.state) =
+            self.return_mapping(constraint, free, positions, motion);
+        let change = sub(constraint.friction, frictional);
+        self.push(constraint, constraint.normal_force - pressed, change);
         [
-            (row.normal_force - pressed).abs() + norm(change),
-            row.normal_force.max(norm(row.friction)),
+            (constraint.normal_force - pressed).abs() + norm(change),
+            constraint.normal_force.max(norm(constraint.friction)),
         ]
     }
 
-    /// Friction on the slave for the pressure of the row, from the slip velocity without it. Sets the
+    /// Friction on the slave for the pressure of the constraint, from the slip velocity without it. Sets the
     /// coefficient.
-    fn rub(
+    fn return_mapping(
         &self,
-        row: &mut Row,
+        constraint: &mut Constraint,
         free: Vec3,
         positions: &Positions<'_>,
         motion: &Motion<'_>,
     ) -> (Vec3, State) {
-        if row.normal_force == 0.0 {
+        if constraint.normal_force == 0.0 {
             return ([0.0; 3], State::Open);
         }
-        let at = self.at(row, positions, motion);
+        let at = self.at(constraint, positions, motion);
         let speed = norm(free);
-        let c = row.mobility * row.normal_force;
-        let sticking = (scale(-1.0 / row.mobility, free), State::Stick);
+        let c = constraint.delassus * constraint.normal_force;
+        let sticking = (scale(-1.0 / constraint.delassus, free), State::Stick);
         if self.law.is_implicit() {
-            let curve =
-                |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
-            let Some((_, mu)) = slip_speed::solve(speed, c, row.slipped, &curve) else {
-                row.mu = self.law.mu(row.memory, 0.0, &at);
+            let curve = |s: f64| {
+                (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
+            };
+            let Some((_, mu)) = slip_speed::solve(speed, c, constraint.slipped, &curve) else {
+                constraint.mu = self.law.mu(constraint.memory, 0.0, &at);
                 return sticking;
             };
-            row.mu = mu;
+            constraint.mu = mu;
         } else {
-            row.mu = self.law.mu(row.memory, 0.0, &at);
-            if speed <= c * row.mu {
+            constraint.mu = self.law.mu(constraint.memory, 0.0, &at);
+            if speed <= c * constraint.mu {
                 return sticking;
             }
         }
-        (scale(-row.mu * row.normal_force / speed, free), State::Slip)
+        (scale(-constraint.mu * constraint.normal_force / speed, free), State::Slip)
     }
 
-    /// Whether friction at a row has more than one solution.
-    fn is_manifold(&self, row: &Row, positions: &Positions<'_>, motion: &Motion<'_>) -> bool {
+    /// Whether friction at a constraint has more than one solution.
+    fn is_non_unique(
+        &self,
+        constraint: &Constraint,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> bool {
         if !self.law.is_implicit() {
             return false;
         }
-        let at = self.at(row, positions, motion);
-        let (_, slip) = self.rates(row);
-        let free = norm(axpy(slip, -row.mobility, row.friction));
-        let curve = |s: f64| (self.law.mu(row.memory, s, &at), self.law.slope(row.memory, s, &at));
-        slip_speed::is_non_unique(free, row.mobility * row.normal_force, &curve)
+        let at = self.at(constraint, positions, motion);
+        let (_, slip) = self.rates(constraint);
+        let free = norm(axpy(slip, -constraint.delassus, constraint.friction));
+        let curve = |s: f64| {
+            (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
+        };
+        slip_speed::is_non_unique(free, constraint.delassus * constraint.normal_force, &curve)
     }
 }
 
@@ -353,30 +389,30 @@ impl ExactContact {
 }
 
 impl Contact for ExactContact {
-    /// Finds the rows that may close, and sets them up.
+    /// Finds the constraints that may close, and sets them up.
     fn follow(&mut self, motion: &Motion<'_>) {
         let positions =
             Positions { reference: motion.reference, displacement: motion.displacement };
         let own = self.slave;
-        self.searched = self.search.is_due(&self.sides, &positions, &self.rows);
+        self.searched = self.search.is_due(&self.sides, &positions, &self.constraints);
         if self.searched {
-            self.search.refresh(&self.sides, &positions, &mut self.rows);
-            self.rows[1 - own].clear();
-            let most = self.rows[own].len();
+            self.search.refresh(&self.sides, &positions, &mut self.constraints);
+            self.constraints[1 - own].clear();
+            let most = self.constraints[own].len();
             self.active.reserve(most.saturating_sub(self.active.len()));
             self.legs.reserve((4 * most).saturating_sub(self.legs.len()));
             self.slid.reserve(most.saturating_sub(self.slid.len()));
         }
-        let mut rows = std::mem::take(&mut self.rows[own]);
+        let mut constraints = std::mem::take(&mut self.constraints[own]);
         self.active.clear();
         self.legs.clear();
         self.integrated = 0;
-        for (i, row) in rows.iter_mut().enumerate() {
-            if self.stand(row, &positions, motion) {
+        for (i, constraint) in constraints.iter_mut().enumerate() {
+            if self.update_kinematics(constraint, &positions, motion) {
                 self.active.push(i as u32);
             }
         }
-        self.rows[own] = rows;
+        self.constraints[own] = constraints;
     }
 
     fn apply(
@@ -389,52 +425,52 @@ impl Contact for ExactContact {
             Positions { reference: motion.reference, displacement: motion.displacement };
         let mut sums = Accumulator::new(self.searched);
         let own = self.slave;
-        let mut rows = std::mem::take(&mut self.rows[own]);
+        let mut constraints = std::mem::take(&mut self.constraints[own]);
         let mut active = std::mem::take(&mut self.active);
         self.slid.clear();
         self.now += 1;
 
         // velocities without contact, and what the law is told of the last step
         active.retain(|&i| {
-            let row = &mut rows[i as usize];
-            self.release(own, row.slave, trial, force, motion.dt);
-            row.mobility = self.pace[own][row.slave as usize];
-            for k in row.legs() {
+            let constraint = &mut constraints[i as usize];
+            self.release(own, constraint.slave, trial, force, motion.dt);
+            constraint.delassus = self.pace[own][constraint.slave as usize];
+            for k in constraint.legs() {
                 let Leg { node, weight, .. } = self.legs[k];
                 self.release(1 - own, node, trial, force, motion.dt);
-                row.mobility += weight * weight * self.pace[1 - own][node as usize];
+                constraint.delassus += weight * weight * self.pace[1 - own][node as usize];
             }
             // both ends held: nothing to enforce
-            if row.mobility == 0.0 {
-                row.open();
+            if constraint.delassus == 0.0 {
+                constraint.open();
                 return false;
             }
-            let at = self.at(row, &positions, motion);
-            if row.is_closed() {
-                let slip_speed = norm(row.slip_velocity);
-                self.slid.push(Slid { state: row.memory, slip_speed, at });
+            let at = self.at(constraint, &positions, motion);
+            if constraint.is_closed() {
+                let slip_speed = norm(constraint.slip_velocity);
+                self.slid.push(Slid { state: constraint.memory, slip_speed, at });
             } else {
-                row.memory = self.law.begin(&at);
+                constraint.memory = self.law.begin(&at);
             }
             true
         });
         self.law.advance_all(&mut self.slid, motion.dt);
         let mut advanced = self.slid.iter();
         for &i in &active {
-            let row = &mut rows[i as usize];
+            let constraint = &mut constraints[i as usize];
             // those of `slid`, in the same order
-            if row.is_closed()
+            if constraint.is_closed()
                 && let Some(slid) = advanced.next()
             {
-                row.memory = slid.state;
+                constraint.memory = slid.state;
             }
         }
         sums.other.integrated = self.integrated;
         // Only now: all velocities are free ones.
         for &i in &active {
-            let row = &rows[i as usize];
-            if row.is_closed() {
-                self.push(row, row.normal_force, row.friction);
+            let constraint = &constraints[i as usize];
+            if constraint.is_closed() {
+                self.push(constraint, constraint.normal_force, constraint.friction);
             }
         }
 
@@ -442,10 +478,10 @@ impl Contact for ExactContact {
             sums.other.sweeps += 1;
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for &i in &active {
-                let row = &mut rows[i as usize];
-                let [changed, force] = self.visit(row, &positions, motion);
+                let constraint = &mut constraints[i as usize];
+                let [changed, force] = self.gauss_seidel_update(constraint, &positions, motion);
                 if sums.other.sweeps > SETTLED {
-                    row.slipped = row.state == State::Slip;
+                    constraint.slipped = constraint.state == State::Slip;
                 }
                 change = change.max(changed);
                 size = size.max(force);
@@ -458,54 +494,55 @@ impl Contact for ExactContact {
         }
 
         for &i in &active {
-            let row = &mut rows[i as usize];
-            if !row.is_closed() {
-                row.open();
+            let constraint = &mut constraints[i as usize];
+            if !constraint.is_closed() {
+                constraint.open();
                 continue;
             }
-            let (opening, slip) = self.rates(row);
-            let before = self.rates_of(row, motion);
+            let (opening, slip) = self.rates(constraint);
+            let before = self.rates_of(constraint, motion);
             // the trapezoidal work of the force, in halves around t^n
             let work = |(opening, slip): (f64, Vec3)| {
-                0.5 * motion.dt * (row.normal_force * opening + dot(row.friction, slip))
+                0.5 * motion.dt
+                    * (constraint.normal_force * opening + dot(constraint.friction, slip))
             };
             // round-off of a node that sticks is no friction
-            let slips = row.state == State::Slip;
-            let heat = if slips { -motion.dt * dot(row.friction, slip) } else { 0.0 };
+            let slips = constraint.state == State::Slip;
+            let heat = if slips { -motion.dt * dot(constraint.friction, slip) } else { 0.0 };
             sums.friction_ahead.add(heat);
             sums.damping_work.add(-work(before));
             sums.damping_ahead.add(-(work((opening, slip)) + heat));
 
-            let on_slave = axpy(row.friction, row.normal_force, row.normal);
-            let node = self.sides[own].nodes[row.slave as usize];
+            let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
+            let node = self.sides[own].nodes[constraint.slave as usize];
             add_to(&mut force[node as usize], on_slave);
             sums.push(own, on_slave);
             let mut on_masters = [0.0; 3];
-            for leg in &self.legs[row.legs()] {
-                let on_leg = row.reaction(leg, row.normal_force, row.friction);
+            for leg in &self.legs[constraint.legs()] {
+                let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
                 let node = self.sides[1 - own].nodes[leg.node as usize];
                 add_to(&mut force[node as usize], on_leg);
                 on_masters = add(on_masters, on_leg);
             }
             sums.push(1 - own, on_masters);
-            row.framed = row.frame.map(|e| dot(row.friction, e));
-            row.slip_velocity = slip;
-            row.slip = axpy(row.slip, motion.dt, slip);
-            sums.normal_force.add(row.normal_force);
-            sums.meet(row.mu);
+            constraint.framed = constraint.frame.map(|e| dot(constraint.friction, e));
+            constraint.slip_velocity = slip;
+            constraint.slip = axpy(constraint.slip, motion.dt, slip);
+            sums.normal_force.add(constraint.normal_force);
+            sums.meet(constraint.mu);
             let other = &mut sums.other;
             other.closed += 1;
-            other.slipping += usize::from(row.state == State::Slip);
-            other.max_penetration = other.max_penetration.max(-row.gap);
-            other.manifold += usize::from(self.is_manifold(row, &positions, motion));
+            other.slipping += usize::from(constraint.state == State::Slip);
+            other.max_penetration = other.max_penetration.max(-constraint.gap);
+            other.non_unique += usize::from(self.is_non_unique(constraint, &positions, motion));
         }
-        self.rows[own] = rows;
+        self.constraints[own] = constraints;
         self.active = active;
         sums.finish()
     }
 
     fn follow_first(&mut self, pairs: &[[u32; 2]]) {
-        follow_first(&mut self.rows[self.slave], &self.sides[self.slave], pairs);
+        follow_first(&mut self.constraints[self.slave], &self.sides[self.slave], pairs);
     }
 
     fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}
@@ -520,11 +557,14 @@ impl Contact for ExactContact {
 
     fn nodal(&self, table: &mut NodalContact) {
         let is_slave = table.side() == self.slave;
-        let rows = &self.rows[self.slave][..];
-        let (own, others) = if is_slave { (rows, &[][..]) } else { (&[][..], rows) };
-        let others = others.iter().filter(|row| row.is_closed()).flat_map(|row| {
-            self.legs[row.legs()].iter().map(move |leg| (row, leg.node, leg.weight))
-        });
+        let constraints = &self.constraints[self.slave][..];
+        let (own, others) = if is_slave { (constraints, &[][..]) } else { (&[][..], constraints) };
+        let others =
+            others.iter().filter(|constraint| constraint.is_closed()).flat_map(|constraint| {
+                self.legs[constraint.legs()]
+                    .iter()
+                    .map(move |leg| (constraint, leg.node, leg.weight))
+            });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, is_slave);
     }
@@ -535,7 +575,7 @@ impl Contact for ExactContact {
 
     fn snapshot(&self) -> ContactState {
         let mut state = ContactState::default();
-        save_rows(ROWS, &self.rows[self.slave], &mut state);
+        save_rows(ROWS, &self.constraints[self.slave], &mut state);
         if let Some((_, means)) = &self.mortar {
             save_means(means, &mut state);
         }
@@ -545,16 +585,16 @@ impl Contact for ExactContact {
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
         let own = self.slave;
-        let rows = restore_rows(ROWS, state, &self.sides[own], &self.sides[1 - own])?;
+        let constraints = restore_rows(ROWS, state, &self.sides[own], &self.sides[1 - own])?;
         if let Some((_, means)) = &mut self.mortar {
             let nodes = [own, 1 - own].map(|side| self.sides[side].nodes.len());
             let all = self.sides[own].nodes.iter().max().map_or(0, |&n| n as usize + 1);
             *means = restore_means(state, nodes, all)?;
         }
-        self.active.reserve(rows.len());
-        self.slid.reserve(rows.len());
-        self.legs.reserve(4 * rows.len());
-        self.rows[own] = rows;
+        self.active.reserve(constraints.len());
+        self.slid.reserve(constraints.len());
+        self.legs.reserve(4 * constraints.len());
+        self.constraints[own] = constraints;
         restore_search(&mut self.search, state, &self.sides)
     }
 }

@@ -1,4 +1,4 @@
-//! The foot of a slave node on the master surface: projection on bilinear faces, the exact
+//! The projection of a slave node on the master surface: projection on bilinear faces, the exact
 //! surface beyond the facets, and the walk from face to face.
 
 use crate::surface::{ContactSurface, NONE};
@@ -10,7 +10,7 @@ use mesh::{Padded, SmoothSurface};
 /// |gap|/radius per round with the exact surface.
 const CONVERGED: f64 = 1e-8;
 const ROUNDS: usize = 12;
-/// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
+/// How far (in face coordinates) a projection may lie beyond an edge and still count as on the face.
 const EDGE: f64 = 1e-9;
 /// The same at the border of the surface.
 const BORDER: f64 = 1e-2;
@@ -97,9 +97,9 @@ pub(crate) struct SurfacePoint {
     pub offset: f64,
 }
 
-/// The foot of a node on the surface.
+/// The projection of a node on the surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Foot {
+pub(crate) struct Projection {
     pub face: u32,
     pub xi: f64,
     pub eta: f64,
@@ -120,9 +120,9 @@ pub(crate) struct Foot {
 /// rotation of `N_s` when the face only rotates:
 /// `n = normalise(nu n_f + (N_s.A_a) g^a)`.
 ///
-/// The foot of a node is where `x_s - x_m` is parallel to `n`. Its normal part on the facet being
+/// The projection of a node is where `x_s - x_m` is parallel to `n`. Its normal part on the facet being
 /// `lambda = n_f.(x_s - x_m)`, that is `a_b.(x_s - x_m) = (lambda/nu) N_s.A_b`, and the gap is
-/// `n.(x_s - x_m) - c`. Neighbouring facets then meet without a kink: gap, normal and foot are
+/// `n.(x_s - x_m) - c`. Neighbouring facets then meet without a kink: gap, normal and projection are
 /// those of the smooth surface.
 pub(crate) struct FaceGeometry<'a> {
     current: Bilinear,
@@ -155,7 +155,7 @@ impl<'a> FaceGeometry<'a> {
         self.evaluate(self.current.point(xi, eta), xi, eta).0
     }
 
-    /// The surface at `(xi, eta)` and Newton's correction towards the foot of `node`.
+    /// The surface at `(xi, eta)` and Newton's correction towards the projection of `node`.
     #[inline(always)]
     fn evaluate(&self, node: Vec3, xi: f64, eta: f64) -> (SurfacePoint, [f64; 2]) {
         let x = self.current.point(xi, eta);
@@ -209,18 +209,18 @@ pub(crate) fn corner_normals(
     normals
 }
 
-/// A point of the master surface followed through one step: where the foot of the last step is
-/// now, and the new foot.
+/// A point of the master surface followed through one step: where the projection of the last step is
+/// now, and the new projection.
 pub(crate) struct Followed {
-    /// The old foot, moved with the face.
+    /// The old projection, moved with the face.
     pub old: SurfacePoint,
-    /// The new foot; `None` where the node projects off the surface.
-    pub foot: Option<Foot>,
+    /// The new projection; `None` where the node projects off the surface.
+    pub projection: Option<Projection>,
 }
 
 /// Projects `node` on `surface`, starting on `face` at `(xi, eta)`.
 ///
-/// The walk crosses the edge that the foot has left furthest behind. Where the walk would turn
+/// The walk crosses the edge that the projection has left furthest behind. Where the walk would turn
 /// back at once, the node lies over a ridge and belongs to the face of lowest index.
 #[inline]
 pub(crate) fn project(
@@ -234,28 +234,28 @@ pub(crate) fn project(
 ) -> Followed {
     let geometry = FaceGeometry::new(surface, face, positions, curvature);
     let (old, first) = geometry.evaluate(node, xi, eta);
-    let mut foot = on_face(&geometry, node, face, [xi, eta], Some((old, first)));
+    let mut projection = on_face(&geometry, node, face, [xi, eta], Some((old, first)));
     let mut previous = NONE;
     for _ in 0..HOPS {
-        let Some(here) = foot else {
-            return Followed { old, foot: None };
+        let Some(here) = projection else {
+            return Followed { old, projection: None };
         };
         let (edge, beyond) = exit(here.xi, here.eta);
         if beyond <= EDGE {
-            return Followed { old, foot };
+            return Followed { old, projection };
         }
         let (next, its_edge) = surface.faces[here.face as usize].neighbours[edge];
         if next == NONE || (next == previous && here.face < next) {
             let accepted = next != NONE || beyond <= BORDER;
-            return Followed { old, foot: foot.filter(|_| accepted) };
+            return Followed { old, projection: projection.filter(|_| accepted) };
         }
         let [xi, eta] = enter(edge, here.xi, here.eta, its_edge);
         let geometry = FaceGeometry::new(surface, next, positions, curvature);
         previous = here.face;
-        foot = on_face(&geometry, node, next, [xi, eta], None);
+        projection = on_face(&geometry, node, next, [xi, eta], None);
     }
     // Either the wedge at a vertex, where any of its faces serves, or a walk from too far.
-    Followed { old, foot: foot.filter(|f| exit(f.xi, f.eta).1 <= BORDER) }
+    Followed { old, projection: projection.filter(|f| exit(f.xi, f.eta).1 <= BORDER) }
 }
 
 /// The edge that `(xi, eta)` lies furthest beyond, and how far.
@@ -292,7 +292,7 @@ fn on_face(
     face: u32,
     [mut xi, mut eta]: [f64; 2],
     first: Option<(SurfacePoint, [f64; 2])>,
-) -> Option<Foot> {
+) -> Option<Projection> {
     let mut evaluated = match first {
         Some(known) => known,
         None => geometry.evaluate(node, xi, eta),
@@ -308,7 +308,7 @@ fn on_face(
         }
         if d_xi.abs() < CONVERGED && d_eta.abs() < CONVERGED {
             let gap = dot(point.normal, sub(node, point.x)) - point.offset;
-            return Some(Foot { face, xi, eta, point, gap });
+            return Some(Projection { face, xi, eta, point, gap });
         }
         evaluated = geometry.evaluate(node, xi, eta);
     }

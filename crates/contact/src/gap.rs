@@ -1,26 +1,26 @@
 //! The gap kinematics of one pass, for solvers of equilibrium.
 
 use crate::PenaltyContact;
+use crate::constraint::{Rows, within};
 use crate::face::{Positions, corner_normals, project, shape};
 use crate::mortar::{Mean, Mortar};
-use crate::pair::Pair;
-use crate::row::{Rows, within};
-use crate::touch::Listed;
+use crate::penalty_point::PenaltyPoint;
+use crate::point::ContactPoint;
 use crate::vector::{add, axpy, norm, scale};
 use mesh::Padded;
 
-/// A slave node over its foot on the master surface.
+/// A slave node over its projection on the master surface.
 ///
 /// To first order its gap changes by `n . (u_s - sum w_J u_J)`, with the nodes `J` of the master that its
-/// foot is a mean of.
+/// projection is a mean of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
     /// The slave (mesh index).
     pub node: u32,
     /// The nodes of the master (mesh indices) and their weights `w_J`, which add up to one: the corners of
     /// the face under the slave, or the nodes that its mortar function meets.
-    pub foot: Vec<(u32, f64)>,
-    /// Unit normal of the master surface at the foot, out of the master body. From
+    pub projection: Vec<(u32, f64)>,
+    /// Unit normal of the master surface at the projection, out of the master body. From
     /// [`PenaltyContact::gaps`] it is continuous over the surface: the mean of the facets' normals at
     /// each corner, interpolated, or the mortar function's mean; from [`PenaltyContact::springs`] it is the facet's.
     pub normal: [f64; 3],
@@ -46,78 +46,79 @@ impl PenaltyContact {
         gaps: &mut Vec<Gap>,
     ) {
         let positions = Positions { reference, displacement };
-        self.search.refresh(&self.sides, &positions, &mut self.pairs);
+        self.search.refresh(&self.sides, &positions, &mut self.points);
         gaps.clear();
         if rows == Rows::Mortar {
             self.mortar_gaps(slave, &positions, gaps);
             return;
         }
-        let mut feet = Vec::new();
-        let mut pairs = std::mem::take(&mut self.pairs[slave]);
-        for pair in &mut pairs {
+        let mut projections = Vec::new();
+        let mut points = std::mem::take(&mut self.points[slave]);
+        for point in &mut points {
             let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
-            let x = positions.at(own.nodes[pair.slave as usize]);
+            let x = positions.at(own.nodes[point.slave as usize]);
             let curvature = self.settings.curvature;
-            let walk = project(master, &positions, curvature, x, pair.face, pair.xi, pair.eta);
-            if let Some(foot) = walk.foot {
-                if !pair.is_closed() {
-                    (pair.face, pair.xi, pair.eta) = (foot.face, foot.xi, foot.eta);
+            let walk = project(master, &positions, curvature, x, point.face, point.xi, point.eta);
+            if let Some(projection) = walk.projection {
+                if !point.is_closed() {
+                    (point.face, point.xi, point.eta) =
+                        (projection.face, projection.xi, projection.eta);
                 }
-                feet.push(foot.face);
-                let [xi, eta] = within(&foot);
-                let corners = master.faces[foot.face as usize].nodes;
+                projections.push(projection.face);
+                let [xi, eta] = within(&projection);
+                let corners = master.faces[projection.face as usize].nodes;
                 gaps.push(Gap {
-                    node: own.nodes[pair.slave as usize],
-                    foot: corners.into_iter().zip(shape(xi, eta)).collect(),
-                    normal: foot.point.normal,
-                    gap: foot.gap,
-                    area: own.area[pair.slave as usize],
+                    node: own.nodes[point.slave as usize],
+                    projection: corners.into_iter().zip(shape(xi, eta)).collect(),
+                    normal: projection.point.normal,
+                    gap: projection.gap,
+                    area: own.area[point.slave as usize],
                 });
             }
         }
-        self.pairs[slave] = pairs;
-        self.smooth_normals(1 - slave, &positions, &feet, gaps);
+        self.points[slave] = points;
+        self.smooth_normals(1 - slave, &positions, &projections, gaps);
     }
 
     fn mortar_gaps(&mut self, slave: usize, positions: &Positions<'_>, gaps: &mut Vec<Gap>) {
         let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
         let mut mortar = Mortar::new(own, self.settings.curvature);
         let mut mean = Mean::default();
-        for pair in &mut self.pairs[slave] {
+        for point in &mut self.points[slave] {
             let (face, on_master) =
-                mortar.integrate([own, master], positions, pair.slave, pair.face, &mut mean);
+                mortar.integrate([own, master], positions, point.slave, point.face, &mut mean);
             if !on_master {
                 continue;
             }
-            if !pair.is_closed() {
-                pair.face = face;
+            if !point.is_closed() {
+                point.face = face;
             }
-            let node = own.nodes[pair.slave as usize];
-            let standing = mean.standing(master, positions, positions.at(node));
-            let foot = mean.shares.iter().map(|s| (master.nodes[s.node as usize], s.weight));
+            let node = own.nodes[point.slave as usize];
+            let kinematics = mean.kinematics(master, positions, positions.at(node));
+            let projection = mean.shares.iter().map(|s| (master.nodes[s.node as usize], s.weight));
             gaps.push(Gap {
                 node,
-                foot: foot.collect(),
-                normal: standing.normal,
-                gap: standing.gap,
-                area: own.area[pair.slave as usize],
+                projection: projection.collect(),
+                normal: kinematics.normal,
+                gap: kinematics.gap,
+                area: own.area[point.slave as usize],
             });
         }
     }
 
-    /// Replaces the normals of `gaps`, whose feet lie on the faces `feet` of side `master`, by ones
+    /// Replaces the normals of `gaps`, whose projections lie on the faces `projections` of side `master`, by ones
     /// that are continuous over the surface. A load dents facets against one another, so that a
     /// slave over their common edge finds no equilibrium with either normal.
     fn smooth_normals(
         &self,
         master: usize,
         positions: &Positions<'_>,
-        feet: &[u32],
+        projections: &[u32],
         gaps: &mut [Gap],
     ) {
         let surface = &self.sides[master];
         let mut wanted = vec![false; surface.nodes.len()];
-        for &face in feet {
+        for &face in projections {
             surface.faces[face as usize].local.iter().for_each(|&n| wanted[n as usize] = true);
         }
         let mut sums = vec![[0.0; 3]; surface.nodes.len()];
@@ -130,9 +131,10 @@ impl PenaltyContact {
                 }
             }
         }
-        for (gap, &face) in gaps.iter_mut().zip(feet) {
+        for (gap, &face) in gaps.iter_mut().zip(projections) {
             let mut normal = [0.0; 3];
-            for ((_, weight), &n) in gap.foot.iter().zip(&surface.faces[face as usize].local) {
+            for ((_, weight), &n) in gap.projection.iter().zip(&surface.faces[face as usize].local)
+            {
                 let sum = sums[n as usize];
                 normal = axpy(normal, weight / norm(sum), sum);
             }
@@ -144,19 +146,23 @@ impl PenaltyContact {
     /// stiffness (N/m), in a fixed order.
     pub fn springs(&self) -> impl Iterator<Item = (Gap, f64)> + '_ {
         (0..2).flat_map(move |slave: usize| {
-            let closed = self.pairs[slave].iter().filter(|p| p.is_closed());
-            closed.map(move |pair| (self.spring(slave, pair), pair.stiffness[0]))
+            let closed = self.points[slave].iter().filter(|p| p.is_closed());
+            closed.map(move |point| (self.spring(slave, point), point.stiffness[0]))
         })
     }
 
-    fn spring(&self, slave: usize, pair: &Pair) -> Gap {
+    fn spring(&self, slave: usize, point: &PenaltyPoint) -> Gap {
         let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
         Gap {
-            node: own.nodes[pair.slave as usize],
-            foot: master.faces[pair.face as usize].nodes.into_iter().zip(pair.weights).collect(),
-            normal: pair.normal,
-            gap: pair.gap,
-            area: own.area[pair.slave as usize],
+            node: own.nodes[point.slave as usize],
+            projection: master.faces[point.face as usize]
+                .nodes
+                .into_iter()
+                .zip(point.weights)
+                .collect(),
+            normal: point.normal,
+            gap: point.gap,
+            area: own.area[point.slave as usize],
         }
     }
 

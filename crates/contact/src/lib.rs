@@ -7,6 +7,7 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
+mod constraint;
 mod enforcement;
 mod error;
 mod exact;
@@ -16,12 +17,12 @@ pub mod mesh_mode;
 mod mortar;
 mod motion;
 mod nodal;
-mod pair;
 pub mod patch;
 mod penalty;
+mod penalty_point;
 #[cfg(test)]
 mod plates;
-mod row;
+mod point;
 mod search;
 mod segment;
 mod snapshot;
@@ -30,9 +31,9 @@ mod sums;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod touch;
 mod vector;
 
+pub use constraint::Rows;
 pub use enforcement::{Contact, Trial};
 pub use error::ContactError;
 pub use exact::{ExactContact, ExactSettings};
@@ -40,7 +41,6 @@ pub use gap::Gap;
 pub use motion::Motion;
 pub use nodal::NodalContact;
 pub use penalty::{PenaltyContact, PenaltySettings};
-pub use row::Rows;
 pub use snapshot::{Column, ContactState, Numbers, StateError};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
 pub use sums::ContactSums;

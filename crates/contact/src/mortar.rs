@@ -18,9 +18,9 @@
 //! face: from the exact surface of the slave, where it has one, to that of the master (module `face`).
 //!
 //! # Between integrations
-//! A row keeps its weights, their gradients `(1/A_i) sum int psi_i grad N_J` and the distance of the surfaces from
+//! A constraint keeps its weights, their gradients `(1/A_i) sum int psi_i grad N_J` and the distance of the surfaces from
 //! their facets, and follows the nodes: `g = n . (x_i - sum w_J x_J) - c`, with a normal `n` that turns with the
-//! master. Weights move with the slave to first order (module `row`). Integrals are taken anew once the slave has
+//! master. Weights move with the slave to first order (module `constraint`). Integrals are taken anew once the slave has
 //! moved along the master, or turned or stretched on it, by [`STALE`] of the smaller face; what this leaves out is of
 //! second order in it. In rolling, where contact sticks or creeps, that is rare.
 //!
@@ -28,8 +28,8 @@
 //! On a slave face that lies partly beside the master, `psi_a` is `N_a` over the part in common, and the
 //! gradients move the weights on to the node. A node that has lost more than [`LOST`] of its area is open.
 
-use crate::face::{FaceGeometry, Foot, Positions, project, shape};
-use crate::row::{Footing, Share, face_shares, within};
+use crate::constraint::{MasterPoint, Share, face_shares, within};
+use crate::face::{FaceGeometry, Positions, Projection, project, shape};
 use crate::segment::{Point, Polygon, coordinates};
 use crate::snapshot::{ContactState, Numbers, StateError};
 use crate::surface::{ContactSurface, NONE};
@@ -44,10 +44,10 @@ const LOST: f64 = 0.75;
 /// Segments below this part of the slave face are round-off.
 const SLIVER: f64 = 1e-12;
 
-/// Nodes of the master that a row meets where pitches are alike; room for more is made when needed.
+/// Nodes of the master that a constraint meets where pitches are alike; room for more is made when needed.
 const NODES: usize = 16;
 
-/// What the integrals over the faces around a slave node gave, and the row follows.
+/// What the integrals over the faces around a slave node gave, and the constraint follows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Mean {
     /// Empty before the first integration.
@@ -127,8 +127,8 @@ pub(crate) fn restore_means(
 
 /// A mean in the present configuration.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Standing {
-    pub footing: Footing,
+pub(crate) struct MeanKinematics {
+    pub master_point: MasterPoint,
     pub normal: Vec3,
     pub gap: f64,
     /// How far the slave has moved along the master since the integration, over what is allowed.
@@ -137,37 +137,37 @@ pub(crate) struct Standing {
 
 impl Mean {
     /// Follows the nodes of the mean; the slave is at `x`.
-    pub fn standing(
+    pub fn kinematics(
         &self,
         master: &ContactSurface,
         positions: &Positions<'_>,
         x: Vec3,
-    ) -> Standing {
-        let footing = Footing::new(&self.shares, master, positions);
-        let normal = self.turned(&footing);
-        let to_node = sub(x, footing.x);
+    ) -> MeanKinematics {
+        let master_point = MasterPoint::new(&self.shares, master, positions);
+        let normal = self.turned(&master_point);
+        let to_node = sub(x, master_point.x);
         let distance = dot(normal, to_node);
         let moved = norm(axpy(to_node, -distance, normal));
-        let seen = seen(&footing, normal, sub(positions.at(self.far), x));
+        let seen = seen(&master_point, normal, sub(positions.at(self.far), x));
         let turned = libm::hypot(seen[0] - self.seen[0], seen[1] - self.seen[1]);
         let stale = (moved + turned) / self.reach;
-        Standing { footing, normal, gap: distance - self.beyond, stale }
+        MeanKinematics { master_point, normal, gap: distance - self.beyond, stale }
     }
 
     /// The normal, turned with the tangents: as the exact surface's over a facet in `FaceGeometry`.
-    fn turned(&self, footing: &Footing) -> Vec3 {
-        let [a1, a2] = footing.tangents;
+    fn turned(&self, master_point: &MasterPoint) -> Vec3 {
+        let [a1, a2] = master_point.tangents;
         let facet = cross(a1, a2);
         let n_f = scale(1.0 / norm(facet), facet);
-        let [g1, g2] = footing.duals(n_f);
+        let [g1, g2] = master_point.duals(n_f);
         let [nu, t1, t2] = self.normal;
         let n = axpy(axpy(scale(nu, n_f), t1, g1), t2, g2);
         scale(1.0 / norm(n), n)
     }
 }
 
-fn seen(footing: &Footing, normal: Vec3, far: Vec3) -> [f64; 2] {
-    frame(footing.tangents[0], normal).map(|e| dot(far, e))
+fn seen(master_point: &MasterPoint, normal: Vec3, far: Vec3) -> [f64; 2] {
+    frame(master_point.tangents[0], normal).map(|e| dot(far, e))
 }
 
 /// A point of integration on a slave face.
@@ -177,7 +177,7 @@ struct Sample {
     shape: [f64; 4],
     /// (m^2)
     weight: f64,
-    foot: Foot,
+    projection: Projection,
 }
 
 /// Integration of the rows of one pass.
@@ -270,8 +270,8 @@ impl Mortar {
         mean.shares.reserve(NODES);
         let node = own.nodes[slave as usize];
         let x = positions.at(node);
-        let foot = project(master, positions, self.curvature, x, near, 0.0, 0.0).foot;
-        let near = foot.map_or(near, |foot| foot.face);
+        let projection = project(master, positions, self.curvature, x, near, 0.0, 0.0).projection;
+        let near = projection.map_or(near, |projection| projection.face);
 
         // two directions for the gradients, whichever
         let outward = self.around(slave).fold([0.0; 3], |sum, k| {
@@ -290,9 +290,9 @@ impl Mortar {
                 let psi: f64 = q.iter().zip(sample.shape).map(|(q, n)| q * n).sum();
                 let psi = psi * sample.weight;
                 area += psi;
-                normal = axpy(normal, psi, sample.foot.point.normal);
-                gap += psi * sample.foot.gap;
-                gather(&mut mean.shares, &sample.foot, master, positions, &directions, psi);
+                normal = axpy(normal, psi, sample.projection.point.normal);
+                gap += psi * sample.projection.gap;
+                gather(&mut mean.shares, &sample.projection, master, positions, &directions, psi);
             }
         }
         // what is no number is not on the master
@@ -310,7 +310,7 @@ impl Mortar {
         (near, true)
     }
 
-    /// Moves the weights under the node and keeps what the row follows.
+    /// Moves the weights under the node and keeps what the constraint follows.
     fn settle(
         &self,
         mean: &mut Mean,
@@ -321,21 +321,21 @@ impl Mortar {
         gap: f64,
     ) {
         let x = positions.at(own.nodes[slave as usize]);
-        let footing = Footing::new(&mean.shares, master, positions);
-        let [g1, g2] = footing.duals(n);
-        let to_node = sub(x, footing.x);
+        let master_point = MasterPoint::new(&mean.shares, master, positions);
+        let [g1, g2] = master_point.duals(n);
+        let to_node = sub(x, master_point.x);
         let beside = [dot(g1, to_node), dot(g2, to_node)];
         for share in &mut mean.shares {
             share.weight += share.gradient[0] * beside[0] + share.gradient[1] * beside[1];
         }
-        let footing = Footing::new(&mean.shares, master, positions);
-        mean.beyond = dot(n, sub(x, footing.x)) - gap;
-        let [a1, a2] = footing.tangents;
+        let master_point = MasterPoint::new(&mean.shares, master, positions);
+        mean.beyond = dot(n, sub(x, master_point.x)) - gap;
+        let [a1, a2] = master_point.tangents;
         let facet = cross(a1, a2);
         mean.normal = [dot(n, facet) / norm(facet), dot(n, a1), dot(n, a2)];
         let (face, corner) = self.around[self.around(slave).start];
         mean.far = own.faces[face as usize].nodes[(corner as usize + 2) % 4];
-        mean.seen = seen(&footing, n, sub(positions.at(mean.far), x));
+        mean.seen = seen(&master_point, n, sub(positions.at(mean.far), x));
     }
 
     /// Points of integration on the slave face over the master. Returns whether all of it lies there.
@@ -366,13 +366,13 @@ impl Mortar {
                     let at = geometry.at(xi, eta);
                     let exact = axpy(at.x, at.offset, at.normal);
                     let start = coordinates(&x, p);
-                    let foot =
+                    let projection =
                         project(master, positions, curvature, exact, other, start[0], start[1])
-                            .foot
-                            .filter(|foot| dot(foot.point.normal, plane.axes[2]) < 0.0);
-                    if let Some(foot) = foot {
+                            .projection
+                            .filter(|projection| dot(projection.point.normal, plane.axes[2]) < 0.0);
+                    if let Some(projection) = projection {
                         covered += weight;
-                        samples.push(Sample { shape: shape(xi, eta), weight, foot });
+                        samples.push(Sample { shape: shape(xi, eta), weight, projection });
                     }
                 });
             }
@@ -402,8 +402,8 @@ impl Mortar {
         [centre]
             .into_iter()
             .chain(corners)
-            .find_map(|x| project(master, positions, self.curvature, x, near, 0.0, 0.0).foot)
-            .map_or(near, |foot| foot.face)
+            .find_map(|x| project(master, positions, self.curvature, x, near, 0.0, 0.0).projection)
+            .map_or(near, |projection| projection.face)
     }
 }
 
@@ -417,8 +417,8 @@ fn dual(samples: &[Sample], corner: usize, whole: bool) -> [f64; 4] {
     let mut m = [[0.0; 4]; 4];
     for s in samples {
         q[corner] += s.weight * s.shape[corner];
-        for (row, n) in m.iter_mut().zip(s.shape) {
-            for (entry, other) in row.iter_mut().zip(s.shape) {
+        for (constraint, n) in m.iter_mut().zip(s.shape) {
+            for (entry, other) in constraint.iter_mut().zip(s.shape) {
                 *entry += s.weight * n * other;
             }
         }
@@ -442,18 +442,18 @@ fn dual(samples: &[Sample], corner: usize, whole: bool) -> [f64; 4] {
     q
 }
 
-/// Adds `psi` times the shape functions at a foot, and their gradients along two directions.
+/// Adds `psi` times the shape functions at a projection, and their gradients along two directions.
 fn gather(
     shares: &mut Vec<Share>,
-    foot: &Foot,
+    projection: &Projection,
     master: &ContactSurface,
     positions: &Positions<'_>,
     directions: &[Vec3; 2],
     psi: f64,
 ) {
-    let [xi, eta] = within(foot);
-    let corners = face_shares(&master.faces[foot.face as usize], xi, eta);
-    let duals = Footing::new(&corners, master, positions).duals(foot.point.normal);
+    let [xi, eta] = within(projection);
+    let corners = face_shares(&master.faces[projection.face as usize], xi, eta);
+    let duals = MasterPoint::new(&corners, master, positions).duals(projection.point.normal);
     let along = directions.map(|e| duals.map(|g| dot(e, g)));
     for corner in corners {
         let [d1, d2] = corner.gradient;
@@ -546,10 +546,10 @@ mod tests {
             (0..sides[0].nodes.len() as u32).map(integrate).collect()
         }
 
-        fn standing(&self, slave: usize, mean: &Mean) -> Standing {
+        fn kinematics(&self, slave: usize, mean: &Mean) -> MeanKinematics {
             let positions = self.positions();
             let x = positions.at(self.sides[0].nodes[slave]);
-            mean.standing(&self.sides[1], &positions, x)
+            mean.kinematics(&self.sides[1], &positions, x)
         }
     }
 
@@ -589,7 +589,7 @@ mod tests {
     }
 
     #[test]
-    fn the_foot_lies_under_the_node_and_weights_add_up_to_one() {
+    fn the_projection_lies_under_the_node_and_weights_add_up_to_one() {
         let mut rig = Rig::new(
             tread(0.5, 8e-3, 8e-3, [7, 5], 1e-3),
             plate([-9e-3, -6e-3], [9e-3, 6e-3], [8, 6], 0.0, 1e-3, true),
@@ -600,10 +600,10 @@ mod tests {
             let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
             assert!((sum - 1.0).abs() < 1e-13, "{sum}");
             let x = rig.positions().at(rig.sides[0].nodes[slave]);
-            let standing = rig.standing(slave, &mean);
-            let beside = tangential(sub(x, standing.footing.x), standing.normal);
+            let kinematics = rig.kinematics(slave, &mean);
+            let beside = tangential(sub(x, kinematics.master_point.x), kinematics.normal);
             assert!(norm(beside) < 1e-15, "{beside:?}");
-            assert!(standing.stale < 1e-9, "{}", standing.stale);
+            assert!(kinematics.stale < 1e-9, "{}", kinematics.stale);
         }
     }
 
@@ -620,7 +620,7 @@ mod tests {
             if x[0].abs() > 3.5e-3 || (x[1].abs() - 4e-3).abs() < 1e-9 {
                 continue;
             }
-            let gap = rig.standing(slave, &mean.unwrap()).gap;
+            let gap = rig.kinematics(slave, &mean.unwrap()).gap;
             let expected = x[2] - h * h / (12.0 * radius);
             assert!(
                 (gap - expected).abs() < 2e-4 * h * h / (12.0 * radius),
@@ -639,9 +639,9 @@ mod tests {
         rig.put(1, |[x, y, z]| [cos * x + sin * z, y, cos * z - sin * x]);
         rig.put(0, |[x, y, z]| [cos * x + sin * (z + 1e-5), y, cos * (z + 1e-5) - sin * x]);
         for slave in slaves {
-            let standing = rig.standing(slave, means[slave].as_ref().unwrap());
-            assert!((standing.gap - 1e-5).abs() < 1e-16, "{:e}", standing.gap);
-            assert!(standing.stale < 1e-9 && (standing.normal[0] - sin).abs() < 1e-14);
+            let kinematics = rig.kinematics(slave, means[slave].as_ref().unwrap());
+            assert!((kinematics.gap - 1e-5).abs() < 1e-16, "{:e}", kinematics.gap);
+            assert!(kinematics.stale < 1e-9 && (kinematics.normal[0] - sin).abs() < 1e-14);
         }
     }
 
@@ -651,7 +651,7 @@ mod tests {
         let means = rig.means(false);
         let slave = 2 * 6 + 2;
         let mean = means[slave].as_ref().unwrap();
-        let stale = |rig: &Rig| rig.standing(slave, mean).stale;
+        let stale = |rig: &Rig| rig.kinematics(slave, mean).stale;
         // the smaller face is that of the slaves, 1.6 mm
         rig.put(0, |x| [x[0] + 0.9 * STALE * 1.6e-3, x[1], x[2]]);
         assert!((stale(&rig) - 0.9).abs() < 1e-6, "{}", stale(&rig));
@@ -671,15 +671,15 @@ mod tests {
         let mut differ = |shift: f64| {
             rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
             let new = rig.means(false)[slave].clone().unwrap();
-            let mut row = crate::touch::Listed::near(slave as u32, 0);
+            let mut constraint = crate::point::ContactPoint::near(slave as u32, 0);
             let x = rig.positions().at(rig.sides[0].nodes[slave]);
-            let standing = rig.standing(slave, &old);
+            let kinematics = rig.kinematics(slave, &old);
             let mut legs = Vec::new();
-            crate::row::Row::place(
-                &mut row,
+            crate::constraint::Constraint::place(
+                &mut constraint,
                 &old.shares,
-                &standing.footing,
-                standing.normal,
+                &kinematics.master_point,
+                kinematics.normal,
                 x,
                 &mut legs,
             );

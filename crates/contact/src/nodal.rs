@@ -1,9 +1,9 @@
 //! Contact quantities at the nodes of one surface.
 
 use crate::PenaltyContact;
-use crate::pair::Pair;
+use crate::penalty_point::PenaltyPoint;
+use crate::point::{ContactPoint, State};
 use crate::surface::{ContactSurface, NONE};
-use crate::touch::{Listed, State};
 use crate::vector::{axpy, scale};
 use mesh::Face;
 
@@ -19,20 +19,20 @@ pub struct NodalContact {
     pub nodes: Vec<u32>,
     /// Contact pressure (Pa), positive in compression.
     pub pressure: Vec<f64>,
-    /// The part of it that the node's own pair carries: the pressure that its law of friction is told.
+    /// The part of it that the node's own point carries: the pressure that its law of friction is told.
     pub pass_pressure: Vec<f64>,
     /// Shear traction on this surface (Pa).
     pub shear: Vec<[f64; 3]>,
     /// Velocity of this surface relative to the other in the tangent plane (m/s), mean over the
     /// last step; `shear` opposes it. Of the node's own pass; where that is open, the mean of the
-    /// pairs of the other pass that load the node, weighted with their normal force.
+    /// points of the other pass that load the node, weighted with their normal force.
     pub slip_velocity: Vec<[f64; 3]>,
-    /// Tangential motion relative to the other surface since the node's own pair closed (m).
+    /// Tangential motion relative to the other surface since the node's own point closed (m).
     pub slip: Vec<[f64; 3]>,
     /// Coefficient of friction that the algorithm used; the law's static value where open.
     pub mu: Vec<f64>,
-    /// 0 open, 1 stick, 2 slip: of the node's own pair, or where that is open but the node is
-    /// loaded by the other pass, of the pairs that carry most of its normal force.
+    /// 0 open, 1 stick, 2 slip: of the node's own point, or where that is open but the node is
+    /// loaded by the other pass, of the points that carry most of its normal force.
     pub state: Vec<u8>,
     /// Gap of the node's own pass (m), negative when penetrating; the search margin where no face
     /// is that near. The gap of an open node may be a few steps old.
@@ -40,11 +40,11 @@ pub struct NodalContact {
     /// Tributary area in the reference configuration (m^2).
     pub area: Vec<f64>,
     side: usize,
-    /// Row of each node of the surface; `NONE` if it has none.
+    /// Constraint of each node of the surface; `NONE` if it has none.
     rows: Vec<u32>,
-    /// Size of the normal forces of the slipping pairs of the other pass (N).
+    /// Size of the normal forces of the slipping points of the other pass (N).
     slipping: Vec<f64>,
-    /// Size of the normal forces of all pairs (N).
+    /// Size of the normal forces of all points (N).
     carried: Vec<f64>,
 }
 
@@ -103,11 +103,11 @@ impl NodalContact {
         Self::new(side, &surface.nodes, &surface.area, |i| wanted[i])
     }
 
-    /// Fills the table from the pairs in which nodes of its side are slaves (`own`) and the closed ones in
+    /// Fills the table from the points in which nodes of its side are slaves (`own`) and the closed ones in
     /// which they bear slaves (`others`), with the node and its weight, which may be negative: means over
     /// slaves then count the size of their force. `followed` says whether nodes of its side are
-    /// slaves at all: the gap of those that are not is the mean of the gaps of the pairs that load them.
-    pub(crate) fn fill<'a, L: Listed + 'a>(
+    /// slaves at all: the gap of those that are not is the mean of the gaps of the points that load them.
+    pub(crate) fn fill<'a, L: ContactPoint + 'a>(
         &mut self,
         sides: &[ContactSurface; 2],
         own: &[L],
@@ -127,25 +127,25 @@ impl NodalContact {
         }
         // The other pass: what the faces of this side take as masters. Forces and slip of its
         // slaves are those of the other side, hence the signs.
-        for (pair, node, weight) in others {
+        for (point, node, weight) in others {
             // most nodes are in no row of a small table
             let Some(row) = table.row(node) else {
                 continue;
             };
-            let touch = pair.touch();
-            let normal = weight * touch.normal_force;
+            let values = point.values();
+            let normal = weight * values.normal_force;
             let size = normal.abs();
             table.pressure[row] += normal;
             table.carried[row] += size;
-            table.mu[row] += touch.mu * size;
-            table.shear[row] = axpy(table.shear[row], -weight, touch.friction);
+            table.mu[row] += values.mu * size;
+            table.shear[row] = axpy(table.shear[row], -weight, values.friction);
             let slip = &mut table.slip_velocity[row];
-            *slip = axpy(*slip, -size, touch.slip_velocity);
-            if touch.state == State::Slip {
+            *slip = axpy(*slip, -size, values.slip_velocity);
+            if values.state == State::Slip {
                 table.slipping[row] += size;
             }
             if !followed {
-                table.gap[row] += size * touch.gap;
+                table.gap[row] += size * values.gap;
             }
         }
         for row in 0..table.nodes.len() {
@@ -161,21 +161,21 @@ impl NodalContact {
                 table.gap[row] = if total > 0.0 { table.gap[row] / total } else { margin };
             }
         }
-        for pair in own {
-            let Some(row) = table.row(pair.slave()) else {
+        for point in own {
+            let Some(row) = table.row(point.slave()) else {
                 continue;
             };
-            let touch = pair.touch();
-            table.gap[row] = touch.gap.min(margin);
-            if pair.is_closed() {
-                table.pressure[row] += touch.normal_force;
-                table.pass_pressure[row] = touch.normal_force / table.area[row];
-                table.carried[row] += touch.normal_force;
-                table.mu[row] += touch.mu * touch.normal_force;
-                table.shear[row] = axpy(table.shear[row], 1.0, touch.friction);
-                table.slip_velocity[row] = touch.slip_velocity;
-                table.slip[row] = touch.slip;
-                table.state[row] = touch.state as u8;
+            let values = point.values();
+            table.gap[row] = values.gap.min(margin);
+            if point.is_closed() {
+                table.pressure[row] += values.normal_force;
+                table.pass_pressure[row] = values.normal_force / table.area[row];
+                table.carried[row] += values.normal_force;
+                table.mu[row] += values.mu * values.normal_force;
+                table.shear[row] = axpy(table.shear[row], 1.0, values.friction);
+                table.slip_velocity[row] = values.slip_velocity;
+                table.slip[row] = values.slip;
+                table.state[row] = values.state as u8;
             }
         }
         for row in 0..table.nodes.len() {
@@ -195,7 +195,7 @@ impl PenaltyContact {
 
     /// Fills a `table` of this contact with the values of the last call.
     pub fn nodal(&self, table: &mut NodalContact) {
-        let Some([own, others]) = passes(&self.pairs, table.side) else { return };
+        let Some([own, others]) = passes(&self.points, table.side) else { return };
         let masters = &self.sides[table.side].faces;
         let others = others.iter().filter(|p| p.is_closed()).flat_map(|p| {
             let corners = masters.get(p.face as usize).map(|f| f.local).into_iter().flatten();
@@ -206,9 +206,9 @@ impl PenaltyContact {
     }
 }
 
-/// The pairs with slaves on `side` and those with masters there.
-fn passes(pairs: &[Vec<Pair>; 2], side: usize) -> Option<[&[Pair]; 2]> {
-    Some([pairs.get(side)?, pairs.get(1 - side)?])
+/// The points with slaves on `side` and those with masters there.
+fn passes(points: &[Vec<PenaltyPoint>; 2], side: usize) -> Option<[&[PenaltyPoint]; 2]> {
+    Some([points.get(side)?, points.get(1 - side)?])
 }
 
 impl NodalContact {

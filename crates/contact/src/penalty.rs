@@ -1,11 +1,11 @@
 //! Two-pass penalty contact: the criticised method of surface-to-surface contact.
 
 use crate::face::Positions;
-use crate::pair::{Pair, Pass, scatter};
+use crate::penalty_point::{Pass, PenaltyPoint, scatter};
+use crate::point::{ContactPoint, State};
 use crate::search::{Search, neighbours};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
-use crate::touch::{Listed, State};
 use crate::vector::{Vec3, axpy, dot, scale};
 use crate::{BodyMaterial, ContactError, ContactSums, Motion, StabilityScale, Stiffness};
 use friction::{NodeFriction, Slid};
@@ -29,15 +29,15 @@ pub struct PenaltySettings {
 /// In each pass every slave node that has penetrated the other surface is pushed out by a spring
 /// and a damper along the master's normal and held by a friction spring (Eqs 10 and 11 of
 /// Vollebregt 2017) in its tangent plane; the face's corners take the reaction by their shape
-/// functions. In motion a pair keeps the stiffness with which it closed until it opens, so that
+/// functions. In motion a point keeps the stiffness with which it closed until it opens, so that
 /// its springs give back what they stored.
 #[derive(Debug)]
 pub struct PenaltyContact {
     pub(crate) sides: [ContactSurface; 2],
-    /// The pairs of each pass, ascending by slave: pass `i` has the nodes of side `i` as slaves.
-    pub(crate) pairs: [Vec<Pair>; 2],
+    /// The points of each pass, ascending by slave: pass `i` has the nodes of side `i` as slaves.
+    pub(crate) points: [Vec<PenaltyPoint>; 2],
     pub(crate) law: Box<dyn NodeFriction>,
-    /// What the law is told about the closed pairs of a pass, in their order.
+    /// What the law is told about the closed points of a pass, in their order.
     slid: Vec<Slid>,
     pub(crate) search: Search,
     /// Whether the search was refreshed in the last step.
@@ -72,7 +72,7 @@ impl PenaltyContact {
             search: Search::new(&sides),
             searched: false,
             sides,
-            pairs: [Vec::new(), Vec::new()],
+            points: [Vec::new(), Vec::new()],
             law,
             slid: Vec::new(),
             settings: *settings,
@@ -112,7 +112,7 @@ impl PenaltyContact {
         self.load(force)
     }
 
-    /// Follows the pairs to `x^n`, with their springs, dampers and friction.
+    /// Follows the points to `x^n`, with their springs, dampers and friction.
     pub(crate) fn follow(&mut self, motion: &Motion<'_>) {
         let positions =
             Positions { reference: motion.reference, displacement: motion.displacement };
@@ -120,56 +120,56 @@ impl PenaltyContact {
     }
 
     fn update(&mut self, positions: &Positions<'_>, motion: Option<&Motion<'_>>) {
-        self.searched = self.search.is_due(&self.sides, positions, &self.pairs);
+        self.searched = self.search.is_due(&self.sides, positions, &self.points);
         if self.searched {
-            self.search.refresh(&self.sides, positions, &mut self.pairs);
+            self.search.refresh(&self.sides, positions, &mut self.points);
         }
-        let mut pairs = std::mem::take(&mut self.pairs);
+        let mut points = std::mem::take(&mut self.points);
         let mut slid = std::mem::take(&mut self.slid);
-        let most = pairs.iter().map(Vec::len).max().unwrap_or(0);
+        let most = points.iter().map(Vec::len).max().unwrap_or(0);
         slid.clear();
         slid.reserve(most);
-        for (slave, list) in pairs.iter_mut().enumerate() {
+        for (slave, list) in points.iter_mut().enumerate() {
             let pass = self.pass(slave);
-            list.iter_mut().for_each(|pair| pass.update(pair, positions, motion));
+            list.iter_mut().for_each(|point| pass.update(point, positions, motion));
             let Some(motion) = motion else { continue };
             slid.clear();
-            let closed = list.iter().filter(|pair| pair.is_closed());
-            slid.extend(closed.map(|pair| pass.slid(pair, positions, motion.time)));
+            let closed = list.iter().filter(|point| point.is_closed());
+            slid.extend(closed.map(|point| pass.slid(point, positions, motion.time)));
             pass.law.advance_all(&mut slid, motion.dt);
-            let closed = list.iter_mut().filter(|pair| pair.is_closed());
-            closed.zip(&slid).for_each(|(pair, slid)| pass.rub(pair, slid, motion.dt));
+            let closed = list.iter_mut().filter(|point| point.is_closed());
+            closed.zip(&slid).for_each(|(point, slid)| pass.return_mapping(point, slid, motion.dt));
         }
-        self.pairs = pairs;
+        self.points = points;
         self.slid = slid;
     }
 
-    /// Adds the forces of the pairs to `force`.
+    /// Adds the forces of the points to `force`.
     pub(crate) fn load(&self, force: &mut [Padded]) -> ContactSums {
         let mut sums = Accumulator::new(self.searched);
-        for (slave, list) in self.pairs.iter().enumerate() {
+        for (slave, list) in self.points.iter().enumerate() {
             let sides = [&self.sides[slave], &self.sides[1 - slave]];
-            for pair in list {
-                sums.friction_work.add(pair.friction_work);
-                sums.damping_work.add(pair.damping_work);
-                if !pair.is_closed() {
+            for point in list {
+                sums.friction_work.add(point.friction_work);
+                sums.damping_work.add(point.damping_work);
+                if !point.is_closed() {
                     continue;
                 }
-                let on_slave = axpy(pair.friction, pair.normal_force, pair.normal);
-                scatter(sides, pair, on_slave, force);
+                let on_slave = axpy(point.friction, point.normal_force, point.normal);
+                scatter(sides, point, on_slave, force);
                 // the forces that really reach the nodes of either side
                 sums.push(slave, on_slave);
                 let on_corners =
-                    pair.weights.iter().fold([0.0; 3], |sum, w| axpy(sum, -w, on_slave));
+                    point.weights.iter().fold([0.0; 3], |sum, w| axpy(sum, -w, on_slave));
                 sums.push(1 - slave, on_corners);
-                sums.normal_force.add(pair.normal_force);
-                sums.stored_normal.add(pair.stored_normal());
-                sums.stored_tangential.add(pair.stored_tangential());
-                sums.meet(pair.mu);
+                sums.normal_force.add(point.normal_force);
+                sums.stored_normal.add(point.stored_normal());
+                sums.stored_tangential.add(point.stored_tangential());
+                sums.meet(point.mu);
                 let other = &mut sums.other;
                 other.closed += 1;
-                other.slipping += usize::from(pair.state == State::Slip);
-                other.max_penetration = other.max_penetration.max(-pair.gap);
+                other.slipping += usize::from(point.state == State::Slip);
+                other.max_penetration = other.max_penetration.max(-point.gap);
             }
         }
         sums.finish()
@@ -189,24 +189,24 @@ impl PenaltyContact {
         }
     }
 
-    /// `y += K_c x` with the stiffness of the pairs closed at the last call: for slave
-    /// displacement relative to the foot `w`, the spring force `k_n n (n.w) + k_t (w - n (n.w))`.
+    /// `y += K_c x` with the stiffness of the points closed at the last call: for slave
+    /// displacement relative to the projection `w`, the spring force `k_n n (n.w) + k_t (w - n (n.w))`.
     ///
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
     pub fn stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {
-        for (slave, list) in self.pairs.iter().enumerate() {
+        for (slave, list) in self.points.iter().enumerate() {
             let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
-            for pair in list.iter().filter(|p| p.is_closed()) {
-                let corners = master.faces[pair.face as usize].nodes;
-                let mut w = x[own.nodes[pair.slave as usize] as usize].xyz();
-                for (weight, corner) in pair.weights.iter().zip(corners) {
+            for point in list.iter().filter(|p| p.is_closed()) {
+                let corners = master.faces[point.face as usize].nodes;
+                let mut w = x[own.nodes[point.slave as usize] as usize].xyz();
+                for (weight, corner) in point.weights.iter().zip(corners) {
                     w = axpy(w, -weight, x[corner as usize].xyz());
                 }
-                let [normal, tangential] = pair.stiffness;
-                let along = (normal - tangential) * dot(pair.normal, w);
-                let on_slave: Vec3 = axpy(scale(tangential, w), along, pair.normal);
-                scatter([own, master], pair, on_slave, y);
+                let [normal, tangential] = point.stiffness;
+                let along = (normal - tangential) * dot(point.normal, w);
+                let on_slave: Vec3 = axpy(scale(tangential, w), along, point.normal);
+                scatter([own, master], point, on_slave, y);
             }
         }
     }
@@ -272,7 +272,7 @@ impl PenaltyContact {
         })
     }
 
-    /// Upper bound (1/s^2) of the largest eigenvalue of `M^-1 K_c` with the pairs closed at the
+    /// Upper bound (1/s^2) of the largest eigenvalue of `M^-1 K_c` with the points closed at the
     /// last call, from the diagonal bound of
     /// [`nodal_stiffness_bound`](Self::nodal_stiffness_bound) with the actual weights.
     ///
@@ -280,12 +280,12 @@ impl PenaltyContact {
     /// If `inverse_mass` has fewer entries than the mesh has nodes.
     pub fn rigorous_omega_squared(&self, inverse_mass: &[f64]) -> f64 {
         let mut diagonal = [0, 1].map(|s: usize| vec![0.0; self.sides[s].nodes.len()]);
-        for (slave, list) in self.pairs.iter().enumerate() {
-            for pair in list.iter().filter(|p| p.is_closed()) {
-                let twice = 2.0 * pair.stiffness[0].max(pair.stiffness[1]);
-                diagonal[slave][pair.slave as usize] += twice;
-                let corners = self.sides[1 - slave].faces[pair.face as usize].local;
-                for (weight, corner) in pair.weights.iter().zip(corners) {
+        for (slave, list) in self.points.iter().enumerate() {
+            for point in list.iter().filter(|p| p.is_closed()) {
+                let twice = 2.0 * point.stiffness[0].max(point.stiffness[1]);
+                diagonal[slave][point.slave as usize] += twice;
+                let corners = self.sides[1 - slave].faces[point.face as usize].local;
+                for (weight, corner) in point.weights.iter().zip(corners) {
                     diagonal[1 - slave][corner as usize] += twice * weight;
                 }
             }

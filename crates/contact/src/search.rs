@@ -5,8 +5,8 @@
 //! Let `m` be the margin and `D` the distance of a slave node from a face. A search lists all
 //! nodes with `D < m` for some face, and every listed node finds its face by walking over the
 //! surface. It also gives each node a clearance `c >= m`: a lower bound on the distance of its
-//! faces from the other surface, as far as such distances are not below `m` (those pairs are
-//! listed). A pair that is not listed has `D >= m`, `D >= c` of the node and `D >= c` of the face's
+//! faces from the other surface, as far as such distances are not below `m` (those points are
+//! listed). A point that is not listed has `D >= m`, `D >= c` of the node and `D >= c` of the face's
 //! corners. So it cannot close while every node has moved by less than half its clearance, in any
 //! frame common to both bodies (the frame moves with the mean of the listed nodes): the two motions
 //! together stay below `max(c_node, c_face) <= D`. The largest used part of the allowance is
@@ -20,14 +20,14 @@
 //! the first call are found too. Pairs that are closed stay listed until they open.
 
 use crate::face::Positions;
+use crate::point::ContactPoint;
 use crate::surface::{ContactSurface, NONE};
-use crate::touch::Listed;
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
-/// Margin in terms of the smallest face: small, for few open pairs; large enough that a rolling
+/// Margin in terms of the smallest face: small, for few open points; large enough that a rolling
 /// disk is searched every few hundred steps.
 const MARGIN: f64 = 0.1;
 /// Distances are resolved up to this many margins.
@@ -88,7 +88,7 @@ impl Search {
         &mut self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        pairs: &[Vec<impl Listed>; 2],
+        points: &[Vec<impl ContactPoint>; 2],
     ) -> bool {
         if self.at[0].is_empty() {
             return true;
@@ -97,7 +97,7 @@ impl Search {
         if self.steps_since_check < self.steps_to_check {
             return false;
         }
-        let frame = self.mean_motion(sides, positions, pairs);
+        let frame = self.mean_motion(sides, positions, points);
         let (mut used, mut went) = (0.0_f64, 0.0_f64);
         for side in 0..2 {
             for (i, &node) in sides[side].nodes.iter().enumerate() {
@@ -122,13 +122,13 @@ impl Search {
         &self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        pairs: &[Vec<impl Listed>; 2],
+        points: &[Vec<impl ContactPoint>; 2],
     ) -> Vec3 {
         let mut sum = [0.0; 3];
         let mut count = 0.0;
         for side in 0..2 {
-            for pair in &pairs[side] {
-                let i = pair.slave() as usize;
+            for point in &points[side] {
+                let i = point.slave() as usize;
                 sum = add(sum, sub(positions.at(sides[side].nodes[i]), self.at[side][i]));
                 count += 1.0;
             }
@@ -136,13 +136,13 @@ impl Search {
         if count > 0.0 { scale(1.0 / count, sum) } else { sum }
     }
 
-    /// Lists the nodes within the margin of the other surface as pairs, ascending; closed pairs
+    /// Lists the nodes within the margin of the other surface as points, ascending; closed points
     /// of the old lists are kept as they are.
     pub fn refresh(
         &mut self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        pairs: &mut [Vec<impl Listed>; 2],
+        points: &mut [Vec<impl ContactPoint>; 2],
     ) {
         let far = RESOLVED * self.margin;
         for side in 0..2 {
@@ -191,7 +191,7 @@ impl Search {
                     *a = a.max(4.0 / (c * c));
                 }
             }
-            pairs[side] = merged(&pairs[side], &self.nearest[side]);
+            points[side] = merged(&points[side], &self.nearest[side]);
         }
         self.steps_since_check = 0;
         self.steps_to_check = 1;
@@ -233,13 +233,13 @@ impl Search {
     }
 }
 
-/// The old closed pairs and the newly listed ones, ascending by slave.
-fn merged<P: Listed>(old: &[P], nearest: &[(f64, u32)]) -> Vec<P> {
+/// The old closed points and the newly listed ones, ascending by slave.
+fn merged<P: ContactPoint>(old: &[P], nearest: &[(f64, u32)]) -> Vec<P> {
     let mut closed = old.iter().filter(|p| p.is_closed()).peekable();
     let mut result = Vec::with_capacity(old.len() + old.len() / 2 + 64);
     for (slave, &(_, face)) in nearest.iter().enumerate() {
         match closed.next_if(|p| p.slave() as usize == slave) {
-            Some(pair) => result.push(*pair),
+            Some(point) => result.push(*point),
             None if face != NONE => result.push(P::near(slave as u32, face)),
             None => {}
         }

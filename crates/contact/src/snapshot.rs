@@ -5,9 +5,9 @@
 //! the search keeps where the surfaces were when it last looked: it decides when the lists are made
 //! anew, and so the order in which forces are added.
 
+use crate::point::{ContactPoint, State};
 use crate::search::Search;
 use crate::surface::{ContactSurface, NONE};
-use crate::touch::{Listed, State};
 use crate::vector::Vec3;
 
 /// A named array of a state: `values.len() / components` entries.
@@ -161,14 +161,14 @@ impl Fields for Scatter<'_> {
 }
 
 /// Empty columns of a table, in the order of the fields of its rows.
-fn layout<P: Listed>(table: &str) -> Vec<Column> {
+fn layout<P: ContactPoint>(table: &str) -> Vec<Column> {
     let mut gather = Gather { table, columns: Vec::new(), next: 0, made: false };
     P::near(0, 0).fields(&mut gather);
     gather.columns
 }
 
 /// The rows as columns of `table`.
-pub(crate) fn save_rows<P: Listed>(table: &str, rows: &[P], state: &mut ContactState) {
+pub(crate) fn save_rows<P: ContactPoint>(table: &str, rows: &[P], state: &mut ContactState) {
     let mut gather = Gather { table, columns: layout::<P>(table), next: 0, made: true };
     for row in rows {
         let mut row = *row;
@@ -178,8 +178,8 @@ pub(crate) fn save_rows<P: Listed>(table: &str, rows: &[P], state: &mut ContactS
     state.columns.append(&mut gather.columns);
 }
 
-/// The rows of `table`, which are slaves on `slaves` and have feet on `masters`.
-pub(crate) fn restore_rows<P: Listed>(
+/// The rows of `table`, which are slaves on `slaves` and have projections on `masters`.
+pub(crate) fn restore_rows<P: ContactPoint>(
     table: &str,
     state: &ContactState,
     slaves: &ContactSurface,

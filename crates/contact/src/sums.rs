@@ -8,7 +8,7 @@ use exact_sum::ExactSum;
 pub struct ContactSums {
     /// Resultant of the forces applied to the nodes of each side (N).
     pub force: [[f64; 3]; 2],
-    /// Sum of the normal forces of all pairs of both passes (N).
+    /// Sum of the normal forces of all contact points of both passes (N).
     pub normal_force: f64,
     /// Energy stored in the normal springs (J).
     pub stored_normal: f64,
@@ -26,14 +26,14 @@ pub struct ContactSums {
     /// Sweeps over the contact nodes that exact enforcement took.
     pub sweeps: usize,
     /// Slave nodes at which the law of friction had more than one solution.
-    pub manifold: usize,
-    /// Mortar rows whose integrals were taken in this step.
+    pub non_unique: usize,
+    /// Mortar constraints whose integrals were taken in this step.
     pub integrated: usize,
-    /// Pairs in contact.
+    /// Contact points in contact.
     pub closed: usize,
-    /// Pairs that stick.
+    /// Contact points that stick.
     pub sticking: usize,
-    /// Pairs that slip.
+    /// Contact points that slip.
     pub slipping: usize,
     /// Largest penetration (m).
     pub max_penetration: f64,

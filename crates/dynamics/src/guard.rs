@@ -63,7 +63,7 @@ pub struct Watch {
     /// Whether there was contact.
     pub touched: bool,
     /// Since when there is none (s), if there was.
-    pub parted: Option<f64>,
+    pub lost: Option<f64>,
 }
 
 /// Why the guards stopped a run.
@@ -416,9 +416,9 @@ impl Simulation {
             return;
         }
         if report.contact.closed > 0 && report.contact.normal_force > self.limits.least_force {
-            self.watch = Watch { touched: true, parted: None };
+            self.watch = Watch { touched: true, lost: None };
         } else if self.watch.touched {
-            self.watch.parted.get_or_insert(report.time);
+            self.watch.lost.get_or_insert(report.time);
         }
     }
 
@@ -461,7 +461,7 @@ impl Simulation {
                 force: sums.normal_force,
             });
         }
-        if let Some(since) = self.watch.parted
+        if let Some(since) = self.watch.lost
             && report.time - since > limits.parted
         {
             return Some(Cause::ContactLost { since, limit: limits.parted });

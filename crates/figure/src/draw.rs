@@ -44,7 +44,7 @@ pub(crate) fn figure<DB: DrawingBackend>(
     Ok(())
 }
 
-/// Draws the caption at the foot of `area`; returns what is left above it.
+/// Draws the caption at the projection of `area`; returns what is left above it.
 fn caption<DB: DrawingBackend>(
     figure: &Figure,
     area: &Area<DB>,

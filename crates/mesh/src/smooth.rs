@@ -40,7 +40,7 @@ impl SmoothSurface {
         }
     }
 
-    /// Outward unit normal at the foot of a point near the surface, the negative gradient of
+    /// Outward unit normal at the projection of a point near the surface, the negative gradient of
     /// [`offset`](Self::offset).
     pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
         match *self {

@@ -41,7 +41,7 @@ impl Law {
     /// {s = 0, 0 <= p_f/p_n <= mu_S} and {p_f/p_n = mu(|s|)} of the paper's Figure 7.
     ///
     /// Speeds are counted in units of `scale` (m/s), coefficients of friction as they are; `mu` is
-    /// the law's coefficient at `speed`. On the falling branch the foot is found by Newton's
+    /// the law's coefficient at `speed`. On the falling branch the projection is found by Newton's
     /// iteration from the point's own speed and from rest; the point's own speed itself is a
     /// candidate, so that a point on the graph is at distance 0.
     pub fn distance(&self, speed: f64, mu: f64, ratio: f64, scale: f64) -> f64 {
@@ -54,27 +54,27 @@ impl Law {
         if best > 0.0 {
             let per_square = 1.0 / (scale * scale);
             let mut descend = |start: f64, from: f64| {
-                let (mut foot, mut mu) = (start, from);
+                let (mut projection, mut mu) = (start, from);
                 for _ in 0..30 {
                     // mu' = -k (mu - mu_D), mu'' = k^2 (mu - mu_D)
                     let slope = -law.decay * (mu - law.mu_dynamic);
-                    let residual = (foot - speed) * per_square + (mu - ratio) * slope;
+                    let residual = (projection - speed) * per_square + (mu - ratio) * slope;
                     let gauss = per_square + slope * slope;
                     let newton = gauss - (mu - ratio) * law.decay * slope;
                     // where the distance is not convex, Gauss's part of its curvature is
                     let curvature = if newton > 0.5 * gauss { newton } else { gauss };
-                    let next = (foot - residual / curvature).max(0.0);
-                    // what is left is of second order, and the distance about its foot again
-                    let done = (next - foot).abs() <= 1e-3 * scale;
-                    (foot, mu) = (next, law.mu(next));
+                    let next = (projection - residual / curvature).max(0.0);
+                    // what is left is of second order, and the distance about its projection again
+                    let done = (next - projection).abs() <= 1e-3 * scale;
+                    (projection, mu) = (next, law.mu(next));
                     if done {
                         break;
                     }
                 }
-                best = best.min(size((speed - foot) / scale, ratio - mu));
+                best = best.min(size((speed - projection) / scale, ratio - mu));
             };
             descend(speed, mu);
-            // Below the falling branch, which is convex, there is one foot; above it there may be two.
+            // Below the falling branch, which is convex, there is one projection; above it there may be two.
             if ratio >= mu {
                 descend(0.0, law.mu_static);
             }

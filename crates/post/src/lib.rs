@@ -3,7 +3,7 @@
 //!
 //! Runs are read through `output` alone, so that results of other codes can be judged once they
 //! have the layout of `contact.vtkhdf`. Of `contact` only definitions are used, the friction laws
-//! and the fit of the patch; the kinematics of the pair is written anew here (module `foot`), so
+//! and the fit of the patch; the kinematics of the pair is written anew here (module `projection`), so
 //! that a check does not repeat an error of the solver.
 //!
 //! [`check`](check()) goes through a contact history record by record and gives the document of
@@ -11,6 +11,7 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
+mod accumulator;
 mod basis;
 mod centreline;
 mod check;
@@ -18,7 +19,6 @@ mod compare;
 mod conditions;
 mod error;
 mod figures;
-mod foot;
 mod frames;
 mod import;
 mod integrity;
@@ -28,6 +28,7 @@ mod map;
 mod means;
 mod page;
 mod patch_series;
+mod projection;
 mod recorded_law;
 mod replay;
 mod roughness;
@@ -35,7 +36,6 @@ mod slip_zone;
 mod statistics;
 mod surface;
 mod sweep;
-mod tally;
 mod vector;
 mod window;
 

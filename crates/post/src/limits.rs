@@ -98,7 +98,7 @@ pub const MEASURES: [Measure; 19] = [
 ];
 
 /// What the coefficient may be off the law's where every step is recorded, with springs: it is the mean over both
-/// passes, whose feet are found again to a tenth of this.
+/// passes, whose projections are found again to a tenth of this.
 const TWO_PASSES: f64 = 1e-4;
 /// What the median may be off beyond the blur where not.
 const MU_BLURRED: f64 = 5e-3;

@@ -12,8 +12,8 @@
 //! known. A history that begins later than the run begins with the last two.
 
 use crate::basis::Basis;
-use crate::foot::Pair;
 use crate::frames::{ContactHistory, Frame};
+use crate::projection::Pair;
 use crate::recorded_law::RecordedLaw;
 use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, norm};
@@ -61,8 +61,8 @@ pub(crate) struct Replay {
     known_to: f64,
     nodes: Vec<NodeState>,
     time: Option<f64>,
-    /// Feet of the slaves of both passes.
-    feet: Option<[Pair; 2]>,
+    /// Projections of the slaves of both passes.
+    projections: Option<[Pair; 2]>,
 }
 
 /// States of the law that a node may be in.
@@ -88,7 +88,7 @@ const PARTS: u64 = 16;
 /// Round-off of recorded slip over the rolling speed: what the sweeps of exact enforcement leave.
 const ROUND_OFF: f64 = 1e-11;
 /// By how much more than the forces of the passes fail to add up the weights of a mean may be off.
-const FEET: f64 = 10.0;
+const PROJECTIONS: f64 = 10.0;
 /// The least such part.
 const LEAST: f64 = 1e-6;
 
@@ -128,7 +128,7 @@ impl Replay {
             noise: ROUND_OFF * basis.scale("speed").map_or(1.0, f64::abs),
             nodes: vec![NodeState::default(); surface.points.len()],
             time: None,
-            feet: two.then(|| [0, 1].map(|slave| Pair::over_ridges(surface, slave))),
+            projections: two.then(|| [0, 1].map(|slave| Pair::over_ridges(surface, slave))),
         })
     }
 
@@ -164,7 +164,7 @@ impl Replay {
         let rule = Rule {
             law: &*self.law,
             method: self.method,
-            in_passes: self.feet.is_some(),
+            in_passes: self.projections.is_some(),
             dt: self.dt,
             noise: self.noise,
             known_to: self.known_to,
@@ -191,7 +191,9 @@ impl Replay {
         frame: &Frame,
         own: Vec<Option<Allowed>>,
     ) -> Vec<Option<Allowed>> {
-        let Some((feet, [displacement, _])) = self.feet.as_mut().zip(frame.motion.as_ref()) else {
+        let Some((projections, [displacement, _])) =
+            self.projections.as_mut().zip(frame.motion.as_ref())
+        else {
             return own;
         };
         let pass = frame.pass_pressure.as_deref().unwrap_or(&frame.pressure);
@@ -201,13 +203,19 @@ impl Replay {
                 means[row].add(pass[row] * surface.area[row], own);
             }
         }
-        for pair in feet {
+        for pair in projections {
             let closed = |&row: &usize| surface.body[row] == pair.slave && own[row].is_some();
             let slaves: Vec<usize> = (0..own.len()).filter(closed).collect();
-            for (&row, foot) in slaves.iter().zip(pair.feet(surface, displacement, &slaves)) {
-                let (Some((face, foot)), Some(own)) = (foot, &own[row]) else { continue };
+            for (&row, projection) in
+                slaves.iter().zip(pair.projections(surface, displacement, &slaves))
+            {
+                let (Some((face, projection)), Some(own)) = (projection, &own[row]) else {
+                    continue;
+                };
                 let force = pass[row] * surface.area[row];
-                for (node, weight) in surface.faces[face as usize].into_iter().zip(foot.within()) {
+                for (node, weight) in
+                    surface.faces[face as usize].into_iter().zip(projection.within())
+                {
                     means[node as usize].add(weight * force, own);
                 }
             }
@@ -423,13 +431,13 @@ impl Mean {
         }
     }
 
-    /// Of a node that carries `force` (N). The weights come from feet that are found here: how far they may
+    /// Of a node that carries `force` (N). The weights come from projections that are found here: how far they may
     /// be off is seen from the forces, which must add up.
     fn allowed(&self, force: f64) -> Option<Allowed> {
         if !(self.force > 0.0 && force > 0.0) {
             return None;
         }
-        let off = (FEET * (self.force / force - 1.0).abs()).max(LEAST);
+        let off = (PROJECTIONS * (self.force / force - 1.0).abs()).max(LEAST);
         let slack = off * (self.most - self.least);
         let [low, high] = [self.low, self.high].map(|sum| sum / self.force);
         Some(Allowed {

@@ -125,7 +125,7 @@ impl Influence {
     /// The slave nodes `points` against the faces of a master surface: `master` holds the nodes of
     /// the faces under the points, `surface` the faces and `mesh` their coordinates.
     ///
-    /// Kinematics are those of the reference configuration: the foot of a node on its face and
+    /// Kinematics are those of the reference configuration: the projection of a node on its face and
     /// the normal stay. The normal is that of the exact master surface where there is one.
     ///
     /// # Errors
@@ -138,9 +138,9 @@ impl Influence {
         mesh: &Mesh,
     ) -> Result<Self, InfluenceError> {
         let at = places(slave, &points)?;
-        let feet = points
+        let projections = points
             .iter()
-            .map(|p| Foot::find(p, master, surface, mesh))
+            .map(|p| Projection::find(p, master, surface, mesh))
             .collect::<Result<Vec<_>, _>>()?;
         let n = points.len();
         let mut normal = Mat::zeros(n, n);
@@ -149,8 +149,8 @@ impl Influence {
         for j in 0..n {
             for i in 0..n {
                 let mut f = slave.block(at[i], at[j]);
-                for (k, phi) in feet[i].weights {
-                    for (l, psi) in feet[j].weights {
+                for (k, phi) in projections[i].weights {
+                    for (l, psi) in projections[j].weights {
                         let g = master.block(k, l);
                         for a in 0..3 {
                             for b in 0..3 {
@@ -160,7 +160,7 @@ impl Influence {
                     }
                 }
                 let local = |a: usize, b: usize| {
-                    let (row, column) = (feet[i].frame[a], feet[j].frame[b]);
+                    let (row, column) = (projections[i].frame[a], projections[j].frame[b]);
                     (0..9).map(|k| row[k / 3] * f[k / 3][k % 3] * column[k % 3]).sum::<f64>()
                 };
                 normal[(i, j)] = local(2, 2);
@@ -173,7 +173,7 @@ impl Influence {
             }
         }
         regularise(&mut shear);
-        let closing = feet.iter().map(|f| f.frame[2][2]).collect();
+        let closing = projections.iter().map(|f| f.frame[2][2]).collect();
         Ok(Self { points, closing, normal, shear, coupling: Some(coupling) })
     }
 
@@ -265,14 +265,14 @@ fn places(compliance: &SurfaceCompliance, points: &[Point]) -> Result<Vec<usize>
 }
 
 /// Where a slave node meets the master surface.
-struct Foot {
+struct Projection {
     /// Nodes of the face (places in the master's compliance) and their shape functions.
     weights: [(usize, f64); 4],
     /// t1, t2, n.
     frame: [[f64; 3]; 3],
 }
 
-impl Foot {
+impl Projection {
     fn find(
         point: &Point,
         master: &SurfaceCompliance,
@@ -285,7 +285,7 @@ impl Foot {
         let t2 =
             [n[1] * t1[2] - n[2] * t1[1], n[2] * t1[0] - n[0] * t1[2], n[0] * t1[1] - n[1] * t1[0]];
         let frame = [t1, t2, n];
-        // The foot lies where the normal through the node meets the face: in the plane of the
+        // The projection lies where the normal through the node meets the face: in the plane of the
         // tangents both have the same coordinates.
         let place = |x: [f64; 3]| [dot(t1, x), dot(t2, x)];
         let target = place(point.at);
@@ -294,7 +294,7 @@ impl Foot {
             let Some(shape) = inside(corners, target) else { continue };
             let mut weights = [(0, 0.0); 4];
             for (k, node) in face.nodes.iter().enumerate() {
-                // A foot on an edge of the face does not load the corners off that edge.
+                // A projection on an edge of the face does not load the corners off that edge.
                 if shape[k].abs() < 1e-9 {
                     continue;
                 }

@@ -187,8 +187,8 @@ impl Coarse {
         let mut matrix = self.elastic.clone();
         for (link, k) in springs {
             let mut row = BTreeMap::<u32, [f64; MODES]>::new();
-            let foot = link.foot.iter().map(|&(n, w)| (n, -w));
-            for (node, weight) in [(link.slave, 1.0)].into_iter().chain(foot) {
+            let projection = link.projection.iter().map(|&(n, w)| (n, -w));
+            for (node, weight) in [(link.slave, 1.0)].into_iter().chain(projection) {
                 let c = self.cluster[node];
                 if c != NONE {
                     let pull = Padded::new(link.normal.map(|n| weight * n));

@@ -1,6 +1,6 @@
 //! Exact frictionless contact: a primal-dual active set.
 //!
-//! At closed slaves the normal displacement is eliminated through the foot,
+//! At closed slaves the normal displacement is eliminated through the projection,
 //! `n . u_s = sum phi_I n . u_I - gap`; the normal force follows from the residual. After every step
 //! the set is `{lambda > 0 or gap < 0}`, the semismooth Newton step on
 //! `lambda = max(0, lambda - c gap)` (Hintermueller, Ito and Kunisch 2002).

@@ -1,4 +1,4 @@
-//! The normal motion of a slave node relative to its foot.
+//! The normal motion of a slave node relative to its projection.
 
 use contact::Gap;
 use mesh::Padded;
@@ -8,7 +8,7 @@ use mesh::Padded;
 pub(crate) struct Link {
     pub(crate) slave: usize,
     /// Nodes of the master and their weights.
-    pub(crate) foot: Vec<(usize, f64)>,
+    pub(crate) projection: Vec<(usize, f64)>,
     pub(crate) normal: [f64; 3],
 }
 
@@ -16,7 +16,7 @@ impl Link {
     pub(crate) fn new(gap: &Gap) -> Self {
         Self {
             slave: gap.node as usize,
-            foot: gap.foot.iter().map(|&(n, weight)| (n as usize, weight)).collect(),
+            projection: gap.projection.iter().map(|&(n, weight)| (n as usize, weight)).collect(),
             normal: gap.normal,
         }
     }
@@ -26,10 +26,10 @@ impl Link {
         dot(self.normal, w[self.slave])
     }
 
-    /// Normal component of the motion `w` of the foot.
-    pub(crate) fn foot_normal(&self, w: &[Padded]) -> f64 {
+    /// Normal component of the motion `w` of the projection.
+    pub(crate) fn projection_normal(&self, w: &[Padded]) -> f64 {
         let mut sum = 0.0;
-        for &(node, weight) in &self.foot {
+        for &(node, weight) in &self.projection {
             sum += weight * dot(self.normal, w[node]);
         }
         sum
@@ -37,13 +37,13 @@ impl Link {
 
     /// Change of the gap under the motion `w`.
     pub(crate) fn opening(&self, w: &[Padded]) -> f64 {
-        self.slave_normal(w) - self.foot_normal(w)
+        self.slave_normal(w) - self.projection_normal(w)
     }
 
     /// Adds the force `f` along the normal to the slave and its reaction to the face.
     pub(crate) fn push(&self, f: f64, force: &mut [Padded]) {
         self.add(self.slave, f, force);
-        for &(node, weight) in &self.foot {
+        for &(node, weight) in &self.projection {
             self.add(node, -weight * f, force);
         }
     }

@@ -23,7 +23,7 @@ const STALLED: f64 = 0.5;
 
 /// Below this residual a stall is put down to normals that jump: where a slave lies over the edge of
 /// two facets, dented by the load, the normal leaps from one facet's to the other's and no
-/// displacement balances it. From then on feet and normals are held.
+/// displacement balances it. From then on projections and normals are held.
 const KINKED: f64 = 1e-2;
 
 /// A residual that is this small and falls no further is round-off.

@@ -2,7 +2,7 @@
 //! them.
 //!
 //! Vectors are full (one entry per node) but lie in the admissible space: zero where a node is
-//! held, equal on a group of tied nodes, and at constrained slaves moving with their foot along
+//! held, equal on a group of tied nodes, and at constrained slaves moving with their projection along
 //! the normal. With `T` the map from the free coordinates to full vectors, conjugate gradients run
 //! on `T^T K T`, whose residual `T^T r` is kept in a full vector as well.
 
@@ -27,7 +27,7 @@ pub(crate) struct Space {
     /// Nodes whose inverse holds more than the elastic block.
     touched: Vec<usize>,
     pub(crate) groups: Vec<Group>,
-    /// Slaves that follow their feet along the normal.
+    /// Slaves that follow their projections along the normal.
     pub(crate) links: Vec<Link>,
     /// Whether no node moves along y.
     plane: bool,
@@ -113,7 +113,7 @@ impl Space {
         let mut blocks = Blocks::new(self);
         for (link, k) in springs {
             blocks.add(link.slave, *k, link.normal);
-            for &(node, weight) in &link.foot {
+            for &(node, weight) in &link.projection {
                 blocks.add(node, k * weight * weight, link.normal);
             }
         }
@@ -122,14 +122,14 @@ impl Space {
         self.coarse.factorise(&self.reference, springs);
     }
 
-    /// Ties the slaves of `links` to their feet along the normal, in place of those before. A
-    /// slave's normal stiffness goes to its foot.
+    /// Ties the slaves of `links` to their projections along the normal, in place of those before. A
+    /// slave's normal stiffness goes to its projection.
     pub(crate) fn set_links(&mut self, links: Vec<Link>) {
         let stiffness: Vec<f64> =
             links.iter().map(|l| along(&self.diagonal[l.slave], l.normal)).collect();
         let mut blocks = Blocks::new(self);
         for (link, k) in links.iter().zip(&stiffness) {
-            for &(node, weight) in &link.foot {
+            for &(node, weight) in &link.projection {
                 blocks.add(node, k * weight * weight, link.normal);
             }
         }
@@ -145,7 +145,7 @@ impl Space {
         }
     }
 
-    /// `T^T r`: a linked slave hands its normal force on to its foot.
+    /// `T^T r`: a linked slave hands its normal force on to its projection.
     pub(crate) fn reduce(&self, r: &mut [Padded]) {
         self.flatten(r);
         for link in &self.links {
@@ -154,7 +154,7 @@ impl Space {
         }
     }
 
-    /// `T z`: linked slaves move with their feet along the normal.
+    /// `T z`: linked slaves move with their projections along the normal.
     fn follow(&self, z: &mut [Padded]) {
         for link in &self.links {
             let w = link.opening(z);

@@ -15,7 +15,7 @@ use solid::Solid;
 /// Conjugate-gradient iterations in one Newton step after which it gives up.
 const MOST_CG: usize = 20_000;
 
-/// Springs (N/m) with their feet and normals as they were at the displacements `at`, where the gaps
+/// Springs (N/m) with their projections and normals as they were at the displacements `at`, where the gaps
 /// were `gaps` (m).
 struct Held {
     springs: Vec<(Link, f64)>,
@@ -41,7 +41,7 @@ pub(crate) struct System<'a> {
     pub(crate) parts: Parts,
     /// Normal springs of the tangent.
     pub(crate) springs: Vec<(Link, f64)>,
-    /// Springs with feet and normals held.
+    /// Springs with projections and normals held.
     held: Option<Held>,
     cg: Cg,
     reference: Vec<Padded>,
@@ -181,7 +181,7 @@ impl<'a> System<'a> {
         self.space.set_springs(&self.springs);
     }
 
-    /// Holds feet and normals of the springs closed at the last evaluation, that of `u`.
+    /// Holds projections and normals of the springs closed at the last evaluation, that of `u`.
     pub(crate) fn hold_normals(&mut self, u: &[Padded]) {
         let springs = self.contact.iter().flat_map(|c| c.springs());
         let (springs, gaps) = springs.map(|(g, k)| ((Link::new(&g), k), g.gap)).unzip();
@@ -192,8 +192,8 @@ impl<'a> System<'a> {
         self.held.is_some()
     }
 
-    /// Lets feet and normals go; whether the springs closed at `u` are those closed while held.
-    /// Sets `force` to the force at `u` with the present feet and normals.
+    /// Lets projections and normals go; whether the springs closed at `u` are those closed while held.
+    /// Sets `force` to the force at `u` with the present projections and normals.
     pub(crate) fn release_normals(&mut self, u: &[Padded], force: &mut [Padded]) -> bool {
         let slaves = |springs: &[(Link, f64)]| -> Vec<usize> {
             springs.iter().map(|(link, _)| link.slave).collect()
@@ -272,8 +272,8 @@ impl<'a> System<'a> {
         const UPRIGHT: f64 = 1e-9;
         let inside = |n: usize| f64::from(u8::from(self.parts.contains(drift, n)));
         links.iter().any(|link| {
-            let foot: f64 = link.foot.iter().map(|&(n, w)| w * inside(n)).sum();
-            link.normal[drift.axis].abs() * (inside(link.slave) - foot).abs() > UPRIGHT
+            let projection: f64 = link.projection.iter().map(|&(n, w)| w * inside(n)).sum();
+            link.normal[drift.axis].abs() * (inside(link.slave) - projection).abs() > UPRIGHT
         })
     }
 

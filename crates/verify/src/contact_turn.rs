@@ -2,7 +2,7 @@
 //!
 //! *Gap.* A rigid disk rolls over a plane. The faces of its mesh cut the circle off by up to the sag h^2/(8R), which moves
 //! under the contact as the disk rolls; gaps corrected with the circle are those of the circle at every node of the plane
-//! and every angle. The foot of a node is found to 1e-8 of half a face, and so is the gap, over the sag.
+//! and every angle. The projection of a node is found to 1e-8 of half a face, and so is the gap, over the sag.
 //!
 //! *Friction.* A block pressed on another and shifted within what sticks is loaded by friction springs. Both
 //! turn together through 2 pi, about an axis across the normal and along it: nothing moves relative to anything else, and the
@@ -41,7 +41,7 @@ pub(crate) fn run_with(
             "gaps under a rolling disk off the circle's, over the sag of its faces",
             [0.0, gaps(curvature)?],
             1.0,
-            (1e-8, "the foot of a node, in half faces"),
+            (1e-8, "the projection of a node, in half faces"),
             "a rigid circle on a plane",
         ),
         Row::new(

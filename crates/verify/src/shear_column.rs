@@ -100,7 +100,7 @@ struct Jumps {
     /// Largest distance of the shear of slip from mu(s) p of the same step, over mu_S p.
     off_law: f64,
     /// Steps with more than one solution.
-    manifold: usize,
+    non_unique: usize,
 }
 
 pub(crate) fn run(size: Size) -> Outcome {
@@ -125,7 +125,7 @@ pub(crate) fn run_with(size: Size, law: impl Fn() -> Box<dyn NodeFriction>) -> O
     let step = |k: usize, exact: f64| {
         (finest.resolved[k] / exact, "one time step, by which the stress changes")
     };
-    let counted = found.iter().all(|jumps| jumps.manifold > 0);
+    let counted = found.iter().all(|jumps| jumps.non_unique > 0);
     Ok(vec![
         row("stress over p at which slip begins", LAW.mu_static, step(0, LAW.mu_static), |j| {
             j.onset
@@ -258,7 +258,7 @@ fn shear(cells: usize, law: Box<dyn NodeFriction>) -> Result<Jumps, Cause> {
         arrest: f64::NAN,
         resolved: [f64::NAN; 2],
         off_law: 0.0,
-        manifold: 0,
+        non_unique: 0,
     };
     let mut table = match simulation.contact() {
         Some(contact) => contact.nodal_table(0),
@@ -271,7 +271,7 @@ fn shear(cells: usize, law: Box<dyn NodeFriction>) -> Result<Jumps, Cause> {
         if let Some(contact) = simulation.contact() {
             contact.nodal(&mut table);
         }
-        jumps.manifold += report.contact.manifold;
+        jumps.non_unique += report.contact.non_unique;
         let share = c * report.time / LENGTH;
         let stuck = HUMP.stress(share);
         let change = (HUMP.stress(share + advance) - stuck).abs();

@@ -124,13 +124,16 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
     let x = block.slide_until(1.2 * time);
     let stop = [distance, x];
     rows.push(Row::new("distance to the stop (m)", stop, distance, limit, "v0^2/(2 mu g)"));
-    let (steps, foot) = (block.simulation.steps(), block.foot());
+    let (steps, projection) = (block.simulation.steps(), block.projection());
     let later = block.slide_until(1.5 * time);
     let (creep, held) = match method {
         Method::Penalty => (later - x, limit),
         Method::Exact(_) => {
             let roundings = (block.simulation.steps() - steps) as f64 * f64::EPSILON;
-            (block.foot() - foot, (roundings, "one rounding of the displacement per step"))
+            (
+                block.projection() - projection,
+                (roundings, "one rounding of the displacement per step"),
+            )
         }
     };
     let creep = [0.0, creep / distance];
@@ -211,7 +214,7 @@ struct Block {
     masses: Vec<f64>,
     mass: f64,
     /// Its nodes on the plane.
-    feet: Vec<u32>,
+    projections: Vec<u32>,
 }
 
 impl Block {
@@ -286,8 +289,8 @@ impl Block {
         setup.contact = Some(contact);
         let masses = setup.mass[body].to_vec();
         let mass = masses.iter().sum();
-        let feet = side_nodes(&mesh, 0, "z-").to_vec();
-        Ok(Self { simulation: Simulation::new(setup), masses, mass, feet })
+        let projections = side_nodes(&mesh, 0, "z-").to_vec();
+        Ok(Self { simulation: Simulation::new(setup), masses, mass, projections })
     }
 
     /// Steps to the time `t` (the centre of mass is interpolated within the last step) and returns
@@ -305,9 +308,10 @@ impl Block {
     }
 
     /// Mean displacement along x of the nodes on the plane (m).
-    fn foot(&self) -> f64 {
+    fn projection(&self) -> f64 {
         let u = self.simulation.displacement();
-        self.feet.iter().map(|&n| u[n as usize].0[0]).sum::<f64>() / self.feet.len() as f64
+        self.projections.iter().map(|&n| u[n as usize].0[0]).sum::<f64>()
+            / self.projections.len() as f64
     }
 
     fn centre(&self) -> f64 {

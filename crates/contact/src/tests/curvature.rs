@@ -2,8 +2,8 @@ use super::{Rig, SETTINGS};
 use crate::PenaltySettings;
 use crate::face::{Positions, project};
 use crate::plates::{STEEL, plate, tread};
+use crate::point::ContactPoint;
 use crate::surface::ContactSurface;
-use crate::touch::Listed;
 use crate::vector::{Vec3, norm, sub};
 use friction::Coulomb;
 use mesh::Padded;
@@ -42,12 +42,13 @@ fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
                     [0.0, 0.0, RADIUS],
                 ),
             );
-            let exact = project(&surface, &positions, true, node, 30, 0.0, 0.0).foot.unwrap();
+            let exact = project(&surface, &positions, true, node, 30, 0.0, 0.0).projection.unwrap();
             assert!((exact.gap - gap).abs() < 1e-6 * SAG, "{:e}", exact.gap - gap);
             // The normal is that of the last but one iterate, at most 1e-8 half faces away.
             let error = norm(sub(exact.point.normal, outward));
             assert!(error < 1e-8 * 1e-3 / RADIUS, "{error:e}");
-            let facet = project(&surface, &positions, false, node, 30, 0.0, 0.0).foot.unwrap();
+            let facet =
+                project(&surface, &positions, false, node, 30, 0.0, 0.0).projection.unwrap();
             worst_facet = worst_facet.max((facet.gap - gap).abs());
         }
     }
@@ -76,11 +77,11 @@ fn rolling(curvature: bool) -> (f64, f64) {
             }
         });
         let mut checked = 0;
-        for pair in rig.contact.pairs[1].iter().filter(|p| p.is_closed()) {
-            let node = rig.contact.nodes(1)[pair.slave as usize] as usize;
+        for point in rig.contact.points[1].iter().filter(|p| p.is_closed()) {
+            let node = rig.contact.nodes(1)[point.slave as usize] as usize;
             let at = rig.reference[node].xyz();
             let gap = libm::hypot(at[0] - x, at[2] - RADIUS + depth) - RADIUS;
-            worst = worst.max((pair.gap - gap).abs());
+            worst = worst.max((point.gap - gap).abs());
             checked += 1;
         }
         assert!(checked > 0);

@@ -1,13 +1,13 @@
 use super::{K, Rig, SETTINGS};
 use crate::face::{Positions, project};
 use crate::plates::{plate, tread};
-use crate::touch::Listed;
+use crate::point::ContactPoint;
 use crate::vector::Vec3;
 use friction::Coulomb;
 use proptest::prelude::*;
 
 /// Every penetration that projecting all nodes on the master from all of its faces finds, against
-/// the closed pairs.
+/// the closed points.
 fn closed_by_brute_force(rig: &Rig) -> [Vec<u32>; 2] {
     let positions = Positions { reference: &rig.reference, displacement: &rig.displacement };
     [0, 1].map(|slave: usize| {
@@ -17,8 +17,8 @@ fn closed_by_brute_force(rig: &Rig) -> [Vec<u32>; 2] {
                 let x = positions.at(own.nodes[i as usize]);
                 (0..master.faces.len() as u32).step_by(7).any(|f| {
                     project(master, &positions, true, x, f, 0.0, 0.0)
-                        .foot
-                        .is_some_and(|foot| foot.gap < 0.0)
+                        .projection
+                        .is_some_and(|projection| projection.gap < 0.0)
                 })
             })
             .collect()
@@ -27,8 +27,8 @@ fn closed_by_brute_force(rig: &Rig) -> [Vec<u32>; 2] {
 
 fn closed(rig: &Rig) -> [Vec<u32>; 2] {
     [0, 1].map(|slave: usize| {
-        let pairs = rig.contact.pairs[slave].iter();
-        pairs.filter(|p| p.is_closed()).map(|p| p.slave).collect()
+        let points = rig.contact.points[slave].iter();
+        points.filter(|p| p.is_closed()).map(|p| p.slave).collect()
     })
 }
 

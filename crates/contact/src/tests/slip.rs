@@ -1,5 +1,5 @@
 use super::{K, Rig, SETTINGS};
-use crate::touch::Listed;
+use crate::point::ContactPoint;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use crate::{Contact, PenaltySettings, Stiffness};
 use friction::{
@@ -182,14 +182,14 @@ fn sliding_over_many_faces_keeps_the_force() {
             // of the friction within k_t-distance: compare with the slaves of the slider alone.
             let mut table = rig.contact.nodal_table(0);
             rig.contact.nodal(&mut table);
-            let own: f64 = rig.contact.pairs[0].iter().map(|p| p.friction[0]).sum();
+            let own: f64 = rig.contact.points[0].iter().map(|p| p.friction[0]).sum();
             let expected = -0.3 * 0.5 * K * 16e-6 * DEPTH;
             assert!((own / expected - 1.0).abs() < 1e-9, "step {step}: {own} {expected}");
-            assert!(rig.contact.pairs[0].iter().all(|p| p.state == crate::touch::State::Slip));
+            assert!(rig.contact.points[0].iter().all(|p| p.state == crate::point::State::Slip));
             assert!(sums.friction_work > 0.0);
         }
     }
-    let slip = rig.contact.pairs[0][0].slip;
+    let slip = rig.contact.points[0][0].slip;
     assert!((slip[0] / 1e-2 - 1.0).abs() < 1e-9 && slip[1].abs() < 1e-12, "{slip:?}");
 }
 
@@ -203,9 +203,9 @@ fn coefficient_is_that_of_the_slip_speed_one_step_before() {
     for speed in [10.0, 0.5, 3.0, 0.05] {
         x += speed * rig.dt;
         rig.shift([x, 0.0, -DEPTH]);
-        for pair in rig.contact.pairs[0].iter().filter(|p| p.is_closed()) {
-            assert!((pair.mu - law.0.mu(before)).abs() < 1e-7);
-            assert!((norm(pair.slip_velocity) - speed).abs() < 1e-6);
+        for point in rig.contact.points[0].iter().filter(|p| p.is_closed()) {
+            assert!((point.mu - law.0.mu(before)).abs() < 1e-7);
+            assert!((norm(point.slip_velocity) - speed).abs() < 1e-6);
         }
         before = speed;
     }
@@ -219,9 +219,9 @@ fn first_step_of_contact_has_no_friction_and_knows_the_speed_of_the_nodes() {
     let sums = rig.shift([2.0 * rig.dt, 0.0, -DEPTH]);
     assert!(sums.closed > 0);
     assert_eq!(sums.force[0][0], 0.0);
-    for pair in &rig.contact.pairs[0] {
-        assert!((norm(pair.slip_velocity) - 2.0).abs() < 1e-6);
-        assert!((pair.mu - law.0.mu(2.0)).abs() < 1e-7);
+    for point in &rig.contact.points[0] {
+        assert!((norm(point.slip_velocity) - 2.0).abs() < 1e-6);
+        assert!((point.mu - law.0.mu(2.0)).abs() < 1e-7);
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::pass::{Pass, View};
 use super::{CheckOptions, Report};
+use crate::accumulator::{Statistic, Switches};
 use crate::basis::{Basis, Bound, SCALES};
 use crate::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
 use crate::frames::Pairing;
 use crate::law::Law;
 use crate::limits::{Limit, MEASURES, Measure};
 use crate::surface::body_name;
-use crate::tally::{Statistic, Switches};
 use crate::window::Window;
 use serde_json::{Map, Value, json};
 
@@ -50,7 +50,7 @@ impl Pass<'_> {
             .channels
             .iter()
             .filter(|c| c.pairing != own)
-            .map(|c| c.tally.records)
+            .map(|c| c.accumulator.records)
             .max()
             .unwrap_or(0);
         notes.extend(self.gaps(crossed));
@@ -186,11 +186,11 @@ impl Pass<'_> {
                 body_name(1 - body)
             ));
         }
-        if self.without_foot > 0 {
+        if self.without_projection > 0 {
             notes.push(format!(
                 "{} node-times in contact project on no face of the other side and are left out \
                  of the pair",
-                self.without_foot
+                self.without_projection
             ));
         }
         notes
@@ -212,8 +212,8 @@ impl Pass<'_> {
             }
         }
         if all.is_empty() {
-            for channel in self.channels.iter().filter(|c| c.tally.records > 0) {
-                let found = channel.tally.statistic(measure.name);
+            for channel in self.channels.iter().filter(|c| c.accumulator.records > 0) {
+                let found = channel.accumulator.statistic(measure.name);
                 all.push((channel.view.name(), Some(channel.pairing), found));
             }
         }

@@ -2,14 +2,14 @@
 
 use super::scales::Scales;
 use crate::PostError;
+use crate::accumulator::{Accumulator, SideAccumulator};
 use crate::basis::{Basis, Bound};
 use crate::conditions::{IN_CONTACT, Judge, Node};
-use crate::foot::Pair;
 use crate::frames::{ContactHistory, Frame, Pairing};
 use crate::patch_series::{self, PatchRow};
+use crate::projection::Pair;
 use crate::replay::{Allowed, Replay};
 use crate::surface::{Surface, body_name};
-use crate::tally::{SideTally, Tally};
 use crate::vector::{Vec3, axpy, norm};
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
@@ -38,7 +38,7 @@ pub(super) struct Channel {
     pub view: View,
     body: u8,
     pub pairing: Pairing,
-    pub tally: Tally,
+    pub accumulator: Accumulator,
 }
 
 /// A record with what is derived of it.
@@ -59,10 +59,10 @@ pub(super) struct Pass<'a> {
     pub judge: Judge,
     pub scales: Scales,
     pub channels: Vec<Channel>,
-    pub sides: Vec<(u8, SideTally)>,
+    pub sides: Vec<(u8, SideAccumulator)>,
     pub patch: Vec<PatchRow>,
     pub node_times: usize,
-    pub without_foot: usize,
+    pub without_projection: usize,
     /// Slip over the faces in contact, where the conditions are enforced.
     pub mesh_mode: MeshMode,
     judged_faces: Vec<[u32; 4]>,
@@ -88,7 +88,7 @@ impl<'a> Pass<'a> {
                     view,
                     body,
                     pairing,
-                    tally: Tally::new(nodes, scales.roughness_span),
+                    accumulator: Accumulator::new(nodes, scales.roughness_span),
                 })
             })
             .collect();
@@ -102,10 +102,10 @@ impl<'a> Pass<'a> {
             },
             scales,
             channels,
-            sides: bodies.iter().map(|&body| (body, SideTally::new(nodes))).collect(),
+            sides: bodies.iter().map(|&body| (body, SideAccumulator::new(nodes))).collect(),
             patch: Vec::new(),
             node_times: 0,
-            without_foot: 0,
+            without_projection: 0,
             mesh_mode: MeshMode::default(),
             judged_faces: judged_faces(history),
             shape: basis.shape,
@@ -154,7 +154,7 @@ impl<'a> Pass<'a> {
         let (mesh_mode, faces) = (&mut self.mesh_mode, &self.judged_faces[..]);
         // The motion of the pair is worked out beside the rest and what hangs on it comes after.
         let mut slips = Vec::new();
-        let (motion, lost) = (&mut self.pair, &mut self.without_foot);
+        let (motion, lost) = (&mut self.pair, &mut self.without_projection);
         rayon::scope(|scope| {
             let records = &records;
             scope.spawn(|_| {
@@ -244,15 +244,15 @@ impl Channel {
         judge: &Judge,
         replay: Option<&Replay>,
     ) {
-        let tally = &mut self.tally;
-        tally.begin_record(traction.time);
+        let accumulator = &mut self.accumulator;
+        accumulator.begin_record(traction.time);
         for row in (0..contact.len()).filter(|&row| surface.body[row] == self.body) {
             let slip = match self.view {
                 View::Side(_) => Some(slip.frame.slip_velocity[row]),
                 View::Pair => slip.pair_slip[row],
             };
             let Some(slip) = slip.filter(|_| contact[row]) else {
-                tally.open(row);
+                accumulator.open(row);
                 continue;
             };
             let node = Node {
@@ -265,9 +265,9 @@ impl Channel {
                     .and_then(|replay| made(replay, surface, traction, allowed, slip, row)),
                 state: traction.state.as_ref().map(|state| state[row]),
             };
-            tally.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
+            accumulator.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
         }
-        tally.end_record(traction.time, weight);
+        accumulator.end_record(traction.time, weight);
     }
 }
 
@@ -291,7 +291,7 @@ fn made(
 }
 
 /// The pair's slip in `records[first..]`, where a record or the one before it has contact: both
-/// pairings need it. `lost` counts nodes in contact without a foot.
+/// pairings need it. `lost` counts nodes in contact without a projection.
 fn pair_slips(
     pair: &mut Pair,
     surface: &Surface,
@@ -343,7 +343,7 @@ fn finer_body(surface: &Surface, bodies: &[u8]) -> u8 {
 }
 
 fn take_side(
-    side: &mut SideTally,
+    side: &mut SideAccumulator,
     body: u8,
     surface: &Surface,
     Record { frame, contact, weight, allowed, .. }: &Record,

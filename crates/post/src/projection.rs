@@ -1,13 +1,13 @@
-//! The foot of a node on the other surface and the motion there: the kinematics of the pair,
+//! The projection of a node on the other surface and the motion there: the kinematics of the pair,
 //! from positions and velocities alone, apart from what any solver said.
 
 use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, cross, dot, negative, norm, sub};
 use std::collections::HashMap;
 
-/// How far (in face coordinates) a foot may lie beyond an edge and still count as on the face.
+/// How far (in face coordinates) a projection may lie beyond an edge and still count as on the face.
 const EDGE: f64 = 1e-6;
-/// The same where the ridge between two faces, seen from outside, lies under the node and neither has its foot.
+/// The same where the ridge between two faces, seen from outside, lies under the node and neither has its projection.
 const RIDGE: f64 = 0.2;
 const NONE: u32 = u32::MAX;
 /// Face coordinates of the corners.
@@ -20,7 +20,7 @@ pub(crate) struct Pair {
     masters: Vec<u32>,
     /// Masters around each node.
     around: Vec<Vec<u32>>,
-    /// Face of each node's last foot and where it was there.
+    /// Face of each node's last projection and where it was there.
     last: Vec<(u32, [f64; 2])>,
     grid: HashMap<[i64; 2], Vec<u32>>,
     cell: f64,
@@ -28,7 +28,7 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// As [`new`](Self::new), where a node over the ridge between two faces has its foot on the edge.
+    /// As [`new`](Self::new), where a node over the ridge between two faces has its projection on the edge.
     pub fn over_ridges(surface: &Surface, slave: u8) -> Self {
         Self { over_ridges: true, ..Self::new(surface, slave) }
     }
@@ -59,35 +59,35 @@ impl Pair {
     }
 
     /// The slip velocity of each of `nodes` relative to the other surface, in its tangent plane;
-    /// `None` where the node has no foot.
+    /// `None` where the node has no projection.
     pub fn slip(
         &mut self,
         surface: &Surface,
         [displacement, velocity]: &[Vec<Vec3>; 2],
         nodes: &[usize],
     ) -> Vec<Option<Vec3>> {
-        let feet = self.feet(surface, displacement, nodes);
-        let slip = |(&node, foot): (&usize, Option<(u32, Foot)>)| {
-            let (face, foot) = foot?;
+        let projections = self.projections(surface, displacement, nodes);
+        let slip = |(&node, projection): (&usize, Option<(u32, Projection)>)| {
+            let (face, projection) = projection?;
             let mut relative = velocity[node];
             let corners = surface.faces[face as usize];
             for (i, corner) in corners.into_iter().enumerate() {
                 let v = velocity[corner as usize];
-                relative = axpy(relative, -foot.weights[i], v);
-                relative = axpy(relative, dot(foot.normal, v), foot.levers[i]);
+                relative = axpy(relative, -projection.weights[i], v);
+                relative = axpy(relative, dot(projection.normal, v), projection.levers[i]);
             }
-            Some(axpy(relative, -dot(relative, foot.normal), foot.normal))
+            Some(axpy(relative, -dot(relative, projection.normal), projection.normal))
         };
-        nodes.iter().zip(feet).map(slip).collect()
+        nodes.iter().zip(projections).map(slip).collect()
     }
 
-    /// The face under each of `nodes` and its foot there; `None` where the node has no foot.
-    pub fn feet(
+    /// The face under each of `nodes` and its projection there; `None` where the node has no projection.
+    pub fn projections(
         &mut self,
         surface: &Surface,
         displacement: &[Vec3],
         nodes: &[usize],
-    ) -> Vec<Option<(u32, Foot)>> {
+    ) -> Vec<Option<(u32, Projection)>> {
         let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
         let corners = |face: u32| surface.faces[face as usize].map(|n| at(n as usize));
         let on = |face: u32, x: Vec3, start: [f64; 2]| project(corners(face), x, start, EDGE);
@@ -105,7 +105,7 @@ impl Pair {
             if last != NONE {
                 let corners = surface.faces[last as usize];
                 match on(last, x, start) {
-                    Projected::On(foot) => best = Some((last, foot)),
+                    Projected::On(projection) => best = Some((last, projection)),
                     // nodes that meet nodes step over corners all the time
                     Projected::Beside([xi, eta]) => {
                         let corner = match (xi > 0.0, eta > 0.0) {
@@ -136,14 +136,15 @@ impl Pair {
                     self.sort_faces(surface, displacement);
                     sorted = true;
                 }
-                let beyond = |foot: &Foot| foot.at[0].abs().max(foot.at[1].abs());
+                let beyond =
+                    |projection: &Projection| projection.at[0].abs().max(projection.at[1].abs());
                 let on_edge = |face| project(corners(face), x, [0.0; 2], RIDGE).on_face();
                 best = (self.near(x))
                     .filter_map(|face| Some((face, on_edge(face)?)))
                     .min_by(|a, b| beyond(&a.1).total_cmp(&beyond(&b.1)));
             }
             self.last[node] =
-                best.as_ref().map_or((NONE, [0.0; 2]), |(face, foot)| (*face, foot.at));
+                best.as_ref().map_or((NONE, [0.0; 2]), |(face, projection)| (*face, projection.at));
             found.push(best);
         }
         found
@@ -177,19 +178,19 @@ impl Pair {
     }
 }
 
-/// The foot of a node on a face.
-pub(crate) struct Foot {
+/// The projection of a node on a face.
+pub(crate) struct Projection {
     at: [f64; 2],
     weights: [f64; 4],
     normal: Vec3,
     gap: f64,
     /// Surface gradients of the weights times the gap: the point of the other body that the node
     /// touches moves with the face at that distance from it, `-sum levers (normal . v)` faster than
-    /// the foot. A rotation common to both bodies gives no slip.
+    /// the projection. A rotation common to both bodies gives no slip.
     levers: [Vec3; 4],
 }
 
-impl Foot {
+impl Projection {
     /// Weights of the corners at the point of the face itself that is nearest.
     pub fn within(&self) -> [f64; 4] {
         let [xi, eta] = self.at.map(|c| c.clamp(-1.0, 1.0));
@@ -197,25 +198,25 @@ impl Foot {
     }
 }
 
-/// Where the foot of a node on the surface that continues a face lies.
+/// Where the projection of a node on the surface that continues a face lies.
 enum Projected {
-    On(Foot),
+    On(Projection),
     /// Beyond an edge, at these coordinates of the face.
     Beside([f64; 2]),
-    /// So far away that there is no foot.
+    /// So far away that there is no projection.
     Nowhere,
 }
 
 impl Projected {
-    fn on_face(self) -> Option<Foot> {
+    fn on_face(self) -> Option<Projection> {
         match self {
-            Self::On(foot) => Some(foot),
+            Self::On(projection) => Some(projection),
             _ => None,
         }
     }
 }
 
-/// Newton's iteration for the foot of `node` on the bilinear face through `x`, up to `edge` beyond its edges.
+/// Newton's iteration for the projection of `node` on the bilinear face through `x`, up to `edge` beyond its edges.
 fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> Projected {
     // The face as centre + xi a + eta b + xi eta twist, measured from the node.
     let mixed = |[p, q, r, s]: [f64; 4]| {
@@ -259,7 +260,7 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> 
                 let by_eta = 0.25 * se * (1.0 + sx * xi) * gap;
                 axpy(duals[0].map(|c| c * by_xi), by_eta, duals[1])
             });
-            return Projected::On(Foot {
+            return Projected::On(Projection {
                 at: [xi, eta],
                 weights: shape(xi, eta),
                 normal,
@@ -282,22 +283,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_foot_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
+    fn the_projection_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
         let node = [0.3, 0.6, 0.2];
-        let foot = project(x, node, [0.0; 2], EDGE).on_face().unwrap();
+        let projection = project(x, node, [0.0; 2], EDGE).on_face().unwrap();
         let mut point = [0.0; 3];
-        for (weight, corner) in foot.weights.into_iter().zip(x) {
+        for (weight, corner) in projection.weights.into_iter().zip(x) {
             point = axpy(point, weight, corner);
         }
         let away = sub(node, point);
-        assert!(norm(cross(away, foot.normal)) < 1e-9 * norm(away));
-        assert!((foot.gap - norm(away)).abs() < 1e-12);
-        assert!((foot.weights.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+        assert!(norm(cross(away, projection.normal)) < 1e-9 * norm(away));
+        assert!((projection.gap - norm(away)).abs() < 1e-12);
+        assert!((projection.weights.iter().sum::<f64>() - 1.0).abs() < 1e-14);
     }
 
     #[test]
-    fn a_node_beside_the_face_has_no_foot() {
+    fn a_node_beside_the_face_has_no_projection() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2], EDGE);
         assert!(matches!(beside, Projected::Beside([xi, eta]) if xi > 1.0 && eta.abs() < 1e-12));
@@ -329,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn slip_over_a_moving_master_that_deforms_is_taken_at_the_foot() {
+    fn slip_over_a_moving_master_that_deforms_is_taken_at_the_projection() {
         // two faces in a row under one node of another body
         let points = vec![
             [0.0, 0.0, 0.0],

@@ -1,23 +1,23 @@
-//! One slave node and its foot on the master surface: normal spring and damper, friction spring.
+//! One slave node and its projection on the master surface: normal spring and damper, friction spring.
 
 use crate::Motion;
 use crate::face::{Positions, SurfacePoint, project, shape};
+use crate::point::{ContactPoint, PointValues, State, relative_velocity, sleep};
 use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
-use crate::touch::{Listed, State, Touch, relative_velocity, sleep};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, Place, Slid};
 use mesh::Padded;
 
 /// A slave node near the master surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pair {
+pub(crate) struct PenaltyPoint {
     /// The slave, in its surface.
     pub slave: u32,
     pub state: State,
     sleep: u32,
-    /// Where the foot is; `NONE` where the node projects off the surface.
+    /// Where the projection is; `NONE` where the node projects off the surface.
     pub face: u32,
     pub xi: f64,
     pub eta: f64,
@@ -46,20 +46,20 @@ pub(crate) struct Pair {
     trial: Trial,
 }
 
-/// The motion to which the friction spring of a pair answers in the step under way.
+/// The motion to which the friction spring of a point answers in the step under way.
 #[derive(Clone, Copy, Debug, Default)]
 struct Trial {
     /// In contact since the step before.
     held: bool,
-    /// Tangential motion of the slave over the step relative to its old foot (m).
+    /// Tangential motion of the slave over the step relative to its old projection (m).
     delta: Vec3,
     /// The old force laid into the new tangent plane (N).
     start: Vec3,
-    /// First direction of the face at the new foot.
+    /// First direction of the face at the new projection.
     tangent: Vec3,
 }
 
-impl Listed for Pair {
+impl ContactPoint for PenaltyPoint {
     fn near(slave: u32, face: u32) -> Self {
         Self {
             slave,
@@ -98,8 +98,8 @@ impl Listed for Pair {
         self.state != State::Open
     }
 
-    fn touch(&self) -> Touch {
-        Touch {
+    fn values(&self) -> PointValues {
+        PointValues {
             state: self.state,
             gap: self.gap,
             normal_force: self.normal_force,
@@ -137,7 +137,7 @@ impl Listed for Pair {
     }
 }
 
-impl Pair {
+impl PenaltyPoint {
     /// Energy in the normal spring (J).
     pub fn stored_normal(&self) -> f64 {
         if self.is_closed() { 0.5 * self.stiffness[0] * self.gap * self.gap } else { 0.0 }
@@ -161,7 +161,7 @@ impl Pair {
     }
 }
 
-/// What the pairs of one pass share.
+/// What the points of one pass share.
 pub(crate) struct Pass<'a> {
     pub slave: &'a ContactSurface,
     pub master: &'a ContactSurface,
@@ -175,11 +175,11 @@ pub(crate) struct Pass<'a> {
 }
 
 impl Pass<'_> {
-    /// Normal and tangential stiffness (N/m) of a slave whose foot is the mean of the corners of a
+    /// Normal and tangential stiffness (N/m) of a slave whose projection is the mean of the corners of a
     /// master face with `weights`.
     ///
     /// What the face's element gives is interpolated between its means at the corners: with a
-    /// value for each face, a foot by an edge would decide by round-off which of two it gets.
+    /// value for each face, a projection by an edge would decide by round-off which of two it gets.
     pub fn stiffness(&self, slave: usize, face: &MasterFace, weights: &[f64; 4]) -> [f64; 2] {
         let mean = |values: &[f64]| -> f64 {
             weights.iter().zip(face.local).map(|(weight, n)| weight * values[n as usize]).sum()
@@ -191,61 +191,76 @@ impl Pass<'_> {
             .map(|form| form.per_pass(scaled, reduced, self.stability) * self.slave.area[slave])
     }
 
-    /// Follows the pair to `positions`; `motion` is absent where only normal springs act.
-    pub fn update(&self, pair: &mut Pair, positions: &Positions<'_>, motion: Option<&Motion<'_>>) {
-        pair.friction_work = 0.0;
-        pair.damping_work = 0.0;
-        if pair.sleep > 0 && motion.is_some() {
-            pair.sleep -= 1;
+    /// Follows the point to `positions`; `motion` is absent where only normal springs act.
+    pub fn update(
+        &self,
+        point: &mut PenaltyPoint,
+        positions: &Positions<'_>,
+        motion: Option<&Motion<'_>>,
+    ) {
+        point.friction_work = 0.0;
+        point.damping_work = 0.0;
+        if point.sleep > 0 && motion.is_some() {
+            point.sleep -= 1;
             return;
         }
-        let node = self.slave.nodes[pair.slave as usize];
+        let node = self.slave.nodes[point.slave as usize];
         let x = positions.at(node);
         let followed =
-            project(self.master, positions, self.curvature, x, pair.face, pair.xi, pair.eta);
-        let Some(foot) = followed.foot else {
+            project(self.master, positions, self.curvature, x, point.face, point.xi, point.eta);
+        let Some(projection) = followed.projection else {
             // A node that slides off the border takes along what its normal spring holds.
-            let lost = pair.stored_normal();
-            pair.gap = f64::INFINITY;
-            pair.open();
-            pair.damping_work = lost;
+            let lost = point.stored_normal();
+            point.gap = f64::INFINITY;
+            point.open();
+            point.damping_work = lost;
             // Walk anew from the middle of the face.
-            (pair.xi, pair.eta) = (0.0, 0.0);
+            (point.xi, point.eta) = (0.0, 0.0);
             return;
         };
-        let before = *pair;
-        (pair.face, pair.xi, pair.eta, pair.gap) = (foot.face, foot.xi, foot.eta, foot.gap);
-        let face = &self.master.faces[foot.face as usize];
-        pair.weights = shape(foot.xi.clamp(-1.0, 1.0), foot.eta.clamp(-1.0, 1.0));
-        let penetrates = foot.gap < 0.0;
+        let before = *point;
+        (point.face, point.xi, point.eta, point.gap) =
+            (projection.face, projection.xi, projection.eta, projection.gap);
+        let face = &self.master.faces[projection.face as usize];
+        point.weights = shape(projection.xi.clamp(-1.0, 1.0), projection.eta.clamp(-1.0, 1.0));
+        let penetrates = projection.gap < 0.0;
         if !penetrates {
             if before.is_closed() {
-                pair.open();
+                point.open();
             } else if let Some(motion) = motion {
-                let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
-                pair.sleep = sleep(foot.gap, norm(velocity), self.margin, motion.dt);
+                let velocity = relative_velocity(motion.velocity, node, face.nodes, &point.weights);
+                point.sleep = sleep(projection.gap, norm(velocity), self.margin, motion.dt);
             }
             return;
         }
         // equilibrium knows no history: the time loop starts from its displacements alone
         if !before.is_closed() || motion.is_none() {
-            pair.stiffness = self.stiffness(pair.slave as usize, face, &pair.weights);
+            point.stiffness = self.stiffness(point.slave as usize, face, &point.weights);
         }
-        pair.normal = foot.point.normal;
-        self.press(pair, &before, node, face, motion);
+        point.normal = projection.point.normal;
+        self.press(point, &before, node, face, motion);
         match motion {
             Some(motion) => {
-                self.drag(pair, &before, x, &followed.old, &foot.point, node, face, motion);
+                self.tangential_predictor(
+                    point,
+                    &before,
+                    x,
+                    &followed.old,
+                    &projection.point,
+                    node,
+                    face,
+                    motion,
+                );
             }
             None => {
-                pair.state = State::Stick;
-                pair.friction = [0.0; 3];
-                pair.framed = [0.0; 2];
-                pair.mu = self.law.mu_static();
+                point.state = State::Stick;
+                point.friction = [0.0; 3];
+                point.framed = [0.0; 2];
+                point.mu = self.law.mu_static();
                 // the time loop goes on from here
-                pair.memory = self.law.begin(&self.place(pair, x, 0.0));
-                pair.slip_velocity = [0.0; 3];
-                pair.slip = [0.0; 3];
+                point.memory = self.law.begin(&self.place(point, x, 0.0));
+                point.slip_velocity = [0.0; 3];
+                point.slip = [0.0; 3];
             }
         }
     }
@@ -254,46 +269,46 @@ impl Pass<'_> {
     /// `-(d^n + d^{n+1})/2 (g^{n+1} - g^n)`, with `d` what the force exceeds the spring's by.
     fn press(
         &self,
-        pair: &mut Pair,
-        before: &Pair,
+        point: &mut PenaltyPoint,
+        before: &PenaltyPoint,
         node: u32,
         face: &MasterFace,
         motion: Option<&Motion<'_>>,
     ) {
-        let spring = -pair.stiffness[0] * pair.gap;
-        pair.normal_force = spring;
-        pair.damper_force = 0.0;
+        let spring = -point.stiffness[0] * point.gap;
+        point.normal_force = spring;
+        point.damper_force = 0.0;
         let Some(motion) = motion else { return };
         if self.damping == 0.0 {
             return;
         }
         let rate =
-            dot(pair.normal, relative_velocity(motion.velocity, node, face.nodes, &pair.weights));
+            dot(point.normal, relative_velocity(motion.velocity, node, face.nodes, &point.weights));
         let mut compliance = motion.inverse_mass[node as usize];
-        for (weight, corner) in pair.weights.iter().zip(face.nodes) {
+        for (weight, corner) in point.weights.iter().zip(face.nodes) {
             compliance += weight * weight * motion.inverse_mass[corner as usize];
         }
         // Both ends held: nothing to damp.
         if compliance > 0.0 {
-            let critical = 2.0 * (pair.stiffness[0] / compliance).sqrt();
-            pair.normal_force = (spring - self.damping * critical * rate).max(0.0);
-            pair.damper_force = pair.normal_force - spring;
+            let critical = 2.0 * (point.stiffness[0] / compliance).sqrt();
+            point.normal_force = (spring - self.damping * critical * rate).max(0.0);
+            point.damper_force = point.normal_force - spring;
         }
-        let closing = if before.is_closed() { pair.gap - before.gap } else { rate * motion.dt };
-        pair.damping_work = -0.5 * (before.damper_force + pair.damper_force) * closing;
+        let closing = if before.is_closed() { point.gap - before.gap } else { rate * motion.dt };
+        point.damping_work = -0.5 * (before.damper_force + point.damper_force) * closing;
     }
 
     /// The motion that the friction spring answers to: `Delta`, the tangential motion of the slave over the
-    /// step relative to its old foot, which moved with the face, so that a rotation common to both bodies
-    /// gives none. The old force turns with the frame of the face at the old foot, and is then laid into
+    /// step relative to its old projection, which moved with the face, so that a rotation common to both bodies
+    /// gives none. The old force turns with the frame of the face at the old projection, and is then laid into
     /// the new tangent plane with its length kept.
     ///
-    /// In the step in which a pair closes there is no old foot: the spring starts unloaded, and
+    /// In the step in which a point closes there is no old projection: the spring starts unloaded, and
     /// the slip speed is that of the nodes' velocities.
-    fn drag(
+    fn tangential_predictor(
         &self,
-        pair: &mut Pair,
-        before: &Pair,
+        point: &mut PenaltyPoint,
+        before: &PenaltyPoint,
         x: Vec3,
         old: &SurfacePoint,
         new: &SurfacePoint,
@@ -301,35 +316,35 @@ impl Pass<'_> {
         face: &MasterFace,
         motion: &Motion<'_>,
     ) {
-        pair.state = State::Stick;
+        point.state = State::Stick;
         if !before.is_closed() {
-            let velocity = relative_velocity(motion.velocity, node, face.nodes, &pair.weights);
-            pair.slip_velocity = tangential(velocity, pair.normal);
-            pair.memory = self.law.begin(&self.place(pair, x, motion.time));
-            pair.trial = Trial::default();
+            let velocity = relative_velocity(motion.velocity, node, face.nodes, &point.weights);
+            point.slip_velocity = tangential(velocity, point.normal);
+            point.memory = self.law.begin(&self.place(point, x, motion.time));
+            point.trial = Trial::default();
             return;
         }
         let [e1, e2] = frame(old.tangent, old.normal);
         let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
-        pair.trial = Trial {
+        point.trial = Trial {
             held: true,
-            delta: tangential(sub(x, old.x), pair.normal),
-            start: lay_into(turned, pair.normal),
+            delta: tangential(sub(x, old.x), point.normal),
+            start: lay_into(turned, point.normal),
             tangent: new.tangent,
         };
     }
 
-    /// What the law of friction is told about a closed pair: the slip speed of the step before.
-    pub fn slid(&self, pair: &Pair, positions: &Positions<'_>, time: f64) -> Slid {
-        let x = positions.at(self.slave.nodes[pair.slave as usize]);
+    /// What the law of friction is told about a closed point: the slip speed of the step before.
+    pub fn slid(&self, point: &PenaltyPoint, positions: &Positions<'_>, time: f64) -> Slid {
+        let x = positions.at(self.slave.nodes[point.slave as usize]);
         Slid {
-            state: pair.memory,
-            slip_speed: norm(pair.slip_velocity),
-            at: self.place(pair, x, time),
+            state: point.memory,
+            slip_speed: norm(point.slip_velocity),
+            at: self.place(point, x, time),
         }
     }
 
-    /// The friction spring of a closed pair, Eqs (10) and (11) of Vollebregt (2017): trial force
+    /// The friction spring of a closed point, Eqs (10) and (11) of Vollebregt (2017): trial force
     /// `f* = f - k_t Delta`, capped at `mu f_n` in its own direction, with `mu` at the slip speed of the
     /// step before, to which the law's state has been advanced.
     ///
@@ -340,35 +355,35 @@ impl Pass<'_> {
     /// minus the energy stored and minus the dissipation `-1/2 (f^n + f^{n+1}).Delta_p`, exactly.
     /// The dissipation is negative only where the motion of one step turns a full friction force
     /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
-    pub fn rub(&self, pair: &mut Pair, slid: &Slid, dt: f64) {
-        pair.mu = self.law.mu(slid.state, slid.slip_speed, &slid.at);
-        let Trial { held, delta, start, tangent } = pair.trial;
+    pub fn return_mapping(&self, point: &mut PenaltyPoint, slid: &Slid, dt: f64) {
+        point.mu = self.law.mu(slid.state, slid.slip_speed, &slid.at);
+        let Trial { held, delta, start, tangent } = point.trial;
         if !held {
             // the state stays that of the beginning: this slip is counted in the next step
             return;
         }
-        pair.memory = slid.state;
-        let stiffness = pair.stiffness[1];
+        point.memory = slid.state;
+        let stiffness = point.stiffness[1];
         let mut friction = axpy(start, -stiffness, delta);
-        let (trial, cap) = (norm(friction), pair.mu * pair.normal_force);
+        let (trial, cap) = (norm(friction), point.mu * point.normal_force);
         // a coefficient that is no number must reach the guards
         if cap.is_nan() || trial > cap {
             friction = scale(cap / trial, friction);
-            pair.state = State::Slip;
+            point.state = State::Slip;
             if stiffness > 0.0 {
                 let slip = axpy(delta, 1.0 / stiffness, sub(friction, start));
-                pair.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
+                point.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
             }
         }
-        let [e1, e2] = frame(tangent, pair.normal);
-        pair.framed = [dot(friction, e1), dot(friction, e2)];
-        pair.friction = friction;
-        pair.slip_velocity = scale(1.0 / dt, delta);
-        pair.slip = axpy(pair.slip, 1.0, delta);
+        let [e1, e2] = frame(tangent, point.normal);
+        point.framed = [dot(friction, e1), dot(friction, e2)];
+        point.friction = friction;
+        point.slip_velocity = scale(1.0 / dt, delta);
+        point.slip = axpy(point.slip, 1.0, delta);
     }
 
-    fn place(&self, pair: &Pair, position: Vec3, time: f64) -> Place {
-        let pressure = pair.normal_force / self.slave.area[pair.slave as usize];
+    fn place(&self, point: &PenaltyPoint, position: Vec3, time: f64) -> Place {
+        let pressure = point.normal_force / self.slave.area[point.slave as usize];
         Place { position, time, pressure }
     }
 }
@@ -380,21 +395,21 @@ pub(crate) fn lay_into(f: Vec3, n: Vec3) -> Vec3 {
     if left > 0.0 { scale(length / left, flat) } else { [0.0; 3] }
 }
 
-/// Adds the force of a closed pair on the slave to it, and the reaction to the face.
+/// Adds the force of a closed point on the slave to it, and the reaction to the face.
 #[inline]
 pub(crate) fn scatter(
     pass: [&ContactSurface; 2],
-    pair: &Pair,
+    point: &PenaltyPoint,
     on_slave: Vec3,
     force: &mut [Padded],
 ) {
     let [slave, master] = pass;
-    let node = slave.nodes[pair.slave as usize] as usize;
-    debug_assert_ne!(pair.face, NONE);
+    let node = slave.nodes[point.slave as usize] as usize;
+    debug_assert_ne!(point.face, NONE);
     for i in 0..3 {
         force[node][i] += on_slave[i];
     }
-    for (weight, corner) in pair.weights.iter().zip(master.faces[pair.face as usize].nodes) {
+    for (weight, corner) in point.weights.iter().zip(master.faces[point.face as usize].nodes) {
         for i in 0..3 {
             force[corner as usize][i] -= weight * on_slave[i];
         }

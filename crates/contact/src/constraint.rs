@@ -1,7 +1,7 @@
-//! A slave node and its foot as three rows of constraints: the normal one and two tangential ones.
+//! A slave node and its projection as three rows of constraints: the normal one and two tangential ones.
 //!
 //! The rows give the rate at which the gap opens, `n . w`, and the slip velocity, and their transpose
-//! the forces. The foot is a weighted mean `sum w_J x_J` of nodes of the master: of the corners of one
+//! the forces. The projection is a weighted mean `sum w_J x_J` of nodes of the master: of the corners of one
 //! face by their shape functions, or of all nodes that a dual mortar function meets (module `mortar`).
 //! The slip velocity is measured against the point of the master that the node touches, carried along
 //! with the master at the distance `d = n . (x_s - sum w_J x_J)` of the exact surface beyond the facet:
@@ -9,14 +9,14 @@
 //! `s = P (v_s - sum w_J v_J - d n')`, `n' = -sum b_J (n . v_J)`, `P = I - n n`,
 //!
 //! with `b_J` the surface gradients of the weights. The weights are moved by these gradients until the
-//! foot lies under the node, `x_s - sum w_J x_J = d n`. A rotation common to both bodies then gives neither
+//! projection lies under the node, `x_s - sum w_J x_J = d n`. A rotation common to both bodies then gives neither
 //! opening nor slip; and since the transposed rows are the forces, the forces on slave and master have no
 //! resultant moment.
 
-use crate::face::{Foot, Positions, shape, shape_gradients};
+use crate::face::{Positions, Projection, shape, shape_gradients};
+use crate::point::{ContactPoint, PointValues, State};
 use crate::snapshot::Fields;
 use crate::surface::{ContactSurface, MasterFace};
-use crate::touch::{Listed, State, Touch};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
 use std::ops::Range;
 
@@ -31,7 +31,7 @@ pub enum Rows {
     Mortar,
 }
 
-/// The part of a node of the master in a foot.
+/// The part of a node of the master in a projection.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Share {
     /// The node, in its surface.
@@ -47,14 +47,14 @@ pub(crate) fn face_shares(face: &MasterFace, xi: f64, eta: f64) -> [Share; 4] {
     [0, 1, 2, 3].map(|c| Share { node: face.local[c], weight: weights[c], gradient: gradients[c] })
 }
 
-/// The foot of shares in the present configuration, and the tangents along their two directions.
+/// The projection of shares in the present configuration, and the tangents along their two directions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Footing {
+pub(crate) struct MasterPoint {
     pub x: Vec3,
     pub tangents: [Vec3; 2],
 }
 
-impl Footing {
+impl MasterPoint {
     #[inline]
     pub fn new(shares: &[Share], master: &ContactSurface, positions: &Positions<'_>) -> Self {
         let (mut x, mut a1, mut a2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
@@ -88,11 +88,11 @@ pub(crate) struct Leg {
 
 /// A slave node near the master surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Row {
+pub(crate) struct Constraint {
     pub slave: u32,
     pub state: State,
     pub sleep: u32,
-    /// Where the foot is, or was sought last.
+    /// Where the projection is, or was sought last.
     pub face: u32,
     pub xi: f64,
     pub eta: f64,
@@ -101,7 +101,7 @@ pub(crate) struct Row {
     /// Its legs in the list of the step: the first, and how many.
     legs: [u32; 2],
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
-    pub mobility: f64,
+    pub delassus: f64,
     pub normal_force: f64,
     /// On the slave (N).
     pub friction: Vec3,
@@ -117,7 +117,7 @@ pub(crate) struct Row {
     pub slipped: bool,
 }
 
-impl Listed for Row {
+impl ContactPoint for Constraint {
     fn near(slave: u32, face: u32) -> Self {
         Self {
             slave,
@@ -129,7 +129,7 @@ impl Listed for Row {
             gap: f64::INFINITY,
             normal: [0.0; 3],
             legs: [0; 2],
-            mobility: 0.0,
+            delassus: 0.0,
             normal_force: 0.0,
             friction: [0.0; 3],
             frame: [[0.0; 3]; 2],
@@ -154,8 +154,8 @@ impl Listed for Row {
         self.state != State::Open
     }
 
-    fn touch(&self) -> Touch {
-        Touch {
+    fn values(&self) -> PointValues {
+        PointValues {
             state: self.state,
             gap: self.gap,
             normal_force: self.normal_force,
@@ -192,8 +192,8 @@ impl Listed for Row {
     }
 }
 
-impl Row {
-    /// Forgets contact, but not where the foot is.
+impl Constraint {
+    /// Forgets contact, but not where the projection is.
     pub fn open(&mut self) {
         *self =
             Self { gap: self.gap, xi: self.xi, eta: self.eta, ..Self::near(self.slave, self.face) };
@@ -205,24 +205,24 @@ impl Row {
         self.legs[0] as usize..(self.legs[0] + self.legs[1]) as usize
     }
 
-    /// Sets up the rows of a node at `x` over a foot with unit normal `n` and adds their legs to the list
+    /// Sets up the rows of a node at `x` over a projection with unit normal `n` and adds their legs to the list
     /// of the step.
     #[inline]
     pub fn place(
         &mut self,
         shares: &[Share],
-        footing: &Footing,
+        master_point: &MasterPoint,
         n: Vec3,
         x: Vec3,
         legs: &mut Vec<Leg>,
     ) {
         self.normal = n;
-        self.frame = frame(footing.tangents[0], n);
+        self.frame = frame(master_point.tangents[0], n);
         self.legs = [legs.len() as u32, shares.len() as u32];
-        let [g1, g2] = footing.duals(n);
-        let to_node = sub(x, footing.x);
+        let [g1, g2] = master_point.duals(n);
+        let to_node = sub(x, master_point.x);
         let beside = [dot(g1, to_node), dot(g2, to_node)];
-        let [a1, a2] = footing.tangents;
+        let [a1, a2] = master_point.tangents;
         let under = axpy(scale(beside[0], a1), beside[1], a2);
         let distance = dot(n, sub(to_node, under));
         legs.extend(shares.iter().map(|share| {
@@ -263,7 +263,7 @@ impl Row {
     }
 }
 
-/// Where a foot on a face may be placed: not beyond its edges.
-pub(crate) fn within(foot: &Foot) -> [f64; 2] {
-    [foot.xi.clamp(-1.0, 1.0), foot.eta.clamp(-1.0, 1.0)]
+/// Where a projection on a face may be placed: not beyond its edges.
+pub(crate) fn within(projection: &Projection) -> [f64; 2] {
+    [projection.xi.clamp(-1.0, 1.0), projection.eta.clamp(-1.0, 1.0)]
 }

@@ -1,4 +1,4 @@
-//! What every enforcement knows of a slave node and its foot: the state, what the search lists, and
+//! What every enforcement knows of a slave node and its projection: the state, what the search lists, and
 //! what the tables of nodes show.
 
 use crate::snapshot::Fields;
@@ -22,26 +22,26 @@ pub(crate) enum State {
 }
 
 /// A slave node that the search lists because it is near the other surface.
-pub(crate) trait Listed: Copy {
-    /// An open node whose foot is to be sought from `face`.
+pub(crate) trait ContactPoint: Copy {
+    /// An open node whose projection is to be sought from `face`.
     fn near(slave: u32, face: u32) -> Self;
     /// The node, in its surface.
     fn slave(&self) -> u32;
-    /// Where its foot is.
+    /// Where its projection is.
     fn face(&self) -> u32;
     /// Closed nodes stay listed.
     fn is_closed(&self) -> bool;
     /// What tables of nodes show of it.
-    fn touch(&self) -> Touch;
-    /// Takes over all of `other` but the node itself and where its foot is.
+    fn values(&self) -> PointValues;
+    /// Takes over all of `other` but the node itself and where its projection is.
     fn follow(&mut self, other: &Self);
     /// Visits everything that a later step or a table of nodes reads.
     fn fields(&mut self, visit: &mut impl Fields);
 }
 
-/// A slave node and its foot, as the tables of nodes show them.
+/// A slave node and its projection, as the tables of nodes show them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch {
+pub(crate) struct PointValues {
     pub state: State,
     pub gap: f64,
     /// Normal force (N) and tangential force on the slave (N).
@@ -54,7 +54,11 @@ pub(crate) struct Touch {
 
 /// Gives the second slave of each pair of mesh nodes the state of the first; the pairs ascend by the first,
 /// `rows` by their slaves on `own`.
-pub(crate) fn follow_first<P: Listed>(rows: &mut [P], own: &ContactSurface, pairs: &[[u32; 2]]) {
+pub(crate) fn follow_first<P: ContactPoint>(
+    rows: &mut [P],
+    own: &ContactSurface,
+    pairs: &[[u32; 2]],
+) {
     if pairs.is_empty() {
         return;
     }

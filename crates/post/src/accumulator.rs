@@ -6,7 +6,7 @@ use crate::roughness::Roughness;
 use crate::statistics::{Moments, Place, Spread};
 
 /// The tangential conditions on one view of the interface in one pairing.
-pub(crate) struct Tally {
+pub(crate) struct Accumulator {
     contact: f64,
     violating: f64,
     /// Time and share of the record with the largest share in violation.
@@ -35,7 +35,7 @@ pub(crate) struct Tally {
     pub records: usize,
 }
 
-/// A statistic of a tally: its value, where it is worst, and what else is known of it.
+/// A statistic of a accumulator: its value, where it is worst, and what else is known of it.
 pub(crate) struct Statistic {
     pub value: Option<f64>,
     /// How the same statistic of single records varies over the records.
@@ -44,7 +44,7 @@ pub(crate) struct Statistic {
     pub more: Vec<(&'static str, Option<f64>)>,
 }
 
-impl Tally {
+impl Accumulator {
     /// For `nodes` nodes, with roughness over `span` (s) where it is known.
     pub fn new(nodes: usize, span: Option<f64>) -> Self {
         Self {
@@ -270,7 +270,7 @@ impl Switches {
 }
 
 /// The normal conditions, the cone, and what the algorithm calls stick and slip, on one side.
-pub(crate) struct SideTally {
+pub(crate) struct SideAccumulator {
     penetration: Spread,
     tension: Spread,
     complementarity: Spread,
@@ -354,7 +354,7 @@ impl MuTally {
     }
 }
 
-impl SideTally {
+impl SideAccumulator {
     pub fn new(nodes: usize) -> Self {
         Self {
             penetration: Spread::default(),
