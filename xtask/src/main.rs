@@ -9,6 +9,7 @@ mod markdown;
 mod results;
 mod shell;
 mod soak;
+mod structure;
 mod validate;
 mod wheel;
 

@@ -28,9 +28,10 @@ pub fn alone(step: Step) -> ExitCode {
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 17] = [
+    let steps: [(&str, Step); 18] = [
         ("format", format),
         ("links", links),
+        ("structure", structure),
         ("lints", lints),
         ("documentation", documentation),
         ("tests", tests),
@@ -91,6 +92,15 @@ fn links(root: &Path) -> Outcome {
             told(&broken.iter().map(|link| format!("{link} does not exist")).collect::<Vec<_>>())
         }
         Err(error) => told(&[format!("a document cannot be read: {error}")]),
+    }
+}
+
+/// The crates use one another as they are drawn.
+fn structure(root: &Path) -> Outcome {
+    match crate::structure::differences(root) {
+        Ok(differences) if differences.is_empty() => Outcome::Passed,
+        Ok(differences) => told(&differences),
+        Err(error) => told(&[error]),
     }
 }
 

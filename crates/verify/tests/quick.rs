@@ -1,12 +1,13 @@
 //! Every problem of the ladder at its quick size.
 #![allow(clippy::unwrap_used)]
 
+use rayon::prelude::*;
 use std::sync::LazyLock;
 use verify::{Convergence, PROBLEMS, Row, Size};
 
 /// The rows of every problem at its quick size, by its name.
 static ROWS: LazyLock<Vec<(&str, Vec<Row>)>> = LazyLock::new(|| {
-    PROBLEMS.iter().map(|problem| (problem.name, problem.run(Size::Quick).unwrap())).collect()
+    PROBLEMS.par_iter().map(|problem| (problem.name, problem.run(Size::Quick).unwrap())).collect()
 });
 
 #[test]
