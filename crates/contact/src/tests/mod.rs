@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod curvature;
+mod every_enforcement;
 mod exact;
 mod normal;
 mod search;
