@@ -1,7 +1,7 @@
 //! Errors in the physics, planted on purpose, and the rows of the ladder that catch them at quick size.
 //!
-//! A problem takes what is planted as an input of its own: nothing of this is in the program. Each test prints its line
-//! of the table in docs/verification.md:
+//! A problem takes what is planted as an input of its own: nothing of this is in the program. The table in
+//! docs/verification.md names each fault with its row; the errors and the limit are printed by
 //! `cargo test --release -p creepage-verify --lib planted -- --nocapture --test-threads=1`.
 #![allow(clippy::unwrap_used)]
 
@@ -15,17 +15,19 @@ use friction::{Implicit, Lagged};
 use mesh::Mesh;
 use solid::Element;
 
-/// The row passes without the fault and fails with it.
+/// The documents' table of faults.
+const TABLE: &str = include_str!("../../../docs/verification.md");
+
+/// The row passes without the fault and fails with it, and stands in the table.
 fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: Outcome) {
     let row = |found: Outcome| -> Row {
         let found = found.unwrap().into_iter().find(|row| row.quantity.contains(quantity));
         found.unwrap_or_else(|| panic!("{problem} has no row '{quantity}'"))
     };
     let (sound, planted) = (row(sound), row(planted));
-    println!(
-        "| {fault} | `{problem}`: {} | {:.1e} | {:.1e} | {:.1e} |",
-        sound.quantity, sound.error, planted.error, sound.limit
-    );
+    let line = format!("| {fault} | `{problem}`: {} |", sound.quantity);
+    println!("{line} {:.1e} | {:.1e} | {:.1e} |", sound.error, planted.error, sound.limit);
+    assert!(TABLE.lines().any(|found| found == line), "docs/verification.md lacks: {line}");
     assert!(sound.pass, "without the fault: {sound:?}");
     assert!(!planted.pass, "with the fault: {planted:?}");
     // a fault must not pass by the limit that it makes for itself, nor fail by that alone
