@@ -7,9 +7,10 @@ use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers, Ends};
 use crate::validation::LAYERS;
 use contact::{
-    BodyMaterial, ExactContact, ExactSettings, PenaltyContact, PenaltySettings, StabilityScale,
+    BodyMaterial, ExactContact, ExactSettings, GapFunction, PenaltyContact, PenaltySettings,
+    StabilityScale,
 };
-use friction::{Coulomb, Mode, OwnLaw};
+use friction::OwnLaw;
 use mesh::{Face, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 use std::sync::Arc;
@@ -117,9 +118,8 @@ impl Model {
         Ok(Solid::new(&self.mesh, &self.materials, self.elements(), viscosity, self.kernels)?)
     }
 
-    /// Penalty contact of disk and bar: that of the time loop, or for exact enforcement what the
-    /// preload takes search and gaps from.
-    pub(crate) fn contact(
+    /// Penalty contact of disk and bar.
+    pub(crate) fn penalty_contact(
         &self,
         case: &Case,
         scale: StabilityScale,
@@ -130,36 +130,42 @@ impl Model {
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
         };
-        let mut law = friction_law::law(case, self.law.as_ref())?;
-        if case.friction.mode == Some(Mode::Exact) {
-            // no friction acts in the preload
-            law = Box::new(Coulomb { mu: law.mu_static() });
-        }
+        let law = friction_law::law(case, self.law.as_ref())?;
         Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
     }
 
     /// Exact contact of disk and bar.
     pub(crate) fn exact_contact(&self, case: &Case) -> Result<ExactContact, RunError> {
-        let settings = ExactSettings {
+        let law = friction_law::law(case, self.law.as_ref())?;
+        Ok(ExactContact::new(&self.mesh, self.sides(), &self.exact_settings(case), law)?)
+    }
+
+    /// The gaps that exact contact closes.
+    pub(crate) fn gaps(&self, case: &Case) -> Result<GapFunction, RunError> {
+        Ok(GapFunction::new(&self.mesh, self.sides(), &self.exact_settings(case))?)
+    }
+
+    fn exact_settings(&self, case: &Case) -> ExactSettings {
+        ExactSettings {
             slave: Some(self.slave()),
             curvature: case.contact.curvature,
-            rows: rows(case),
-        };
-        let law = friction_law::law(case, self.law.as_ref())?;
-        Ok(ExactContact::new(&self.mesh, self.sides(), &settings, law)?)
+            rows: match case.contact.rows.unwrap_or_default() {
+                crate::schema::Rows::NodeToFace => contact::Rows::NodeToFace,
+                crate::schema::Rows::Mortar => contact::Rows::Mortar,
+            },
+        }
     }
 
     /// The side whose nodes are slaves of exact contact: that of the finer zone, the disk's where both
     /// are alike.
     pub(crate) fn slave(&self) -> usize {
-        let mean = |side: usize| {
+        contact::finer([DISK, BAR].map(|side| {
             let area = |f: &Face| {
                 let corners = f.nodes.map(|n| self.mesh.nodes[n as usize]);
                 mesh::quad_corner_areas(&corners).iter().sum::<f64>()
             };
             self.zones[side].iter().map(area).sum::<f64>() / self.zones[side].len() as f64
-        };
-        if mean(BAR) < 0.99 * mean(DISK) { BAR } else { DISK }
+        }))
     }
 
     fn sides(&self) -> [(&Surface, BodyMaterial); 2] {
@@ -212,14 +218,6 @@ fn fully_integrated(case: &Case, mesh: &Mesh) -> Vec<bool> {
 
 fn material(m: crate::schema::Material) -> Material {
     Material { young: m.young, poisson: m.poisson, density: m.density }
-}
-
-/// What the slaves of exact contact meet.
-pub(crate) fn rows(case: &Case) -> contact::Rows {
-    match case.contact.rows.unwrap_or_default() {
-        crate::schema::Rows::NodeToFace => contact::Rows::NodeToFace,
-        crate::schema::Rows::Mortar => contact::Rows::Mortar,
-    }
 }
 
 pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {

@@ -3,17 +3,17 @@
 pub(crate) mod store;
 
 use crate::hertz::hertz;
-use crate::model::{DISK, Model, rows};
+use crate::model::{DISK, Model};
 use crate::progress::{Progress, Stage};
 use crate::run_error::RunError;
-use crate::schema::{self, Case, PreloadMethod};
-use contact::{Gap, PenaltyContact};
+use crate::schema::{Case, Enforcement, PreloadMethod};
+use contact::{Gap, StabilityScale};
 use dynamics::{Hub, Relaxation, RelaxationError, RelaxationReport};
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use solid::Solid;
-use statics::{Axis, Ending, Enforcement, Problem, Spin, StaticsError, Supports, Tied};
+use statics::{Axis, Contact, Ending, Problem, Spin, StaticsError, Supports, Tied};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -194,7 +194,7 @@ pub(crate) fn preload(
     case: &Case,
     model: &Model,
     solid: &mut Solid,
-    contact: &mut PenaltyContact,
+    scale: StabilityScale,
     hub: &Hub,
     held: &[u32],
     stop: &AtomicBool,
@@ -242,19 +242,24 @@ pub(crate) fn preload(
                     mass: &model.mass,
                     hub: 0,
                 }),
-                enforcement: match case.contact.enforcement {
-                    schema::Enforcement::Penalty => Enforcement::Penalty,
-                    schema::Enforcement::Exact => {
-                        Enforcement::Exact { slave: model.slave(), rows: rows(case) }
-                    }
-                },
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
             };
             let start = lowered(start_depth(case));
             let mut products = 0;
             let mut said = Ok(());
-            let found = statics::solve(solid, Some(contact), &problem, &start, |now| {
+            let (mut springs, mut gaps);
+            let contact = match case.contact.enforcement {
+                Enforcement::Penalty => {
+                    springs = model.penalty_contact(case, scale)?;
+                    Contact::Penalty(&mut springs)
+                }
+                Enforcement::Exact => {
+                    gaps = model.gaps(case)?;
+                    Contact::Multipliers(&mut gaps)
+                }
+            };
+            let found = statics::solve(solid, contact, &problem, &start, |now| {
                 products += now.cg_iterations + 1;
                 said = say(&format!(
                     "preload {:2}: residual {:.1e} of the load, normal force {:.1} N, {} pairs closed, \
@@ -294,7 +299,8 @@ pub(crate) fn preload(
                 tolerance: case.preload_tolerance(),
                 max_iterations: most as usize,
             };
-            let (u, report) = dynamics::relax(solid, contact, &setup, |now| {
+            let mut contact = model.penalty_contact(case, scale)?;
+            let (u, report) = dynamics::relax(solid, &mut contact, &setup, |now| {
                 look(now.iterations, now.iterations, now.normal_force)
             })
             .map_err(PreloadError::from)?;

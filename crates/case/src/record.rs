@@ -3,7 +3,7 @@
 use crate::hertz::patch_shape;
 use crate::means::Means;
 use crate::mesh_mode::Watched;
-use crate::model::{BAR, DISK, Model, rows};
+use crate::model::{BAR, DISK, Model};
 use crate::probes::Probes;
 use crate::run_error::RunError;
 use crate::schema::{Case, Window};
@@ -638,9 +638,9 @@ fn create_contact(
     if let Some(side) = enforced_on {
         provenance.attributes.push((SLIP_PAIRING.into(), "after".into()));
         provenance.attributes.push((ENFORCED_ON.into(), ["disk", "bar"][side].into()));
-        let rows = match rows(case) {
-            contact::Rows::NodeToFace => "node_to_face",
-            contact::Rows::Mortar => "mortar",
+        let rows = match case.contact.rows.unwrap_or_default() {
+            crate::schema::Rows::NodeToFace => "node_to_face",
+            crate::schema::Rows::Mortar => "mortar",
         };
         provenance.attributes.push((CONTACT_ROWS.into(), rows.into()));
     }

@@ -91,7 +91,8 @@ pub(crate) struct Start {
 /// The bodies at rest under the load, and what the step must respect.
 struct Settled {
     solid: Solid,
-    contact: PenaltyContact,
+    /// The springs of penalty contact, closed where the bodies touch; none of exact contact.
+    springs: Option<PenaltyContact>,
     hub: Hub,
     quiet: QuietEnd,
     preloaded: Preloaded,
@@ -134,8 +135,7 @@ fn settle(
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
     let mut preloaded = store::kept(case, model, cache, stop, say, &mut |say| {
-        let mut contact = model.contact(case, scale)?;
-        preload(case, model, &mut solid, &mut contact, &hub, &held, stop, observe, say)
+        preload(case, model, &mut solid, scale, &hub, &held, stop, observe, say)
     })?;
     disturb(case, model, &mut preloaded.displacement);
     for &[first, second] in &model.paired {
@@ -143,29 +143,36 @@ fn settle(
         preloaded.displacement[second as usize] = preloaded.displacement[first as usize];
     }
     // Contact starts from the displacements alone, so that a preload from the cache and one just
-    // found lead to the same bits; this also closes the pairs that touch, for the stable step.
-    let mut contact = model.contact(case, scale)?;
-    let mut unused = vec![Padded::ZERO; preloaded.displacement.len()];
-    contact.apply_frictionless(solid.reference(), &preloaded.displacement, &mut unused);
+    // found lead to the same bits.
+    let springs = match case.contact.enforcement {
+        Enforcement::Penalty => {
+            let mut springs = model.penalty_contact(case, scale)?;
+            // closes those that touch, for the stable step
+            let mut unused = vec![Padded::ZERO; preloaded.displacement.len()];
+            springs.apply_frictionless(solid.reference(), &preloaded.displacement, &mut unused);
+            Some(springs)
+        }
+        Enforcement::Exact => None,
+    };
     let preload_wall = clock.elapsed().as_secs_f64();
 
-    // exact contact has no stiffness
-    let (omega_max, contact_bound) = if case.contact.enforcement == Enforcement::Exact {
-        (omega_elastic, 0.0)
-    } else {
-        let with_springs = |x: &[Padded], y: &mut [Padded]| {
-            solid.add_stiffness_product(x, y);
-            contact.stiffness_product(x, y);
-        };
-        let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
-        (MARGIN * omega, contact.rigorous_omega_squared(&inverse_mass))
+    let (omega_max, contact_bound) = match &springs {
+        Some(springs) => {
+            let with_springs = |x: &[Padded], y: &mut [Padded]| {
+                solid.add_stiffness_product(x, y);
+                springs.stiffness_product(x, y);
+            };
+            let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
+            (MARGIN * omega, springs.rigorous_omega_squared(&inverse_mass))
+        }
+        None => (omega_elastic, 0.0),
     };
     // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
     let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
     let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
     Ok(Settled {
         solid,
-        contact,
+        springs,
         hub,
         quiet,
         preloaded,
@@ -188,7 +195,7 @@ pub(crate) fn start(
 ) -> Result<Start, RunError> {
     let Settled {
         mut solid,
-        contact,
+        springs,
         hub,
         quiet,
         preloaded: Preloaded { displacement, report: preload, loads: pressed },
@@ -199,7 +206,6 @@ pub(crate) fn start(
         limit,
     } = settle(case, model, cache, stop, observe, say)?;
     let nominal = case.disk.radius;
-    let exact = case.contact.enforcement == Enforcement::Exact;
     let (element_bound, _) =
         solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
     if let Step::Absolute(step) = case.step()
@@ -226,7 +232,7 @@ pub(crate) fn start(
     };
     let effective = match preload {
         Some(_) => {
-            let loads = if exact { pressed } else { loads(&contact) };
+            let loads = springs.as_ref().map_or(pressed, loads);
             effective_radius(model, &loads, &displacement, &field)
         }
         None => nominal,
@@ -245,8 +251,10 @@ pub(crate) fn start(
         solid.subtract_elastic_force(&displacement, &mut force, false);
         quiet.keep_reactions(&force);
     }
-    let contact: Box<dyn Contact> =
-        if exact { Box::new(model.exact_contact(case)?) } else { Box::new(contact) };
+    let contact: Box<dyn Contact> = match springs {
+        Some(springs) => Box::new(springs),
+        None => Box::new(model.exact_contact(case)?),
+    };
     let radius = RollingRadius { nominal, effective };
     let found = Found { stability, radius, preload, preload_wall, steps: steps as u64 };
     Ok(assemble(case, model, found, solid, contact, hub, quiet, displacement, velocity))
@@ -260,10 +268,12 @@ pub(crate) fn restart(
     state: &SimulationState,
 ) -> Result<Start, RunError> {
     let solid = model.solid(case)?;
-    let contact: Box<dyn Contact> = if case.contact.enforcement == Enforcement::Exact {
-        Box::new(model.exact_contact(case)?)
-    } else {
-        Box::new(model.contact(case, scale(case, found.stability.omega_elastic))?)
+    let contact: Box<dyn Contact> = match case.contact.enforcement {
+        Enforcement::Exact => Box::new(model.exact_contact(case)?),
+        Enforcement::Penalty => {
+            let scale = scale(case, found.stability.omega_elastic);
+            Box::new(model.penalty_contact(case, scale)?)
+        }
     };
     let (hub, quiet) = (hub(case, model, &solid), quiet(model));
     let rest = vec![Padded::ZERO; model.mass.len()];

@@ -14,7 +14,7 @@
 //! resultant moment.
 
 use crate::face::{Positions, Projection, shape, shape_gradients};
-use crate::point::{ContactPoint, PointValues, State};
+use crate::point::{ContactPoint, Enforced};
 use crate::snapshot::Fields;
 use crate::surface::{ContactSurface, MasterFace};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
@@ -86,129 +86,45 @@ pub(crate) struct Leg {
     pub lever: Vec3,
 }
 
-/// A slave node near the master surface.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Constraint {
-    pub slave: u32,
-    pub state: State,
-    pub sleep: u32,
-    /// Where the projection is, or was sought last.
-    pub face: u32,
-    pub xi: f64,
-    pub eta: f64,
-    pub gap: f64,
-    pub normal: Vec3,
+/// A contact point at which the conditions of contact and friction hold by Lagrange multipliers.
+pub(crate) type Constraint = ContactPoint<Multipliers>;
+
+/// What exact contact keeps of a contact point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Multipliers {
     /// Its legs in the list of the step: the first, and how many.
     legs: [u32; 2],
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
     pub delassus: f64,
-    pub normal_force: f64,
-    /// On the slave (N).
-    pub friction: Vec3,
-    /// Tangential frame that turns with the master, and `friction` in it.
+    /// Tangential frame that turns with the master.
     pub frame: [Vec3; 2],
-    pub framed: [f64; 2],
-    pub mu: f64,
-    /// State of the friction law.
-    pub memory: [f64; 2],
-    pub slip_velocity: Vec3,
-    pub slip: Vec3,
     /// Whether it slipped in the step before.
     pub slipped: bool,
 }
 
-impl ContactPoint for Constraint {
-    fn near(slave: u32, face: u32) -> Self {
-        Self {
-            slave,
-            state: State::Open,
-            sleep: 0,
-            face,
-            xi: 0.0,
-            eta: 0.0,
-            gap: f64::INFINITY,
-            normal: [0.0; 3],
-            legs: [0; 2],
-            delassus: 0.0,
-            normal_force: 0.0,
-            friction: [0.0; 3],
-            frame: [[0.0; 3]; 2],
-            framed: [0.0; 2],
-            mu: 0.0,
-            memory: [0.0; 2],
-            slip_velocity: [0.0; 3],
-            slip: [0.0; 3],
-            slipped: false,
-        }
-    }
-
-    fn slave(&self) -> u32 {
-        self.slave
-    }
-
-    fn face(&self) -> u32 {
-        self.face
-    }
-
-    fn is_closed(&self) -> bool {
-        self.state != State::Open
-    }
-
-    fn values(&self) -> PointValues {
-        PointValues {
-            state: self.state,
-            gap: self.gap,
-            normal_force: self.normal_force,
-            friction: self.friction,
-            mu: self.mu,
-            slip_velocity: self.slip_velocity,
-            slip: self.slip,
-        }
-    }
-
+impl Enforced for Multipliers {
     fn follow(&mut self, other: &Self) {
-        let Self { slave, face, xi, eta, legs, .. } = *self;
-        *self = Self { slave, face, xi, eta, legs, ..*other };
+        *self = Self { legs: self.legs, ..*other };
     }
 
     fn fields(&mut self, visit: &mut impl Fields) {
-        visit.whole("slave", &mut self.slave);
-        visit.state(&mut self.state);
-        visit.whole("sleep", &mut self.sleep);
-        visit.whole("face", &mut self.face);
-        visit.number("xi", "1", &mut self.xi);
-        visit.number("eta", "1", &mut self.eta);
-        visit.number("gap", "m", &mut self.gap);
-        visit.real("normal", "1", &mut self.normal);
-        visit.number("normal_force", "N", &mut self.normal_force);
-        visit.real("friction", "N", &mut self.friction);
         visit.real("frame", "1", self.frame.as_flattened_mut());
-        visit.real("framed_friction", "N", &mut self.framed);
-        visit.number("mu", "1", &mut self.mu);
-        visit.real("memory", "as of the law", &mut self.memory);
-        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
-        visit.real("slip", "m", &mut self.slip);
         visit.flag("slipped", &mut self.slipped);
     }
 }
 
 impl Constraint {
-    /// Forgets contact, but not where the projection is.
-    pub fn open(&mut self) {
-        *self =
-            Self { gap: self.gap, xi: self.xi, eta: self.eta, ..Self::near(self.slave, self.face) };
-    }
-
     /// Its legs in the list of the step.
     #[inline]
     pub fn legs(&self) -> Range<usize> {
-        self.legs[0] as usize..(self.legs[0] + self.legs[1]) as usize
+        self.enforcement.legs[0] as usize
+            ..(self.enforcement.legs[0] + self.enforcement.legs[1]) as usize
     }
 
     /// Sets up the rows of a node at `x` over a projection with unit normal `n` and adds their legs to the list
     /// of the step.
     #[inline]
-    pub fn place(
+    pub fn set_up(
         &mut self,
         shares: &[Share],
         master_point: &MasterPoint,
@@ -217,8 +133,8 @@ impl Constraint {
         legs: &mut Vec<Leg>,
     ) {
         self.normal = n;
-        self.frame = frame(master_point.tangents[0], n);
-        self.legs = [legs.len() as u32, shares.len() as u32];
+        self.enforcement.frame = frame(master_point.tangents[0], n);
+        self.enforcement.legs = [legs.len() as u32, shares.len() as u32];
         let [g1, g2] = master_point.duals(n);
         let to_node = sub(x, master_point.x);
         let beside = [dot(g1, to_node), dot(g2, to_node)];
@@ -237,8 +153,8 @@ impl Constraint {
 
     /// Takes the legs, the last in the list, from it again.
     pub fn withdraw(&mut self, legs: &mut Vec<Leg>) {
-        legs.truncate(self.legs[0] as usize);
-        self.legs = [0; 2];
+        legs.truncate(self.enforcement.legs[0] as usize);
+        self.enforcement.legs = [0; 2];
     }
 
     /// Rate of the gap (m/s) and slip velocity (m/s) from the velocities of slave and master.

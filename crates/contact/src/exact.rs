@@ -15,12 +15,11 @@
 
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, Trial};
-use crate::face::{Positions, project};
+use crate::face::Positions;
 use crate::mortar::{Mean, Mortar, restore_means, save_means};
 use crate::nodal::NodalContact;
 use crate::penalty::{check_common, in_range};
-use crate::penalty_point::lay_into;
-use crate::point::{ContactPoint, State, WATCHED, finer, follow_first, sleep};
+use crate::point::{Listed, State, WATCHED, finer, follow_first, sleep};
 use crate::search::Search;
 use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
 use crate::sums::Accumulator;
@@ -54,6 +53,17 @@ pub struct ExactSettings {
     pub curvature: bool,
     /// What the slaves meet.
     pub rows: Rows,
+}
+
+/// The side whose nodes are slaves.
+pub(crate) fn slave_side(
+    settings: &ExactSettings,
+    sides: &[ContactSurface; 2],
+) -> Result<usize, ContactError> {
+    let mean = |side: &ContactSurface| side.area.iter().sum::<f64>() / side.area.len() as f64;
+    let slave = settings.slave.unwrap_or_else(|| finer([mean(&sides[0]), mean(&sides[1])]));
+    in_range("the side of the slaves", slave as f64, slave < 2, "0 or 1")?;
+    Ok(slave)
 }
 
 /// Contact of two surfaces without penetration, and friction without elastic slip.
@@ -102,8 +112,7 @@ impl ExactContact {
     ) -> Result<Self, ContactError> {
         check_common(&surfaces, &*law)?;
         let sides = ContactSurface::both(mesh, surfaces)?;
-        let slave = settings.slave.unwrap_or_else(|| finer(&sides));
-        in_range("the side of the slaves", slave as f64, slave < 2, "0 or 1")?;
+        let slave = slave_side(settings, &sides)?;
         let zeros = |side: usize| sides[side].nodes.len();
         let mortar = || {
             let own = &sides[slave];
@@ -142,9 +151,8 @@ impl ExactContact {
         positions: &Positions<'_>,
         motion: &Motion<'_>,
     ) -> bool {
-        constraint.slipped = constraint.state == State::Slip;
-        if constraint.sleep > 0 {
-            constraint.sleep -= 1;
+        constraint.enforcement.slipped = constraint.state == State::Slip;
+        if constraint.sleeps() {
             return false;
         }
         let x = positions.at(self.sides[self.slave].nodes[constraint.slave as usize]);
@@ -153,16 +161,12 @@ impl ExactContact {
             Some(_) => self.kinematics_in_mean(constraint, positions, x),
         };
         let Some(old) = old else {
-            constraint.gap = f64::INFINITY;
-            constraint.open();
-            // Walk anew from the middle of the face.
-            (constraint.xi, constraint.eta) = (0.0, 0.0);
+            constraint.leave();
             return false;
         };
         if constraint.is_closed() {
             // the force of the last step turns with the master and is laid into the new plane
-            let turned = axpy(scale(constraint.framed[0], old[0]), constraint.framed[1], old[1]);
-            constraint.friction = lay_into(turned, constraint.normal);
+            constraint.friction = constraint.transported(old, constraint.normal);
             return true;
         }
         let (opening, slip) = self.rates_of(constraint, motion);
@@ -184,22 +188,13 @@ impl ExactContact {
         x: Vec3,
     ) -> Option<[Vec3; 2]> {
         let master = &self.sides[1 - self.slave];
-        let followed = project(
-            master,
-            positions,
-            self.curvature,
-            x,
-            constraint.face,
-            constraint.xi,
-            constraint.eta,
-        );
+        let followed = constraint.project(master, positions, self.curvature, x);
         let projection = followed.projection?;
-        (constraint.face, constraint.xi, constraint.eta, constraint.gap) =
-            (projection.face, projection.xi, projection.eta, projection.gap);
+        constraint.move_to(&projection);
         let [xi, eta] = within(&projection);
         let shares = face_shares(&master.faces[projection.face as usize], xi, eta);
         let master_point = MasterPoint::new(&shares, master, positions);
-        constraint.place(&shares, &master_point, projection.point.normal, x, &mut self.legs);
+        constraint.set_up(&shares, &master_point, projection.point.normal, x, &mut self.legs);
         Some(frame(followed.old.tangent, followed.old.normal))
     }
 
@@ -236,14 +231,14 @@ impl ExactContact {
             }
         };
         constraint.gap = kinematics.gap;
-        constraint.place(
+        constraint.set_up(
             &mean.shares,
             &kinematics.master_point,
             kinematics.normal,
             x,
             &mut self.legs,
         );
-        Some(old.unwrap_or(constraint.frame))
+        Some(old.unwrap_or(constraint.enforcement.frame))
     }
 
     /// Takes the velocity without contact of a node of `side`.
@@ -289,11 +284,8 @@ impl ExactContact {
 
     fn at(&self, constraint: &Constraint, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
         let own = &self.sides[self.slave];
-        Place {
-            position: positions.at(own.nodes[constraint.slave as usize]),
-            time: motion.time,
-            pressure: constraint.normal_force / own.area[constraint.slave as usize],
-        }
+        let position = positions.at(own.nodes[constraint.slave as usize]);
+        constraint.place(own, position, motion.time)
     }
 
     /// One update of Gauss–Seidel; returns the change of the force and its size (N).
@@ -305,11 +297,12 @@ impl ExactContact {
     ) -> [f64; 2] {
         let (opening, slip) = self.rates(constraint);
         let (pressed, frictional) = (constraint.normal_force, constraint.friction);
-        let free_gap = constraint.gap + motion.dt * (opening - constraint.delassus * pressed);
-        let needed = -free_gap / (motion.dt * constraint.delassus);
+        let free_gap =
+            constraint.gap + motion.dt * (opening - constraint.enforcement.delassus * pressed);
+        let needed = -free_gap / (motion.dt * constraint.enforcement.delassus);
         // not `max`: what is no number must reach the guards
         constraint.normal_force = if needed <= 0.0 { 0.0 } else { needed };
-        let free = axpy(slip, -constraint.delassus, frictional);
+        let free = axpy(slip, -constraint.enforcement.delassus, frictional);
         (constraint.friction, constraint.state) =
             self.return_mapping(constraint, free, positions, motion);
         let change = sub(constraint.friction, frictional);
@@ -334,13 +327,14 @@ impl ExactContact {
         }
         let at = self.at(constraint, positions, motion);
         let speed = norm(free);
-        let c = constraint.delassus * constraint.normal_force;
-        let sticking = (scale(-1.0 / constraint.delassus, free), State::Stick);
+        let c = constraint.enforcement.delassus * constraint.normal_force;
+        let sticking = (scale(-1.0 / constraint.enforcement.delassus, free), State::Stick);
         if self.law.is_implicit() {
             let curve = |s: f64| {
                 (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
             };
-            let Some((_, mu)) = slip_speed::solve(speed, c, constraint.slipped, &curve) else {
+            let Some((_, mu)) = slip_speed::solve(speed, c, constraint.enforcement.slipped, &curve)
+            else {
                 constraint.mu = self.law.mu(constraint.memory, 0.0, &at);
                 return sticking;
             };
@@ -366,11 +360,15 @@ impl ExactContact {
         }
         let at = self.at(constraint, positions, motion);
         let (_, slip) = self.rates(constraint);
-        let free = norm(axpy(slip, -constraint.delassus, constraint.friction));
+        let free = norm(axpy(slip, -constraint.enforcement.delassus, constraint.friction));
         let curve = |s: f64| {
             (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
         };
-        slip_speed::is_non_unique(free, constraint.delassus * constraint.normal_force, &curve)
+        slip_speed::is_non_unique(
+            free,
+            constraint.enforcement.delassus * constraint.normal_force,
+            &curve,
+        )
     }
 }
 
@@ -434,21 +432,21 @@ impl Contact for ExactContact {
         active.retain(|&i| {
             let constraint = &mut constraints[i as usize];
             self.release(own, constraint.slave, trial, force, motion.dt);
-            constraint.delassus = self.pace[own][constraint.slave as usize];
+            constraint.enforcement.delassus = self.pace[own][constraint.slave as usize];
             for k in constraint.legs() {
                 let Leg { node, weight, .. } = self.legs[k];
                 self.release(1 - own, node, trial, force, motion.dt);
-                constraint.delassus += weight * weight * self.pace[1 - own][node as usize];
+                constraint.enforcement.delassus +=
+                    weight * weight * self.pace[1 - own][node as usize];
             }
             // both ends held: nothing to enforce
-            if constraint.delassus == 0.0 {
+            if constraint.enforcement.delassus == 0.0 {
                 constraint.open();
                 return false;
             }
             let at = self.at(constraint, &positions, motion);
             if constraint.is_closed() {
-                let slip_speed = norm(constraint.slip_velocity);
-                self.slid.push(Slid { state: constraint.memory, slip_speed, at });
+                self.slid.push(constraint.slid(at));
             } else {
                 constraint.memory = self.law.begin(&at);
             }
@@ -481,7 +479,7 @@ impl Contact for ExactContact {
                 let constraint = &mut constraints[i as usize];
                 let [changed, force] = self.gauss_seidel_update(constraint, &positions, motion);
                 if sums.other.sweeps > SETTLED {
-                    constraint.slipped = constraint.state == State::Slip;
+                    constraint.enforcement.slipped = constraint.state == State::Slip;
                 }
                 change = change.max(changed);
                 size = size.max(force);
@@ -525,7 +523,7 @@ impl Contact for ExactContact {
                 on_masters = add(on_masters, on_leg);
             }
             sums.push(1 - own, on_masters);
-            constraint.framed = constraint.frame.map(|e| dot(constraint.friction, e));
+            constraint.keep_in(constraint.enforcement.frame);
             constraint.slip_velocity = slip;
             constraint.slip = axpy(constraint.slip, motion.dt, slip);
             sums.normal_force.add(constraint.normal_force);

@@ -671,11 +671,11 @@ mod tests {
         let mut differ = |shift: f64| {
             rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
             let new = rig.means(false)[slave].clone().unwrap();
-            let mut constraint = crate::point::ContactPoint::near(slave as u32, 0);
+            let mut constraint = crate::point::Listed::near(slave as u32, 0);
             let x = rig.positions().at(rig.sides[0].nodes[slave]);
             let kinematics = rig.kinematics(slave, &old);
             let mut legs = Vec::new();
-            crate::constraint::Constraint::place(
+            crate::constraint::Constraint::set_up(
                 &mut constraint,
                 &old.shares,
                 &kinematics.master_point,

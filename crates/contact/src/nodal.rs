@@ -2,7 +2,7 @@
 
 use crate::PenaltyContact;
 use crate::penalty_point::PenaltyPoint;
-use crate::point::{ContactPoint, State};
+use crate::point::{ContactPoint, Enforced, Listed, State};
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{axpy, scale};
 use mesh::Face;
@@ -107,11 +107,11 @@ impl NodalContact {
     /// which they bear slaves (`others`), with the node and its weight, which may be negative: means over
     /// slaves then count the size of their force. `followed` says whether nodes of its side are
     /// slaves at all: the gap of those that are not is the mean of the gaps of the points that load them.
-    pub(crate) fn fill<'a, L: ContactPoint + 'a>(
+    pub(crate) fn fill<'a, E: Enforced + 'a>(
         &mut self,
         sides: &[ContactSurface; 2],
-        own: &[L],
-        others: impl Iterator<Item = (&'a L, u32, f64)>,
+        own: &[ContactPoint<E>],
+        others: impl Iterator<Item = (&'a ContactPoint<E>, u32, f64)>,
         margin: f64,
         mu_static: f64,
         followed: bool,
@@ -162,7 +162,7 @@ impl NodalContact {
             }
         }
         for point in own {
-            let Some(row) = table.row(point.slave()) else {
+            let Some(row) = table.row(point.slave) else {
                 continue;
             };
             let values = point.values();
@@ -199,7 +199,7 @@ impl PenaltyContact {
         let masters = &self.sides[table.side].faces;
         let others = others.iter().filter(|p| p.is_closed()).flat_map(|p| {
             let corners = masters.get(p.face as usize).map(|f| f.local).into_iter().flatten();
-            corners.zip(p.weights).map(move |(node, weight)| (p, node, weight))
+            corners.zip(p.enforcement.weights).map(move |(node, weight)| (p, node, weight))
         });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, true);

@@ -2,12 +2,12 @@
 
 use crate::face::Positions;
 use crate::penalty_point::{Pass, PenaltyPoint, scatter};
-use crate::point::{ContactPoint, State};
+use crate::point::{Listed, State};
 use crate::search::{Search, neighbours};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy, dot, scale};
-use crate::{BodyMaterial, ContactError, ContactSums, Motion, StabilityScale, Stiffness};
+use crate::{BodyMaterial, ContactError, ContactSums, Gap, Motion, StabilityScale, Stiffness};
 use friction::{NodeFriction, Slid};
 use mesh::{Mesh, Padded, Surface};
 
@@ -150,8 +150,8 @@ impl PenaltyContact {
         for (slave, list) in self.points.iter().enumerate() {
             let sides = [&self.sides[slave], &self.sides[1 - slave]];
             for point in list {
-                sums.friction_work.add(point.friction_work);
-                sums.damping_work.add(point.damping_work);
+                sums.friction_work.add(point.enforcement.friction_work);
+                sums.damping_work.add(point.enforcement.damping_work);
                 if !point.is_closed() {
                     continue;
                 }
@@ -159,8 +159,11 @@ impl PenaltyContact {
                 scatter(sides, point, on_slave, force);
                 // the forces that really reach the nodes of either side
                 sums.push(slave, on_slave);
-                let on_corners =
-                    point.weights.iter().fold([0.0; 3], |sum, w| axpy(sum, -w, on_slave));
+                let on_corners = point
+                    .enforcement
+                    .weights
+                    .iter()
+                    .fold([0.0; 3], |sum, w| axpy(sum, -w, on_slave));
                 sums.push(1 - slave, on_corners);
                 sums.normal_force.add(point.normal_force);
                 sums.stored_normal.add(point.stored_normal());
@@ -200,10 +203,10 @@ impl PenaltyContact {
             for point in list.iter().filter(|p| p.is_closed()) {
                 let corners = master.faces[point.face as usize].nodes;
                 let mut w = x[own.nodes[point.slave as usize] as usize].xyz();
-                for (weight, corner) in point.weights.iter().zip(corners) {
+                for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
                     w = axpy(w, -weight, x[corner as usize].xyz());
                 }
-                let [normal, tangential] = point.stiffness;
+                let [normal, tangential] = point.enforcement.stiffness;
                 let along = (normal - tangential) * dot(point.normal, w);
                 let on_slave: Vec3 = axpy(scale(tangential, w), along, point.normal);
                 scatter([own, master], point, on_slave, y);
@@ -272,6 +275,37 @@ impl PenaltyContact {
         })
     }
 
+    /// The normal springs of both passes that were closed at the last call, each with its
+    /// stiffness (N/m), in a fixed order.
+    pub fn springs(&self) -> impl Iterator<Item = (Gap, f64)> + '_ {
+        (0..2).flat_map(move |slave: usize| {
+            let closed = self.points[slave].iter().filter(|p| p.is_closed());
+            closed.map(move |point| (self.spring(slave, point), point.enforcement.stiffness[0]))
+        })
+    }
+
+    fn spring(&self, slave: usize, point: &PenaltyPoint) -> Gap {
+        let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
+        Gap {
+            node: own.nodes[point.slave as usize],
+            projection: master.faces[point.face as usize]
+                .nodes
+                .into_iter()
+                .zip(point.enforcement.weights)
+                .collect(),
+            normal: point.normal,
+            gap: point.gap,
+            area: own.area[point.slave as usize],
+        }
+    }
+
+    /// Says that the next positions may lie anywhere: the search looks at them at the next call.
+    ///
+    /// A time loop need not, since it moves by small steps; a solver of equilibrium must.
+    pub fn expect_jump(&mut self) {
+        self.search.expect_jump();
+    }
+
     /// Upper bound (1/s^2) of the largest eigenvalue of `M^-1 K_c` with the points closed at the
     /// last call, from the diagonal bound of
     /// [`nodal_stiffness_bound`](Self::nodal_stiffness_bound) with the actual weights.
@@ -282,10 +316,11 @@ impl PenaltyContact {
         let mut diagonal = [0, 1].map(|s: usize| vec![0.0; self.sides[s].nodes.len()]);
         for (slave, list) in self.points.iter().enumerate() {
             for point in list.iter().filter(|p| p.is_closed()) {
-                let twice = 2.0 * point.stiffness[0].max(point.stiffness[1]);
+                let twice =
+                    2.0 * point.enforcement.stiffness[0].max(point.enforcement.stiffness[1]);
                 diagonal[slave][point.slave as usize] += twice;
                 let corners = self.sides[1 - slave].faces[point.face as usize].local;
-                for (weight, corner) in point.weights.iter().zip(corners) {
+                for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
                     diagonal[1 - slave][corner as usize] += twice * weight;
                 }
             }

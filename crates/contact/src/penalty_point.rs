@@ -1,44 +1,27 @@
 //! One slave node and its projection on the master surface: normal spring and damper, friction spring.
 
 use crate::Motion;
-use crate::face::{Positions, SurfacePoint, project, shape};
-use crate::point::{ContactPoint, PointValues, State, relative_velocity, sleep};
+use crate::face::{Positions, SurfacePoint, shape};
+use crate::point::{ContactPoint, Enforced, Listed, State, relative_velocity, sleep};
 use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
-use friction::{NodeFriction, Place, Slid};
+use friction::{NodeFriction, Slid};
 use mesh::Padded;
 
-/// A slave node near the master surface.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PenaltyPoint {
-    /// The slave, in its surface.
-    pub slave: u32,
-    pub state: State,
-    sleep: u32,
-    /// Where the projection is; `NONE` where the node projects off the surface.
-    pub face: u32,
-    pub xi: f64,
-    pub eta: f64,
-    pub gap: f64,
+/// A contact point that a spring and a damper push out and a friction spring holds.
+pub(crate) type PenaltyPoint = ContactPoint<Springs>;
+
+/// What penalty contact keeps of a contact point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Springs {
     /// Normal and tangential stiffness (N/m), in motion kept from closing to opening.
     pub stiffness: [f64; 2],
     /// Weights with which the corners of the face take the reaction.
     pub weights: [f64; 4],
-    pub normal: Vec3,
-    /// Spring and damper together (N).
-    pub normal_force: f64,
+    /// The damper's part of the normal force (N).
     damper_force: f64,
-    /// On the slave (N).
-    pub friction: Vec3,
-    /// `friction` in the frame of the face.
-    framed: [f64; 2],
-    pub mu: f64,
-    /// State of the friction law.
-    memory: [f64; 2],
-    pub slip_velocity: Vec3,
-    pub slip: Vec3,
     /// Dissipated in the last step (J).
     pub friction_work: f64,
     pub damping_work: f64,
@@ -59,79 +42,13 @@ struct Trial {
     tangent: Vec3,
 }
 
-impl ContactPoint for PenaltyPoint {
-    fn near(slave: u32, face: u32) -> Self {
-        Self {
-            slave,
-            state: State::Open,
-            sleep: 0,
-            face,
-            xi: 0.0,
-            eta: 0.0,
-            gap: f64::INFINITY,
-            stiffness: [0.0; 2],
-            weights: [0.0; 4],
-            normal: [0.0; 3],
-            normal_force: 0.0,
-            damper_force: 0.0,
-            friction: [0.0; 3],
-            framed: [0.0; 2],
-            mu: 0.0,
-            memory: [0.0; 2],
-            slip_velocity: [0.0; 3],
-            slip: [0.0; 3],
-            friction_work: 0.0,
-            damping_work: 0.0,
-            trial: Trial::default(),
-        }
-    }
-
-    fn slave(&self) -> u32 {
-        self.slave
-    }
-
-    fn face(&self) -> u32 {
-        self.face
-    }
-
-    fn is_closed(&self) -> bool {
-        self.state != State::Open
-    }
-
-    fn values(&self) -> PointValues {
-        PointValues {
-            state: self.state,
-            gap: self.gap,
-            normal_force: self.normal_force,
-            friction: self.friction,
-            mu: self.mu,
-            slip_velocity: self.slip_velocity,
-            slip: self.slip,
-        }
-    }
-
+impl Enforced for Springs {
     fn follow(&mut self, other: &Self) {
-        let Self { slave, face, xi, eta, weights, .. } = *self;
-        *self = Self { slave, face, xi, eta, weights, ..*other };
+        *self = Self { weights: self.weights, ..*other };
     }
 
     fn fields(&mut self, visit: &mut impl Fields) {
-        visit.whole("slave", &mut self.slave);
-        visit.state(&mut self.state);
-        visit.whole("sleep", &mut self.sleep);
-        visit.whole("face", &mut self.face);
-        visit.number("xi", "1", &mut self.xi);
-        visit.number("eta", "1", &mut self.eta);
-        visit.number("gap", "m", &mut self.gap);
         visit.real("weights", "1", &mut self.weights);
-        visit.real("normal", "1", &mut self.normal);
-        visit.number("normal_force", "N", &mut self.normal_force);
-        visit.real("friction", "N", &mut self.friction);
-        visit.real("framed_friction", "N", &mut self.framed);
-        visit.number("mu", "1", &mut self.mu);
-        visit.real("memory", "as of the law", &mut self.memory);
-        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
-        visit.real("slip", "m", &mut self.slip);
         visit.real("stiffness", "N/m", &mut self.stiffness);
         visit.number("damper_force", "N", &mut self.damper_force);
     }
@@ -140,24 +57,35 @@ impl ContactPoint for PenaltyPoint {
 impl PenaltyPoint {
     /// Energy in the normal spring (J).
     pub fn stored_normal(&self) -> f64 {
-        if self.is_closed() { 0.5 * self.stiffness[0] * self.gap * self.gap } else { 0.0 }
-    }
-
-    /// Energy in the friction spring (J).
-    pub fn stored_tangential(&self) -> f64 {
-        if self.is_closed() && self.stiffness[1] > 0.0 {
-            0.5 * dot(self.friction, self.friction) / self.stiffness[1]
+        if self.is_closed() {
+            0.5 * self.enforcement.stiffness[0] * self.gap * self.gap
         } else {
             0.0
         }
     }
 
-    fn open(&mut self) {
-        // What the friction spring still holds is lost as the surfaces part.
+    /// Energy in the friction spring (J).
+    pub fn stored_tangential(&self) -> f64 {
+        let stiffness = self.enforcement.stiffness[1];
+        if self.is_closed() && stiffness > 0.0 {
+            0.5 * dot(self.friction, self.friction) / stiffness
+        } else {
+            0.0
+        }
+    }
+
+    /// What the friction spring still holds is lost as the surfaces part.
+    fn part(&mut self) {
         let lost = self.stored_tangential();
-        *self =
-            Self { gap: self.gap, xi: self.xi, eta: self.eta, ..Self::near(self.slave, self.face) };
-        self.friction_work = lost;
+        self.open();
+        self.enforcement.friction_work = lost;
+    }
+
+    /// A node that slides off the border takes along what both springs hold.
+    fn slide_off(&mut self) {
+        let lost = [self.stored_tangential(), self.stored_normal()];
+        self.leave();
+        [self.enforcement.friction_work, self.enforcement.damping_work] = lost;
     }
 }
 
@@ -198,44 +126,42 @@ impl Pass<'_> {
         positions: &Positions<'_>,
         motion: Option<&Motion<'_>>,
     ) {
-        point.friction_work = 0.0;
-        point.damping_work = 0.0;
-        if point.sleep > 0 && motion.is_some() {
-            point.sleep -= 1;
+        point.enforcement.friction_work = 0.0;
+        point.enforcement.damping_work = 0.0;
+        if motion.is_some() && point.sleeps() {
             return;
         }
         let node = self.slave.nodes[point.slave as usize];
         let x = positions.at(node);
-        let followed =
-            project(self.master, positions, self.curvature, x, point.face, point.xi, point.eta);
+        let followed = point.project(self.master, positions, self.curvature, x);
         let Some(projection) = followed.projection else {
-            // A node that slides off the border takes along what its normal spring holds.
-            let lost = point.stored_normal();
-            point.gap = f64::INFINITY;
-            point.open();
-            point.damping_work = lost;
-            // Walk anew from the middle of the face.
-            (point.xi, point.eta) = (0.0, 0.0);
+            point.slide_off();
             return;
         };
         let before = *point;
-        (point.face, point.xi, point.eta, point.gap) =
-            (projection.face, projection.xi, projection.eta, projection.gap);
+        point.move_to(&projection);
         let face = &self.master.faces[projection.face as usize];
-        point.weights = shape(projection.xi.clamp(-1.0, 1.0), projection.eta.clamp(-1.0, 1.0));
+        point.enforcement.weights =
+            shape(projection.xi.clamp(-1.0, 1.0), projection.eta.clamp(-1.0, 1.0));
         let penetrates = projection.gap < 0.0;
         if !penetrates {
             if before.is_closed() {
-                point.open();
+                point.part();
             } else if let Some(motion) = motion {
-                let velocity = relative_velocity(motion.velocity, node, face.nodes, &point.weights);
+                let velocity = relative_velocity(
+                    motion.velocity,
+                    node,
+                    face.nodes,
+                    &point.enforcement.weights,
+                );
                 point.sleep = sleep(projection.gap, norm(velocity), self.margin, motion.dt);
             }
             return;
         }
         // equilibrium knows no history: the time loop starts from its displacements alone
         if !before.is_closed() || motion.is_none() {
-            point.stiffness = self.stiffness(point.slave as usize, face, &point.weights);
+            point.enforcement.stiffness =
+                self.stiffness(point.slave as usize, face, &point.enforcement.weights);
         }
         point.normal = projection.point.normal;
         self.press(point, &before, node, face, motion);
@@ -258,7 +184,7 @@ impl Pass<'_> {
                 point.framed = [0.0; 2];
                 point.mu = self.law.mu_static();
                 // the time loop goes on from here
-                point.memory = self.law.begin(&self.place(point, x, 0.0));
+                point.memory = self.law.begin(&point.place(self.slave, x, 0.0));
                 point.slip_velocity = [0.0; 3];
                 point.slip = [0.0; 3];
             }
@@ -275,27 +201,30 @@ impl Pass<'_> {
         face: &MasterFace,
         motion: Option<&Motion<'_>>,
     ) {
-        let spring = -point.stiffness[0] * point.gap;
+        let spring = -point.enforcement.stiffness[0] * point.gap;
         point.normal_force = spring;
-        point.damper_force = 0.0;
+        point.enforcement.damper_force = 0.0;
         let Some(motion) = motion else { return };
         if self.damping == 0.0 {
             return;
         }
-        let rate =
-            dot(point.normal, relative_velocity(motion.velocity, node, face.nodes, &point.weights));
+        let rate = dot(
+            point.normal,
+            relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights),
+        );
         let mut compliance = motion.inverse_mass[node as usize];
-        for (weight, corner) in point.weights.iter().zip(face.nodes) {
+        for (weight, corner) in point.enforcement.weights.iter().zip(face.nodes) {
             compliance += weight * weight * motion.inverse_mass[corner as usize];
         }
         // Both ends held: nothing to damp.
         if compliance > 0.0 {
-            let critical = 2.0 * (point.stiffness[0] / compliance).sqrt();
+            let critical = 2.0 * (point.enforcement.stiffness[0] / compliance).sqrt();
             point.normal_force = (spring - self.damping * critical * rate).max(0.0);
-            point.damper_force = point.normal_force - spring;
+            point.enforcement.damper_force = point.normal_force - spring;
         }
         let closing = if before.is_closed() { point.gap - before.gap } else { rate * motion.dt };
-        point.damping_work = -0.5 * (before.damper_force + point.damper_force) * closing;
+        point.enforcement.damping_work =
+            -0.5 * (before.enforcement.damper_force + point.enforcement.damper_force) * closing;
     }
 
     /// The motion that the friction spring answers to: `Delta`, the tangential motion of the slave over the
@@ -318,18 +247,17 @@ impl Pass<'_> {
     ) {
         point.state = State::Stick;
         if !before.is_closed() {
-            let velocity = relative_velocity(motion.velocity, node, face.nodes, &point.weights);
+            let velocity =
+                relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights);
             point.slip_velocity = tangential(velocity, point.normal);
-            point.memory = self.law.begin(&self.place(point, x, motion.time));
-            point.trial = Trial::default();
+            point.memory = self.law.begin(&point.place(self.slave, x, motion.time));
+            point.enforcement.trial = Trial::default();
             return;
         }
-        let [e1, e2] = frame(old.tangent, old.normal);
-        let turned = axpy(scale(before.framed[0], e1), before.framed[1], e2);
-        point.trial = Trial {
+        point.enforcement.trial = Trial {
             held: true,
             delta: tangential(sub(x, old.x), point.normal),
-            start: lay_into(turned, point.normal),
+            start: before.transported(frame(old.tangent, old.normal), point.normal),
             tangent: new.tangent,
         };
     }
@@ -337,11 +265,7 @@ impl Pass<'_> {
     /// What the law of friction is told about a closed point: the slip speed of the step before.
     pub fn slid(&self, point: &PenaltyPoint, positions: &Positions<'_>, time: f64) -> Slid {
         let x = positions.at(self.slave.nodes[point.slave as usize]);
-        Slid {
-            state: point.memory,
-            slip_speed: norm(point.slip_velocity),
-            at: self.place(point, x, time),
-        }
+        point.slid(point.place(self.slave, x, time))
     }
 
     /// The friction spring of a closed point, Eqs (10) and (11) of Vollebregt (2017): trial force
@@ -357,13 +281,13 @@ impl Pass<'_> {
     /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
     pub fn return_mapping(&self, point: &mut PenaltyPoint, slid: &Slid, dt: f64) {
         point.mu = self.law.mu(slid.state, slid.slip_speed, &slid.at);
-        let Trial { held, delta, start, tangent } = point.trial;
+        let Trial { held, delta, start, tangent } = point.enforcement.trial;
         if !held {
             // the state stays that of the beginning: this slip is counted in the next step
             return;
         }
         point.memory = slid.state;
-        let stiffness = point.stiffness[1];
+        let stiffness = point.enforcement.stiffness[1];
         let mut friction = axpy(start, -stiffness, delta);
         let (trial, cap) = (norm(friction), point.mu * point.normal_force);
         // a coefficient that is no number must reach the guards
@@ -372,27 +296,14 @@ impl Pass<'_> {
             point.state = State::Slip;
             if stiffness > 0.0 {
                 let slip = axpy(delta, 1.0 / stiffness, sub(friction, start));
-                point.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
+                point.enforcement.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
             }
         }
-        let [e1, e2] = frame(tangent, point.normal);
-        point.framed = [dot(friction, e1), dot(friction, e2)];
         point.friction = friction;
+        point.keep_in(frame(tangent, point.normal));
         point.slip_velocity = scale(1.0 / dt, delta);
         point.slip = axpy(point.slip, 1.0, delta);
     }
-
-    fn place(&self, point: &PenaltyPoint, position: Vec3, time: f64) -> Place {
-        let pressure = point.normal_force / self.slave.area[point.slave as usize];
-        Place { position, time, pressure }
-    }
-}
-
-/// `f` laid into the plane with unit normal `n`, its length kept.
-pub(crate) fn lay_into(f: Vec3, n: Vec3) -> Vec3 {
-    let flat = tangential(f, n);
-    let (length, left) = (norm(f), norm(flat));
-    if left > 0.0 { scale(length / left, flat) } else { [0.0; 3] }
 }
 
 /// Adds the force of a closed point on the slave to it, and the reaction to the face.
@@ -409,7 +320,9 @@ pub(crate) fn scatter(
     for i in 0..3 {
         force[node][i] += on_slave[i];
     }
-    for (weight, corner) in point.weights.iter().zip(master.faces[point.face as usize].nodes) {
+    for (weight, corner) in
+        point.enforcement.weights.iter().zip(master.faces[point.face as usize].nodes)
+    {
         for i in 0..3 {
             force[corner as usize][i] -= weight * on_slave[i];
         }

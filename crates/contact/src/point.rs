@@ -1,9 +1,10 @@
-//! What every enforcement knows of a slave node and its projection: the state, what the search lists, and
-//! what the tables of nodes show.
+//! The contact point: a slave node and its projection on the master, as every enforcement knows it.
 
+use crate::face::{Followed, Positions, Projection, project};
 use crate::snapshot::Fields;
 use crate::surface::ContactSurface;
-use crate::vector::{Vec3, axpy};
+use crate::vector::{Vec3, axpy, dot, norm, scale, tangential};
+use friction::{Place, Slid};
 use mesh::Padded;
 
 /// An open node is looked at again after at most this many steps.
@@ -22,21 +23,183 @@ pub(crate) enum State {
 }
 
 /// A slave node that the search lists because it is near the other surface.
-pub(crate) trait ContactPoint: Copy {
+pub(crate) trait Listed: Copy {
     /// An open node whose projection is to be sought from `face`.
     fn near(slave: u32, face: u32) -> Self;
     /// The node, in its surface.
     fn slave(&self) -> u32;
-    /// Where its projection is.
-    fn face(&self) -> u32;
     /// Closed nodes stay listed.
     fn is_closed(&self) -> bool;
-    /// What tables of nodes show of it.
-    fn values(&self) -> PointValues;
-    /// Takes over all of `other` but the node itself and where its projection is.
+}
+
+/// What one method of enforcement keeps of a contact point besides what all of them do.
+pub(crate) trait Enforced: Copy + Default {
+    /// Takes over all of `other` but what belongs to where the node's own projection is.
     fn follow(&mut self, other: &Self);
     /// Visits everything that a later step or a table of nodes reads.
     fn fields(&mut self, visit: &mut impl Fields);
+}
+
+/// A slave node near the master surface, with what its method of enforcement `E` keeps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactPoint<E> {
+    /// The slave, in its surface.
+    pub slave: u32,
+    pub state: State,
+    pub sleep: u32,
+    /// Where the projection is, or was sought last.
+    pub face: u32,
+    pub xi: f64,
+    pub eta: f64,
+    pub gap: f64,
+    pub normal: Vec3,
+    /// On the slave along the normal (N).
+    pub normal_force: f64,
+    /// On the slave in the tangent plane (N).
+    pub friction: Vec3,
+    /// `friction` in the tangential frame that turns with the master.
+    pub framed: [f64; 2],
+    pub mu: f64,
+    /// State of the friction law.
+    pub memory: [f64; 2],
+    pub slip_velocity: Vec3,
+    pub slip: Vec3,
+    pub enforcement: E,
+}
+
+impl<E: Enforced> Listed for ContactPoint<E> {
+    fn near(slave: u32, face: u32) -> Self {
+        Self {
+            slave,
+            state: State::Open,
+            sleep: 0,
+            face,
+            xi: 0.0,
+            eta: 0.0,
+            gap: f64::INFINITY,
+            normal: [0.0; 3],
+            normal_force: 0.0,
+            friction: [0.0; 3],
+            framed: [0.0; 2],
+            mu: 0.0,
+            memory: [0.0; 2],
+            slip_velocity: [0.0; 3],
+            slip: [0.0; 3],
+            enforcement: E::default(),
+        }
+    }
+
+    fn slave(&self) -> u32 {
+        self.slave
+    }
+
+    fn is_closed(&self) -> bool {
+        self.state != State::Open
+    }
+}
+
+impl<E: Enforced> ContactPoint<E> {
+    /// Forgets contact, but not where the projection is.
+    pub fn open(&mut self) {
+        *self =
+            Self { gap: self.gap, xi: self.xi, eta: self.eta, ..Self::near(self.slave, self.face) };
+    }
+
+    /// Forgets contact of a node that projects off the master: the next search for its projection
+    /// starts from the middle of the face.
+    pub fn leave(&mut self) {
+        *self = Self::near(self.slave, self.face);
+    }
+
+    /// Whether the node need not be looked at in this step; counts the step.
+    pub fn sleeps(&mut self) -> bool {
+        let sleeps = self.sleep > 0;
+        self.sleep -= u32::from(sleeps);
+        sleeps
+    }
+
+    /// The projection of the node at `x` on `master`, followed from where it was.
+    #[inline]
+    pub fn project(
+        &self,
+        master: &ContactSurface,
+        positions: &Positions<'_>,
+        curvature: bool,
+        x: Vec3,
+    ) -> Followed {
+        project(master, positions, curvature, x, self.face, self.xi, self.eta)
+    }
+
+    /// Takes a projection over.
+    pub fn move_to(&mut self, projection: &Projection) {
+        (self.face, self.xi, self.eta, self.gap) =
+            (projection.face, projection.xi, projection.eta, projection.gap);
+    }
+
+    /// The force of friction of the last step: turned with the tangential frame of the master, which
+    /// is `frame` now, and laid into the plane with unit normal `n`, its length kept.
+    pub fn transported(&self, frame: [Vec3; 2], n: Vec3) -> Vec3 {
+        let turned = axpy(scale(self.framed[0], frame[0]), self.framed[1], frame[1]);
+        let flat = tangential(turned, n);
+        let (length, left) = (norm(turned), norm(flat));
+        if left > 0.0 { scale(length / left, flat) } else { [0.0; 3] }
+    }
+
+    /// Keeps the force of friction in the tangential frame of the master.
+    pub fn keep_in(&mut self, frame: [Vec3; 2]) {
+        self.framed = frame.map(|e| dot(self.friction, e));
+    }
+
+    /// Where and when the law of friction is asked, for a node of `surface` at `position`.
+    pub fn place(&self, surface: &ContactSurface, position: Vec3, time: f64) -> Place {
+        let pressure = self.normal_force / surface.area[self.slave as usize];
+        Place { position, time, pressure }
+    }
+
+    /// What the law of friction is told: the slip speed of the step before.
+    pub fn slid(&self, at: Place) -> Slid {
+        Slid { state: self.memory, slip_speed: norm(self.slip_velocity), at }
+    }
+
+    /// What tables of nodes show of it.
+    pub fn values(&self) -> PointValues {
+        PointValues {
+            state: self.state,
+            gap: self.gap,
+            normal_force: self.normal_force,
+            friction: self.friction,
+            mu: self.mu,
+            slip_velocity: self.slip_velocity,
+            slip: self.slip,
+        }
+    }
+
+    /// Takes over all of `other` but the node itself and where its projection is.
+    pub fn follow(&mut self, other: &Self) {
+        let Self { slave, face, xi, eta, mut enforcement, .. } = *self;
+        enforcement.follow(&other.enforcement);
+        *self = Self { slave, face, xi, eta, enforcement, ..*other };
+    }
+
+    /// Visits everything that a later step or a table of nodes reads.
+    pub fn fields(&mut self, visit: &mut impl Fields) {
+        visit.whole("slave", &mut self.slave);
+        visit.state(&mut self.state);
+        visit.whole("sleep", &mut self.sleep);
+        visit.whole("face", &mut self.face);
+        visit.number("xi", "1", &mut self.xi);
+        visit.number("eta", "1", &mut self.eta);
+        visit.number("gap", "m", &mut self.gap);
+        visit.real("normal", "1", &mut self.normal);
+        visit.number("normal_force", "N", &mut self.normal_force);
+        visit.real("friction", "N", &mut self.friction);
+        visit.real("framed_friction", "N", &mut self.framed);
+        visit.number("mu", "1", &mut self.mu);
+        visit.real("memory", "as of the law", &mut self.memory);
+        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
+        visit.real("slip", "m", &mut self.slip);
+        self.enforcement.fields(visit);
+    }
 }
 
 /// A slave node and its projection, as the tables of nodes show them.
@@ -54,8 +217,8 @@ pub(crate) struct PointValues {
 
 /// Gives the second slave of each pair of mesh nodes the state of the first; the pairs ascend by the first,
 /// `rows` by their slaves on `own`.
-pub(crate) fn follow_first<P: ContactPoint>(
-    rows: &mut [P],
+pub(crate) fn follow_first<E: Enforced>(
+    rows: &mut [ContactPoint<E>],
     own: &ContactSurface,
     pairs: &[[u32; 2]],
 ) {
@@ -64,12 +227,12 @@ pub(crate) fn follow_first<P: ContactPoint>(
     }
     for i in 0..rows.len() {
         let first = rows[i];
-        let node = own.nodes[first.slave() as usize];
+        let node = own.nodes[first.slave as usize];
         let second = pairs
             .binary_search_by_key(&node, |pair| pair[0])
             .ok()
             .and_then(|k| own.nodes.binary_search(&pairs[k][1]).ok())
-            .and_then(|local| rows.binary_search_by_key(&(local as u32), |r| r.slave()).ok());
+            .and_then(|local| rows.binary_search_by_key(&(local as u32), |r| r.slave).ok());
         if let Some(second) = second {
             rows[second].follow(&first);
         }
@@ -102,8 +265,8 @@ pub(crate) fn relative_velocity(
     relative
 }
 
-/// The side whose surface is finer by its mean nodal area, the first of equals.
-pub(crate) fn finer(sides: &[ContactSurface; 2]) -> usize {
-    let mean = |s: &ContactSurface| s.area.iter().sum::<f64>() / s.area.len() as f64;
-    usize::from(mean(&sides[1]) < 0.99 * mean(&sides[0]))
+/// The side whose faces or nodes are finer by their mean areas (m^2), the first of equals: its nodes serve
+/// better as slaves.
+pub fn finer(mean_areas: [f64; 2]) -> usize {
+    usize::from(mean_areas[1] < 0.99 * mean_areas[0])
 }

@@ -20,7 +20,7 @@
 //! the first call are found too. Pairs that are closed stay listed until they open.
 
 use crate::face::Positions;
-use crate::point::ContactPoint;
+use crate::point::Listed;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use parry3d_f64::bounding_volume::Aabb;
@@ -88,7 +88,7 @@ impl Search {
         &mut self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        points: &[Vec<impl ContactPoint>; 2],
+        points: &[Vec<impl Listed>; 2],
     ) -> bool {
         if self.at[0].is_empty() {
             return true;
@@ -122,7 +122,7 @@ impl Search {
         &self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        points: &[Vec<impl ContactPoint>; 2],
+        points: &[Vec<impl Listed>; 2],
     ) -> Vec3 {
         let mut sum = [0.0; 3];
         let mut count = 0.0;
@@ -142,7 +142,7 @@ impl Search {
         &mut self,
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
-        points: &mut [Vec<impl ContactPoint>; 2],
+        points: &mut [Vec<impl Listed>; 2],
     ) {
         let far = RESOLVED * self.margin;
         for side in 0..2 {
@@ -234,7 +234,7 @@ impl Search {
 }
 
 /// The old closed points and the newly listed ones, ascending by slave.
-fn merged<P: ContactPoint>(old: &[P], nearest: &[(f64, u32)]) -> Vec<P> {
+fn merged<P: Listed>(old: &[P], nearest: &[(f64, u32)]) -> Vec<P> {
     let mut closed = old.iter().filter(|p| p.is_closed()).peekable();
     let mut result = Vec::with_capacity(old.len() + old.len() / 2 + 64);
     for (slave, &(_, face)) in nearest.iter().enumerate() {

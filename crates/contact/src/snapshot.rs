@@ -5,7 +5,7 @@
 //! the search keeps where the surfaces were when it last looked: it decides when the lists are made
 //! anew, and so the order in which forces are added.
 
-use crate::point::{ContactPoint, State};
+use crate::point::{ContactPoint, Enforced, Listed, State};
 use crate::search::Search;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::Vec3;
@@ -161,15 +161,19 @@ impl Fields for Scatter<'_> {
 }
 
 /// Empty columns of a table, in the order of the fields of its rows.
-fn layout<P: ContactPoint>(table: &str) -> Vec<Column> {
+fn layout<E: Enforced>(table: &str) -> Vec<Column> {
     let mut gather = Gather { table, columns: Vec::new(), next: 0, made: false };
-    P::near(0, 0).fields(&mut gather);
+    ContactPoint::<E>::near(0, 0).fields(&mut gather);
     gather.columns
 }
 
 /// The rows as columns of `table`.
-pub(crate) fn save_rows<P: ContactPoint>(table: &str, rows: &[P], state: &mut ContactState) {
-    let mut gather = Gather { table, columns: layout::<P>(table), next: 0, made: true };
+pub(crate) fn save_rows<E: Enforced>(
+    table: &str,
+    rows: &[ContactPoint<E>],
+    state: &mut ContactState,
+) {
+    let mut gather = Gather { table, columns: layout::<E>(table), next: 0, made: true };
     for row in rows {
         let mut row = *row;
         gather.next = 0;
@@ -179,32 +183,31 @@ pub(crate) fn save_rows<P: ContactPoint>(table: &str, rows: &[P], state: &mut Co
 }
 
 /// The rows of `table`, which are slaves on `slaves` and have projections on `masters`.
-pub(crate) fn restore_rows<P: ContactPoint>(
+pub(crate) fn restore_rows<E: Enforced>(
     table: &str,
     state: &ContactState,
     slaves: &ContactSurface,
     masters: &ContactSurface,
-) -> Result<Vec<P>, StateError> {
+) -> Result<Vec<ContactPoint<E>>, StateError> {
     let mut columns = Vec::new();
     let mut count = None;
-    for wanted in layout::<P>(table) {
+    for wanted in layout::<E>(table) {
         let entries = count.map(|n: usize| n * wanted.components);
         let column = state.find(&wanted.name, &wanted, entries)?;
         count = Some(column.values.len() / wanted.components);
         columns.push(column);
     }
-    let mut rows: Vec<P> = Vec::new();
+    let mut rows: Vec<ContactPoint<E>> = Vec::new();
     for row in 0..count.unwrap_or(0) {
-        let mut made = P::near(0, 0);
+        let mut made = ContactPoint::<E>::near(0, 0);
         made.fields(&mut Scatter { columns: &columns, row, next: 0 });
-        let slave = made.slave() as usize;
-        let ascends = rows.last().is_none_or(|last| last.slave() < made.slave());
+        let slave = made.slave as usize;
+        let ascends = rows.last().is_none_or(|last| last.slave < made.slave);
         let range = |name: &str| StateError::Range { name: format!("{table}/{name}") };
         if slave >= slaves.nodes.len() || !ascends {
             return Err(range("slave"));
         }
-        if made.face() as usize >= masters.faces.len() && (made.is_closed() || made.face() != NONE)
-        {
+        if made.face as usize >= masters.faces.len() && (made.is_closed() || made.face != NONE) {
             return Err(range("face"));
         }
         rows.push(made);

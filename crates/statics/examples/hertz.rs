@@ -8,11 +8,13 @@
 //! of the penalty.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use contact::{
+    BodyMaterial, ExactSettings, GapFunction, PenaltyContact, PenaltySettings, Rows, Stiffness,
+};
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
-use statics::{Axis, Enforcement, Problem, Supports, Tied};
+use statics::{Axis, Contact, Problem, Supports, Tied};
 use std::time::Instant;
 
 const RADIUS: f64 = 0.46;
@@ -53,10 +55,10 @@ fn main() {
     println!("{} elements, {} nodes", mesh.hexes.len(), mesh.nodes.len());
     for word in arguments {
         let factor: f64 = word.parse().unwrap_or(1.0);
-        let enforcement = match word.as_str() {
-            "exact" => Enforcement::Exact { slave: 0, rows: Rows::NodeToFace },
-            "mortar" => Enforcement::Exact { slave: 0, rows: Rows::Mortar },
-            _ => Enforcement::Penalty,
+        let rows = match word.as_str() {
+            "exact" => Some(Rows::NodeToFace),
+            "mortar" => Some(Rows::Mortar),
+            _ => None,
         };
         let mut solid =
             Solid::new(&mesh, &[steel; 2], element, Viscosity::default(), Level::detect()).unwrap();
@@ -78,15 +80,21 @@ fn main() {
             supports: &supports,
             plane_strain: false,
             spin: None,
-            enforcement,
             tolerance: 1e-9,
             max_iterations: 60,
         };
         let mut start = vec![Padded::ZERO; mesh.nodes.len()];
-        let part = if enforcement == Enforcement::Penalty { 1.0 } else { 0.5 };
+        let part = if rows.is_none() { 1.0 } else { 0.5 };
         start[mesh.bodies[0].nodes.clone()].iter_mut().for_each(|u| u[2] = -part * APPROACH);
+        let exact =
+            ExactSettings { slave: Some(0), curvature: true, rows: rows.unwrap_or_default() };
+        let mut gaps = GapFunction::new(&mesh, sides, &exact).unwrap();
+        let enforced = match rows {
+            Some(_) => Contact::Multipliers(&mut gaps),
+            None => Contact::Penalty(&mut contact),
+        };
         let clock = Instant::now();
-        let found = statics::solve(&mut solid, Some(&mut contact), &problem, &start, |now| {
+        let found = statics::solve(&mut solid, enforced, &problem, &start, |now| {
             println!(
                 "  {word} {:2}: residual {:.1e}, N {:.3} kN, {} closed, {} CG, step {:.2}",
                 now.iteration,
@@ -106,12 +114,12 @@ fn main() {
             }
         };
         let wall = clock.elapsed().as_secs_f64();
-        let (points, pressure): (Vec<[f64; 3]>, Vec<f64>) = match enforcement {
-            Enforcement::Exact { .. } => {
+        let (points, pressure): (Vec<[f64; 3]>, Vec<f64>) = match rows {
+            Some(_) => {
                 let at = |n: u32| mesh.nodes[n as usize];
                 found.pressed.iter().map(|(g, f)| (at(g.node), f / g.area)).unzip()
             }
-            Enforcement::Penalty => {
+            None => {
                 let mut table = contact.nodal_table(0);
                 contact.nodal(&mut table);
                 let at = |&n: &u32| mesh.nodes[n as usize];

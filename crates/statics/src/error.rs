@@ -116,9 +116,6 @@ pub enum StaticsError {
         /// The node.
         node: usize,
     },
-    /// Exact enforcement asked for a problem without contact.
-    #[error("exact enforcement needs the contact of two surfaces, but the problem has none")]
-    NoContact,
     /// The observer asked to stop.
     #[error("interrupted while seeking the equilibrium")]
     Interrupted,

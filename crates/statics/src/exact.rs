@@ -10,7 +10,7 @@ use crate::link::Link;
 use crate::newton::forcing;
 use crate::problem::{Ending, Equilibrium, Iteration, Report};
 use crate::system::{System, moved};
-use contact::{Gap, Rows};
+use contact::{Gap, GapFunction};
 use mesh::Padded;
 use std::collections::{BTreeSet, HashSet};
 
@@ -26,17 +26,13 @@ const FIRST: f64 = 1e-2;
 /// A residual that is this small and falls no further is round-off.
 const ROUND_OFF: f64 = 1e-7;
 
-/// Equilibrium with the slaves of side `slave` on their masters from `u`.
+/// Equilibrium with the slaves of `contact` on their masters from `u`.
 pub(crate) fn solve(
     system: &mut System<'_>,
-    slave: usize,
-    rows: Rows,
+    contact: &mut GapFunction,
     mut u: Vec<Padded>,
     observe: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Equilibrium, StaticsError> {
-    if system.contact.is_none() {
-        return Err(StaticsError::NoContact);
-    }
     let n = u.len();
     let zero = || vec![Padded::ZERO; n];
     let (mut force, mut d, mut r, mut jump) = (zero(), zero(), zero(), zero());
@@ -49,7 +45,7 @@ pub(crate) fn solve(
     let mut before = f64::INFINITY;
     let mut energy = system.force(&u, &mut force, true);
     loop {
-        system.gaps(slave, rows, &u, &mut gaps);
+        contact.at(&system.reference, &u, &mut gaps);
         let changes = changes(&gaps, &force, &active, TENSION * system.scale(&force));
         let changed = !changes.is_empty();
         apply(changes, one_by_one, &mut active);
@@ -95,7 +91,7 @@ pub(crate) fn solve(
         at.iteration += 1;
         if let Some(drift) = drift {
             let closed = |system: &mut System<'_>, u: &[Padded]| {
-                system.gaps(slave, rows, u, &mut gaps);
+                contact.at(&system.reference, u, &mut gaps);
                 gaps.iter().filter(|g| g.gap < 0.0).map(Link::new).collect()
             };
             system.close(&drift, &mut u, &force, closed)?;

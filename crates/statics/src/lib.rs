@@ -15,9 +15,10 @@ mod newton;
 mod problem;
 mod skyline;
 mod space;
+mod springs;
 mod supports;
 mod system;
 
 pub use error::StaticsError;
-pub use problem::{Ending, Enforcement, Equilibrium, Iteration, Problem, Report, Spin, solve};
+pub use problem::{Contact, Ending, Equilibrium, Iteration, Problem, Report, Spin, solve};
 pub use supports::{Axis, Supports, Tied};

@@ -3,7 +3,8 @@
 use crate::error::StaticsError;
 use crate::link::Link;
 use crate::problem::{Ending, Equilibrium, Iteration, Report};
-use crate::system::{Pressed, System, moved};
+use crate::springs::{Pressed, Springs};
+use crate::system::{System, moved};
 use mesh::Padded;
 
 /// Accuracy of the linear steps (Eisenstat and Walker 1996, choice 2): GAMMA times the square of
@@ -39,6 +40,7 @@ pub(crate) fn forcing(residual: f64, before: f64, wanted: f64) -> f64 {
 /// Equilibrium with the normal springs of the contact from `u`.
 pub(crate) fn solve(
     system: &mut System<'_>,
+    springs: &mut Springs<'_>,
     mut u: Vec<Padded>,
     observe: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Equilibrium, StaticsError> {
@@ -49,7 +51,7 @@ pub(crate) fn solve(
     let mut total = 0;
     let mut before = f64::INFINITY;
     let mut energy = system.force(&u, &mut force, true);
-    let mut sums = system.add_springs(&u, &mut force);
+    let mut sums = springs.add_force(&system.reference, &u, &mut force);
     loop {
         at.residual = system.space.norm(&force) / system.scale(&force);
         (at.normal_force, at.closed) = (sums.normal_force, sums.closed);
@@ -59,14 +61,14 @@ pub(crate) fn solve(
         }
         let stalled = at.residual > STALLED * before;
         let found = at.residual <= system.problem.tolerance;
-        system.set_springs(&u);
+        system.set_springs(springs.closed(&u));
         let links: Vec<Link> = system.springs.iter().map(|(link, _)| link.clone()).collect();
         let drift = system.unresisted(&links);
         if (found || stalled && at.residual < ROUND_OFF) && drift.is_none() {
             system.is_pressed(&at, &force)?;
             let ending = if found { Ending::Tolerance } else { Ending::RoundOff };
-            let held = system.normals_held();
-            let same = !held || system.release_normals(&u, &mut force);
+            let held = springs.are_held();
+            let same = !held || release(system, springs, &u, &mut force);
             if same {
                 let facets = system.space.norm(&force) / system.scale(&force);
                 let facets = if held { facets } else { 0.0 };
@@ -77,8 +79,8 @@ pub(crate) fn solve(
             before = f64::INFINITY;
             continue;
         }
-        if stalled && at.residual < KINKED && !system.normals_held() {
-            system.hold_normals(&u);
+        if stalled && at.residual < KINKED && !springs.are_held() {
+            springs.hold(&u);
         }
         if at.iteration >= system.problem.max_iterations || at.residual.is_nan() {
             return Err(system.slow(at, &force));
@@ -86,14 +88,13 @@ pub(crate) fn solve(
         at.iteration += 1;
         if let Some(drift) = drift {
             let closed = |system: &mut System<'_>, u: &[Padded]| {
-                system.add_springs(u, &mut r);
-                system.set_springs(u);
-                system.springs.iter().map(|(link, _)| link.clone()).collect()
+                springs.add_force(&system.reference, u, &mut r);
+                springs.closed(u).into_iter().map(|(link, _)| link).collect()
             };
             system.close(&drift, &mut u, &force, closed)?;
             (at.cg_iterations, at.step) = (0, 0.0);
             energy = system.force(&u, &mut force, true);
-            sums = system.add_springs(&u, &mut force);
+            sums = springs.add_force(&system.reference, &u, &mut force);
             before = f64::INFINITY;
             continue;
         }
@@ -103,9 +104,28 @@ pub(crate) fn solve(
         at.cg_iterations = system.step(&mut r, &mut d, tolerance, &at)?;
         total += at.cg_iterations;
         let slope = system.space.inner(&force, &d);
-        (at.step, energy, sums) = search(system, &u, &d, slope, &mut trial, &mut force);
+        (at.step, energy, sums) = search(system, springs, &u, &d, slope, &mut trial, &mut force);
         std::mem::swap(&mut u, &mut trial);
     }
+}
+
+/// Lets projections and normals of the springs go; whether those closed at `u` are those closed while held.
+/// Sets `force` to the force at `u` with the present projections and normals.
+fn release(
+    system: &mut System<'_>,
+    springs: &mut Springs<'_>,
+    u: &[Padded],
+    force: &mut [Padded],
+) -> bool {
+    let slaves = |springs: &[(Link, f64)]| -> Vec<usize> {
+        springs.iter().map(|(link, _)| link.slave).collect()
+    };
+    let before = slaves(&springs.closed(u));
+    springs.release();
+    system.force(u, force, false);
+    springs.add_force(&system.reference, u, force);
+    system.set_springs(springs.closed(u));
+    slaves(&system.springs) == before
 }
 
 /// The step along `d` from `u`: Newton's, or a shorter one where that leads beyond the least energy.
@@ -116,6 +136,7 @@ pub(crate) fn solve(
 /// regula falsi in its Illinois form, from forces alone, since energies lose their last digits.
 fn search(
     system: &mut System<'_>,
+    springs: &mut Springs<'_>,
     u: &[Padded],
     d: &[Padded],
     slope: f64,
@@ -125,7 +146,7 @@ fn search(
     let mut evaluate = |alpha: f64| {
         moved(u, alpha, d, trial);
         let energy = system.force(trial, force, true);
-        let sums = system.add_springs(trial, force);
+        let sums = springs.add_force(&system.reference, trial, force);
         (system.space.inner(force, d), energy, sums)
     };
     let mut alpha = 1.0;

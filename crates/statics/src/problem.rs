@@ -1,26 +1,24 @@
 //! The static problem and its solution.
 
 use crate::error::StaticsError;
+use crate::springs::Springs;
 use crate::supports::Supports;
 use crate::{exact, newton, system::System};
-use contact::PenaltyContact;
+use contact::{GapFunction, PenaltyContact};
 use mesh::{Mesh, Padded};
 use solid::Solid;
 use std::ops::Range;
 
-/// How contact is enforced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Enforcement {
-    /// The normal springs of the contact, in two passes, without damper and friction.
-    Penalty,
-    /// Exactly and without friction, in the pass whose slaves are the nodes of this side: gap and
-    /// pressure are complementary at every slave.
-    Exact {
-        /// 0 or 1; the finer surface serves better.
-        slave: usize,
-        /// What the slaves meet.
-        rows: contact::Rows,
-    },
+/// The contact of two bodies, without friction.
+#[derive(Debug)]
+pub enum Contact<'a> {
+    /// None.
+    None,
+    /// The normal springs of penalty contact, in two passes, without damper and friction. They are
+    /// left in the state of the solution.
+    Penalty(&'a mut PenaltyContact),
+    /// Lagrange multipliers: gap and pressure are complementary at every slave.
+    Multipliers(&'a mut GapFunction),
 }
 
 /// The centrifugal force of a body that turns about y: m omega^2 times the distance from the axis.
@@ -51,8 +49,6 @@ pub struct Problem<'a> {
     pub plane_strain: bool,
     /// Centrifugal force, if a body turns.
     pub spin: Option<Spin<'a>>,
-    /// How contact is enforced.
-    pub enforcement: Enforcement,
     /// Residual over load at which the solution is accepted.
     pub tolerance: f64,
     /// Newton iterations after which it gives up.
@@ -69,7 +65,7 @@ pub struct Iteration {
     pub residual: f64,
     /// Sum of the contact's normal forces (N).
     pub normal_force: f64,
-    /// Contact pairs closed.
+    /// Contact points closed.
     pub closed: usize,
     /// Conjugate-gradient iterations in the last step.
     pub cg_iterations: usize,
@@ -111,7 +107,7 @@ pub struct Equilibrium {
     /// Forces on all nodes (N), contact included: minus the reaction at supports, else the
     /// residual.
     pub force: Vec<Padded>,
-    /// Slaves of exact contact under pressure, ascending by node: gap and normal force (N).
+    /// Slaves under pressure by [`Contact::Multipliers`], ascending by node: gap and normal force (N).
     pub pressed: Vec<(contact::Gap, f64)>,
     /// How it went.
     pub report: Report,
@@ -119,9 +115,8 @@ pub struct Equilibrium {
 
 /// Equilibrium of `solid` with `contact` from the displacements `start` (m).
 ///
-/// Supports override `start`; nodes tied along a loaded axis start with their first node. With
-/// [`Enforcement::Penalty`] the contact is left in the state of the solution. `observe` sees every
-/// iteration and returns false to stop.
+/// Supports override `start`; nodes tied along a loaded axis start with their first node. `observe`
+/// sees every iteration and returns false to stop.
 ///
 /// The result does not depend on the number of threads.
 ///
@@ -133,17 +128,18 @@ pub struct Equilibrium {
 /// belong to another mesh.
 pub fn solve(
     solid: &mut Solid,
-    contact: Option<&mut PenaltyContact>,
+    contact: Contact<'_>,
     problem: &Problem<'_>,
     start: &[Padded],
     mut observe: impl FnMut(&Iteration) -> bool,
 ) -> Result<Equilibrium, StaticsError> {
-    let mut system = System::new(solid, contact, problem)?;
+    let mut system = System::new(solid, problem)?;
     let start = system.admissible(start)?;
-    match problem.enforcement {
-        Enforcement::Penalty => newton::solve(&mut system, start, &mut observe),
-        Enforcement::Exact { slave, rows } => {
-            exact::solve(&mut system, slave, rows, start, &mut observe)
+    match contact {
+        Contact::None => newton::solve(&mut system, &mut Springs::new(None), start, &mut observe),
+        Contact::Penalty(contact) => {
+            newton::solve(&mut system, &mut Springs::new(Some(contact)), start, &mut observe)
         }
+        Contact::Multipliers(gaps) => exact::solve(&mut system, gaps, start, &mut observe),
     }
 }

@@ -1,4 +1,4 @@
-//! Residual, tangent and guards that both enforcements share.
+//! The bodies and what holds them: residual, tangent and guards that both enforcements share.
 
 use crate::cg::{Cg, Outcome};
 use crate::components::{Drift, Parts, body_of};
@@ -7,7 +7,6 @@ use crate::link::Link;
 use crate::problem::{Iteration, Problem};
 use crate::space::{CHUNK, Space};
 use crate::supports::Axis;
-use contact::PenaltyContact;
 use mesh::Padded;
 use rayon::prelude::*;
 use solid::Solid;
@@ -15,36 +14,16 @@ use solid::Solid;
 /// Conjugate-gradient iterations in one Newton step after which it gives up.
 const MOST_CG: usize = 20_000;
 
-/// Springs (N/m) with their projections and normals as they were at the displacements `at`, where the gaps
-/// were `gaps` (m).
-struct Held {
-    springs: Vec<(Link, f64)>,
-    gaps: Vec<f64>,
-    at: Vec<Padded>,
-}
-
-/// What the normal springs did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Pressed {
-    /// Sum of their forces (N).
-    pub(crate) normal_force: f64,
-    /// How many are closed.
-    pub(crate) closed: usize,
-}
-
 /// The problem with everything that is set up once.
 pub(crate) struct System<'a> {
     pub(crate) solid: &'a mut Solid,
-    pub(crate) contact: Option<&'a mut PenaltyContact>,
     pub(crate) problem: &'a Problem<'a>,
     pub(crate) space: Space,
     pub(crate) parts: Parts,
     /// Normal springs of the tangent.
     pub(crate) springs: Vec<(Link, f64)>,
-    /// Springs with projections and normals held.
-    held: Option<Held>,
     cg: Cg,
-    reference: Vec<Padded>,
+    pub(crate) reference: Vec<Padded>,
     /// Whether the centrifugal force acts on a node: not on tied ones.
     spun: Vec<bool>,
     /// Sum of the loads' magnitudes (N).
@@ -56,7 +35,6 @@ pub(crate) struct System<'a> {
 impl<'a> System<'a> {
     pub(crate) fn new(
         solid: &'a mut Solid,
-        contact: Option<&'a mut PenaltyContact>,
         problem: &'a Problem<'a>,
     ) -> Result<Self, StaticsError> {
         let parts = Parts::new(problem.mesh, problem.supports)?;
@@ -82,12 +60,10 @@ impl<'a> System<'a> {
         let cg = Cg::new(n);
         Ok(Self {
             solid,
-            contact,
             problem,
             space,
             parts,
             springs: Vec::new(),
-            held: None,
             cg,
             reference,
             spun,
@@ -145,66 +121,10 @@ impl<'a> System<'a> {
         sums.internal + sums.hourglass
     }
 
-    /// Adds the normal springs of the contact at `u`.
-    pub(crate) fn add_springs(&mut self, u: &[Padded], force: &mut [Padded]) -> Pressed {
-        let mut pressed = Pressed::default();
-        if let Some(held) = &self.held {
-            for ((link, k), gap) in held.springs.iter().zip(&held.gaps) {
-                let gap = gap + link.opening(u) - link.opening(&held.at);
-                if gap < 0.0 {
-                    link.push(-k * gap, force);
-                    pressed.normal_force -= k * gap;
-                    pressed.closed += 1;
-                }
-            }
-        } else if let Some(contact) = &mut self.contact {
-            contact.expect_jump();
-            let sums = contact.apply_frictionless(&self.reference, u, force);
-            (pressed.normal_force, pressed.closed) = (sums.normal_force, sums.closed);
-        }
-        pressed
-    }
-
-    /// Takes the springs closed at `u` into the tangent.
-    pub(crate) fn set_springs(&mut self, u: &[Padded]) {
-        self.springs = match (&self.held, &self.contact) {
-            (Some(held), _) => {
-                let gap = |link: &Link, gap: &f64| gap + link.opening(u) - link.opening(&held.at);
-                let all = held.springs.iter().zip(&held.gaps);
-                all.filter(|((link, _), g)| gap(link, g) < 0.0).map(|(s, _)| s.clone()).collect()
-            }
-            (None, Some(contact)) => {
-                contact.springs().map(|(gap, k)| (Link::new(&gap), k)).collect()
-            }
-            (None, None) => Vec::new(),
-        };
+    /// Takes the normal springs `springs` into the tangent.
+    pub(crate) fn set_springs(&mut self, springs: Vec<(Link, f64)>) {
+        self.springs = springs;
         self.space.set_springs(&self.springs);
-    }
-
-    /// Holds projections and normals of the springs closed at the last evaluation, that of `u`.
-    pub(crate) fn hold_normals(&mut self, u: &[Padded]) {
-        let springs = self.contact.iter().flat_map(|c| c.springs());
-        let (springs, gaps) = springs.map(|(g, k)| ((Link::new(&g), k), g.gap)).unzip();
-        self.held = Some(Held { springs, gaps, at: u.to_vec() });
-    }
-
-    pub(crate) fn normals_held(&self) -> bool {
-        self.held.is_some()
-    }
-
-    /// Lets projections and normals go; whether the springs closed at `u` are those closed while held.
-    /// Sets `force` to the force at `u` with the present projections and normals.
-    pub(crate) fn release_normals(&mut self, u: &[Padded], force: &mut [Padded]) -> bool {
-        let slaves = |springs: &[(Link, f64)]| -> Vec<usize> {
-            springs.iter().map(|(link, _)| link.slave).collect()
-        };
-        self.set_springs(u);
-        let before = slaves(&self.springs);
-        self.held = None;
-        self.force(u, force, false);
-        self.add_springs(u, force);
-        self.set_springs(u);
-        slaves(&self.springs) == before
     }
 
     /// What a residual is measured by (N): the loads, or without them the largest forces so far.
@@ -228,19 +148,6 @@ impl<'a> System<'a> {
         self.solid.subtract_elastic_force(&scaled, &mut product, false);
         for (y, p) in y.iter_mut().zip(&product) {
             (0..3).for_each(|i| y[i] += p[i] / small);
-        }
-    }
-
-    /// Gaps of a pass at `u`.
-    pub(crate) fn gaps(
-        &mut self,
-        slave: usize,
-        rows: contact::Rows,
-        u: &[Padded],
-        gaps: &mut Vec<contact::Gap>,
-    ) {
-        if let Some(contact) = &mut self.contact {
-            contact.gaps(slave, rows, &self.reference, u, gaps);
         }
     }
 

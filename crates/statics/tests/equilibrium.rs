@@ -1,12 +1,14 @@
 //! Blocks in compression: closed forms, both enforcements, convergence, bits, failures.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Rows, Stiffness};
+use contact::{
+    BodyMaterial, ExactSettings, GapFunction, PenaltyContact, PenaltySettings, Stiffness,
+};
 use friction::Coulomb;
 use mesh::{Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{
-    Axis, Ending, Enforcement, Equilibrium, Iteration, Problem, StaticsError, Supports, Tied, solve,
+    Axis, Contact, Ending, Equilibrium, Iteration, Problem, StaticsError, Supports, Tied, solve,
 };
 
 const YOUNG: f64 = 210e9;
@@ -14,7 +16,13 @@ const SIDE: f64 = 10e-3;
 /// Without lateral contraction a block between rigid plates is in uniaxial stress.
 const CORK: Material = Material { young: YOUNG, poisson: 0.0, density: 7800.0 };
 const STEEL: Material = Material { young: YOUNG, poisson: 0.3, density: 7800.0 };
-const EXACT: Enforcement = Enforcement::Exact { slave: 0, rows: Rows::NodeToFace };
+
+/// How the contact of a [`Rig`] is enforced.
+#[derive(Clone, Copy, Debug)]
+enum Enforcement {
+    Penalty,
+    Multipliers,
+}
 
 /// Force on a bar of unit area that is shortened by the engineering strain `e`
 /// (St. Venant–Kirchhoff): (1 - e) E (e - e^2/2).
@@ -62,6 +70,7 @@ struct Rig {
     mesh: Mesh,
     solid: Solid,
     contact: PenaltyContact,
+    gaps: GapFunction,
 }
 
 impl Rig {
@@ -85,7 +94,9 @@ impl Rig {
             [(&mesh.bodies[0].surfaces["z-"], behind), (&mesh.bodies[1].surfaces["z+"], behind)];
         let law = Box::new(Coulomb { mu: 0.0 });
         let contact = PenaltyContact::new(&mesh, sides, &settings, None, law).unwrap();
-        Self { mesh, solid, contact }
+        let exact = ExactSettings { slave: Some(0), curvature: true, ..ExactSettings::default() };
+        let gaps = GapFunction::new(&mesh, sides, &exact).unwrap();
+        Self { mesh, solid, contact, gaps }
     }
 
     fn solve(
@@ -100,13 +111,16 @@ impl Rig {
             supports,
             plane_strain: false,
             spin: None,
-            enforcement,
             tolerance: 1e-10,
             max_iterations: 40,
         };
         let mut start = vec![Padded::ZERO; self.mesh.nodes.len()];
         start[self.mesh.bodies[0].nodes.clone()].iter_mut().for_each(|u| u[2] = -depth);
-        solve(&mut self.solid, Some(&mut self.contact), &problem, &start, observe)
+        let contact = match enforcement {
+            Enforcement::Penalty => Contact::Penalty(&mut self.contact),
+            Enforcement::Multipliers => Contact::Multipliers(&mut self.gaps),
+        };
+        solve(&mut self.solid, contact, &problem, &start, observe)
     }
 
     /// Displacement of the top.
@@ -134,11 +148,10 @@ fn solve_alone(
         supports,
         plane_strain: false,
         spin: None,
-        enforcement: Enforcement::Penalty,
         tolerance: 1e-12,
         max_iterations: 40,
     };
-    solve(solid, None, &problem, &vec![Padded::ZERO; mesh.nodes.len()], observe)
+    solve(solid, Contact::None, &problem, &vec![Padded::ZERO; mesh.nodes.len()], observe)
 }
 
 #[test]
@@ -190,7 +203,7 @@ fn stacked_blocks_carry_the_load_exactly_and_evenly() {
         let mut rig = Rig::new(stack(fine, coarse), CORK, 1.0);
         let p = 0.5e9;
         let supports = pressed(&rig.mesh, Axis::Loaded(-p * SIDE * SIDE));
-        let found = rig.solve(&supports, EXACT, 0.0, |_| true).unwrap();
+        let found = rig.solve(&supports, Enforcement::Multipliers, 0.0, |_| true).unwrap();
         let top = rig.top(&found);
         // The load passes from node to face as it does from face to face only where the meshes
         // match: else the lower block is loaded by node forces.
@@ -247,7 +260,7 @@ fn a_dome_presses_where_it_touches_and_nowhere_else() {
     for depth in [0.0, 5e-6, 50e-6] {
         let mut closed = Vec::new();
         let found = rig
-            .solve(&supports, EXACT, depth, |now| {
+            .solve(&supports, Enforcement::Multipliers, depth, |now| {
                 closed.push(now.closed);
                 true
             })
@@ -258,7 +271,7 @@ fn a_dome_presses_where_it_touches_and_nowhere_else() {
         assert!(found.pressed.iter().all(|(_, force)| *force >= 0.0));
         let mut gaps = Vec::new();
         let reference: Vec<Padded> = rig.mesh.nodes.iter().map(|x| Padded::new(*x)).collect();
-        rig.contact.gaps(0, Rows::NodeToFace, &reference, &found.displacement, &mut gaps);
+        rig.gaps.at(&reference, &found.displacement, &mut gaps);
         let pressed: Vec<u32> = found.pressed.iter().map(|(gap, _)| gap.node).collect();
         for gap in &gaps {
             let touches = pressed.contains(&gap.node);
@@ -285,7 +298,7 @@ fn the_start_does_not_change_the_equilibrium() {
     }
     let mut rig = Rig::with(mesh, STEEL, Stiffness::Areal(3.5e14));
     let supports = pressed(&rig.mesh, Axis::Loaded(-2e3));
-    for enforcement in [Enforcement::Penalty, EXACT] {
+    for enforcement in [Enforcement::Penalty, Enforcement::Multipliers] {
         // Apart by 0.1 mm, just touching, and pressed in far too deep.
         let tops = [-100e-6, 0.0, 200e-6].map(|depth| {
             let found = rig.solve(&supports, enforcement, depth, |_| true).unwrap();
@@ -311,7 +324,7 @@ fn the_number_of_threads_changes_no_bit() {
             found.displacement
         })
     };
-    for enforcement in [Enforcement::Penalty, EXACT] {
+    for enforcement in [Enforcement::Penalty, Enforcement::Multipliers] {
         let bits = |u: Vec<Padded>| u.iter().map(|u| u.0.map(f64::to_bits)).collect::<Vec<_>>();
         let one = bits(solve_with(1, enforcement));
         for threads in [2, 3, 4, 7] {
@@ -330,7 +343,7 @@ fn a_body_that_nothing_holds_is_named() {
 
 #[test]
 fn a_load_that_pulls_the_bodies_apart_is_refused() {
-    for enforcement in [Enforcement::Penalty, EXACT] {
+    for enforcement in [Enforcement::Penalty, Enforcement::Multipliers] {
         let mut rig = Rig::new(stack(2, 2), STEEL, 1.0);
         for load in [1e3, 0.0] {
             let supports = pressed(&rig.mesh, Axis::Loaded(load));
@@ -370,12 +383,11 @@ fn too_few_iterations_say_where_the_residual_is_largest() {
         supports: &supports,
         plane_strain: false,
         spin: None,
-        enforcement: Enforcement::Penalty,
         tolerance: 1e-12,
         max_iterations: 2,
     };
     let start = vec![Padded::ZERO; mesh.nodes.len()];
-    let error = solve(&mut solid, None, &problem, &start, |_| true).unwrap_err();
+    let error = solve(&mut solid, Contact::None, &problem, &start, |_| true).unwrap_err();
     assert!(matches!(&error, StaticsError::Slow { at, .. } if at.iteration == 2), "{error}");
     assert!(error.to_string().contains("body 'block'"), "{error}");
 }

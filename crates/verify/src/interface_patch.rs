@@ -15,11 +15,10 @@
 use crate::body::{STEEL, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{PenaltyContact, PenaltySettings, Rows, Stiffness};
-use friction::Coulomb;
+use contact::{ExactSettings, GapFunction, Rows};
 use mesh::{Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
-use statics::{Axis, Enforcement, Problem, Supports, Tied};
+use statics::{Axis, Contact, Problem, Supports, Tied};
 
 const MATERIAL: Material = Material { poisson: 0.0, ..STEEL };
 const EDGE: f64 = 10e-3;
@@ -81,21 +80,13 @@ fn pressures(
     let element = Element { hourglass: 0.05 };
     let materials = [MATERIAL; 2];
     let mut solid = Solid::new(&mesh, &materials, element, Viscosity::default(), Level::detect())?;
-    let settings = PenaltySettings {
-        normal: Stiffness::Scale(1.0),
-        tangential: Stiffness::Scale(1.0),
-        damping: 0.0,
-        curvature: false,
-    };
     let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
     let mut areas = mesh.clone();
     reshape(&mut areas);
-    let mut contact = PenaltyContact::new(
+    let mut gaps = GapFunction::new(
         &areas,
         surfaces.map(|s| (s, contact_material(&MATERIAL))),
-        &settings,
-        None,
-        Box::new(Coulomb { mu: 0.0 }),
+        &ExactSettings { slave: Some(0), curvature: false, rows },
     )?;
     // pressed by rigid plates: the solution is uniform as well
     let press = Tied {
@@ -108,12 +99,12 @@ fn pressures(
         supports: &supports,
         plane_strain: false,
         spin: None,
-        enforcement: Enforcement::Exact { slave: 0, rows },
         tolerance: RESIDUAL,
         max_iterations: 100,
     };
     let start = vec![Padded::ZERO; mesh.nodes.len()];
-    let found = statics::solve(&mut solid, Some(&mut contact), &problem, &start, |_| true)?;
+    let found =
+        statics::solve(&mut solid, Contact::Multipliers(&mut gaps), &problem, &start, |_| true)?;
     let inside = |n: u32| {
         let x = mesh.nodes[n as usize];
         let off = |c: f64| c > 1e-9 && c < EDGE - 1e-9;
