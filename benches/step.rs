@@ -4,7 +4,7 @@
 
 use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Stiffness};
 use divan::counter::ItemsCount;
-use dynamics::{Hub, Load, QuietEnd, RollingField, Setup, Simulation, Spin, Vertical};
+use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, System, Vertical};
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
@@ -73,21 +73,18 @@ fn rolling(size: f64) -> Simulation {
     let field = RollingField { disk: 0, centre, speed: SPEED, omega, dt };
     let velocity = dynamics::rolling_field(&mesh, &displacement, &field);
     Simulation::new(Setup {
-        fixed: Vec::new(),
-        paired: Vec::new(),
-        load: Load::default(),
-        solid,
-        contact: Some(Box::new(contact)),
-        hub: Some(hub),
-        quiet,
-        held,
-        disk: disk.nodes.clone(),
-        mass,
+        system: System {
+            contact: Some(Box::new(contact)),
+            hub: Some(hub),
+            quiet,
+            held,
+            disk: disk.nodes.clone(),
+            ..System::free(solid, mass)
+        },
         displacement,
         velocity,
         dt,
         omega_max,
-        mass_damping: 0.0,
     })
 }
 

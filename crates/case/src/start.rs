@@ -10,7 +10,7 @@ use crate::run_error::RunError;
 use crate::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
 use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{
-    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, Vertical,
+    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System, Vertical,
 };
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
@@ -301,23 +301,19 @@ fn assemble(
         LoadMode::Load => Vertical::Load(case.load.normal),
         LoadMode::Height => Vertical::Held,
     };
-    let mut simulation = Simulation::new(Setup {
-        solid,
+    let system = System {
         contact: Some(contact),
         hub: Some(hub),
         quiet,
         held: model.clamped.clone(),
         fixed: if case.mesh.plane_strain { plane_strain(model) } else { Vec::new() },
         paired: model.paired.clone(),
-        load: dynamics::Load::default(),
         disk: model.mesh.bodies[DISK].nodes.clone(),
-        mass: model.mass.clone(),
-        displacement,
-        velocity,
-        dt,
-        omega_max: 2.0 / stability.dt_limit,
         mass_damping: case.damping.mass,
-    });
+        ..System::free(solid, model.mass.clone())
+    };
+    let omega_max = 2.0 / stability.dt_limit;
+    let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
     simulation.set_limits(limits(case, model));
     let numbers = numbers(case, model, dt);
     Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }

@@ -373,7 +373,7 @@ impl Simulation {
     /// Forces of the elements on the nodes (N) in the present state, without viscous parts.
     pub fn elastic_force(&mut self) -> Vec<Padded> {
         let mut force = vec![Padded::ZERO; self.displacement.len()];
-        self.solid.subtract_elastic_force(&self.displacement, &mut force, false);
+        self.system.solid.subtract_elastic_force(&self.displacement, &mut force, false);
         force
     }
 
@@ -394,7 +394,7 @@ impl Simulation {
             Some(now) => {
                 let cause = self.soft_cause(report, now)?;
                 // what bodies inside out do is no cause
-                let (element, ratio) = self.solid.most_folded(&self.displacement);
+                let (element, ratio) = self.system.solid.most_folded(&self.displacement);
                 if ratio <= 0.0 { self.inverted(element) } else { cause }
             }
             None => return None,
@@ -408,11 +408,11 @@ impl Simulation {
         let finite = |field: &[Padded]| field.iter().all(|v| v.xyz().iter().all(|c| c.is_finite()));
         finite(&self.displacement)
             && finite(&self.velocity)
-            && self.solid.most_folded(&self.displacement).1 > 0.0
+            && self.system.solid.most_folded(&self.displacement).1 > 0.0
     }
 
     fn watch_contact(&mut self, report: &StepReport) {
-        if self.contact.is_none() {
+        if self.system.contact.is_none() {
             return;
         }
         if report.contact.closed > 0 && report.contact.normal_force > self.limits.least_force {
@@ -428,19 +428,16 @@ impl Simulation {
         if ratio > 1.0 {
             return Cause::UnstableStep { ratio };
         }
-        if let Some(contact) = &self.contact {
-            let solid = &mut self.solid;
-            let product = |x: &[Padded], y: &mut [Padded]| {
-                solid.add_stiffness_product(x, y);
-                contact.add_stiffness_product(x, y);
-            };
+        if self.system.contact.is_some() {
+            let system = &mut self.system;
+            let product = |x: &[Padded], y: &mut [Padded]| system.add_tangent_product(x, y);
             let omega = solid::largest_frequency(&self.inverse_mass, product, LANCZOS);
             let ratio = self.dt * omega / 2.0;
             if ratio > 1.0 && ratio.is_finite() {
                 return Cause::StiffContact { ratio };
             }
         }
-        let (element, ratio) = self.solid.most_folded(&self.displacement);
+        let (element, ratio) = self.system.solid.most_folded(&self.displacement);
         if ratio <= 0.0 {
             self.inverted(element)
         } else if self.ledger.imbalance(now).is_finite() {
@@ -466,7 +463,7 @@ impl Simulation {
         {
             return Some(Cause::ContactLost { since, limit: limits.parted });
         }
-        if let Some(hub) = &self.hub {
+        if let Some(hub) = &self.system.hub {
             let x = hub.centre[0] + hub.state.x;
             let [first, last] = limits.track;
             if x < first || x > last {
@@ -482,11 +479,11 @@ impl Simulation {
             return Some(Cause::Hourglass {
                 share: usual / now.internal,
                 limit: limits.hourglass,
-                coefficient: self.solid.hourglass(),
+                coefficient: self.system.solid.hourglass(),
             });
         }
         if looks {
-            let (element, ratio) = self.solid.most_folded(&self.displacement);
+            let (element, ratio) = self.system.solid.most_folded(&self.displacement);
             if ratio <= 0.0 {
                 return Some(self.inverted(element));
             }
@@ -497,13 +494,13 @@ impl Simulation {
     /// Hourglass energy with at least the usual coefficient (J): of a run without hourglass stiffness
     /// only where the shape of elements is looked at.
     fn usual_hourglass(&self, now: &Energies, looks: bool) -> Option<f64> {
-        let coefficient = self.solid.hourglass();
+        let coefficient = self.system.solid.hourglass();
         if self.limits.hourglass.is_infinite() {
             None
         } else if coefficient > 0.0 {
             Some((USUAL_HOURGLASS / coefficient).max(1.0) * now.hourglass)
         } else {
-            looks.then(|| self.solid.hourglass_energy(&self.displacement, USUAL_HOURGLASS))
+            looks.then(|| self.system.solid.hourglass_energy(&self.displacement, USUAL_HOURGLASS))
         }
     }
 
@@ -513,25 +510,26 @@ impl Simulation {
         if ratio > 1.0 {
             return Cause::UnstableStep { ratio };
         }
-        let volume_ratio = self.solid.element_state(&self.displacement, element).volume_ratio;
+        let volume_ratio =
+            self.system.solid.element_state(&self.displacement, element).volume_ratio;
         Cause::Inverted { volume_ratio }
     }
 
     fn friction_cause(&self) -> Cause {
-        let spot = self.contact.as_deref().and_then(|c| worst_spot(c, |spot| spot.mu));
+        let spot = self.system.contact.as_deref().and_then(|c| worst_spot(c, |spot| spot.mu));
         let (mu, slip_speed, pressure) =
             spot.map_or([f64::NAN; 3].into(), |s| (s.mu, s.slip_speed, s.pressure));
         Cause::Friction { mu, limit: self.limits.friction, slip_speed, pressure }
     }
 
     fn diagnosis(&self, report: &StepReport, cause: Cause) -> Diagnosis {
-        let spot = self.contact.as_deref().and_then(|contact| match cause {
+        let spot = self.system.contact.as_deref().and_then(|contact| match cause {
             Cause::Friction { .. } => worst_spot(contact, |spot| spot.mu),
             Cause::Penetration { .. } => worst_spot(contact, |spot| -spot.gap),
             _ => None,
         });
         let node = spot.map_or_else(|| self.fastest(), |spot| spot.node);
-        let (element, jacobian) = self.solid.most_folded(&self.displacement);
+        let (element, jacobian) = self.system.solid.most_folded(&self.displacement);
         Diagnosis {
             step: report.step,
             time: report.time,
@@ -539,8 +537,8 @@ impl Simulation {
             imbalance: report.energies.map_or(0.0, |now| self.ledger.imbalance(&now)),
             place: Place {
                 node,
-                on_disk: self.disk.contains(&node),
-                position: self.solid.reference()[node].xyz(),
+                on_disk: self.system.disk.contains(&node),
+                position: self.system.solid.reference()[node].xyz(),
                 speed: self.relative_speed(node),
                 element,
                 jacobian,
@@ -550,9 +548,9 @@ impl Simulation {
 
     /// Speed of a node relative to the rigid motion of its body (m/s).
     fn relative_speed(&self, node: usize) -> f64 {
-        let at = match &self.hub {
-            Some(hub) if self.disk.contains(&node) => {
-                RigidMotion::new(hub).at(self.solid.reference()[node]).0
+        let at = match &self.system.hub {
+            Some(hub) if self.system.disk.contains(&node) => {
+                RigidMotion::new(hub).at(self.system.solid.reference()[node]).0
             }
             _ => [0.0; 4],
         };

@@ -40,6 +40,16 @@ impl Energies {
     }
 }
 
+/// Works (J) of half a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Works {
+    pub(crate) friction: f64,
+    /// Of every kind, that of contact among them.
+    pub(crate) damping: f64,
+    pub(crate) contact_damping: f64,
+    pub(crate) external: f64,
+}
+
 /// Accumulated works and the balance against the first reading.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ledger {
@@ -92,6 +102,14 @@ impl Energies {
 }
 
 impl Ledger {
+    /// Adds the works of half a step.
+    pub(crate) fn add(&mut self, works: &Works) {
+        self.friction += works.friction;
+        self.damping += works.damping;
+        self.contact_damping += works.contact_damping;
+        self.external += works.external;
+    }
+
     /// As numbers (J): the four works, the largest exchange, the worst balance, 1 if there is a first
     /// reading, and that.
     pub fn numbers(&self) -> [f64; LEDGER_NUMBERS] {

@@ -7,6 +7,7 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
+mod central_difference;
 mod dashpots;
 mod guard;
 mod hub;
@@ -19,6 +20,7 @@ mod relax;
 mod rolling;
 mod simulation;
 mod state;
+mod system;
 
 pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, Watch};
 pub use hub::{Hub, HubState, Spin, Vertical, smoothstep};
@@ -29,6 +31,7 @@ pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
 pub use rolling::{RollingField, rolling_field};
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};
+pub use system::System;
 
 #[cfg(test)]
 mod tests;

@@ -57,10 +57,10 @@ impl Simulation {
             step: self.step,
             displacement: vectors(&self.displacement),
             velocity: vectors(&self.velocity),
-            hub: self.hub.as_ref().map(|hub| (hub.state, hub.reaction)),
-            reactions: self.quiet.reactions().collect(),
+            hub: self.system.hub.as_ref().map(|hub| (hub.state, hub.reaction)),
+            reactions: self.system.quiet.reactions().collect(),
             ledger: self.ledger,
-            contact: self.contact.as_ref().map(|contact| contact.snapshot()),
+            contact: self.system.contact.as_ref().map(|contact| contact.snapshot()),
             watch: self.watch,
             timers: self.timers,
         }
@@ -79,21 +79,21 @@ impl Simulation {
         let nodes = self.displacement.len();
         count("displacements", nodes, state.displacement.len())?;
         count("velocities", nodes, state.velocity.len())?;
-        count("hubs", usize::from(self.hub.is_some()), usize::from(state.hub.is_some()))?;
-        let contacts = usize::from(self.contact.is_some());
+        count("hubs", usize::from(self.system.hub.is_some()), usize::from(state.hub.is_some()))?;
+        let contacts = usize::from(self.system.contact.is_some());
         count("contacts", contacts, usize::from(state.contact.is_some()))?;
-        count("quiet nodes", self.quiet.nodes().count(), state.reactions.len())?;
+        count("quiet nodes", self.system.quiet.nodes().count(), state.reactions.len())?;
         let padded = |field: &mut [Padded], from: &[[f64; 3]]| {
             field.iter_mut().zip(from).for_each(|(v, x)| *v = Padded::new(*x));
         };
         padded(&mut self.displacement, &state.displacement);
         padded(&mut self.velocity, &state.velocity);
         self.force.fill(Padded::ZERO);
-        if let (Some(hub), Some((motion, reaction))) = (&mut self.hub, state.hub) {
+        if let (Some(hub), Some((motion, reaction))) = (&mut self.system.hub, state.hub) {
             (hub.state, hub.reaction) = (motion, reaction);
         }
-        self.quiet.set_reactions(&state.reactions);
-        if let (Some(contact), Some(state)) = (&mut self.contact, &state.contact) {
+        self.system.quiet.set_reactions(&state.reactions);
+        if let (Some(contact), Some(state)) = (&mut self.system.contact, &state.contact) {
             contact.restore(state)?;
         }
         (self.step, self.ledger, self.timers) = (state.step, state.ledger, state.timers);

@@ -26,21 +26,11 @@ fn body_of(
         1.01 * solid::largest_frequency(&inverse, |x, y| solid.add_stiffness_product(x, y), 40);
     let n = mass.len();
     Setup {
-        solid,
-        contact: None,
-        hub: None,
-        quiet,
-        held,
-        fixed: Vec::new(),
-        paired: Vec::new(),
-        load: Load::default(),
-        disk: 0..0,
-        mass,
+        system: System { quiet, held, ..System::free(solid, mass) },
         displacement: vec![Padded::ZERO; n],
         velocity: vec![Padded::ZERO; n],
         dt: dt_factor * 2.0 / omega_max,
         omega_max,
-        mass_damping: 0.0,
     }
 }
 
@@ -121,7 +111,7 @@ fn a_slender_bar_carries_waves_at_sqrt_e_over_rho() {
     for (i, x) in mesh.nodes.iter().enumerate() {
         if x[0] < 0.5 * h {
             setup.velocity[i] = Padded::new([v0, 0.0, 0.0]);
-            setup.mass[i] = 1e9;
+            setup.system.mass[i] = 1e9;
         }
     }
     let mut simulation = Simulation::new(setup);
@@ -148,7 +138,7 @@ fn quiet_ends_swallow_a_longitudinal_wave_within_one_percent_of_its_amplitude() 
     let end = mesh.bodies[0].surfaces["x+"].clone();
     let mut setup =
         free_body(&mesh, 0.5, Vec::new(), QuietEnd::new(&mesh, &[&end], &material, &[]));
-    setup.solid = Solid::new(
+    setup.system.solid = Solid::new(
         &mesh,
         &[material],
         Element { hourglass: 0.05 },
@@ -212,8 +202,8 @@ fn a_weight_on_a_free_body_gives_its_acceleration_and_its_work_is_booked() {
     let mesh = mesh::block([2, 2, 2], [2e-3, 2e-3, 2e-3]);
     let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
     let g = [30.0, -20.0, 10.0];
-    setup.load = Load::weight(&setup.mass, 0..mesh.nodes.len(), g);
-    let mass: f64 = setup.mass.iter().sum();
+    setup.system.load = Load::weight(&setup.system.mass, 0..mesh.nodes.len(), g);
+    let mass: f64 = setup.system.mass.iter().sum();
     let dt = setup.dt;
     let mut simulation = Simulation::new(setup);
     let energies = (0..=100).map(|_| simulation.step(true).energies.unwrap()).last().unwrap();
@@ -235,7 +225,8 @@ fn fixed_directions_do_not_move_and_their_supports_do_no_work() {
     let mesh = mesh::block([4, 2, 2], [4e-3, 2e-3, 2e-3]);
     let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
     let sides = &mesh.bodies[0].node_sets["y-"];
-    setup.fixed = sides.iter().map(|&node| Fixed { node, axes: [false, true, false] }).collect();
+    setup.system.fixed =
+        sides.iter().map(|&node| Fixed { node, axes: [false, true, false] }).collect();
     setup.velocity.iter_mut().zip(&mesh.nodes).for_each(|(v, x)| {
         // strains near 1e-10: the trapezoidal work is exact for a linear force
         *v = Padded::new([1e-4 * x[0], 3e-6 - 5e-4 * x[2], 2e-4 * x[1]]);
@@ -260,15 +251,15 @@ fn carried() -> Simulation {
     let mut hub = Hub::new(
         [2e-3; 3],
         &mesh.bodies[0].node_sets["z+"],
-        setup.solid.reference(),
-        &setup.mass,
+        setup.system.solid.reference(),
+        &setup.system.mass,
         0.0,
         Spin::Creepage { free: 0.0, creepage: 0.0, ramp: 0.0 },
         Vertical::Held,
     );
     hub.state.vx = 10.0;
-    setup.hub = Some(hub);
-    setup.disk = 0..mesh.nodes.len();
+    setup.system.hub = Some(hub);
+    setup.system.disk = 0..mesh.nodes.len();
     Simulation::new(setup)
 }
 

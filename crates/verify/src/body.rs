@@ -2,7 +2,7 @@
 //! over nodes.
 
 use contact::BodyMaterial;
-use dynamics::{Fixed, Load, QuietEnd, Setup};
+use dynamics::{Fixed, Setup, System};
 use mesh::{Mesh, Padded};
 use solid::{Element, Elements, Level, Material, Solid, SolidError, Viscosity};
 
@@ -55,21 +55,11 @@ pub(crate) fn at_rest_with<'a>(
     let omega_max = (elastic * elastic + springs).sqrt();
     let n = mass.len();
     Ok(Setup {
-        solid,
-        contact: None,
-        hub: None,
-        quiet: QuietEnd::default(),
-        held: Vec::new(),
-        fixed: Vec::new(),
-        paired: Vec::new(),
-        load: Load::default(),
-        disk: 0..0,
-        mass,
+        system: System::free(solid, mass),
         displacement: vec![Padded::ZERO; n],
         velocity: vec![Padded::ZERO; n],
         dt: factor * 2.0 / omega_max,
         omega_max,
-        mass_damping: 0.0,
     })
 }
 

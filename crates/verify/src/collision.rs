@@ -133,14 +133,14 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
     let [first, second] = [0, 1].map(|b: usize| mesh.bodies[b].nodes.clone());
     setup.velocity[first.clone()].fill(Padded::new([SPEED, 0.0, 0.0]));
     setup.velocity[second].fill(Padded::new([-SPEED, 0.0, 0.0]));
-    setup.contact = Some(if exact {
+    setup.system.contact = Some(if exact {
         let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let law = Box::new(Coulomb { mu: 0.0 });
         Box::new(ExactContact::new(&mesh, surfaces.map(|s| (s, material)), &settings, law)?)
     } else {
         Box::new(contact)
     });
-    let masses = setup.mass.clone();
+    let masses = setup.system.mass.clone();
     let bar: f64 = masses[first.clone()].iter().sum();
     let dt = setup.dt;
     let before = momentum(&masses, &setup.velocity, 0..masses.len());

@@ -54,13 +54,13 @@ fn corner(n: usize, reweigh: impl Fn(&mut [f64])) -> Result<f64, SolidError> {
     let dt = 1e-7;
     let start = |x: &[f64; 3]| Padded::new([0.0, 0.0, -SCALE * x[2] / size]);
     let mut setup = Setup {
-        solid,
         velocity: mesh.nodes.iter().map(start).collect(),
         dt,
         omega_max: 2.0 / dt,
         ..at_rest(&mesh, STEEL, 1.0, None)?
     };
-    reweigh(&mut setup.mass);
+    setup.system.solid = solid;
+    reweigh(&mut setup.system.mass);
     let mut simulation = Simulation::new(setup);
     for _ in 0..20 {
         simulation.step(false);

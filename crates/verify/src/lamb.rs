@@ -276,16 +276,16 @@ fn traces(n: usize, times: &Times) -> Result<[Trace; 2], Cause> {
     // the half-space is z > 0; the load pushes along +z
     let mesh = mesh::block(BLOCK.map(|b| b * n), BLOCK.map(|b| b as f64 * PATCH));
     let mut setup = at_rest(&mesh, STEEL, 0.67, None)?;
-    setup.fixed = rollers(&mesh, "x-", 0);
-    setup.fixed.extend(rollers(&mesh, "y-", 1));
-    setup.load.ramp = times.ramp;
+    setup.system.fixed = rollers(&mesh, "x-", 0);
+    setup.system.fixed.extend(rollers(&mesh, "y-", 1));
+    setup.system.load.ramp = times.ramp;
     let pressure = LOAD / (4.0 * PATCH * PATCH);
     for face in &mesh.bodies[0].surfaces["z-"].faces {
         let corners = face.nodes.map(|n| mesh.nodes[n as usize]);
         let inside = |x: &[f64; 3]| x[0].max(x[1]) < PATCH + 0.5 * h;
         if corners.iter().all(inside) {
             for (&node, area) in face.nodes.iter().zip(quad_corner_areas(&corners)) {
-                setup.load.forces.push((node, [0.0, 0.0, pressure * area]));
+                setup.system.load.forces.push((node, [0.0, 0.0, pressure * area]));
             }
         }
     }

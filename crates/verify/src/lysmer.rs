@@ -75,7 +75,7 @@ fn reflections(
 fn reflection(n: usize, material: Material, confined: bool, c: f64) -> Result<[f64; 2], Cause> {
     let mesh = slender(n, LENGTH);
     let mut setup = bar_setup(&mesh, material, confined)?;
-    setup.quiet = QuietEnd::new(&mesh, &[&mesh.bodies[0].surfaces["x+"]], &material, &[]);
+    setup.system.quiet = QuietEnd::new(&mesh, &[&mesh.bodies[0].surfaces["x+"]], &material, &[]);
     let contraction = if confined { 0.0 } else { material.poisson };
     set_off_pulse(&mut setup, &mesh.nodes, c, [0.5 * LENGTH, WIDTH], contraction);
     let fastest = |v: &[Padded]| v.iter().map(|v| v.0[0].abs()).fold(0.0, f64::max);

@@ -205,7 +205,8 @@ impl Mode {
         let mut setup = at_rest(&mesh, SHEARED, 0.67, None)?;
         let bodies = [SHEARED; 2];
         let viscosity = Viscosity::default();
-        setup.solid = Solid::new(&mesh, &bodies, Volumetric::Full, viscosity, Level::detect())?;
+        setup.system.solid =
+            Solid::new(&mesh, &bodies, Volumetric::Full, viscosity, Level::detect())?;
 
         let shear = SHEARED.shear();
         let stress = LAW.mu(self.speed) * PRESSURE;
@@ -215,7 +216,7 @@ impl Mode {
             for n in mesh.bodies[body].nodes.clone() {
                 let [x, _, z] = mesh.nodes[n];
                 let inside = z.abs() < 0.5 * h;
-                setup.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
+                setup.system.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
                 let down = if inside { 0.0 } else { -side * approach };
                 let half = 0.5 * side * libm::cos(self.wave_number * x);
                 let mode = half * self.slip() * (-self.decay * z.abs()).exp();
@@ -224,7 +225,7 @@ impl Mode {
                 setup.velocity[n] = Padded::new([0.0, speed, 0.0]);
                 if (size[0] - x).min(size[2] - z.abs()) < 0.5 * h {
                     // no force changes the velocity of what drives the blocks
-                    setup.mass[n] = f64::INFINITY;
+                    setup.system.mass[n] = f64::INFINITY;
                     setup.velocity[n] = Padded::new([0.0, 0.5 * side * self.speed, 0.0]);
                     // and contact, which has no say there, is to leave it alone
                     if inside {
@@ -240,7 +241,7 @@ impl Mode {
                 let [_, y, z] = mesh.nodes[node as usize];
                 if z.abs() < 0.5 * h {
                     let out = if y > 0.0 { 1.0 } else { -1.0 };
-                    setup.load.forces.push((node, [0.0, 0.0, 0.25 * out * stress * h * h]));
+                    setup.system.load.forces.push((node, [0.0, 0.0, 0.25 * out * stress * h * h]));
                 }
             }
         }
@@ -255,7 +256,7 @@ impl Mode {
         };
         let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let surfaces = surfaces.map(|s| (s, material));
-        setup.contact =
+        setup.system.contact =
             Some(Box::new(ExactContact::new(&mesh, surfaces, &settings, Box::new(law))?));
         Ok(setup)
     }

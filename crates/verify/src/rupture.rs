@@ -220,11 +220,11 @@ fn model(h: f64) -> Result<(Setup, NodalContact, Watch), Cause> {
     for body in 0..2 {
         for (side, axes) in [("x-", [false, true, true]), ("y-", [false, true, false])] {
             let nodes = side_nodes(&mesh, body, side);
-            setup.fixed.extend(nodes.iter().map(|&node| Fixed { node, axes }));
+            setup.system.fixed.extend(nodes.iter().map(|&node| Fixed { node, axes }));
         }
     }
     let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
-    setup.load.forces = initial_stress(&mesh, surfaces);
+    setup.system.load.forces = initial_stress(&mesh, surfaces);
     let material = contact_material(&ROCK);
     let contact = ExactContact::new(
         &mesh,
@@ -234,7 +234,7 @@ fn model(h: f64) -> Result<(Setup, NodalContact, Watch), Cause> {
     )?;
     let table = contact.nodal_table(0);
     let watch = Watch::new(&mesh, &table, h);
-    setup.contact = Some(Box::new(contact));
+    setup.system.contact = Some(Box::new(contact));
     Ok((setup, table, watch))
 }
 
@@ -561,7 +561,7 @@ mod tests {
         let places: Vec<[f64; 2]> = table
             .nodes
             .iter()
-            .map(|&n| setup.solid.reference()[n as usize].xyz())
+            .map(|&n| setup.system.solid.reference()[n as usize].xyz())
             .map(|[x, y, _]| [x, y])
             .collect();
         let mut simulation = Simulation::new(setup);

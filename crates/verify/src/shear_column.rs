@@ -200,9 +200,10 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
         Interface::Exact(law) => {
             let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
             let contact = ExactContact::new(&mesh, surfaces, &settings, law)?;
-            let setup = at_rest(&mesh, SHEARED, 0.67, None)?;
+            let mut setup = at_rest(&mesh, SHEARED, 0.67, None)?;
             let step = setup.dt;
-            (Setup { contact: Some(Box::new(contact)), ..setup }, 0.0, step)
+            setup.system.contact = Some(Box::new(contact));
+            (setup, 0.0, step)
         }
         Interface::Penalty { k, finer } => {
             let settings = PenaltySettings {
@@ -213,9 +214,10 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
             };
             let law = Box::new(Lagged(LAW));
             let contact = PenaltyContact::new(&mesh, surfaces, &settings, None, law)?;
-            let setup = at_rest(&mesh, SHEARED, 0.67 / finer, Some(&contact))?;
+            let mut setup = at_rest(&mesh, SHEARED, 0.67 / finer, Some(&contact))?;
             let step = finer * setup.dt;
-            (Setup { contact: Some(Box::new(contact)), ..setup }, PRESSURE / k, step)
+            setup.system.contact = Some(Box::new(contact));
+            (setup, PRESSURE / k, step)
         }
     };
 
@@ -223,7 +225,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
     // nothing else damps the interface
     let viscosity = Viscosity { kelvin_voigt: 0.2 * step, ..Viscosity::default() };
     let element = Element { hourglass: 0.05 };
-    setup.solid = Solid::new(&mesh, &[SHEARED; 2], element, viscosity, Level::detect())?;
+    setup.system.solid = Solid::new(&mesh, &[SHEARED; 2], element, viscosity, Level::detect())?;
 
     let at_interface = |x: [f64; 3]| x[2].abs() < 0.5 * h;
     let approach = PRESSURE * h / SHEARED.young;
@@ -232,7 +234,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
         for n in mesh.bodies[body].nodes.clone() {
             let x = mesh.nodes[n];
             let inside = at_interface(x);
-            setup.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
+            setup.system.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
             let down = if inside { 0.0 } else { -side * approach } - 0.5 * side * penetration;
             // Half the stuck stress arrives from either side: tau = G u', v = c u' towards z = 0.
             let depth = x[2].abs() / LENGTH;

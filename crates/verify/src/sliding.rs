@@ -242,7 +242,7 @@ impl Block {
 
         let down = [0.0, 0.0, acceleration[2]];
         let (mut settling, contact) = setup(&mesh, down, 1.0, mu)?;
-        settling.contact = Some(match method {
+        settling.system.contact = Some(match method {
             Method::Penalty => Box::new(contact),
             Method::Exact(rows) => Box::new(exact(&mesh, rows, mu)?),
         });
@@ -256,7 +256,7 @@ impl Block {
             // critical for the column: omega = pi c/(2 H)
             Method::Exact(_) => {
                 let c = (MATERIAL.young / MATERIAL.density).sqrt();
-                settling.mass_damping = std::f64::consts::PI * c / BLOCK[2];
+                settling.system.mass_damping = std::f64::consts::PI * c / BLOCK[2];
             }
         }
         let mut settling = Simulation::new(settling);
@@ -277,17 +277,17 @@ impl Block {
             let mut before = setup.displacement.clone();
             before[body.clone()].iter_mut().for_each(|u| u.0[0] -= dt * speed);
             let mut unused = vec![Padded::ZERO; before.len()];
-            contact.apply_frictionless(setup.solid.reference(), &before, &mut unused);
+            contact.apply_frictionless(setup.system.solid.reference(), &before, &mut unused);
         }
         let contact: Box<dyn Contact> = match method {
             Method::Penalty => Box::new(contact),
             Method::Exact(rows) => {
-                setup.solid = damped(&mesh, 0.3 * setup.dt)?;
+                setup.system.solid = damped(&mesh, 0.3 * setup.dt)?;
                 Box::new(exact(&mesh, rows, mu)?)
             }
         };
-        setup.contact = Some(contact);
-        let masses = setup.mass[body].to_vec();
+        setup.system.contact = Some(contact);
+        let masses = setup.system.mass[body].to_vec();
         let mass = masses.iter().sum();
         let projections = side_nodes(&mesh, 0, "z-").to_vec();
         Ok(Self { simulation: Simulation::new(setup), masses, mass, projections })
@@ -354,7 +354,8 @@ fn setup(
     let contact =
         PenaltyContact::new(mesh, surfaces(mesh), &settings, None, Box::new(Coulomb { mu }))?;
     let mut setup = at_rest(mesh, MATERIAL, 0.7, Some(&contact))?;
-    setup.held = mesh.bodies[1].nodes.clone().map(|n| n as u32).collect();
-    setup.load = Load::weight(&setup.mass, mesh.bodies[0].nodes.clone(), acceleration);
+    setup.system.held = mesh.bodies[1].nodes.clone().map(|n| n as u32).collect();
+    setup.system.load =
+        Load::weight(&setup.system.mass, mesh.bodies[0].nodes.clone(), acceleration);
     Ok((setup, contact))
 }

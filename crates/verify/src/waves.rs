@@ -88,7 +88,7 @@ pub(crate) fn bar_setup(
     let mut setup = at_rest(mesh, material, FACTOR, None)?;
     if confined {
         for (side, axis) in [("y-", 1), ("y+", 1), ("z-", 2), ("z+", 2)] {
-            setup.fixed.extend(rollers(mesh, side, axis));
+            setup.system.fixed.extend(rollers(mesh, side, axis));
         }
     }
     Ok(setup)
@@ -157,7 +157,7 @@ fn layer(mesh: &Mesh, x: f64) -> Vec<usize> {
 fn impact_stress(n: usize, confined: bool, c: f64, speed: f64) -> Result<f64, SolidError> {
     let mesh = slender(n, LENGTH);
     let mut setup = bar_setup(&mesh, STEEL, confined)?;
-    setup.fixed.extend(rollers(&mesh, "x-", 0));
+    setup.system.fixed.extend(rollers(&mesh, "x-", 0));
     setup.velocity.fill(Padded::new([-speed, 0.0, 0.0]));
     let mut simulation = Simulation::new(setup);
     while simulation.time() < 0.75 * LENGTH / c {

@@ -2,7 +2,7 @@
 
 use super::median;
 use crate::run_error::RunError;
-use dynamics::{Load, QuietEnd, Setup, Simulation};
+use dynamics::{Setup, Simulation, System};
 use mesh::Padded;
 use serde_json::json;
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
@@ -80,20 +80,10 @@ fn block(n: usize, element: BlockElement, level: Level) -> Result<Simulation, Ru
     let solid = Solid::new(&mesh, &[STEEL], elements, Viscosity::default(), level)?;
     let nodes = mesh.nodes.len();
     Ok(Simulation::new(Setup {
-        solid,
-        contact: None,
-        hub: None,
-        quiet: QuietEnd::default(),
-        held: Vec::new(),
-        fixed: Vec::new(),
-        paired: Vec::new(),
-        load: Load::default(),
-        disk: 0..0,
-        mass: solid::lumped_mass(&mesh, &[STEEL.density]),
+        system: System::free(solid, solid::lumped_mass(&mesh, &[STEEL.density])),
         displacement: vec![Padded::ZERO; nodes],
         velocity: mesh.nodes.iter().map(|x| Padded::new([0.0, 0.0, -x[2] / size])).collect(),
         dt: DT,
         omega_max: 2.0 / DT,
-        mass_damping: 0.0,
     }))
 }
