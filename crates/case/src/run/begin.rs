@@ -1,0 +1,81 @@
+//! A run at its start, preloaded, or at the checkpoint that it goes on from.
+
+use super::opening::Opened;
+use super::{REFUSED, RunOptions, remove};
+use crate::checkpoint::State;
+use crate::progress::Progress;
+use crate::resume::Point;
+use crate::run_error::RunError;
+use crate::schema::Case;
+use crate::start::{Facts, Start, restart, start};
+use crate::summary::{without_rolling, write as write_summary};
+use dynamics::Simulation;
+use output::{Checkpoint, LOG_END};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// The checkpoint that a run goes on from.
+pub(super) struct Resumed {
+    pub(super) checkpoint: Checkpoint,
+    pub(super) state: State,
+}
+
+/// What came of the beginning.
+pub(super) enum Begun {
+    /// No preload: the summary that says so.
+    Refused(serde_json::Value),
+    /// The disk may roll.
+    Rolling { simulation: Box<Simulation>, facts: Facts, resumed: Option<Resumed> },
+}
+
+/// Preloads the model of a run, or takes the state of its checkpoint.
+pub(super) fn begin(
+    case: &Case,
+    options: &RunOptions,
+    opened: &mut Opened,
+    wall: Instant,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+) -> Result<Begun, RunError> {
+    if let Some(point) = opened.point.take() {
+        return resume(case, options, opened, point);
+    }
+    let Opened { model, log, .. } = opened;
+    let cache = options.preload_cache.as_deref();
+    match start(case, model, cache, stop, observe, &mut |line| log.say(line)) {
+        Err(RunError::Preload(error)) => {
+            let summary = without_rolling(case, model, options.threads, wall, &error);
+            let document = write_summary(&options.out, &summary)?;
+            log.say(&format!("{LOG_END}{:?} before rolling: {error}", summary.status))?;
+            Ok(Begun::Refused(document))
+        }
+        Err(error) => {
+            log.say(&format!("{REFUSED}{error}"))?;
+            Err(error)
+        }
+        Ok(Start { simulation, facts }) => {
+            facts.preload.iter().try_for_each(|preload| log.say(&preload.line()))?;
+            Ok(Begun::Rolling { simulation: Box::new(simulation), facts, resumed: None })
+        }
+    }
+}
+
+fn resume(
+    case: &Case,
+    options: &RunOptions,
+    opened: &mut Opened,
+    point: Point,
+) -> Result<Begun, RunError> {
+    let Point { checkpoint, state, damaged, .. } = point;
+    let log = &mut opened.log;
+    for (name, damage) in damaged {
+        log.warn(&format!("not used, {name}: {damage}; the one before is"))?;
+        // it must not push a good one out
+        remove(&options.out.join(name))?;
+    }
+    log.say(&format!("resumed from the checkpoint of step {}", checkpoint.step))?;
+    let begun = restart(case, &opened.model, state.found.clone(), &state.simulation)?;
+    let Start { simulation, facts } = begun;
+    let resumed = Some(Resumed { checkpoint, state });
+    Ok(Begun::Rolling { simulation: Box::new(simulation), facts, resumed })
+}
