@@ -26,7 +26,6 @@ pub mod keys;
 mod layers;
 pub mod load;
 mod log;
-pub mod ls_dyna;
 mod means;
 mod memory;
 mod mesh_file;

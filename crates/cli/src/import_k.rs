@@ -5,8 +5,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use case::Case;
-use case::ls_dyna::{Units, translate};
 use files::input;
+use ls_dyna::{Units, translate};
 use miette::miette;
 use serde_json::json;
 

@@ -3,6 +3,8 @@
 //! Cards that are read, and what becomes of each: docs/ls-dyna.md. Everything else is refused by its
 //! line, so that nothing of a model is lost unseen.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod cards;
 mod deck;
 mod model;

@@ -1,8 +1,8 @@
 //! From the cards to a case and its mesh.
 
-use super::cards::{syntax, unsupported};
-use super::deck::{Deck, Target};
-use super::units::Units;
+use crate::cards::{syntax, unsupported};
+use crate::deck::{Deck, Target};
+use crate::units::Units;
 use mesh::import::{Fault, Foreign, ImportError, Labels, Set, write_abaqus};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
@@ -317,7 +317,7 @@ fn crown(profile: &[[f64; 2]]) -> Option<f64> {
 
 /// Six digits, as a person would write them.
 fn six(x: f64) -> String {
-    crate::keys::number(format!("{x:.5e}").parse().unwrap_or(x))
+    case::keys::number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
 /// The case file.

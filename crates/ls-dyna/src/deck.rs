@@ -1,6 +1,6 @@
 //! What a keyword file says, card by card.
 
-use super::cards::{Card, Fields, Line, TENS, cards, syntax, unsupported};
+use crate::cards::{Card, Fields, Line, TENS, cards, syntax, unsupported};
 use mesh::import::ImportError;
 use std::collections::BTreeMap;
 

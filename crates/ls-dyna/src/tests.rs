@@ -1,14 +1,14 @@
 //! The small model of `meshes/`, and cards that are refused.
 
-use super::{Translation, Units, translate};
-use crate::Case;
-use crate::schema::{ContactLayers, Crown, Stiffness};
+use crate::{Translation, Units, translate};
+use case::Case;
+use case::schema::{ContactLayers, Crown, Stiffness};
 use friction::Kind;
 use mesh::import::{ImportError, SetNames, Unit, bodies, read_abaqus};
 use std::fs;
 use std::path::Path;
 
-const DECK: &str = include_str!("../../../../meshes/small.k");
+const DECK: &str = include_str!("../../../meshes/small.k");
 
 fn import(text: &str) -> Result<Translation, ImportError> {
     translate(text.as_bytes(), Units::parse("mm-ton-s").unwrap(), "small.k", "mesh.inp")
