@@ -10,6 +10,9 @@ use super::markers::{find, first_difference, replace};
 use super::record::Record;
 use super::steps::sum;
 
+/// Where the documents' pictures lie.
+const PICTURES: &str = "docs/pictures";
+
 /// All tables below a root.
 pub struct Tables {
     pub manifests: BTreeMap<String, Manifest>,
@@ -89,7 +92,21 @@ pub fn check(root: &Path) -> Vec<String> {
             }
         }
     }
+    faults.extend(drawn_by_hand(root, &tables));
     faults
+}
+
+/// Pictures of the documents that no manifest makes anew.
+fn drawn_by_hand(root: &Path, tables: &Tables) -> Vec<String> {
+    let manifests = tables.manifests.values();
+    let drawn: BTreeSet<&str> = manifests
+        .flat_map(|manifest| &manifest.pictures)
+        .map(|picture| picture.to.as_str())
+        .collect();
+    let entries = fs::read_dir(root.join(PICTURES)).into_iter().flatten().flatten();
+    let files = entries.map(|entry| format!("{PICTURES}/{}", entry.file_name().to_string_lossy()));
+    let others: BTreeSet<String> = files.filter(|file| !drawn.contains(file.as_str())).collect();
+    others.iter().map(|file| format!("{file}: no manifest draws it")).collect()
 }
 
 /// Prints all results into the documents.
@@ -178,6 +195,7 @@ mod tests {
             let root =
                 std::env::temp_dir().join(format!("creepage-pages-{name}-{}", std::process::id()));
             fs::create_dir_all(root.join(FOLDER)).unwrap();
+            fs::create_dir_all(root.join(PICTURES)).unwrap();
             let project = Self(root);
             project.put("README.md", "# A\n");
             project.put("docs/page.md", PAGE);
@@ -267,5 +285,23 @@ mod tests {
         assert_eq!(check(&project.0), Vec::<String>::new());
         project.put("docs/p.svg", "<svg></svg>");
         assert_eq!(check(&project.0), ["docs/p.svg: is not the picture that `a` drew"]);
+    }
+
+    #[test]
+    fn a_picture_that_no_manifest_draws_is_told() {
+        let project = Project::new("by-hand");
+        project.put("docs/pictures/p.svg", "<svg/>");
+        project.put("docs/pictures/q.png", "");
+        assert_eq!(
+            check(&project.0),
+            [
+                "docs/pictures/p.svg: no manifest draws it",
+                "docs/pictures/q.png: no manifest draws it",
+            ]
+        );
+        let picture = "[[picture]]\nfrom = \"runs/p.svg\"\nto = \"docs/pictures/p.svg\"\n";
+        let steps = MANIFEST.split("[[part]]").next().unwrap();
+        project.put("docs/results/p.toml", &format!("long = true\n{steps}{picture}"));
+        assert_eq!(check(&project.0), ["docs/pictures/q.png: no manifest draws it"]);
     }
 }

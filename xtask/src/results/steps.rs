@@ -87,7 +87,7 @@ impl<'a> Runner<'a> {
             let at = |problem: String| format!("step `{}`: {problem}", step.name);
             let document = self.step(step).map_err(at)?;
             gathered.documents.insert(step.name.clone(), document);
-            for case in runs_of(step).iter().flat_map(|folder| self.cases_of(folder)) {
+            for case in after(step, "--out").iter().flat_map(|folder| self.cases_of(folder)) {
                 gathered.cases.insert(case.clone(), sum(&self.root.join(case))?);
             }
         }
@@ -131,14 +131,16 @@ impl<'a> Runner<'a> {
         cases.filter(|case| self.root.join(case).is_file()).collect()
     }
 
-    /// What a step said, if it ran with the same program and inputs and its file is as it left it.
+    /// What a step said, if it ran with the same program and inputs and its file is as it left it, with the
+    /// pictures that it drew.
     fn kept(&self, step: &Step, file: &Path, key: &str, read: Option<&Path>) -> Option<String> {
         let long = ["run", "sweep", "verify"];
         if !long.iter().any(|word| step.command.starts_with(&format!("creepage {word} "))) {
             return None;
         }
         let left = file.metadata().and_then(|file| file.modified()).ok()?;
-        if left < self.since {
+        let drawn = after(step, "--plot").iter().all(|folder| self.root.join(folder).exists());
+        if left < self.since || !drawn {
             return None;
         }
         let kept: Kept = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
@@ -180,11 +182,11 @@ fn own_copy(program: &Path, kept: &Path) -> Result<(String, PathBuf), String> {
     Ok((sum(&copy)?, folder))
 }
 
-/// Folders of the runs that a step's command names.
-fn runs_of(step: &Step) -> Vec<String> {
+/// The files and folders that a step's command names after an option.
+fn after(step: &Step, option: &str) -> Vec<String> {
     let words = crate::shell::commands(&step.command).concat();
-    let outs = words.windows(2).filter(|pair| pair[0] == "--out");
-    outs.map(|pair| pair[1].clone()).collect()
+    let pairs = words.windows(2).filter(|pair| pair[0] == option);
+    pairs.map(|pair| pair[1].clone()).collect()
 }
 
 /// Adds names and contents of the files of a folder, in order.
@@ -289,6 +291,19 @@ mod tests {
         project.program("echo y >> calls; echo '{\"n\": 1}' | tee out.json; exit 1");
         run();
         assert_eq!(project.calls(), 4, "the program changed");
+    }
+
+    #[test]
+    fn a_verification_whose_pictures_are_gone_is_repeated() {
+        let project = Project::new("plot");
+        project.program("echo x >> calls; mkdir -p runs/p; echo '{\"n\": 1}'");
+        let verify = || project.step("creepage verify a --json --plot runs/p", None, 0).unwrap();
+        verify();
+        verify();
+        assert_eq!(project.calls(), 1);
+        fs::remove_dir_all(project.0.join("runs/p")).unwrap();
+        verify();
+        assert_eq!(project.calls(), 2);
     }
 
     #[test]
