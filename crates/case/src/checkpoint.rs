@@ -103,7 +103,7 @@ impl State {
             let motion = [at.x, at.z, at.angle, at.vx, at.vz, at.omega];
             let text = "displacement x, z and angle; velocities of the half step before";
             arrays.push(real("hub/motion", "m, m, rad, m/s, m/s, rad/s", text, &motion));
-            arrays.push(real("hub/reaction", "N, N, N m", "last force of the drive", &reaction));
+            arrays.push(real("hub/reaction", "N, N, N m", "last force of the drive", &[reaction.force_x, reaction.force_z, reaction.torque]));
         }
         let timers = simulation.timers;
         let [all, rolling] = self.wall;
@@ -153,7 +153,9 @@ impl State {
         let hub = match find("hub/motion") {
             Ok(motion) => {
                 let [x, z, angle, vx, vz, omega] = fixed(motion)?;
-                Some((HubState { x, z, angle, vx, vz, omega }, fixed(find("hub/reaction")?)?))
+                let [force_x, force_z, torque] = fixed(find("hub/reaction")?)?;
+                let reaction = dynamics::DriveReaction { force_x, force_z, torque };
+                Some((HubState { x, z, angle, vx, vz, omega }, reaction))
             }
             Err(_) => None,
         };

@@ -9,14 +9,14 @@ use std::time::{Duration, Instant, SystemTime};
 
 use crate::checkpoint::{Clock, State};
 use crate::disk::Disk;
-use crate::folder::{self, Content, LOG};
+use crate::folder::{self, Content};
 use crate::guards::READING;
 use crate::hertz::hertz;
 use crate::load::inputs;
 use crate::log::Log;
 use crate::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 use crate::model::Model;
-use crate::postmortem::{self, POSTMORTEM};
+use crate::postmortem;
 use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
 use crate::resume::{self, Origin, Point};
@@ -28,6 +28,7 @@ use crate::validation;
 use dynamics::Energies;
 use friction::{Kind, OwnLaw};
 use output::summary::Status;
+use output::layout::file;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 
 /// How the last line of the log begins where a run was refused after its mesh was made.
@@ -77,7 +78,7 @@ pub fn run(
     }
     if let Err(error @ (RunError::Output(_) | RunError::Text { .. })) = &result {
         // as far as that is possible where files could not be written
-        let _ = Log::append(options.out.join(LOG))
+        let _ = Log::append(options.out.join(file::LOG))
             .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));
     }
     result
@@ -117,12 +118,12 @@ fn run_in_pool(
         model.kernels = point.kernels;
     }
     enough_memory(model.mesh.hexes.len())?;
-    let log_file = options.out.join(LOG);
+    let log_file = options.out.join(file::LOG);
     let (held, mut log) = match (&origin, held) {
         (Some(_), Some(held)) => (held, Log::append(log_file)?),
         (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
     };
-    write_text(options.out.join("case.toml"), &case.to_toml())?;
+    write_text(options.out.join(file::CASE), &case.to_toml())?;
     log.say(&format!(
         "creepage {}: {} from {}",
         env!("CARGO_PKG_VERSION"),
@@ -221,7 +222,7 @@ fn run_in_pool(
     held.prove()?;
     if resumed.is_some() {
         // the word of an interruption or a stop holds no longer once the files change
-        ["summary.json", POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
+        [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
     }
     let mut recorder = Recorder::new(case, &model, &simulation, &basis)?;
     let nodes = model.mesh.nodes.len();
@@ -299,7 +300,7 @@ fn run_in_pool(
     }
     if let Some(d) = &found {
         postmortem::write(&options.out, &mut simulation, d, &basis.provenance)?;
-        log.say(&format!("{POSTMORTEM} holds both bodies as they are"))?;
+        log.say(&format!("{} holds both bodies as they are", file::POSTMORTEM))?;
     }
 
     let ending = Ending {

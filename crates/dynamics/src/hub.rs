@@ -50,6 +50,17 @@ pub struct HubState {
     pub omega: f64,
 }
 
+/// What the drive supplies to the hub.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DriveReaction {
+    /// Force in x (N).
+    pub force_x: f64,
+    /// Force in z (N).
+    pub force_z: f64,
+    /// Torque about +y (N m).
+    pub torque: f64,
+}
+
 /// A rigid hub that carries the nodes of the disk's inner ring.
 #[derive(Clone, Debug)]
 pub struct Hub {
@@ -69,9 +80,8 @@ pub struct Hub {
     pub vertical: Vertical,
     /// Its motion.
     pub state: HubState,
-    /// Horizontal force on the hub (N), vertical force (N) and torque (N m) that the drive had
-    /// to supply in the last step.
-    pub reaction: [f64; 3],
+    /// What the drive had to supply in the last step.
+    pub reaction: DriveReaction,
 }
 
 /// Work of the hub's drive around a step, split at the full step so that the ledger can be read
@@ -122,7 +132,7 @@ impl Hub {
             spin,
             vertical,
             state: HubState::default(),
-            reaction: [0.0; 3],
+            reaction: DriveReaction::default(),
         }
     }
 
@@ -189,7 +199,8 @@ impl Hub {
         new.z += dt * new.vz;
         new.angle += dt * new.omega;
         let new = *new;
-        self.reaction = [drive_x, drive_z, drive_torque];
+        self.reaction =
+            DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
         let (from, to) = (Placement::new(old), Placement::new(new));
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (u, before) = (to.displacement(*arm), from.displacement(*arm));

@@ -21,7 +21,7 @@ mod simulation;
 mod state;
 
 pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, Watch};
-pub use hub::{Hub, HubState, Spin, Vertical, smoothstep};
+pub use hub::{DriveReaction, Hub, HubState, Spin, Vertical, smoothstep};
 pub use ledger::{Energies, LEDGER_NUMBERS, Ledger};
 pub use load::{Fixed, Load};
 pub use quiet::QuietEnd;

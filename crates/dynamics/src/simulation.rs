@@ -2,7 +2,7 @@
 
 use crate::dashpots::{Dashpots, RigidMotion};
 use crate::guard::{Limits, Watch};
-use crate::hub::{Hub, HubWork};
+use crate::hub::{DriveReaction, Hub, HubWork};
 use crate::ledger::{Energies, Ledger};
 use crate::load::{Fixed, Load};
 use crate::nodes::{self, NodeSums};
@@ -72,8 +72,8 @@ pub struct StepReport {
     pub contact: ContactSums,
     /// Energies at t^n, if they were read.
     pub energies: Option<Energies>,
-    /// Force in x, force in z (N) and torque (N m) supplied by the hub's drive.
-    pub drive: [f64; 3],
+    /// What the hub's drive supplies.
+    pub drive: DriveReaction,
     /// Angular velocity of the hub at t^n (rad/s), the mean of the half steps around it.
     pub omega: f64,
 }
@@ -259,7 +259,7 @@ impl Simulation {
         self.step += 1;
         let (drive, omega) = match &self.hub {
             Some(h) => (h.reaction, 0.5 * (omega_before + h.state.omega)),
-            None => ([0.0; 3], 0.0),
+            None => Default::default(),
         };
         StepReport { step: n, time, contact, energies, drive, omega }
     }

@@ -5,6 +5,7 @@
 //! `checkpoint-1.h5`; the root attribute `sha256`, over all names and numbers, proves it whole.
 
 use crate::hdf5::{Creator, LayOut, Source, read_error};
+use crate::layout::attribute;
 use crate::sums::Kept;
 use crate::{OutputError, Provenance};
 use sha2::{Digest, Sha256};
@@ -20,7 +21,7 @@ const CHECKSUM: &str = "sha256";
 /// Root attribute with the step, for people; the program takes it from [`LENGTHS`].
 const STEP: &str = "step";
 /// Root attributes that are not further ones of the provenance.
-const OWN: [&str; 5] = ["creepage_version", "case_hash", "created", STEP, CHECKSUM];
+const OWN: [&str; 5] = [attribute::VERSION, attribute::CASE_HASH, attribute::CREATED, STEP, CHECKSUM];
 /// Dataset of the step and the records of each of [`Results`].
 const LENGTHS: &str = "results/lengths";
 /// Dataset of their sums: for each file how many there are, then they.
@@ -120,9 +121,9 @@ impl Checkpoint {
         let file = Source::open(path)?;
         let refuse = |reason: &str| read_error(path, reason.to_owned());
         let mut provenance = Provenance {
-            creepage_version: file.root_text("creepage_version")?,
-            case_hash: file.root_text("case_hash")?,
-            created: file.root_text("created")?,
+            creepage_version: file.root_text(attribute::VERSION)?,
+            case_hash: file.root_text(attribute::CASE_HASH)?,
+            created: file.root_text(attribute::CREATED)?,
             attributes: Vec::new(),
         };
         for name in file.root_names()?.into_iter().filter(|name| !OWN.contains(&name.as_str())) {

@@ -1,8 +1,10 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
 use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::layout::CONSTANT;
 use crate::sums::{Kept, Sums};
 use crate::{OutputError, Provenance};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Connectivity of a grid whose cells all have one shape; point indices from 0.
@@ -85,13 +87,13 @@ impl Values<'_> {
     }
 }
 
-/// Name, units and shape of a field.
+/// Name, units and shape of a field, or of a column over time, which is a scalar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldSpec {
     /// Name of the dataset and of the array in viewers.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// SI units, `"1"` for a pure number.
-    pub units: String,
+    pub units: Cow<'static, str>,
     /// Numbers per point or cell: 1, 3 or 6.
     pub components: usize,
     /// Stored as unsigned bytes instead of `f64`.
@@ -99,30 +101,57 @@ pub struct FieldSpec {
     /// On cells instead of points.
     pub on_cells: bool,
     /// What the field is, in a phrase.
-    pub description: String,
+    pub description: Cow<'static, str>,
+}
+
+/// Constructors from name, units and description.
+macro_rules! shapes {
+    ($($(#[$about:meta])* $shape:ident: $components:literal, $integer:literal, $on_cells:literal;)*) => {
+        impl FieldSpec {
+            $($(#[$about])*
+            pub const fn $shape(
+                name: &'static str,
+                units: &'static str,
+                description: &'static str,
+            ) -> Self {
+                Self {
+                    name: Cow::Borrowed(name),
+                    units: Cow::Borrowed(units),
+                    components: $components,
+                    integer: $integer,
+                    on_cells: $on_cells,
+                    description: Cow::Borrowed(description),
+                }
+            })*
+        }
+    };
+}
+
+shapes! {
+    /// A number at every point, or in every row of a history.
+    scalar: 1, false, false;
+    /// Components x, y, z at every point.
+    vector: 3, false, false;
+    /// A small integer at every point.
+    label: 1, true, false;
+    /// A number on every cell.
+    cell_scalar: 1, false, true;
+    /// A symmetric tensor on every cell, xx yy zz xy yz xz.
+    cell_tensor: 6, false, true;
+    /// A small integer on every cell.
+    cell_label: 1, true, true;
 }
 
 impl FieldSpec {
-    /// A scalar, vector (3) or symmetric tensor (6) at the points.
-    pub fn at_points(name: &str, units: &str, components: usize, description: &str) -> Self {
-        Self {
-            name: name.into(),
-            units: units.into(),
-            components,
-            integer: false,
-            on_cells: false,
-            description: description.into(),
-        }
-    }
-
-    /// The same field on cells.
-    pub fn on_cells(self) -> Self {
-        Self { on_cells: true, ..self }
-    }
-
-    /// The same field stored as unsigned bytes.
-    pub fn integer(self) -> Self {
-        Self { integer: true, ..self }
+    /// Its shape in words: how many numbers, and at what.
+    pub fn shape(&self) -> String {
+        let numbers = match (self.integer, self.components) {
+            (true, _) => "label",
+            (false, 1) => "scalar",
+            (false, 3) => "vector",
+            (false, _) => "symmetric tensor",
+        };
+        if self.on_cells { format!("{numbers}, cells") } else { numbers.to_owned() }
     }
 }
 
@@ -133,6 +162,18 @@ pub struct StaticField<'a> {
     pub spec: FieldSpec,
     /// Its values at every point or cell.
     pub values: Values<'a>,
+}
+
+impl<'a> StaticField<'a> {
+    /// The bodies of the cells.
+    pub fn body(labels: &'a [u8]) -> Self {
+        Self { spec: CONSTANT.body.clone(), values: Values::Integer(labels) }
+    }
+
+    /// Tributary areas of the points (m2).
+    pub fn area(areas: &'a [f64]) -> Self {
+        Self { spec: CONSTANT.area.clone(), values: Values::Scalar(areas) }
+    }
 }
 
 /// The part of a grid that does not change in time.
@@ -222,7 +263,7 @@ impl TransientGrid {
     }
 
     fn at(path: &Path, grid: &GridSpec<'_>, fields: &[FieldSpec]) -> Self {
-        let name = |field: &StaticField<'_>| (field.spec.name.clone(), field.spec.on_cells);
+        let name = |field: &StaticField<'_>| (field.spec.name.to_string(), field.spec.on_cells);
         Self {
             path: path.to_owned(),
             fields: fields.to_vec(),
@@ -468,7 +509,7 @@ impl TransientGrid {
             file.group(group)?;
         }
         let constant = grid_names(&self.constant_names);
-        let transient = self.fields.iter().map(|spec| (spec.name.as_str(), spec.on_cells));
+        let transient = self.fields.iter().map(|spec| (&*spec.name, spec.on_cells));
         for (name, on_cells) in transient.chain(constant) {
             file.rows::<i64>(&LayOut {
                 group: &groups[usize::from(on_cells)],

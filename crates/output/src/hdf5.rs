@@ -7,6 +7,7 @@
 use crate::caught::caught;
 use crate::checkpoint::Numbers;
 use crate::free::free_space;
+use crate::layout::attribute;
 use crate::room::{Room, end_of_file};
 use crate::{OutputError, Provenance};
 use files::input;
@@ -57,9 +58,9 @@ impl Creator {
                 .file_space(FileSpaceStrategy::Page, false, 1)
                 .file_space_page_size(PAGE)
                 .create(&partial)?;
-            file.set_attr_string("creepage_version", &provenance.creepage_version)?;
-            file.set_attr_string("case_hash", &provenance.case_hash)?;
-            file.set_attr_string("created", &provenance.created)?;
+            file.set_attr_string(attribute::VERSION, &provenance.creepage_version)?;
+            file.set_attr_string(attribute::CASE_HASH, &provenance.case_hash)?;
+            file.set_attr_string(attribute::CREATED, &provenance.created)?;
             for (name, text) in &provenance.attributes {
                 file.set_attr_string(name, text)?;
             }

@@ -5,7 +5,7 @@
 //! some datasets one snapshot longer than others, and the readers ignore the excess. (They go by
 //! the lengths because the HDF5 library does not read numbers from a group's attributes.)
 
-use crate::OutputError;
+use crate::{FieldSpec, OutputError};
 use crate::grid::data_path;
 use crate::hdf5::{Source, read_error};
 use std::ops::Range;
@@ -185,10 +185,10 @@ impl HistoryFile {
         self.source.root_text(attribute)
     }
 
-    /// All complete rows of a column, if there is one of this name.
-    pub fn column(&self, name: &str) -> Result<Option<Vec<f64>>, OutputError> {
-        let there = self.columns()?.iter().any(|column| column == name);
-        there.then(|| self.read(name)).transpose()
+    /// All complete rows of a column, if the file has it.
+    pub fn column(&self, column: &FieldSpec) -> Result<Option<Vec<f64>>, OutputError> {
+        let there = self.columns()?.iter().any(|name| *name == column.name);
+        there.then(|| self.read(&column.name)).transpose()
     }
 
     /// All complete rows of a column.

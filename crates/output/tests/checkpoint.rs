@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::{
-    Array, CHECKPOINTS, Cells, Checkpoint, Column, FieldSpec, GridFile, GridSpec, History,
+    Array, CHECKPOINTS, Cells, Checkpoint, FieldSpec, GridFile, GridSpec, History,
     HistoryFile, Kept, Numbers, OutputError, Provenance, Results, StaticField, TransientGrid,
     Values, prove,
 };
@@ -109,15 +109,15 @@ fn with_grid<T>(then: impl FnOnce(&GridSpec<'_>, &[FieldSpec]) -> T) -> T {
         points: &POINTS,
         cells: Cells::Quads(&[[0, 1, 2, 3]]),
         constant: &[StaticField {
-            spec: FieldSpec::at_points("body", "1", 1, "label").integer().on_cells(),
+            spec: FieldSpec::cell_label("body", "1", "label"),
             values: Values::Integer(&[1]),
         }],
     };
     let fields = [
-        FieldSpec::at_points("pressure", "Pa", 1, "pressure"),
-        FieldSpec::at_points("shear", "Pa", 3, "shear"),
-        FieldSpec::at_points("stress", "Pa", 6, "stress").on_cells(),
-        FieldSpec::at_points("state", "1", 1, "state").integer(),
+        FieldSpec::scalar("pressure", "Pa", "pressure"),
+        FieldSpec::vector("shear", "Pa", "shear"),
+        FieldSpec::cell_tensor("stress", "Pa", "stress"),
+        FieldSpec::label("state", "1", "state"),
     ];
     then(&grid, &fields)
 }
@@ -178,7 +178,7 @@ fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
 #[test]
 fn a_history_cut_off_and_continued_holds_what_one_written_at_once_holds() {
     let folder = tempfile::tempdir().unwrap();
-    let columns = ["time", "force"].map(|name| Column::new(name, "1", "a number"));
+    let columns = ["time", "force"].map(|name| FieldSpec::scalar(name, "1", "a number"));
     let path = folder.path().join("history.h5");
     let rows = |range: std::ops::Range<usize>| -> Vec<f64> {
         range.flat_map(|row| [row as f64, 1.0 / (row as f64 + 1.0)]).collect()
@@ -262,7 +262,7 @@ fn no_damage_of_a_grid_that_is_to_be_continued_passes_unnoticed() {
 #[test]
 fn no_damage_of_a_history_that_is_to_be_continued_passes_unnoticed() {
     let folder = tempfile::tempdir().unwrap();
-    let columns = ["time", "force"].map(|name| Column::new(name, "N", "a number"));
+    let columns = ["time", "force"].map(|name| FieldSpec::scalar(name, "N", "a number"));
     let path = folder.path().join("history.h5");
     let mut history = History::create(&path, &columns, &provenance()).unwrap();
     let rows: Vec<f64> = (0..600).map(f64::from).collect();
