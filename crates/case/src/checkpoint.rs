@@ -103,7 +103,12 @@ impl State {
             let motion = [at.x, at.z, at.angle, at.vx, at.vz, at.omega];
             let text = "displacement x, z and angle; velocities of the half step before";
             arrays.push(real("hub/motion", "m, m, rad, m/s, m/s, rad/s", text, &motion));
-            arrays.push(real("hub/reaction", "N, N, N m", "last force of the drive", &[reaction.force_x, reaction.force_z, reaction.torque]));
+            arrays.push(real(
+                "hub/reaction",
+                "N, N, N m",
+                "last force of the drive",
+                &[reaction.force_x, reaction.force_z, reaction.torque],
+            ));
         }
         let timers = simulation.timers;
         let [all, rolling] = self.wall;

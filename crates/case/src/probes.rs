@@ -71,13 +71,15 @@ impl Probes {
         for (k, &(side, n)) in chosen.iter().enumerate() {
             let [x, y, z] = model.mesh.nodes[n as usize];
             let body = BODY_NAMES[side];
-            columns.extend(PROBE.each().map(|column| FieldSpec {
-                description: format!(
-                    "{}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m",
-                    column.description
-                )
-                .into(),
-                ..of_probe(k, column)
+            columns.extend(PROBE.each().map(|column| {
+                FieldSpec {
+                    description: format!(
+                        "{}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m",
+                        column.description
+                    )
+                    .into(),
+                    ..of_probe(k, column)
+                }
             }));
         }
         let history = basis.history(file::PROBES, &columns, |results| &results.probes)?;

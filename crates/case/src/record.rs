@@ -150,9 +150,11 @@ impl Recorder {
         let files = RunFiles {
             fields: create_fields(case, model, basis)?,
             contact: create_contact(case, &surface, contact.enforced_on(), basis)?,
-            history: basis.history(file::HISTORY, &HISTORY.each().map(FieldSpec::clone), |results| {
-                &results.history
-            })?,
+            history: basis.history(
+                file::HISTORY,
+                &HISTORY.each().map(FieldSpec::clone),
+                |results| &results.history,
+            )?,
         };
         let count = tables[DISK].nodes.len() + tables[BAR].nodes.len();
         let centreline = centreline(&points[BAR], case.mesh.zone.size);

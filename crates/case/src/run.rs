@@ -27,8 +27,8 @@ use crate::summary::{Ending, summary, without_rolling, write as write_summary};
 use crate::validation;
 use dynamics::Energies;
 use friction::{Kind, OwnLaw};
-use output::summary::Status;
 use output::layout::file;
+use output::summary::Status;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 
 /// How the last line of the log begins where a run was refused after its mesh was made.

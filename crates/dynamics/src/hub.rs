@@ -199,8 +199,7 @@ impl Hub {
         new.z += dt * new.vz;
         new.angle += dt * new.omega;
         let new = *new;
-        self.reaction =
-            DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
+        self.reaction = DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
         let (from, to) = (Placement::new(old), Placement::new(new));
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (u, before) = (to.displacement(*arm), from.displacement(*arm));

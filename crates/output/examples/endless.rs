@@ -5,8 +5,8 @@
 //! Every number follows from its step and place ([`value`]), so that a reader can check them all.
 
 use output::{
-    Cells, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField,
-    TransientGrid, Values,
+    Cells, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField, TransientGrid,
+    Values,
 };
 use std::path::Path;
 use std::time::Duration;

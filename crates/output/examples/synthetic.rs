@@ -5,8 +5,8 @@
 //! contact, not mechanics.
 
 use output::{
-    Cells, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField,
-    TransientGrid, Values, summary, write_json_atomically,
+    Cells, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField, TransientGrid,
+    Values, summary, write_json_atomically,
 };
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};

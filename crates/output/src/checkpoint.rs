@@ -21,7 +21,8 @@ const CHECKSUM: &str = "sha256";
 /// Root attribute with the step, for people; the program takes it from [`LENGTHS`].
 const STEP: &str = "step";
 /// Root attributes that are not further ones of the provenance.
-const OWN: [&str; 5] = [attribute::VERSION, attribute::CASE_HASH, attribute::CREATED, STEP, CHECKSUM];
+const OWN: [&str; 5] =
+    [attribute::VERSION, attribute::CASE_HASH, attribute::CREATED, STEP, CHECKSUM];
 /// Dataset of the step and the records of each of [`Results`].
 const LENGTHS: &str = "results/lengths";
 /// Dataset of their sums: for each file how many there are, then they.

@@ -7,7 +7,8 @@
 use crate::caught::caught;
 use crate::checkpoint::Numbers;
 use crate::free::free_space;
-use crate::layout::attribute;
+use crate::grid::mesh_path;
+use crate::layout::{MESH, attribute};
 use crate::room::{Room, end_of_file};
 use crate::{OutputError, Provenance};
 use files::input;
@@ -517,11 +518,11 @@ impl Source {
     /// Rows that a record of a growing dataset has: those of the points or cells of a grid, else one.
     pub fn rows_per_record(&self, dataset: &str) -> Result<usize, OutputError> {
         let count = match dataset.split('/').nth(1) {
-            Some("PointData") => "VTKHDF/NumberOfPoints",
-            Some("CellData") => "VTKHDF/NumberOfCells",
+            Some("PointData") => mesh_path(&MESH.point_count),
+            Some("CellData") => mesh_path(&MESH.cell_count),
             _ => return Ok(1),
         };
-        Ok(self.rows(count, 0, 1)?.first().map_or(1, |count| (*count as usize).max(1)))
+        Ok(self.rows(&count, 0, 1)?.first().map_or(1, |count| (*count as usize).max(1)))
     }
 
     fn read<T>(&self, read: impl FnOnce() -> H5Result<T>) -> Result<T, OutputError> {

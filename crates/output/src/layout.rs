@@ -5,7 +5,6 @@
 //! readers ask for datasets by the declaration's names. `docs/files.md` has the same tables, which a test compares.
 
 use crate::FieldSpec;
-use std::fmt::Write as _;
 
 /// Declares names with their meaning.
 macro_rules! names {
@@ -212,6 +211,31 @@ datasets! {
     }
 }
 
+datasets! {
+    /// The mesh of a grid, in the group `VTKHDF`.
+    MeshDatasets, MESH {
+        points = "Points": vector("m", "reference coordinates"),
+        connectivity = "Connectivity": scalar("1", "point indices of the cells, one cell after the other"),
+        offsets = "Offsets": scalar("1", "where each cell starts in Connectivity, and its end"),
+        types = "Types": scalar("1", "VTK cell type"),
+        point_count = "NumberOfPoints": scalar("1", "points of the only part"),
+        cell_count = "NumberOfCells": scalar("1", "cells of the only part"),
+        connectivity_count = "NumberOfConnectivityIds": scalar("1", "length of Connectivity"),
+    }
+}
+
+datasets! {
+    /// The records of a grid, in the group `VTKHDF/Steps`.
+    StepDatasets, STEPS {
+        times = "Values": scalar("s", "simulated time of each step"),
+        parts = "NumberOfParts": scalar("1", "parts of each step"),
+        part_offsets = "PartOffsets": scalar("1", "first part of each step"),
+        point_offsets = "PointOffsets": scalar("1", "the mesh is the same for all steps"),
+        cell_offsets = "CellOffsets": scalar("1", "the mesh is the same for all steps"),
+        connectivity_offsets = "ConnectivityIdOffsets": scalar("1", "the mesh is the same for all steps"),
+    }
+}
+
 impl ContactFields<FieldSpec> {
     /// The fields of a run with this pairing: with slip of the step after there are no passes.
     pub fn of_run(&self, pairing: Pairing) -> Vec<FieldSpec> {
@@ -245,16 +269,4 @@ pub fn files() -> [(&'static str, Vec<FieldSpec>); 5] {
         (file::PROBES, [&owned(&[&HISTORY.time])[..], &probe].concat()),
         (file::POSTMORTEM, owned(&[&POSTMORTEM.each()[..], &[&CONSTANT.body]].concat())),
     ]
-}
-
-/// The table of a file's datasets for `docs/files.md`.
-pub fn table(fields: &[FieldSpec]) -> String {
-    let mut table = String::from("| dataset | units | shape | meaning |\n|---|---|---|---|\n");
-    for field in fields {
-        let FieldSpec { name, units, description, .. } = field;
-        // a bar would end the cell
-        let meaning = description.replace('|', "\\|");
-        let _ = writeln!(table, "| `{name}` | {units} | {} | {meaning} |", field.shape());
-    }
-    table
 }

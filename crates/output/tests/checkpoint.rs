@@ -3,9 +3,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::{
-    Array, CHECKPOINTS, Cells, Checkpoint, FieldSpec, GridFile, GridSpec, History,
-    HistoryFile, Kept, Numbers, OutputError, Provenance, Results, StaticField, TransientGrid,
-    Values, prove,
+    Array, CHECKPOINTS, Cells, Checkpoint, FieldSpec, GridFile, GridSpec, History, HistoryFile,
+    Kept, Numbers, OutputError, Provenance, Results, StaticField, TransientGrid, Values, prove,
 };
 use std::path::Path;
 

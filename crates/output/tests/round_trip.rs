@@ -41,10 +41,8 @@ fn fields_file(path: &Path) -> TransientGrid {
     let labels = [3];
     let constant = [body(&labels)];
     let grid = GridSpec { points: &CUBE, cells: Cells::Hexahedra(&HEX), constant: &constant };
-    let fields = [
-        FieldSpec::vector("displacement", "m", "u"),
-        FieldSpec::cell_tensor("stress", "Pa", "s"),
-    ];
+    let fields =
+        [FieldSpec::vector("displacement", "m", "u"), FieldSpec::cell_tensor("stress", "Pa", "s")];
     TransientGrid::create(path, &grid, &fields, &provenance()).unwrap()
 }
 
@@ -52,10 +50,7 @@ fn contact_file(path: &Path) -> TransientGrid {
     let labels = [0, 1];
     let constant = [body(&labels)];
     let grid = GridSpec { points: &CUBE, cells: Cells::Quads(&FACES), constant: &constant };
-    let fields = [
-        FieldSpec::scalar("pressure", "Pa", "p"),
-        FieldSpec::label("state", "1", "s"),
-    ];
+    let fields = [FieldSpec::scalar("pressure", "Pa", "p"), FieldSpec::label("state", "1", "s")];
     TransientGrid::create(path, &grid, &fields, &provenance()).unwrap()
 }
 

@@ -276,7 +276,8 @@ impl Basis {
     /// The time step and the creepage of a run in progress.
     fn read_history(&mut self, path: &Path) -> Result<(), PostError> {
         let Some(history) = open_history(path)? else { return Ok(()) };
-        if let (Some(time), Some(step)) = (history.column(&HISTORY.time)?, history.column(&HISTORY.step)?)
+        if let (Some(time), Some(step)) =
+            (history.column(&HISTORY.time)?, history.column(&HISTORY.step)?)
             && let ([t0, .., t1], [n0, .., n1]) = (&time[..], &step[..])
         {
             self.offer("dt", (t1 - t0) / (n1 - n0), "history");

@@ -46,11 +46,11 @@ pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE
 pub use error::PostError;
 pub use figures::{Named, figures};
 pub use frames::{ContactHistory, Frame, Recorded};
-pub use output::layout::Pairing;
 pub use import::{ImportError, ImportFiles, Imported, import_contact};
 pub use integrity::{Depth, prove, prove_case};
 pub use law::Law;
 pub use limits::{Limit, Limits, MEASURES, Measure};
+pub use output::layout::Pairing;
 pub use page::{run_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};

@@ -45,7 +45,8 @@ impl Surface {
             return Err(lacks("a node has coordinates that are not numbers"));
         }
         let constant = |field: &FieldSpec| {
-            let has = file.fields().iter().any(|f| f.name == field.name && f.on_cells == field.on_cells);
+            let has =
+                file.fields().iter().any(|f| f.name == field.name && f.on_cells == field.on_cells);
             has.then(|| file.read(&field.name, field.on_cells, 0)).transpose()
         };
         let face_body: Vec<u8> = match constant(&CONSTANT.body)? {
@@ -56,8 +57,7 @@ impl Surface {
         for (face, &label) in faces.iter().zip(&face_body) {
             face.iter().for_each(|&node| body[node as usize] = label);
         }
-        let area =
-            constant(&CONSTANT.area)?.unwrap_or_else(|| tributary_areas(&points, &faces));
+        let area = constant(&CONSTANT.area)?.unwrap_or_else(|| tributary_areas(&points, &faces));
         if area.iter().any(|a| !a.is_finite() || *a < 0.0) {
             return Err(lacks("the field area holds values that are no areas"));
         }

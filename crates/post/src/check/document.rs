@@ -5,11 +5,11 @@ use super::{CheckOptions, Report};
 use crate::accumulator::{Statistic, Switches};
 use crate::basis::{Basis, Bound, SCALES};
 use crate::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
-use output::layout::Pairing;
 use crate::law::Law;
 use crate::limits::{Limit, MEASURES, Measure};
 use crate::surface::body_name;
 use crate::window::Window;
+use output::layout::Pairing;
 use serde_json::{Map, Value, json};
 
 impl Pass<'_> {
@@ -159,7 +159,10 @@ impl Pass<'_> {
             (has.gap, "gap: penetration and complementarity are not measured"),
             (has.mu, "mu: law_error_own and mu_error are not measured"),
             (has.state, "state: switches are counted from the slip velocity"),
-            (has.motion, "motion: the slip of the pair is not measured (displacement and velocity)"),
+            (
+                has.motion,
+                "motion: the slip of the pair is not measured (displacement and velocity)",
+            ),
         ] {
             if !there {
                 notes.push(format!("the file has no {lost}"));

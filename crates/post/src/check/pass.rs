@@ -6,7 +6,6 @@ use crate::accumulator::{Accumulator, SideAccumulator};
 use crate::basis::{Basis, Bound};
 use crate::conditions::{IN_CONTACT, Judge, Node};
 use crate::frames::{ContactHistory, Frame};
-use output::layout::Pairing;
 use crate::patch_series::{self, PatchRow};
 use crate::projection::Pair;
 use crate::replay::{Allowed, Replay};
@@ -15,6 +14,7 @@ use crate::vector::{Vec3, axpy, norm};
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
 use friction::Place;
+use output::layout::Pairing;
 
 /// A part of the interface on which the tangential conditions are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -57,7 +57,9 @@ const COLUMNS: usize = 1200;
 /// The histories; `None` where there is no history.
 pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
     let Some(history) = open_history(path)? else { return Ok(None) };
-    let Some(time) = history.column(&HISTORY.time)?.filter(|time| time.len() > 1) else { return Ok(None) };
+    let Some(time) = history.column(&HISTORY.time)?.filter(|time| time.len() > 1) else {
+        return Ok(None);
+    };
     let mut panels = Vec::new();
     for (label, lines) in &PANELS {
         let mut series = Vec::new();

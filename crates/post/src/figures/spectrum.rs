@@ -16,7 +16,9 @@ const COLOURS: [[u8; 3]; 6] =
 /// The spectra; `None` where the run has no probes or none of them was in contact.
 pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
     let Some(probes) = open_history(path)? else { return Ok(None) };
-    let Some(time) = probes.column(&HISTORY.time)?.filter(|time| time.len() > 64) else { return Ok(None) };
+    let Some(time) = probes.column(&HISTORY.time)?.filter(|time| time.len() > 64) else {
+        return Ok(None);
+    };
     let dt = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let mut series = Vec::new();
     for k in 0.. {
