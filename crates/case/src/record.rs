@@ -16,9 +16,10 @@ use output::layout::{
     NODE_TO_FACE, Pairing, attribute, file,
 };
 use output::{
-    BackgroundWriter, Cells, Checkpoint, FieldSpec, GridSpec, History, Kept, Provenance, Results,
-    RunFiles, Snapshot, StaticField, TransientGrid, Values,
+    BackgroundWriter, Cells, Checkpoint, FieldSpec, GridSpec, History, Kept, OutputError,
+    Provenance, Results, RunFiles, Snapshot, StaticField, TransientGrid, Values,
 };
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -122,7 +123,7 @@ impl Basis<'_> {
 }
 
 /// What the recorder carries from step to step, with nothing held back.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct RecorderState {
     /// When the next snapshot of the fields is due (s).
     pub(crate) next_fields: f64,
@@ -211,16 +212,15 @@ impl Recorder {
         self.wall = state.wall;
     }
 
-    /// Writes a checkpoint behind everything sent before.
+    /// Writes the checkpoint that `make` gives behind everything sent before.
     pub(crate) fn keep(
         &mut self,
-        mut checkpoint: Checkpoint,
+        make: impl FnOnce(Results) -> Result<Checkpoint, OutputError> + Send + 'static,
         folder: &Path,
     ) -> Result<(), RunError> {
         let probes = self.probes.as_ref().map(Probes::file);
-        checkpoint.results.probes = probes.map_or_else(Kept::default, History::kept);
-        let beside = probes.map(|history| history.path().to_owned());
-        Ok(self.writer.keep(checkpoint, folder, beside)?)
+        let beside = probes.map(|history| (history.path().to_owned(), history.kept()));
+        Ok(self.writer.keep(make, folder, beside)?)
     }
 
     /// Whether step `n` writes a row of the history, hence reads the energies.

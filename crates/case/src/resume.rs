@@ -192,7 +192,7 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
     let level = Level::named(kernels).and_then(Level::with_the_same_bits).ok_or_else(|| {
         format!("it was computed with {kernels} kernels, which this machine cannot run")
     })?;
-    let state = State::from_checkpoint(&checkpoint)?;
+    let state = checkpoint.state().map_err(|error| error.to_string())?;
     results_reach(&checkpoint, folder)?;
     Ok((checkpoint, state, level))
 }

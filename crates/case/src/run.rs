@@ -254,8 +254,10 @@ fn run_in_pool(
                 found: facts.found(),
                 wall: [before[0] + wall.elapsed(), before[1] + rolling.elapsed()],
             };
-            let kernels = simulation.solid().level().name();
-            recorder.keep(state.into_checkpoint(&basis.provenance, kernels), &options.out)?;
+            let (provenance, kernels) =
+                (basis.provenance.clone(), simulation.solid().level().name());
+            let make = move |results| state.checkpoint(provenance, kernels, results);
+            recorder.keep(make, &options.out)?;
             keeping += begun.elapsed();
         }
         if stops {

@@ -15,9 +15,9 @@
 
 use crate::face::{Positions, Projection, shape, shape_gradients};
 use crate::point::{ContactPoint, PointValues, State};
-use crate::snapshot::Fields;
 use crate::surface::{ContactSurface, MasterFace};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// What the nodes of the slaves' side meet.
@@ -32,7 +32,7 @@ pub enum Rows {
 }
 
 /// The part of a node of the master in a projection.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Share {
     /// The node, in its surface.
     pub node: u32,
@@ -87,7 +87,7 @@ pub(crate) struct Leg {
 }
 
 /// A slave node near the master surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Constraint {
     pub slave: u32,
     pub state: State,
@@ -99,8 +99,10 @@ pub(crate) struct Constraint {
     pub gap: f64,
     pub normal: Vec3,
     /// Its legs in the list of the step: the first, and how many.
+    #[serde(skip)]
     legs: [u32; 2],
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
+    #[serde(skip)]
     pub delassus: f64,
     pub normal_force: f64,
     /// On the slave (N).
@@ -169,26 +171,6 @@ impl ContactPoint for Constraint {
     fn follow(&mut self, other: &Self) {
         let Self { slave, face, xi, eta, legs, .. } = *self;
         *self = Self { slave, face, xi, eta, legs, ..*other };
-    }
-
-    fn fields(&mut self, visit: &mut impl Fields) {
-        visit.whole("slave", &mut self.slave);
-        visit.state(&mut self.state);
-        visit.whole("sleep", &mut self.sleep);
-        visit.whole("face", &mut self.face);
-        visit.number("xi", "1", &mut self.xi);
-        visit.number("eta", "1", &mut self.eta);
-        visit.number("gap", "m", &mut self.gap);
-        visit.real("normal", "1", &mut self.normal);
-        visit.number("normal_force", "N", &mut self.normal_force);
-        visit.real("friction", "N", &mut self.friction);
-        visit.real("frame", "1", self.frame.as_flattened_mut());
-        visit.real("framed_friction", "N", &mut self.framed);
-        visit.number("mu", "1", &mut self.mu);
-        visit.real("memory", "as of the law", &mut self.memory);
-        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
-        visit.real("slip", "m", &mut self.slip);
-        visit.flag("slipped", &mut self.slipped);
     }
 }
 

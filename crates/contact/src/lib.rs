@@ -41,6 +41,6 @@ pub use gap::Gap;
 pub use motion::Motion;
 pub use nodal::NodalContact;
 pub use penalty::{PenaltyContact, PenaltySettings};
-pub use snapshot::{Column, ContactState, Numbers, StateError};
+pub use snapshot::{ContactState, StateError};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
 pub use sums::ContactSums;

@@ -3,15 +3,15 @@
 use crate::Motion;
 use crate::face::{Positions, SurfacePoint, project, shape};
 use crate::point::{ContactPoint, PointValues, State, relative_velocity, sleep};
-use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, Place, Slid};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// A slave node near the master surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct PenaltyPoint {
     /// The slave, in its surface.
     pub slave: u32,
@@ -40,9 +40,12 @@ pub(crate) struct PenaltyPoint {
     pub slip_velocity: Vec3,
     pub slip: Vec3,
     /// Dissipated in the last step (J).
+    #[serde(skip)]
     pub friction_work: f64,
+    #[serde(skip)]
     pub damping_work: f64,
     /// What the friction of the step under way starts from.
+    #[serde(skip)]
     trial: Trial,
 }
 
@@ -113,27 +116,6 @@ impl ContactPoint for PenaltyPoint {
     fn follow(&mut self, other: &Self) {
         let Self { slave, face, xi, eta, weights, .. } = *self;
         *self = Self { slave, face, xi, eta, weights, ..*other };
-    }
-
-    fn fields(&mut self, visit: &mut impl Fields) {
-        visit.whole("slave", &mut self.slave);
-        visit.state(&mut self.state);
-        visit.whole("sleep", &mut self.sleep);
-        visit.whole("face", &mut self.face);
-        visit.number("xi", "1", &mut self.xi);
-        visit.number("eta", "1", &mut self.eta);
-        visit.number("gap", "m", &mut self.gap);
-        visit.real("weights", "1", &mut self.weights);
-        visit.real("normal", "1", &mut self.normal);
-        visit.number("normal_force", "N", &mut self.normal_force);
-        visit.real("friction", "N", &mut self.friction);
-        visit.real("framed_friction", "N", &mut self.framed);
-        visit.number("mu", "1", &mut self.mu);
-        visit.real("memory", "as of the law", &mut self.memory);
-        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
-        visit.real("slip", "m", &mut self.slip);
-        visit.real("stiffness", "N/m", &mut self.stiffness);
-        visit.number("damper_force", "N", &mut self.damper_force);
     }
 }
 

@@ -1,10 +1,10 @@
 //! What every enforcement knows of a slave node and its projection: the state, what the search lists, and
 //! what the tables of nodes show.
 
-use crate::snapshot::Fields;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// An open node is looked at again after at most this many steps.
 const LONGEST_SLEEP: u32 = 8;
@@ -13,7 +13,7 @@ const LONGEST_SLEEP: u32 = 8;
 pub(crate) const WATCHED: f64 = 1.0 / 32.0;
 
 /// State of a slave node, as the output codes it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub(crate) enum State {
     Open = 0,
@@ -35,8 +35,6 @@ pub(crate) trait ContactPoint: Copy {
     fn values(&self) -> PointValues;
     /// Takes over all of `other` but the node itself and where its projection is.
     fn follow(&mut self, other: &Self);
-    /// Visits everything that a later step or a table of nodes reads.
-    fn fields(&mut self, visit: &mut impl Fields);
 }
 
 /// A slave node and its projection, as the tables of nodes show them.

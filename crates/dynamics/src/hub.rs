@@ -2,6 +2,7 @@
 
 use exact_sum::ExactSum;
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// What turns the hub about y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,7 @@ pub enum Vertical {
 }
 
 /// Motion of the hub: position at a full step, velocities at the half step before.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HubState {
     /// Displacement of the centre in x (m).
     pub x: f64,
@@ -51,7 +52,7 @@ pub struct HubState {
 }
 
 /// What the drive supplies to the hub.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DriveReaction {
     /// Force in x (N).
     pub force_x: f64,

@@ -22,7 +22,7 @@ mod state;
 
 pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, Watch};
 pub use hub::{DriveReaction, Hub, HubState, Spin, Vertical, smoothstep};
-pub use ledger::{Energies, LEDGER_NUMBERS, Ledger};
+pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use quiet::QuietEnd;
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};

@@ -49,7 +49,7 @@ pub struct Setup {
 }
 
 /// Wall time per stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Timers {
     /// Internal force.
     pub internal_force: Duration,

@@ -6,10 +6,11 @@ use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
 use contact::{ContactState, StateError};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// State of a simulation at a full step, with velocities at the half step before. What follows from
 /// the setup (masses, elements, boundary conditions, loads) is not part of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SimulationState {
     /// Steps done.
     pub step: usize,

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use output::{
-    Array, Cells, Checkpoint, FieldSpec, GridSpec, History, Numbers, Provenance, Results,
-    StaticField, TransientGrid, Values,
+    Cells, Checkpoint, FieldSpec, GridSpec, History, Provenance, Results, StaticField,
+    TransientGrid, Values,
 };
 use std::path::PathBuf;
 
@@ -63,21 +63,7 @@ fn main() {
     let mut file = History::create(folder.join("history.h5"), &columns, &provenance).unwrap();
     (0..3).for_each(|step| file.append(&[1e-5 * step as f64, 2e-3]).unwrap());
 
-    let array = |name: &str, values| Array {
-        name: name.into(),
-        units: "m".into(),
-        components: 1,
-        description: "d".into(),
-        values,
-    };
-    let checkpoint = Checkpoint {
-        provenance,
-        step: 7,
-        results: Results::default(),
-        arrays: vec![
-            array("nodes/displacement", Numbers::Real(vec![1.0, 2.0, 3.0])),
-            array("contact/host", Numbers::Whole(vec![1, 2, 3])),
-        ],
-    };
+    let state = vec![1.0, 2.0, 3.0];
+    let checkpoint = Checkpoint::new(provenance, 7, Results::default(), &state).unwrap();
     checkpoint.write(&folder).unwrap();
 }

@@ -536,7 +536,7 @@ fn grid_names(names: &[(String, bool)]) -> impl Iterator<Item = (&str, bool)> {
     names.iter().map(|(name, on_cells)| (name.as_str(), *on_cells))
 }
 
-fn place<'a>(group: &'a [&'a str], spec: &'a FieldSpec) -> LayOut<'a> {
+pub(crate) fn place<'a>(group: &'a [&'a str], spec: &'a FieldSpec) -> LayOut<'a> {
     let FieldSpec { name, units, components, description, .. } = spec;
     LayOut { group, name, units, components: *components, description }
 }

@@ -5,7 +5,6 @@
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
 use crate::caught::caught;
-use crate::checkpoint::Numbers;
 use crate::free::free_space;
 use crate::grid::mesh_path;
 use crate::layout::{MESH, attribute};
@@ -543,22 +542,9 @@ impl Source {
         self.read(|| Ok(self.file.dataset_names()))
     }
 
-    /// All numbers of a dataset of [`Creator::plain`].
-    pub fn plain(&self, dataset: &str) -> Result<Numbers, OutputError> {
-        let read = || -> H5Result<Numbers> {
-            let dataset = self.dataset(dataset)?;
-            if dataset.shape().contains(&0) {
-                return Ok(match dataset.datatype()? {
-                    DatatypeMessage::FloatingPoint { .. } => Numbers::Real(Vec::new()),
-                    _ => Numbers::Whole(Vec::new()),
-                });
-            }
-            match dataset.datatype()? {
-                DatatypeMessage::FloatingPoint { .. } => Ok(Numbers::Real(dataset.read_raw()?)),
-                _ => Ok(Numbers::Whole(dataset.read_raw()?)),
-            }
-        };
-        self.read(read)
+    /// All bytes of a dataset of [`Creator::plain`].
+    pub fn bytes(&self, dataset: &str) -> Result<Vec<u8>, OutputError> {
+        self.read(|| self.dataset(dataset)?.read_raw())
     }
 
     /// Names of the datasets directly in a group, sorted.

@@ -46,7 +46,7 @@ mod sums;
 mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
-pub use checkpoint::{Array, CHECKPOINTS, Checkpoint, Numbers, Results};
+pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
 pub use error::OutputError;
 pub use free::{free_space, room_left};
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
