@@ -179,7 +179,7 @@ impl Recorder {
             contact_every: steps_in(case.output.contact_interval),
             windows: case.output.window.iter().map(window).collect(),
             history_every: case.output.history_interval,
-            rows: Vec::new(),
+            rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.each().len()),
             stress: case.output.stress,
             disk: model.mesh.bodies[DISK].nodes.clone(),
             points,
