@@ -38,9 +38,9 @@ fn fields_150k_nodes(bencher: divan::Bencher) {
     let grid =
         GridSpec { points: &mesh.nodes, cells: Cells::Hexahedra(&mesh.hexes), constant: &[] };
     let specs = [
-        FieldSpec::at_points("displacement", "m", 3, ""),
-        FieldSpec::at_points("velocity", "m/s", 3, ""),
-        FieldSpec::at_points("stress", "Pa", 6, "").on_cells(),
+        FieldSpec::vector("displacement", "m", ""),
+        FieldSpec::vector("velocity", "m/s", ""),
+        FieldSpec::cell_tensor("stress", "Pa", ""),
     ];
     let path = folder.path().join("fields.vtkhdf");
     let mut file = TransientGrid::create(path, &grid, &specs, &provenance()).expect("a file");
@@ -68,17 +68,16 @@ fn contact_3400_nodes(bencher: divan::Bencher) {
         .collect();
     let folder = tempfile::tempdir().expect("a folder");
     let grid = GridSpec { points: &points, cells: Cells::Quads(&quads), constant: &[] };
-    let at = |name, components| FieldSpec::at_points(name, "1", components, "");
     let specs = [
-        at("pressure", 1),
-        at("shear", 3),
-        at("slip_velocity", 3),
-        at("slip", 3),
-        at("mu", 1),
-        at("state", 1).integer(),
-        at("gap", 1),
-        at("velocity", 3),
-        at("displacement", 3),
+        FieldSpec::scalar("pressure", "1", ""),
+        FieldSpec::vector("shear", "1", ""),
+        FieldSpec::vector("slip_velocity", "1", ""),
+        FieldSpec::vector("slip", "1", ""),
+        FieldSpec::scalar("mu", "1", ""),
+        FieldSpec::label("state", "1", ""),
+        FieldSpec::scalar("gap", "1", ""),
+        FieldSpec::vector("velocity", "1", ""),
+        FieldSpec::vector("displacement", "1", ""),
     ];
     let path = folder.path().join("contact.vtkhdf");
     let mut file = TransientGrid::create(path, &grid, &specs, &provenance()).expect("a file");

@@ -147,10 +147,8 @@ fn a_damaged_checkpoint_is_named_and_the_one_before_used() {
         let mut bytes = fs::read(&path).unwrap();
         match damage {
             "a changed byte" => {
-                let checkpoint = Checkpoint::read(&path).unwrap();
                 let middle = bytes.len() / 2;
                 bytes[middle] ^= 1;
-                assert!(checkpoint.arrays.len() > 30);
             }
             "cut off" => bytes.truncate(bytes.len() / 2),
             _ => bytes.clear(),

@@ -11,16 +11,10 @@ use thiserror::Error;
 
 use crate::derived;
 use crate::held::{Held, LOCK, hold};
-use crate::postmortem::POSTMORTEM;
 use crate::schema::Case;
 use output::CHECKPOINTS;
 pub use output::VTKHDF;
-
-/// The resolved case of a run.
-pub const CASE_FILE: &str = "case.toml";
-
-/// What the run said.
-pub(crate) const LOG: &str = "run.log";
+use output::layout::file;
 
 /// How the names of files begin that prove a folder writable; a kill leaves one behind.
 const PROBE: &str = ".creepage-";
@@ -32,16 +26,16 @@ const PARTIAL: &str = ".partial";
 /// does so in this order: a kill meanwhile must leave neither a summary of a run that has ended nor a
 /// checkpoint beside results that are gone.
 pub const RUN_FILES: [&str; 10] = [
-    CASE_FILE,
-    LOG,
-    "summary.json",
+    file::CASE,
+    file::LOG,
+    file::SUMMARY,
     CHECKPOINTS[0],
     CHECKPOINTS[1],
-    "fields.vtkhdf",
-    "contact.vtkhdf",
-    "history.h5",
-    "probes.h5",
-    POSTMORTEM,
+    file::FIELDS,
+    file::CONTACT,
+    file::HISTORY,
+    file::PROBES,
+    file::POSTMORTEM,
 ];
 
 /// Why a run folder cannot be used.
@@ -162,11 +156,11 @@ pub(crate) fn content(folder: &Path) -> Content {
     let held = is(LOCK);
     // the log is begun after the lock is taken, so that a file of that name alone is somebody's
     let left = |name: &String| {
-        name == LOCK || (name == LOG && held) || name.starts_with(PROBE) || is_partial(name)
+        name == LOCK || (name == file::LOG && held) || name.starts_with(PROBE) || is_partial(name)
     };
     if names.is_empty() {
         Content::Nothing
-    } else if RUN_FILES.iter().any(|file| is(file) && !(*file == LOG && held)) {
+    } else if RUN_FILES.iter().any(|file| is(file) && !(*file == file::LOG && held)) {
         Content::Run
     } else if names.iter().all(left) {
         Content::Beginning
@@ -177,7 +171,7 @@ pub(crate) fn content(folder: &Path) -> Content {
 
 /// Whether the run in `folder` has written nothing but its case and its log.
 pub(crate) fn has_no_results(folder: &Path) -> bool {
-    let results = RUN_FILES.iter().filter(|file| ![CASE_FILE, LOG].contains(file));
+    let results = RUN_FILES.iter().filter(|file| ![file::CASE, file::LOG].contains(file));
     !results.into_iter().any(|file| folder.join(file).exists())
 }
 
@@ -213,7 +207,7 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
 ///
 /// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] and the checks, pages
 /// and figures that this program made from them are removed, so that anything else beside a run survives;
-/// [`CASE_FILE`] is the run's to replace. What a run leaves that was killed as it began is no reason to
+/// [`file::CASE`] is the run's to replace. What a run leaves that was killed as it began is no reason to
 /// refuse, and removed too.
 pub fn prepare(folder: &Path, force: bool, held: Option<Held>) -> Result<Held, FolderError> {
     let unwritable =
@@ -232,7 +226,7 @@ pub fn prepare(folder: &Path, force: bool, held: Option<Held>) -> Result<Held, F
     // the case itself is replaced at once, so that at any kill there is one that says what the folder is of
     RUN_FILES
         .iter()
-        .filter(|file| **file != CASE_FILE)
+        .filter(|file| **file != file::CASE)
         .try_for_each(|file| remove(folder, file))?;
     derived::remove(folder).map_err(unwritable)?;
     Ok(held)

@@ -8,6 +8,7 @@ use contact::NodalContact;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
 use contact::patch::IN_CONTACT;
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use solid::Solid;
 
@@ -16,7 +17,7 @@ use solid::Solid;
 const SAMPLES: f64 = 20.0;
 
 /// Sums over the evaluation window.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MeshModeSums {
     pub(crate) slip: MeshMode,
     /// Hourglass and strain energy of the elements below the contact (J), summed over the samples.
@@ -24,20 +25,6 @@ pub(crate) struct MeshModeSums {
 }
 
 impl MeshModeSums {
-    /// Numbers that they are made of.
-    pub(crate) const NUMBERS: usize = 5;
-
-    pub(crate) fn numbers(&self) -> [f64; Self::NUMBERS] {
-        let MeshMode { alternating, all, faces } = self.slip;
-        [alternating, all, faces, self.energy[0], self.energy[1]]
-    }
-
-    pub(crate) fn from_numbers(
-        [alternating, all, faces, hourglass, strain]: [f64; Self::NUMBERS],
-    ) -> Self {
-        Self { slip: MeshMode { alternating, all, faces }, energy: [hourglass, strain] }
-    }
-
     /// Part of the slip that alternates; none where hardly anything slips.
     fn alternating(&self, case: &Case) -> Option<f64> {
         self.slip.share(LEAST_SLIP * case.drive.speed.abs())

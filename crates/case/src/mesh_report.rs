@@ -11,7 +11,7 @@ use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::elastic_frequency;
 use mesh::Padded;
-use output::{Cells, FieldSpec, GridSpec, Provenance, StaticField, TransientGrid, Values};
+use output::{Cells, GridSpec, Provenance, StaticField, TransientGrid};
 use serde_json::json;
 
 /// Builds the mesh of a case, writes it to `out` (`.vtu` or `.vtkhdf`) if given, and reports on
@@ -96,10 +96,7 @@ fn write(path: &Path, case: &Case, model: &Model) -> Result<(), RunError> {
         .enumerate()
         .flat_map(|(k, b)| std::iter::repeat_n(k as u8, b.hexes.len()))
         .collect();
-    let constant = [StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
-        values: Values::Integer(&body),
-    }];
+    let constant = [StaticField::body(&body)];
     let grid = GridSpec {
         points: &model.mesh.nodes,
         cells: Cells::Hexahedra(&model.mesh.hexes),

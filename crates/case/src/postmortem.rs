@@ -3,11 +3,9 @@
 use crate::run_error::RunError;
 use dynamics::{Diagnosis, Simulation};
 use mesh::Padded;
+use output::layout::{POSTMORTEM, PostmortemFields, attribute, file};
 use output::{Cells, FieldSpec, GridSpec, Provenance, StaticField, TransientGrid, Values};
 use std::path::Path;
-
-/// The file, in the run's folder.
-pub(crate) const POSTMORTEM: &str = "postmortem.vtkhdf";
 
 /// An element folded to less than this at a corner is suspect.
 const FOLDED: f64 = 0.2;
@@ -43,43 +41,26 @@ pub(crate) fn write(
     let mut suspect_node = vec![0_u8; points.len()];
     suspect_node[place.node] = 2;
 
-    let at = FieldSpec::at_points;
-    let suspicious = "0 no, 1 suspect, 2 named in the diagnosis";
-    let fields = [
-        at("displacement", "m", 3, "displacement from the undeformed state"),
-        at("velocity", "m/s", 3, "velocity over the last step"),
-        at("force", "N", 3, "force of the elements on the node, without viscous parts"),
-        at("suspect", "1", 1, suspicious).integer(),
-        at("volume_ratio", "1", 1, "volume over that of the undeformed element").on_cells(),
-        at("corner_ratio", "1", 1, "smallest det F at a corner, negative where inside out")
-            .on_cells(),
-        at("strain_energy", "J", 1, "strain energy of the element").on_cells(),
-        at("hourglass_energy", "J", 1, "hourglass energy of the element").on_cells(),
-        at("suspect", "1", 1, suspicious).integer().on_cells(),
-    ];
     let grid = GridSpec {
         points: &points,
         cells: Cells::Hexahedra(&hexes),
-        constant: &[StaticField {
-            spec: at("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
-            values: Values::Integer(&body),
-        }],
+        constant: &[StaticField::body(&body)],
     };
     let mut provenance = provenance.clone();
-    provenance.attributes.push(("diagnosis".into(), diagnosis.to_string()));
-    let mut file = TransientGrid::create(folder.join(POSTMORTEM), &grid, &fields, &provenance)?;
-    Ok(file.append(
-        simulation.time(),
-        &[
-            Values::Vector(&vectors(simulation.displacement())),
-            Values::Vector(&vectors(simulation.velocity())),
-            Values::Vector(&vectors(&force)),
-            Values::Integer(&suspect_node),
-            Values::Scalar(&column(|s| s.volume_ratio)),
-            Values::Scalar(&column(|s| s.corner_ratio)),
-            Values::Scalar(&column(|s| s.strain_energy)),
-            Values::Scalar(&column(|s| s.hourglass_energy)),
-            Values::Integer(&suspect),
-        ],
-    )?)
+    provenance.attributes.push((attribute::DIAGNOSIS.into(), diagnosis.to_string()));
+    let fields = POSTMORTEM.each().map(FieldSpec::clone);
+    let path = folder.join(file::POSTMORTEM);
+    let mut grid = TransientGrid::create(path, &grid, &fields, &provenance)?;
+    let values = PostmortemFields {
+        displacement: Values::Vector(&vectors(simulation.displacement())),
+        velocity: Values::Vector(&vectors(simulation.velocity())),
+        force: Values::Vector(&vectors(&force)),
+        suspect_node: Values::Integer(&suspect_node),
+        volume_ratio: Values::Scalar(&column(|s| s.volume_ratio)),
+        corner_ratio: Values::Scalar(&column(|s| s.corner_ratio)),
+        strain_energy: Values::Scalar(&column(|s| s.strain_energy)),
+        hourglass_energy: Values::Scalar(&column(|s| s.hourglass_energy)),
+        suspect_element: Values::Integer(&suspect),
+    };
+    Ok(grid.append(simulation.time(), &values.each().map(|values| *values))?)
 }

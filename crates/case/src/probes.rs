@@ -7,7 +7,8 @@ use crate::schema::Case;
 use contact::NodalContact;
 use dynamics::{Simulation, StepReport};
 use mesh::Face;
-use output::{Column, History};
+use output::layout::{BODY_NAMES, HISTORY, PROBE, ProbeRow, file, of_probe};
+use output::{FieldSpec, History};
 
 /// Surface nodes recorded at every step.
 pub(crate) struct Probes {
@@ -17,21 +18,6 @@ pub(crate) struct Probes {
     rows: Vec<(usize, usize)>,
     buffer: Vec<f64>,
 }
-
-/// Columns of `probes.h5` per probe.
-const PROBE: [(&str, &str, &str); 11] = [
-    ("pressure", "Pa", "contact pressure"),
-    ("shear_x", "Pa", "shear traction on this surface, x"),
-    ("shear_y", "Pa", "shear traction on this surface, y"),
-    ("shear_z", "Pa", "shear traction on this surface, z"),
-    ("slip_velocity_x", "m/s", "velocity relative to the other surface, x"),
-    ("slip_velocity_y", "m/s", "velocity relative to the other surface, y"),
-    ("slip_velocity_z", "m/s", "velocity relative to the other surface, z"),
-    ("slip_x", "m", "relative motion since contact began, x"),
-    ("mu", "1", "coefficient of friction used"),
-    ("state", "1", "0 open, 1 stick, 2 slip"),
-    ("gap", "m", "gap"),
-];
 
 impl Probes {
     /// The probes of a case, if it has any.
@@ -81,16 +67,22 @@ impl Probes {
                 Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?))
             })
             .collect::<Result<Vec<_>, RunError>>()?;
-        let mut columns = vec![Column::new("time", "s", "time since the start of rolling")];
+        let mut columns = vec![HISTORY.time.clone()];
         for (k, &(side, n)) in chosen.iter().enumerate() {
             let [x, y, z] = model.mesh.nodes[n as usize];
-            let body = if side == DISK { "disk" } else { "bar" };
-            for (name, units, text) in PROBE {
-                let text = format!("{text}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m");
-                columns.push(Column::new(&format!("probe{k}_{name}"), units, &text));
-            }
+            let body = BODY_NAMES[side];
+            columns.extend(PROBE.each().map(|column| {
+                FieldSpec {
+                    description: format!(
+                        "{}; node {n} of the {body} at {x:.6}, {y:.6}, {z:.6} m",
+                        column.description
+                    )
+                    .into(),
+                    ..of_probe(k, column)
+                }
+            }));
         }
-        let history = basis.history("probes.h5", &columns, |results| &results.probes)?;
+        let history = basis.history(file::PROBES, &columns, |results| &results.probes)?;
         Ok(Some(Self { history, tables, rows, buffer: Vec::new() }))
     }
 
@@ -103,12 +95,24 @@ impl Probes {
         self.buffer.push(report.time);
         for &(side, row) in &self.rows {
             let t = &self.tables[side];
-            self.buffer.push(t.pressure[row]);
-            self.buffer.extend(t.shear[row]);
-            self.buffer.extend(t.slip_velocity[row]);
-            self.buffer.extend([t.slip[row][0], t.mu[row], f64::from(t.state[row]), t.gap[row]]);
+            let ([shear_x, shear_y, shear_z], [slip_velocity_x, slip_velocity_y, slip_velocity_z]) =
+                (t.shear[row], t.slip_velocity[row]);
+            let probe = ProbeRow {
+                pressure: t.pressure[row],
+                shear_x,
+                shear_y,
+                shear_z,
+                slip_velocity_x,
+                slip_velocity_y,
+                slip_velocity_z,
+                slip_x: t.slip[row][0],
+                mu: t.mu[row],
+                state: f64::from(t.state[row]),
+                gap: t.gap[row],
+            };
+            self.buffer.extend(probe.each());
         }
-        if self.buffer.len() >= 256 * (1 + PROBE.len() * self.rows.len()) {
+        if self.buffer.len() >= 256 * self.history.columns().len() {
             self.flush()?;
         }
         Ok(())

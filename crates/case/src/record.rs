@@ -11,109 +11,27 @@ use contact::NodalContact;
 use contact::patch::{self, PatchShape};
 use dynamics::{Hub, Simulation, StepReport};
 use mesh::Padded;
-use output::{
-    BackgroundWriter, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Kept, Provenance,
-    Results, RunFiles, StaticField, TransientGrid, Values,
+use output::layout::{
+    BODIES, BODY_NAMES, BodyFields, CONTACT, ContactFields, HISTORY, HistoryRow, MORTAR,
+    NODE_TO_FACE, Pairing, attribute, file,
 };
+use output::{
+    BackgroundWriter, Cells, Checkpoint, FieldSpec, GridSpec, History, Kept, OutputError,
+    Provenance, Results, RunFiles, Snapshot, StaticField, TransientGrid, Values,
+};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Columns of `history.h5`: name, units, meaning.
-const HISTORY: [(&str, &str, &str); 38] = [
-    ("time", "s", "time since the start of rolling"),
-    ("step", "1", "number of the full step"),
-    ("kinetic", "J", "kinetic energy, 1/2 v(n-1/2) M v(n+1/2)"),
-    ("internal", "J", "strain energy of the elements"),
-    ("hourglass", "J", "hourglass energy of the elements"),
-    ("contact_stored", "J", "energy in the contact springs"),
-    ("friction_dissipated", "J", "dissipated by friction so far"),
-    ("damping_dissipated", "J", "dissipated by damping of every kind so far"),
-    ("external_work", "J", "work of drive, load and constant end reactions so far"),
-    ("imbalance", "J", "sum of energies less external work less the initial sum"),
-    ("normal_force", "N", "force of the bar on the disk, z"),
-    ("tangential_force", "N", "force of the bar on the disk, x"),
-    ("lateral_force", "N", "force of the bar on the disk, y"),
-    ("traction_coefficient", "1", "tangential over normal force"),
-    ("creepage", "1", "(omega R_eff - V)/V"),
-    ("omega", "rad/s", "angular velocity of the hub about y"),
-    ("torque", "N m", "torque that the drive supplies about y"),
-    ("drive_force", "N", "force that the drive supplies in x"),
-    ("hub_x", "m", "displacement of the hub in x"),
-    ("hub_z", "m", "displacement of the hub in z"),
-    (
-        "patch_half_length",
-        "m",
-        "half axis in x of the fit to the pressure on the bar; NaN where none fits",
-    ),
-    ("patch_half_width", "m", "half axis in y of the fit, or half the width of a line contact"),
-    ("patch_x", "m", "centre of the fit in x, relative to the hub"),
-    ("peak_pressure", "Pa", "largest pressure of the fit"),
-    ("peak_pressure_raw", "Pa", "largest nodal pressure on the bar"),
-    ("peak_shear", "Pa", "largest nodal shear traction on the bar"),
-    ("patch_area", "m2", "area of the bar's nodes in contact"),
-    ("stick_fraction", "1", "share of that area that sticks"),
-    ("slip_fraction", "1", "share of that area that slips"),
-    (
-        "stick_border",
-        "m",
-        "rear end of the longest stick zone on y = 0 from patch_x; NaN without one",
-    ),
-    ("closed_pairs", "1", "pairs in contact, both passes"),
-    ("slipping_pairs", "1", "pairs that slip, both passes"),
-    ("max_penetration", "m", "largest penetration"),
-    ("cone_excess", "1", "largest (|shear| - mu pressure) over the Hertz peak pressure"),
-    ("contact_damping", "J", "the part of damping_dissipated that contact took"),
-    ("sweeps", "1", "sweeps over the contact nodes, exact enforcement"),
-    ("manifold", "1", "nodes at which the law of friction had more than one solution"),
-    ("resultant_mismatch", "1", "|sum of the contact forces on both bodies| over the normal force"),
-];
-
-/// Root attributes of `contact.vtkhdf`: whether a record pairs traction with the slip velocity of the
-/// step `before` or `after` it, and the body at whose nodes the conditions are enforced.
-const SLIP_PAIRING: &str = "slip_pairing";
-const ENFORCED_ON: &str = "enforced_on";
-/// Whether they are enforced at nodes against the face there or in means over the faces around them.
-const CONTACT_ROWS: &str = "contact_rows";
-
-/// Field of `contact.vtkhdf` where two passes share the pressure.
-const PASS_PRESSURE: &str = "pass_pressure";
-
 /// Rows of the history gathered before they are handed to the writer.
 const HISTORY_BATCH: usize = 64;
-
-/// The contact quantities recorded per node.
-fn contact_fields(after: bool) -> Vec<FieldSpec> {
-    let at = FieldSpec::at_points;
-    let step = if after { "over the next step" } else { "over the last step" };
-    let mut fields = vec![
-        at("pressure", "Pa", 1, "contact pressure, positive in compression"),
-        at("shear", "Pa", 3, "shear traction on this surface"),
-        at(
-            "slip_velocity",
-            "m/s",
-            3,
-            &format!("velocity of this surface relative to the other, {step}"),
-        ),
-        at("slip", "m", 3, "relative tangential motion since contact began"),
-        at("mu", "1", 1, "coefficient of friction that the algorithm used"),
-        at("state", "1", 1, "0 open, 1 stick, 2 slip").integer(),
-        at("gap", "m", 1, "gap, negative when penetrating"),
-        at("velocity", "m/s", 3, &format!("velocity {step}")),
-        at("displacement", "m", 3, "displacement"),
-    ];
-    if !after {
-        let about = "the part of the pressure that the node's own pass carries";
-        fields.push(at(PASS_PRESSURE, "Pa", 1, about));
-    }
-    fields
-}
 
 /// Nodes of both contact zones and the motion copied from them before a step.
 struct Zones {
     tables: [NodalContact; 2],
-    /// Whether records hold the velocities of the step that leaves, not of the one that led there.
-    after: bool,
+    /// Whether records hold the velocities of the step that leaves or of the one that led there.
+    pairing: Pairing,
     displacement: Vec<[f64; 3]>,
     velocity: Vec<[f64; 3]>,
 }
@@ -193,7 +111,7 @@ impl Basis<'_> {
     pub(crate) fn history(
         &self,
         name: &str,
-        columns: &[Column],
+        columns: &[FieldSpec],
         of: fn(&Results) -> &Kept,
     ) -> Result<History, RunError> {
         let path = self.folder.join(name);
@@ -205,7 +123,7 @@ impl Basis<'_> {
 }
 
 /// What the recorder carries from step to step, with nothing held back.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct RecorderState {
     /// When the next snapshot of the fields is due (s).
     pub(crate) next_fields: f64,
@@ -234,8 +152,8 @@ impl Recorder {
             fields: create_fields(case, model, basis)?,
             contact: create_contact(case, &surface, contact.enforced_on(), basis)?,
             history: basis.history(
-                "history.h5",
-                &HISTORY.map(|(name, units, text)| Column::new(name, units, text)),
+                file::HISTORY,
+                &HISTORY.each().map(FieldSpec::clone),
                 |results| &results.history,
             )?,
         };
@@ -252,7 +170,7 @@ impl Recorder {
             line: Vec::with_capacity(centreline.len()),
             zones: Zones {
                 tables,
-                after: contact.enforced_on().is_some(),
+                pairing: pairing(contact.enforced_on()),
                 displacement: vec![[0.0; 3]; count],
                 velocity: vec![[0.0; 3]; count],
             },
@@ -261,7 +179,7 @@ impl Recorder {
             contact_every: steps_in(case.output.contact_interval),
             windows: case.output.window.iter().map(window).collect(),
             history_every: case.output.history_interval,
-            rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.len()),
+            rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.each().len()),
             stress: case.output.stress,
             disk: model.mesh.bodies[DISK].nodes.clone(),
             points,
@@ -294,16 +212,15 @@ impl Recorder {
         self.wall = state.wall;
     }
 
-    /// Writes a checkpoint behind everything sent before.
+    /// Writes the checkpoint that `make` gives behind everything sent before.
     pub(crate) fn keep(
         &mut self,
-        mut checkpoint: Checkpoint,
+        make: impl FnOnce(Results) -> Result<Checkpoint, OutputError> + Send + 'static,
         folder: &Path,
     ) -> Result<(), RunError> {
         let probes = self.probes.as_ref().map(Probes::file);
-        checkpoint.results.probes = probes.map_or_else(Kept::default, History::kept);
-        let beside = probes.map(|history| history.path().to_owned());
-        Ok(self.writer.keep(checkpoint, folder, beside)?)
+        let beside = probes.map(|history| (history.path().to_owned(), history.kept()));
+        Ok(self.writer.keep(make, folder, beside)?)
     }
 
     /// Whether step `n` writes a row of the history, hence reads the energies.
@@ -330,7 +247,7 @@ impl Recorder {
             let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
             for (row, &node) in nodes.enumerate() {
                 self.zones.displacement[row] = simulation.displacement()[node as usize].xyz();
-                if !self.zones.after {
+                if self.zones.pairing == Pairing::Before {
                     self.zones.velocity[row] = simulation.velocity()[node as usize].xyz();
                 }
             }
@@ -366,7 +283,7 @@ impl Recorder {
             }
             self.means.traction.add(tangential / normal);
             self.means.creepage.add(creepage);
-            self.means.torque.add(report.drive[2]);
+            self.means.torque.add(report.drive.torque);
             self.means.penetration.add(report.contact.max_penetration);
         }
         if let (Some(probes), Some(contact)) = (&mut self.probes, simulation.contact()) {
@@ -379,7 +296,7 @@ impl Recorder {
             self.zones.tables.iter_mut().for_each(|t| contact.nodal(t));
         }
         if records {
-            if self.zones.after {
+            if self.zones.pairing == Pairing::After {
                 let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
                 for (v, &node) in self.zones.velocity.iter_mut().zip(nodes) {
                     *v = simulation.velocity()[node as usize].xyz();
@@ -419,47 +336,48 @@ impl Recorder {
                 m.stick_border.add(border);
                 m.hourglass_share.add(e.hourglass / e.internal);
             }
-            self.rows.extend([
-                report.time,
-                n as f64,
-                e.kinetic,
-                e.internal,
-                e.hourglass,
-                e.contact_stored,
-                e.friction_dissipated,
-                e.damping_dissipated,
-                e.external_work,
-                simulation.ledger().imbalance(&e),
-                normal,
-                tangential,
-                lateral,
-                tangential / normal,
+            let row = HistoryRow {
+                time: report.time,
+                step: n as f64,
+                kinetic: e.kinetic,
+                internal: e.internal,
+                hourglass: e.hourglass,
+                contact_stored: e.contact_stored,
+                friction_dissipated: e.friction_dissipated,
+                damping_dissipated: e.damping_dissipated,
+                external_work: e.external_work,
+                imbalance: simulation.ledger().imbalance(&e),
+                normal_force: normal,
+                tangential_force: tangential,
+                lateral_force: lateral,
+                traction_coefficient: tangential / normal,
                 creepage,
-                report.omega,
-                report.drive[2],
-                report.drive[0],
-                hub.x,
-                hub.z,
-                a,
-                b,
-                xc,
-                p0,
-                areas.peak_pressure,
-                shear,
-                areas.contact,
-                areas.stick_fraction,
-                areas.slip_fraction,
-                border,
-                report.contact.closed as f64,
-                report.contact.slipping as f64,
-                report.contact.max_penetration,
-                cone,
-                e.contact_damping,
-                report.contact.sweeps as f64,
-                report.contact.non_unique as f64,
-                mismatch,
-            ]);
-            if self.rows.len() >= HISTORY_BATCH * HISTORY.len() {
+                omega: report.omega,
+                torque: report.drive.torque,
+                drive_force: report.drive.force_x,
+                hub_x: hub.x,
+                hub_z: hub.z,
+                patch_half_length: a,
+                patch_half_width: b,
+                patch_x: xc,
+                peak_pressure: p0,
+                peak_pressure_raw: areas.peak_pressure,
+                peak_shear: shear,
+                patch_area: areas.contact,
+                stick_fraction: areas.stick_fraction,
+                slip_fraction: areas.slip_fraction,
+                stick_border: border,
+                closed_pairs: report.contact.closed as f64,
+                slipping_pairs: report.contact.slipping as f64,
+                max_penetration: report.contact.max_penetration,
+                cone_excess: cone,
+                contact_damping: e.contact_damping,
+                sweeps: report.contact.sweeps as f64,
+                manifold: report.contact.non_unique as f64,
+                resultant_mismatch: mismatch,
+            };
+            self.rows.extend(row.each());
+            if self.rows.len() >= HISTORY_BATCH * HISTORY.each().len() {
                 self.flush_history()?;
             }
         }
@@ -498,22 +416,23 @@ impl Recorder {
             }
             _ => u.xyz(),
         };
+        let (displacement, solid) = (simulation.displacement(), simulation.solid());
+        let cauchy = |to: &mut Snapshot<'_>| {
+            to.tensors(solid.elements(), |out| solid.cauchy_stress(displacement, out));
+        };
+        let fields = BodyFields::<Option<&dyn Fn(&mut Snapshot<'_>)>> {
+            displacement: Some(&|to| to.vectors(displacement.iter().map(|u| u.xyz()))),
+            deformation: Some(&|to| to.vectors(displacement.iter().enumerate().map(deformation))),
+            velocity: Some(&|to| to.vectors(simulation.velocity().iter().map(|v| v.xyz()))),
+            stress: stress.then_some(&cauchy),
+        };
         Ok(self.writer.append_fields_with(simulation.time(), |snapshot| {
-            let displacement = simulation.displacement();
-            snapshot.vectors(displacement.iter().map(|u| u.xyz()));
-            snapshot.vectors(displacement.iter().enumerate().map(deformation));
-            snapshot.vectors(simulation.velocity().iter().map(|v| v.xyz()));
-            if stress {
-                let solid = simulation.solid();
-                snapshot.tensors(solid.elements(), |out| {
-                    solid.cauchy_stress(simulation.displacement(), out);
-                });
-            }
+            fields.each().into_iter().flatten().for_each(|fill| fill(snapshot));
         })?)
     }
 
     fn write_contact(&mut self, time: f64) -> Result<(), RunError> {
-        let Zones { tables: [disk, bar], after, displacement, velocity } = &self.zones;
+        let Zones { tables: [disk, bar], pairing, displacement, velocity } = &self.zones;
         let pressure = [&disk.pressure[..], &bar.pressure].concat();
         let shear = [&disk.shear[..], &bar.shear].concat();
         let slip_velocity = [&disk.slip_velocity[..], &bar.slip_velocity].concat();
@@ -522,20 +441,20 @@ impl Recorder {
         let state = [&disk.state[..], &bar.state].concat();
         let gap = [&disk.gap[..], &bar.gap].concat();
         let pass_pressure = [&disk.pass_pressure[..], &bar.pass_pressure].concat();
-        let mut values = vec![
-            Values::Scalar(&pressure),
-            Values::Vector(&shear),
-            Values::Vector(&slip_velocity),
-            Values::Vector(&slip),
-            Values::Scalar(&mu),
-            Values::Integer(&state),
-            Values::Scalar(&gap),
-            Values::Vector(velocity),
-            Values::Vector(displacement),
-        ];
-        if !after {
-            values.push(Values::Scalar(&pass_pressure));
-        }
+        let values = ContactFields {
+            pressure: Some(Values::Scalar(&pressure)),
+            shear: Some(Values::Vector(&shear)),
+            slip_velocity: Some(Values::Vector(&slip_velocity)),
+            slip: Some(Values::Vector(&slip)),
+            mu: Some(Values::Scalar(&mu)),
+            state: Some(Values::Integer(&state)),
+            gap: Some(Values::Scalar(&gap)),
+            velocity: Some(Values::Vector(velocity)),
+            displacement: Some(Values::Vector(displacement)),
+            pass_pressure: Some(Values::Scalar(&pass_pressure))
+                .filter(|_| *pairing == Pairing::Before),
+        };
+        let values: Vec<_> = values.each().into_iter().copied().flatten().collect();
         Ok(self.writer.append_contact(time, &values)?)
     }
 
@@ -598,26 +517,14 @@ fn centreline(points: &[[f64; 3]], size: f64) -> Vec<usize> {
 
 fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<TransientGrid, RunError> {
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
-    let mut specs = vec![
-        FieldSpec::at_points("displacement", "m", 3, "displacement from the undeformed state"),
-        FieldSpec::at_points(
-            "deformation",
-            "m",
-            3,
-            "displacement less the body's rigid motion (the hub's for the disk, none for the bar)",
-        ),
-        FieldSpec::at_points("velocity", "m/s", 3, "velocity over the last step"),
-    ];
-    if case.output.stress {
-        let stress = "Cauchy stress, xx yy zz xy yz xz";
-        specs.push(FieldSpec::at_points("stress", "Pa", 6, stress).on_cells());
-    }
+    let mut specs = BODIES.each().map(FieldSpec::clone).to_vec();
+    specs.retain(|spec| case.output.stress || *spec != BODIES.stress);
     let grid = GridSpec {
         points: &model.mesh.nodes,
         cells: Cells::Hexahedra(&model.mesh.hexes),
-        constant: &[body_field(&body)],
+        constant: &[StaticField::body(&body)],
     };
-    basis.grid("fields.vtkhdf", &grid, &specs, &basis.provenance, |results| &results.fields)
+    basis.grid(file::FIELDS, &grid, &specs, &basis.provenance, |results| &results.fields)
 }
 
 /// The recorded surfaces of both bodies.
@@ -636,13 +543,16 @@ fn create_contact(
 ) -> Result<TransientGrid, RunError> {
     let mut provenance = basis.provenance.clone();
     if let Some(side) = enforced_on {
-        provenance.attributes.push((SLIP_PAIRING.into(), "after".into()));
-        provenance.attributes.push((ENFORCED_ON.into(), ["disk", "bar"][side].into()));
         let rows = match case.contact.rows.unwrap_or_default() {
-            crate::schema::Rows::NodeToFace => "node_to_face",
-            crate::schema::Rows::Mortar => "mortar",
+            crate::schema::Rows::NodeToFace => NODE_TO_FACE,
+            crate::schema::Rows::Mortar => MORTAR,
         };
-        provenance.attributes.push((CONTACT_ROWS.into(), rows.into()));
+        let texts = [
+            (attribute::SLIP_PAIRING, pairing(enforced_on).name()),
+            (attribute::ENFORCED_ON, BODY_NAMES[side]),
+            (attribute::CONTACT_ROWS, rows),
+        ];
+        provenance.attributes.extend(texts.map(|(name, text)| (name.into(), text.into())));
     }
     let offset = tables[DISK].nodes.len() as u32;
     let bar = faces[BAR].iter().map(|face| face.map(|node| node + offset));
@@ -652,23 +562,15 @@ fn create_contact(
     let grid = GridSpec {
         points: &points.concat(),
         cells: Cells::Quads(&quads),
-        constant: &[
-            body_field(&body),
-            StaticField {
-                spec: FieldSpec::at_points("area", "m2", 1, "tributary area of the node"),
-                values: Values::Scalar(&area),
-            },
-        ],
+        constant: &[StaticField::body(&body), StaticField::area(&area)],
     };
-    let fields = contact_fields(enforced_on.is_some());
-    basis.grid("contact.vtkhdf", &grid, &fields, &provenance, |results| &results.contact)
+    let fields = CONTACT.of_run(pairing(enforced_on));
+    basis.grid(file::CONTACT, &grid, &fields, &provenance, |results| &results.contact)
 }
 
-fn body_field(body: &[u8]) -> StaticField<'_> {
-    StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
-        values: Values::Integer(body),
-    }
+/// Conditions that are enforced hold with the slip of the step that leaves.
+fn pairing(enforced_on: Option<usize>) -> Pairing {
+    enforced_on.map_or(Pairing::Before, |_| Pairing::After)
 }
 
 /// 0 for the first `counts[0]` entries, 1 for the next, and so on.

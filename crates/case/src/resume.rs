@@ -6,6 +6,7 @@ use crate::checkpoint::{KERNELS, State};
 use crate::folder::{Content, content, has_no_results, is_run};
 use crate::schema::Case;
 use miette::Diagnostic;
+use output::layout::file;
 use output::summary::Status;
 use output::{
     CHECKPOINTS, Checkpoint, OutputError, Results, as_long_as_written, prove, read_summary,
@@ -133,7 +134,7 @@ pub(crate) fn is_of(case: &Case, folder: &Path) -> bool {
 
 /// What differs between `case` and that of the run in `folder`.
 fn difference(case: &Case, folder: &Path) -> Option<String> {
-    let path = folder.join("case.toml");
+    let path = folder.join(file::CASE);
     let theirs = match Case::load(&path, &[]) {
         Ok(theirs) => theirs,
         Err(error) => return Some(format!("its case.toml cannot be read: {error}")),
@@ -191,7 +192,7 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
     let level = Level::named(kernels).and_then(Level::with_the_same_bits).ok_or_else(|| {
         format!("it was computed with {kernels} kernels, which this machine cannot run")
     })?;
-    let state = State::from_checkpoint(&checkpoint)?;
+    let state = checkpoint.state().map_err(|error| error.to_string())?;
     results_reach(&checkpoint, folder)?;
     Ok((checkpoint, state, level))
 }
@@ -200,10 +201,10 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
 fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
     let Results { fields, contact, history, probes } = &checkpoint.results;
     let mut files =
-        vec![("fields.vtkhdf", fields), ("contact.vtkhdf", contact), ("history.h5", history)];
+        vec![(file::FIELDS, fields), (file::CONTACT, contact), (file::HISTORY, history)];
     // Only of cases with probes.
     if !probes.sums.is_empty() {
-        files.push(("probes.h5", probes));
+        files.push((file::PROBES, probes));
     }
     for (name, kept) in files {
         prove(folder.join(name), kept).map_err(|error| error.to_string())?;

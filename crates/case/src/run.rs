@@ -12,11 +12,10 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Instant, SystemTime};
 
 use crate::disk::Disk;
-use crate::folder::LOG;
 use crate::held::Held;
 use crate::hertz::hertz;
 use crate::log::Log;
-use crate::postmortem::{self, POSTMORTEM};
+use crate::postmortem;
 use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
 use crate::run_error::RunError;
@@ -28,6 +27,7 @@ use begin::{Begun, Resumed, begin};
 use dynamics::Simulation;
 use friction::{Kind, OwnLaw};
 use opening::{Opened, Opening, open};
+use output::layout::file;
 use output::summary::Status;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 use rolling::{Rolled, Rolling, Stopped};
@@ -79,7 +79,7 @@ pub fn run(
     }
     if let Err(error @ (RunError::Output(_) | RunError::Text { .. })) = &result {
         // as far as that is possible where files could not be written
-        let _ = Log::append(options.out.join(LOG))
+        let _ = Log::append(options.out.join(file::LOG))
             .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));
     }
     result
@@ -118,7 +118,7 @@ fn run_in_pool(
     held.prove()?;
     if resumed.is_some() {
         // the word of an interruption or a stop holds no longer once the files change
-        ["summary.json", POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
+        [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
     }
     let recorder = Recorder::new(case, &model, &simulation, &basis)?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
@@ -135,7 +135,7 @@ fn run_in_pool(
     }
     if let Some(found) = &found {
         postmortem::write(&options.out, &mut rolled.simulation, found, &basis.provenance)?;
-        log.say(&format!("{POSTMORTEM} holds both bodies as they are"))?;
+        log.say(&format!("{} holds both bodies as they are", file::POSTMORTEM))?;
     }
     let Rolled { simulation, energies, means, before, rolling, output, keeping } = rolled;
     let ending = Ending {

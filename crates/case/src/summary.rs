@@ -2,17 +2,16 @@
 
 use std::time::{Duration, Instant};
 
-use crate::folder::CASE_FILE;
 use crate::hertz::Hertz;
 use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
-use crate::postmortem::POSTMORTEM;
 use crate::preload::PreloadError;
 use crate::run_error::RunError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;
 use dynamics::{Energies, Simulation};
+use output::layout::file;
 use output::summary::{Contact, Energy, Files, Status, Summary};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -75,7 +74,7 @@ pub(crate) fn summary(
         },
         contact: contact_means(means),
         files: Files {
-            postmortem: ending.postmortem.then(|| POSTMORTEM.to_owned()),
+            postmortem: ending.postmortem.then(|| file::POSTMORTEM.to_owned()),
             ..Files::default()
         },
         stages: [
@@ -154,7 +153,7 @@ pub(crate) fn without_rolling(
 
 /// The files whose lengths and sums a summary holds.
 const SUMMED: [&str; 6] =
-    [CASE_FILE, "fields.vtkhdf", "contact.vtkhdf", "history.h5", "probes.h5", POSTMORTEM];
+    [file::CASE, file::FIELDS, file::CONTACT, file::HISTORY, file::PROBES, file::POSTMORTEM];
 
 /// Writes the summary of a run whose files are closed into its folder, with their sums; returns it.
 pub(crate) fn write(folder: &Path, summary: &Summary) -> Result<Value, RunError> {
@@ -162,7 +161,7 @@ pub(crate) fn write(folder: &Path, summary: &Summary) -> Result<Value, RunError>
     if let Value::Object(entries) = &mut document {
         output::seal(entries, &output::sums_of_files(folder, &SUMMED)?);
     }
-    output::write_json_atomically(folder.join("summary.json"), &document)?;
+    output::write_json_atomically(folder.join(file::SUMMARY), &document)?;
     Ok(document)
 }
 

@@ -128,7 +128,7 @@ fn truncated_foreign_and_empty_files_are_refused_with_a_sentence() {
     // another file of a run
     let history = output::History::create(
         &path,
-        &[output::Column::new("time", "s", "t")],
+        &[output::FieldSpec::scalar("time", "s", "t")],
         &output::Provenance {
             creepage_version: "0".into(),
             case_hash: "0".into(),

@@ -121,10 +121,13 @@ fn rewrite(from: &Path, to: &Path, change: impl Fn(&str, &mut Vec<f64>)) {
         created: text("created"),
         attributes,
     };
-    let spec = |field: &output::FieldInfo| {
-        let spec = FieldSpec::at_points(&field.name, &field.units, field.components, "planted");
-        let spec = if field.integer { spec.integer() } else { spec };
-        if field.on_cells { spec.on_cells() } else { spec }
+    let spec = |field: &output::FieldInfo| FieldSpec {
+        name: field.name.clone().into(),
+        units: field.units.clone().into(),
+        components: field.components,
+        integer: field.integer,
+        on_cells: field.on_cells,
+        description: "planted".into(),
     };
     let (constant, changing): (Vec<_>, Vec<_>) = file.fields().iter().partition(|f| f.constant);
     let read = |field: &output::FieldInfo, step: usize| {

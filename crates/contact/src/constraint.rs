@@ -15,9 +15,9 @@
 
 use crate::face::{Positions, Projection, shape, shape_gradients};
 use crate::point::{ContactPoint, Enforced};
-use crate::snapshot::Fields;
 use crate::surface::{ContactSurface, MasterFace};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// What the nodes of the slaves' side meet.
@@ -32,7 +32,7 @@ pub enum Rows {
 }
 
 /// The part of a node of the master in a projection.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Share {
     /// The node, in its surface.
     pub node: u32,
@@ -90,11 +90,13 @@ pub(crate) struct Leg {
 pub(crate) type Constraint = ContactPoint<Multipliers>;
 
 /// What exact contact keeps of a contact point.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Multipliers {
     /// Its legs in the list of the step: the first, and how many.
+    #[serde(skip)]
     legs: [u32; 2],
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
+    #[serde(skip)]
     pub delassus: f64,
     /// Tangential frame that turns with the master.
     pub frame: [Vec3; 2],
@@ -105,11 +107,6 @@ pub(crate) struct Multipliers {
 impl Enforced for Multipliers {
     fn follow(&mut self, other: &Self) {
         *self = Self { legs: self.legs, ..*other };
-    }
-
-    fn fields(&mut self, visit: &mut impl Fields) {
-        visit.real("frame", "1", self.frame.as_flattened_mut());
-        visit.flag("slipped", &mut self.slipped);
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a time loop asks of a method of contact.
 
 use crate::point::follow_first;
-use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
+use crate::snapshot::{Points, check_points};
 use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
@@ -70,9 +70,6 @@ pub trait Contact: Send + Debug {
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError>;
 }
 
-/// Tables of the springs of each pass in a state.
-const PASSES: [&str; 2] = ["pass_0", "pass_1"];
-
 impl Contact for PenaltyContact {
     fn follow(&mut self, motion: &Motion<'_>) {
         self.follow(motion);
@@ -109,19 +106,16 @@ impl Contact for PenaltyContact {
     }
 
     fn snapshot(&self) -> ContactState {
-        let mut state = ContactState::default();
-        for (table, points) in PASSES.iter().zip(&self.points) {
-            save_rows(table, points, &mut state);
-        }
-        save_search(&self.search, &mut state);
-        state
+        let points = Points::Penalty(self.points.clone());
+        ContactState { points, search: self.search.clone() }
     }
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
-        for (slave, table) in PASSES.iter().enumerate() {
-            let (own, masters) = (&self.sides[slave], &self.sides[1 - slave]);
-            self.points[slave] = restore_rows(table, state, own, masters)?;
+        let Points::Penalty(passes) = &state.points else { return Err(StateError::Method) };
+        for (slave, points) in passes.iter().enumerate() {
+            check_points(points, &self.sides[slave], &self.sides[1 - slave])?;
         }
-        restore_search(&mut self.search, state, &self.sides)
+        self.points.clone_from(passes);
+        self.search.restore(&state.search, &self.sides)
     }
 }

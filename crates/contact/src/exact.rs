@@ -16,12 +16,12 @@
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, Trial};
 use crate::face::Positions;
-use crate::mortar::{Mean, Mortar, restore_means, save_means};
+use crate::mortar::{Mean, Mortar, check_means};
 use crate::nodal::NodalContact;
 use crate::penalty::{check_common, in_range};
 use crate::point::{Listed, State, WATCHED, finer, follow_first, sleep};
 use crate::search::Search;
-use crate::snapshot::{restore_rows, restore_search, save_rows, save_search};
+use crate::snapshot::{Points, check_points};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
@@ -41,8 +41,6 @@ const SETTLED: usize = 20;
 /// A mortar constraint far from closing may have moved so much further along the master before its integrals are
 /// taken anew.
 const FAR: f64 = 10.0;
-/// Table of the constraints in a state.
-const ROWS: &str = "rows";
 
 /// Settings of [`ExactContact`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -572,28 +570,28 @@ impl Contact for ExactContact {
     }
 
     fn snapshot(&self) -> ContactState {
-        let mut state = ContactState::default();
-        save_rows(ROWS, &self.constraints[self.slave], &mut state);
-        if let Some((_, means)) = &self.mortar {
-            save_means(means, &mut state);
-        }
-        save_search(&self.search, &mut state);
-        state
+        let means = self.mortar.as_ref().map(|(_, means)| means.clone()).unwrap_or_default();
+        let points = Points::Exact(self.constraints[self.slave].clone(), means);
+        ContactState { points, search: self.search.clone() }
     }
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
         let own = self.slave;
-        let constraints = restore_rows(ROWS, state, &self.sides[own], &self.sides[1 - own])?;
+        let Points::Exact(constraints, kept) = &state.points else {
+            return Err(StateError::Method);
+        };
+        check_points(constraints, &self.sides[own], &self.sides[1 - own])?;
         if let Some((_, means)) = &mut self.mortar {
             let nodes = [own, 1 - own].map(|side| self.sides[side].nodes.len());
             let all = self.sides[own].nodes.iter().max().map_or(0, |&n| n as usize + 1);
-            *means = restore_means(state, nodes, all)?;
+            check_means(kept, nodes, all)?;
+            means.clone_from(kept);
         }
         self.active.reserve(constraints.len());
         self.slid.reserve(constraints.len());
         self.legs.reserve(4 * constraints.len());
-        self.constraints[own] = constraints;
-        restore_search(&mut self.search, state, &self.sides)
+        self.constraints[own].clone_from(constraints);
+        self.search.restore(&state.search, &self.sides)
     }
 }
 

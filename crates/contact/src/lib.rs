@@ -42,6 +42,6 @@ pub use motion::Motion;
 pub use nodal::NodalContact;
 pub use penalty::{PenaltyContact, PenaltySettings};
 pub use point::finer;
-pub use snapshot::{Column, ContactState, Numbers, StateError};
+pub use snapshot::{ContactState, StateError};
 pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
 pub use sums::ContactSums;

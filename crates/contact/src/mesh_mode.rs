@@ -6,6 +6,8 @@
 //! the square of the element's size), 1 for slip that only alternates, and 1/2 where the slip of each node
 //! knows nothing of its neighbours'. Along a line such slip looks like any other: no spectrum tells it apart.
 
+use serde::{Deserialize, Serialize};
+
 /// Part of the slip beyond which it alternates: half of that of nodes that know nothing of each other.
 pub const MESH_MODE_LIMIT: f64 = 0.25;
 /// Part of the strain energy of the elements under the contact that their hourglass energy may be, as
@@ -15,7 +17,7 @@ pub const HOURGLASS_LIMIT: f64 = 0.1;
 pub const LEAST_SLIP: f64 = 1e-5;
 
 /// Squares of slip over faces in contact, summed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshMode {
     /// Of the part that alternates around a face (m^2/s^2).
     pub alternating: f64,

@@ -31,9 +31,10 @@
 use crate::constraint::{MasterPoint, Share, face_shares, within};
 use crate::face::{FaceGeometry, Positions, Projection, project, shape};
 use crate::segment::{Point, Polygon, coordinates};
-use crate::snapshot::{ContactState, Numbers, StateError};
+use crate::snapshot::StateError;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, norm, scale, sub};
+use serde::{Deserialize, Serialize};
 
 /// Motion along the master, over the size of the smaller face, after which integrals are taken anew.
 const STALE: f64 = 0.01;
@@ -48,7 +49,7 @@ const SLIVER: f64 = 1e-12;
 const NODES: usize = 16;
 
 /// What the integrals over the faces around a slave node gave, and the constraint follows.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Mean {
     /// Empty before the first integration.
     pub shares: Vec<Share>,
@@ -63,66 +64,19 @@ pub(crate) struct Mean {
     reach: f64,
 }
 
-/// Columns of the means in a state: slave, its number of shares and far corner; what it follows; the
-/// shares of all, their nodes and numbers.
-const SLAVES: &str = "means/slave_shares_far";
-const FOLLOWED: &str = "means/normal_beyond_seen_reach";
-const SHARE_NODES: &str = "means/share_node";
-const SHARES: &str = "means/share_weight_gradient";
-
-/// What the rows follow, for a restart: it was integrated at positions that are past.
-pub(crate) fn save_means(means: &[Mean], state: &mut ContactState) {
-    let (mut slaves, mut followed) = (Vec::new(), Vec::new());
-    let (mut nodes, mut shares) = (Vec::new(), Vec::new());
-    for (slave, mean) in means.iter().enumerate().filter(|(_, mean)| !mean.shares.is_empty()) {
-        slaves.extend([slave as u32, mean.shares.len() as u32, mean.far]);
-        followed.extend(mean.normal);
-        followed.extend([mean.beyond, mean.seen[0], mean.seen[1], mean.reach]);
-        nodes.extend(mean.shares.iter().map(|share| share.node));
-        shares.extend(mean.shares.iter().flat_map(|s| [s.weight, s.gradient[0], s.gradient[1]]));
-    }
-    state.push(SLAVES, "1", 3, Numbers::Whole(slaves));
-    state.push(FOLLOWED, "1, m", 7, Numbers::Real(followed));
-    state.push(SHARE_NODES, "1", 1, Numbers::Whole(nodes));
-    state.push(SHARES, "1, 1/m", 3, Numbers::Real(shares));
-}
-
-/// The reverse of [`save_means`] for so many nodes on both sides; `far` is an index below `all`.
-pub(crate) fn restore_means(
-    state: &ContactState,
+/// That means are of so many nodes on both sides, their far corners below `all`.
+pub(crate) fn check_means(
+    means: &[Mean],
     [slaves, masters]: [usize; 2],
     all: usize,
-) -> Result<Vec<Mean>, StateError> {
-    let range = |name: &str| StateError::Range { name: name.into() };
-    let heads = state.whole(SLAVES, 3, None)?.as_chunks::<3>().0;
-    let followed = state.real(FOLLOWED, 7, None)?.as_chunks::<7>().0;
-    let (nodes, numbers) = (state.whole(SHARE_NODES, 1, None)?, state.real(SHARES, 3, None)?);
-    let numbers = numbers.as_chunks::<3>().0;
-    let wanted: usize = heads.iter().map(|head| head[1] as usize).sum();
-    if followed.len() != heads.len() || nodes.len() != wanted || numbers.len() != wanted {
-        return Err(range(SLAVES));
-    }
-    if nodes.iter().any(|&node| node as usize >= masters) {
-        return Err(range(SHARE_NODES));
-    }
-    let mut means = vec![Mean::default(); slaves];
-    let mut first = 0;
-    for (&[slave, count, far], &[n0, n1, n2, beyond, s0, s1, reach]) in heads.iter().zip(followed) {
-        let Some(mean) = means.get_mut(slave as usize).filter(|_| (far as usize) < all) else {
-            return Err(range(SLAVES));
-        };
-        let here = first..first + count as usize;
-        first = here.end;
-        let share = |(&node, &[weight, g0, g1]): (&u32, &[f64; 3])| Share {
-            node,
-            weight,
-            gradient: [g0, g1],
-        };
-        mean.shares = nodes[here.clone()].iter().zip(&numbers[here]).map(share).collect();
-        (mean.normal, mean.beyond, mean.far) = ([n0, n1, n2], beyond, far);
-        (mean.seen, mean.reach) = ([s0, s1], reach);
-    }
-    Ok(means)
+) -> Result<(), StateError> {
+    let known = |mean: &Mean| {
+        mean.shares.is_empty()
+            || (mean.far as usize) < all
+                && mean.shares.iter().all(|share| (share.node as usize) < masters)
+    };
+    let fits = means.len() == slaves && means.iter().all(known);
+    if fits { Ok(()) } else { Err(StateError::Range { name: "means" }) }
 }
 
 /// A mean in the present configuration.

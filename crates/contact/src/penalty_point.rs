@@ -3,18 +3,18 @@
 use crate::Motion;
 use crate::face::{Positions, SurfacePoint, shape};
 use crate::point::{ContactPoint, Enforced, Listed, State, relative_velocity, sleep};
-use crate::snapshot::Fields;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, Slid};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// A contact point that a spring and a damper push out and a friction spring holds.
 pub(crate) type PenaltyPoint = ContactPoint<Springs>;
 
 /// What penalty contact keeps of a contact point.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Springs {
     /// Normal and tangential stiffness (N/m), in motion kept from closing to opening.
     pub stiffness: [f64; 2],
@@ -23,9 +23,12 @@ pub(crate) struct Springs {
     /// The damper's part of the normal force (N).
     damper_force: f64,
     /// Dissipated in the last step (J).
+    #[serde(skip)]
     pub friction_work: f64,
+    #[serde(skip)]
     pub damping_work: f64,
     /// What the friction of the step under way starts from.
+    #[serde(skip)]
     trial: Trial,
 }
 
@@ -45,12 +48,6 @@ struct Trial {
 impl Enforced for Springs {
     fn follow(&mut self, other: &Self) {
         *self = Self { weights: self.weights, ..*other };
-    }
-
-    fn fields(&mut self, visit: &mut impl Fields) {
-        visit.real("weights", "1", &mut self.weights);
-        visit.real("stiffness", "N/m", &mut self.stiffness);
-        visit.number("damper_force", "N", &mut self.damper_force);
     }
 }
 

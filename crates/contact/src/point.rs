@@ -1,11 +1,11 @@
 //! The contact point: a slave node and its projection on the master, as every enforcement knows it.
 
 use crate::face::{Followed, Positions, Projection, project};
-use crate::snapshot::Fields;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy, dot, norm, scale, tangential};
 use friction::{Place, Slid};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// An open node is looked at again after at most this many steps.
 const LONGEST_SLEEP: u32 = 8;
@@ -14,7 +14,7 @@ const LONGEST_SLEEP: u32 = 8;
 pub(crate) const WATCHED: f64 = 1.0 / 32.0;
 
 /// State of a slave node, as the output codes it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub(crate) enum State {
     Open = 0,
@@ -36,12 +36,10 @@ pub(crate) trait Listed: Copy {
 pub(crate) trait Enforced: Copy + Default {
     /// Takes over all of `other` but what belongs to where the node's own projection is.
     fn follow(&mut self, other: &Self);
-    /// Visits everything that a later step or a table of nodes reads.
-    fn fields(&mut self, visit: &mut impl Fields);
 }
 
 /// A slave node near the master surface, with what its method of enforcement `E` keeps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct ContactPoint<E> {
     /// The slave, in its surface.
     pub slave: u32,
@@ -179,26 +177,6 @@ impl<E: Enforced> ContactPoint<E> {
         let Self { slave, face, xi, eta, mut enforcement, .. } = *self;
         enforcement.follow(&other.enforcement);
         *self = Self { slave, face, xi, eta, enforcement, ..*other };
-    }
-
-    /// Visits everything that a later step or a table of nodes reads.
-    pub fn fields(&mut self, visit: &mut impl Fields) {
-        visit.whole("slave", &mut self.slave);
-        visit.state(&mut self.state);
-        visit.whole("sleep", &mut self.sleep);
-        visit.whole("face", &mut self.face);
-        visit.number("xi", "1", &mut self.xi);
-        visit.number("eta", "1", &mut self.eta);
-        visit.number("gap", "m", &mut self.gap);
-        visit.real("normal", "1", &mut self.normal);
-        visit.number("normal_force", "N", &mut self.normal_force);
-        visit.real("friction", "N", &mut self.friction);
-        visit.real("framed_friction", "N", &mut self.framed);
-        visit.number("mu", "1", &mut self.mu);
-        visit.real("memory", "as of the law", &mut self.memory);
-        visit.real("slip_velocity", "m/s", &mut self.slip_velocity);
-        visit.real("slip", "m", &mut self.slip);
-        self.enforcement.fields(visit);
     }
 }
 

@@ -26,6 +26,7 @@ use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use serde::{Deserialize, Serialize};
 
 /// Margin in terms of the smallest face: small, for few open points; large enough that a rolling
 /// disk is searched every few hundred steps.
@@ -45,8 +46,9 @@ pub(crate) type Span = [Vec3; 2];
 const NOTHING: Span = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
 
 /// When to search again.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Search {
+    #[serde(skip)]
     pub margin: f64,
     /// Positions of the surface nodes at the last search.
     pub at: [Vec<Vec3>; 2],
@@ -57,7 +59,9 @@ pub(crate) struct Search {
     pub steps_to_check: u32,
     pub steps_since_check: u32,
     /// Nearest master face of each node in the search under way.
+    #[serde(skip)]
     nearest: [Vec<(f64, u32)>; 2],
+    #[serde(skip)]
     spans: [Vec<Span>; 2],
 }
 

@@ -101,7 +101,7 @@ impl Simulation {
         self.step += 1;
         let (drive, omega) = match &system.hub {
             Some(h) => (h.reaction, 0.5 * (omega_before + h.state.omega)),
-            None => ([0.0; 3], 0.0),
+            None => Default::default(),
         };
         StepReport { step: n, time, contact, energies, drive, omega }
     }

@@ -58,7 +58,7 @@ impl Default for Limits {
 }
 
 /// What the guards carry from step to step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Watch {
     /// Whether there was contact.
     pub touched: bool,

@@ -2,6 +2,7 @@
 
 use exact_sum::ExactSum;
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// What turns the hub about y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,7 @@ pub enum Vertical {
 }
 
 /// Motion of the hub: position at a full step, velocities at the half step before.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HubState {
     /// Displacement of the centre in x (m).
     pub x: f64,
@@ -48,6 +49,17 @@ pub struct HubState {
     pub vz: f64,
     /// Angular velocity about +y (rad/s).
     pub omega: f64,
+}
+
+/// What the drive supplies to the hub.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DriveReaction {
+    /// Force in x (N).
+    pub force_x: f64,
+    /// Force in z (N).
+    pub force_z: f64,
+    /// Torque about +y (N m).
+    pub torque: f64,
 }
 
 /// A rigid hub that carries the nodes of the disk's inner ring.
@@ -69,9 +81,8 @@ pub struct Hub {
     pub vertical: Vertical,
     /// Its motion.
     pub state: HubState,
-    /// Horizontal force on the hub (N), vertical force (N) and torque (N m) that the drive had
-    /// to supply in the last step.
-    pub reaction: [f64; 3],
+    /// What the drive had to supply in the last step.
+    pub reaction: DriveReaction,
 }
 
 /// Work of the hub's drive around a step, split at the full step so that the ledger can be read
@@ -122,7 +133,7 @@ impl Hub {
             spin,
             vertical,
             state: HubState::default(),
-            reaction: [0.0; 3],
+            reaction: DriveReaction::default(),
         }
     }
 
@@ -189,7 +200,7 @@ impl Hub {
         new.z += dt * new.vz;
         new.angle += dt * new.omega;
         let new = *new;
-        self.reaction = [drive_x, drive_z, drive_torque];
+        self.reaction = DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
         let (from, to) = (Placement::new(old), Placement::new(new));
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (u, before) = (to.displacement(*arm), from.displacement(*arm));

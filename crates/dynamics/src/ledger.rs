@@ -4,9 +4,11 @@
 //! T^{n+1} - T^n = 1/2 (x^{n+1} - x^n) . (f^n + f^{n+1}). Works are therefore accumulated in two
 //! halves around each full step, with the velocity before and after it.
 
+use serde::{Deserialize, Serialize};
+
 /// Energies at a full step (J), with signs as in the balance
 /// kinetic + internal + hourglass + contact_stored + friction + damping = external + initial.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energies {
     /// Kinetic energy in the conserved form.
     pub kinetic: f64,
@@ -51,7 +53,7 @@ pub(crate) struct Works {
 }
 
 /// Accumulated works and the balance against the first reading.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Ledger {
     /// Dissipated by friction (J).
     pub friction: f64,
@@ -66,41 +68,6 @@ pub struct Ledger {
     worst_balance: f64,
 }
 
-/// A ledger as numbers: what [`Ledger::numbers`] gives.
-pub const LEDGER_NUMBERS: usize = 15;
-
-impl Energies {
-    /// As numbers, in the order of the fields (J).
-    pub fn numbers(&self) -> [f64; 8] {
-        [
-            self.kinetic,
-            self.internal,
-            self.hourglass,
-            self.contact_stored,
-            self.friction_dissipated,
-            self.damping_dissipated,
-            self.contact_damping,
-            self.external_work,
-        ]
-    }
-
-    /// The reverse of [`Self::numbers`].
-    pub fn from_numbers(numbers: [f64; 8]) -> Self {
-        let [kinetic, internal, hourglass, contact_stored, friction, damping, contact, external] =
-            numbers;
-        Self {
-            kinetic,
-            internal,
-            hourglass,
-            contact_stored,
-            friction_dissipated: friction,
-            damping_dissipated: damping,
-            contact_damping: contact,
-            external_work: external,
-        }
-    }
-}
-
 impl Ledger {
     /// Adds the works of half a step.
     pub(crate) fn add(&mut self, works: &Works) {
@@ -108,38 +75,6 @@ impl Ledger {
         self.damping += works.damping;
         self.contact_damping += works.contact_damping;
         self.external += works.external;
-    }
-
-    /// As numbers (J): the four works, the largest exchange, the worst balance, 1 if there is a first
-    /// reading, and that.
-    pub fn numbers(&self) -> [f64; LEDGER_NUMBERS] {
-        let mut numbers = [0.0; LEDGER_NUMBERS];
-        numbers[..7].copy_from_slice(&[
-            self.friction,
-            self.damping,
-            self.contact_damping,
-            self.external,
-            self.largest_exchange,
-            self.worst_balance,
-            f64::from(u8::from(self.initial.is_some())),
-        ]);
-        numbers[7..].copy_from_slice(&self.initial.unwrap_or_default().numbers());
-        numbers
-    }
-
-    /// The reverse of [`Self::numbers`].
-    pub fn from_numbers(numbers: [f64; LEDGER_NUMBERS]) -> Self {
-        let [friction, damping, contact_damping, external, exchange, balance, read, first @ ..] =
-            numbers;
-        Self {
-            friction,
-            damping,
-            contact_damping,
-            external,
-            initial: (read != 0.0).then(|| Energies::from_numbers(first)),
-            largest_exchange: exchange,
-            worst_balance: balance,
-        }
     }
 
     /// Takes a reading into the balance; the first one is the initial state.

@@ -23,8 +23,8 @@ mod state;
 mod system;
 
 pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, Watch};
-pub use hub::{Hub, HubState, Spin, Vertical, smoothstep};
-pub use ledger::{Energies, LEDGER_NUMBERS, Ledger};
+pub use hub::{DriveReaction, Hub, HubState, Spin, Vertical, smoothstep};
+pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use quiet::QuietEnd;
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};

@@ -1,7 +1,7 @@
 //! A simulation: the system, its state in time, its balance of energy and its guards.
 
 use crate::guard::{Limits, Watch};
-use crate::hub::Hub;
+use crate::hub::{DriveReaction, Hub};
 use crate::ledger::{Energies, Ledger};
 use crate::nodes::{self, NodeSums};
 use crate::system::System;
@@ -25,7 +25,7 @@ pub struct Setup {
 }
 
 /// Wall time per stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Timers {
     /// Internal force.
     pub internal_force: Duration,
@@ -48,8 +48,8 @@ pub struct StepReport {
     pub contact: ContactSums,
     /// Energies at t^n, if they were read.
     pub energies: Option<Energies>,
-    /// Force in x, force in z (N) and torque (N m) supplied by the hub's drive.
-    pub drive: [f64; 3],
+    /// What the hub's drive supplies.
+    pub drive: DriveReaction,
     /// Angular velocity of the hub at t^n (rad/s), the mean of the half steps around it.
     pub omega: f64,
 }

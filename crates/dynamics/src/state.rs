@@ -1,15 +1,16 @@
 //! The state between two steps, as plain data: enough to go on with the same bits.
 
 use crate::guard::Watch;
-use crate::hub::HubState;
+use crate::hub::{DriveReaction, HubState};
 use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
 use contact::{ContactState, StateError};
 use mesh::Padded;
+use serde::{Deserialize, Serialize};
 
 /// State of a simulation at a full step, with velocities at the half step before. What follows from
 /// the setup (masses, elements, boundary conditions, loads) is not part of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SimulationState {
     /// Steps done.
     pub step: usize,
@@ -17,8 +18,8 @@ pub struct SimulationState {
     pub displacement: Vec<[f64; 3]>,
     /// Velocities (m/s).
     pub velocity: Vec<[f64; 3]>,
-    /// Motion of the hub and the last reaction of its drive (N, N, N m), if there is a hub.
-    pub hub: Option<(HubState, [f64; 3])>,
+    /// Motion of the hub and the last reaction of its drive, if there is a hub.
+    pub hub: Option<(HubState, DriveReaction)>,
     /// Forces (N) on the nodes of the quiet ends that balance the preload.
     pub reactions: Vec<[f64; 3]>,
     /// Accumulated works and the balance.

@@ -5,8 +5,8 @@
 //! Every number follows from its step and place ([`value`]), so that a reader can check them all.
 
 use output::{
-    Cells, Column, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField,
-    TransientGrid, Values,
+    Cells, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField, TransientGrid,
+    Values,
 };
 use std::path::Path;
 use std::time::Duration;
@@ -46,17 +46,17 @@ pub fn write_forever(folder: &Path, pause: Duration, count: usize) -> Result<(),
         points: &points,
         cells: Cells::Quads(&quads),
         constant: &[StaticField {
-            spec: FieldSpec::at_points("body", "1", 1, "label").integer().on_cells(),
+            spec: FieldSpec::cell_label("body", "1", "label"),
             values: Values::Integer(&body),
         }],
     };
     let fields = [
-        FieldSpec::at_points("scalar", "1", 1, "one number"),
-        FieldSpec::at_points("vector", "1", 3, "three numbers"),
-        FieldSpec::at_points("tensor", "1", 6, "six numbers").on_cells(),
-        FieldSpec::at_points("label", "1", 1, "small integers").integer(),
+        FieldSpec::scalar("scalar", "1", "one number"),
+        FieldSpec::vector("vector", "1", "three numbers"),
+        FieldSpec::cell_tensor("tensor", "1", "six numbers"),
+        FieldSpec::label("label", "1", "small integers"),
     ];
-    let columns = ["time", "force", "energy"].map(|name| Column::new(name, "1", "a number"));
+    let columns = ["time", "force", "energy"].map(|name| FieldSpec::scalar(name, "1", "a number"));
     let mut strip =
         TransientGrid::create(folder.join("strip.vtkhdf"), &grid, &fields, &provenance)?;
     let mut history = History::create(folder.join("history.h5"), &columns, &provenance)?;

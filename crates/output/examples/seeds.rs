@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use output::{
-    Array, Cells, Checkpoint, Column, FieldSpec, GridSpec, History, Numbers, Provenance, Results,
-    StaticField, TransientGrid, Values,
+    Cells, Checkpoint, FieldSpec, GridSpec, History, Provenance, Results, StaticField,
+    TransientGrid, Values,
 };
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ fn main() {
     let quads: Vec<[u32; 4]> = [0, 1, 3, 4, 9, 10, 12, 13].map(|n| [n, n + 1, n + 4, n + 3]).into();
     let body = [1, 1, 1, 1, 0, 0, 0, 0];
     let labels = |count| StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
+        spec: FieldSpec::cell_label("body", "1", "0 disk, 1 bar"),
         values: Values::Integer(&body[..count]),
     };
     let of = |step: usize, i: usize| 1.0 / (1 + step + i) as f64;
@@ -31,7 +31,7 @@ fn main() {
     let cube: Vec<[f64; 3]> = [0, 1, 4, 3, 9, 10, 13, 12].map(|i| points[i]).into();
     let hex = [[0, 1, 2, 3, 4, 5, 6, 7]];
     let grid = GridSpec { points: &cube, cells: Cells::Hexahedra(&hex), constant: &constant };
-    let fields = [FieldSpec::at_points("displacement", "m", 3, "u")];
+    let fields = [FieldSpec::vector("displacement", "m", "u")];
     let path = folder.join("fields.vtkhdf");
     let mut file = TransientGrid::create(path, &grid, &fields, &provenance).unwrap();
     for step in 0..2 {
@@ -42,10 +42,10 @@ fn main() {
     let constant = [labels(8)];
     let grid = GridSpec { points: &points, cells: Cells::Quads(&quads), constant: &constant };
     let fields = [
-        FieldSpec::at_points("pressure", "Pa", 1, "p"),
-        FieldSpec::at_points("shear", "Pa", 3, "t"),
-        FieldSpec::at_points("slip_velocity", "m/s", 3, "s"),
-        FieldSpec::at_points("state", "1", 1, "0 open, 1 stick, 2 slip").integer(),
+        FieldSpec::scalar("pressure", "Pa", "p"),
+        FieldSpec::vector("shear", "Pa", "t"),
+        FieldSpec::vector("slip_velocity", "m/s", "s"),
+        FieldSpec::label("state", "1", "0 open, 1 stick, 2 slip"),
     ];
     let path = folder.join("contact.vtkhdf");
     let mut file = TransientGrid::create(path, &grid, &fields, &provenance).unwrap();
@@ -59,25 +59,11 @@ fn main() {
         file.append(1e-5 * step as f64, &values).unwrap();
     }
 
-    let columns = [Column::new("time", "s", "t"), Column::new("creepage", "1", "c")];
+    let columns = [FieldSpec::scalar("time", "s", "t"), FieldSpec::scalar("creepage", "1", "c")];
     let mut file = History::create(folder.join("history.h5"), &columns, &provenance).unwrap();
     (0..3).for_each(|step| file.append(&[1e-5 * step as f64, 2e-3]).unwrap());
 
-    let array = |name: &str, values| Array {
-        name: name.into(),
-        units: "m".into(),
-        components: 1,
-        description: "d".into(),
-        values,
-    };
-    let checkpoint = Checkpoint {
-        provenance,
-        step: 7,
-        results: Results::default(),
-        arrays: vec![
-            array("nodes/displacement", Numbers::Real(vec![1.0, 2.0, 3.0])),
-            array("contact/host", Numbers::Whole(vec![1, 2, 3])),
-        ],
-    };
+    let state = vec![1.0, 2.0, 3.0];
+    let checkpoint = Checkpoint::new(provenance, 7, Results::default(), &state).unwrap();
     checkpoint.write(&folder).unwrap();
 }

@@ -5,8 +5,8 @@
 //! contact, not mechanics.
 
 use output::{
-    Cells, Column, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField,
-    TransientGrid, Values, summary, write_json_atomically,
+    Cells, FieldSpec, GridSpec, History, OutputError, Provenance, StaticField, TransientGrid,
+    Values, summary, write_json_atomically,
 };
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -152,7 +152,7 @@ fn write_fields(
 ) -> Result<(), OutputError> {
     let path = folder.join("fields.vtkhdf");
     let body = StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
+        spec: FieldSpec::cell_label("body", "1", "0 disk, 1 bar"),
         values: Values::Integer(&model.body),
     };
     let grid = GridSpec {
@@ -161,9 +161,9 @@ fn write_fields(
         constant: &[body],
     };
     let fields = [
-        FieldSpec::at_points("displacement", "m", 3, "from the reference position"),
-        FieldSpec::at_points("velocity", "m/s", 3, "of the material"),
-        FieldSpec::at_points("stress", "Pa", 6, "Cauchy: xx yy zz xy yz xz").on_cells(),
+        FieldSpec::vector("displacement", "m", "from the reference position"),
+        FieldSpec::vector("velocity", "m/s", "of the material"),
+        FieldSpec::cell_tensor("stress", "Pa", "Cauchy: xx yy zz xy yz xz"),
     ];
     let mut file = TransientGrid::create(&path, &grid, &fields, provenance)?;
     let mut spent = 0.0;
@@ -252,21 +252,21 @@ fn write_contact(
         }
     }
     let body = StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
+        spec: FieldSpec::cell_label("body", "1", "0 disk, 1 bar"),
         values: Values::Integer(&body),
     };
     let grid = GridSpec { points: &points, cells: Cells::Quads(&quads), constant: &[body] };
     let fields = [
-        FieldSpec::at_points("displacement", "m", 3, "from the reference position"),
-        FieldSpec::at_points("pressure", "Pa", 1, "normal traction, compression positive"),
-        FieldSpec::at_points("shear", "Pa", 3, "tangential traction on this side"),
-        FieldSpec::at_points("slip_velocity", "m/s", 3, "relative tangential velocity"),
-        FieldSpec::at_points("slip", "m", 3, "accumulated slip"),
-        FieldSpec::at_points("mu", "1", 1, "coefficient of friction in use"),
-        FieldSpec::at_points("state", "1", 1, "0 open, 1 stick, 2 slip").integer(),
-        FieldSpec::at_points("gap", "m", 1, "positive where open"),
-        FieldSpec::at_points("area", "m2", 1, "of the surface per node"),
-        FieldSpec::at_points("velocity", "m/s", 3, "of the material"),
+        FieldSpec::vector("displacement", "m", "from the reference position"),
+        FieldSpec::scalar("pressure", "Pa", "normal traction, compression positive"),
+        FieldSpec::vector("shear", "Pa", "tangential traction on this side"),
+        FieldSpec::vector("slip_velocity", "m/s", "relative tangential velocity"),
+        FieldSpec::vector("slip", "m", "accumulated slip"),
+        FieldSpec::scalar("mu", "1", "coefficient of friction in use"),
+        FieldSpec::label("state", "1", "0 open, 1 stick, 2 slip"),
+        FieldSpec::scalar("gap", "m", "positive where open"),
+        FieldSpec::scalar("area", "m2", "of the surface per node"),
+        FieldSpec::vector("velocity", "m/s", "of the material"),
     ];
     let mut file = TransientGrid::create(&path, &grid, &fields, provenance)?;
     let n = points.len();
@@ -321,9 +321,9 @@ fn write_contact(
 fn write_history(folder: &Path, steps: usize, provenance: &Provenance) -> Result<(), OutputError> {
     let path = folder.join("history.h5");
     let columns = [
-        Column::new("time", "s", "simulated time"),
-        Column::new("kinetic", "J", "kinetic energy"),
-        Column::new("normal_force", "N", "on the bar"),
+        FieldSpec::scalar("time", "s", "simulated time"),
+        FieldSpec::scalar("kinetic", "J", "kinetic energy"),
+        FieldSpec::scalar("normal_force", "N", "on the bar"),
     ];
     let mut history = History::create(&path, &columns, provenance)?;
     let rows: Vec<f64> = (0..steps).flat_map(|step| [time_of(step), 1.0, 1.7e5]).collect();

@@ -1,7 +1,7 @@
 //! Writing beside the time loop, which then need not wait for compression.
 
 use crate::checkpoint::sync_file;
-use crate::{Checkpoint, History, OutputError, TransientGrid, Values};
+use crate::{Checkpoint, History, Kept, OutputError, Results, TransientGrid, Values};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
@@ -41,6 +41,9 @@ enum Target {
     History,
 }
 
+/// Makes a checkpoint of what belongs to it of the result files.
+type Make = dyn FnOnce(Results) -> Result<Checkpoint, OutputError> + Send;
+
 enum Message {
     Append {
         target: Target,
@@ -49,9 +52,9 @@ enum Message {
     },
     /// A checkpoint for a folder, and a result file beside those of this thread.
     Keep {
-        checkpoint: Box<Checkpoint>,
+        make: Box<Make>,
         folder: PathBuf,
-        beside: Option<PathBuf>,
+        beside: Option<(PathBuf, Kept)>,
     },
 }
 
@@ -115,20 +118,19 @@ impl BackgroundWriter {
         self.send(Target::History, 0.0, |buffer| buffer.numbers.extend_from_slice(rows))
     }
 
-    /// Sends a checkpoint for `folder`. It is written once everything sent before is in the files and
-    /// on the disk, `beside` with them, and takes their lengths and sums from them. Waits only for a
+    /// Sends what makes a checkpoint for `folder`. It is called with the lengths and sums of the files once everything
+    /// sent before is in them and on the disk, and `beside`, which holds so much, with them. Waits only for a
     /// checkpoint before that is not yet written.
     pub fn keep(
         &mut self,
-        checkpoint: Checkpoint,
+        make: impl FnOnce(Results) -> Result<Checkpoint, OutputError> + Send + 'static,
         folder: &Path,
-        beside: Option<PathBuf>,
+        beside: Option<(PathBuf, Kept)>,
     ) -> Result<(), OutputError> {
         if self.kept.0 > 0 {
             self.wait_for_checkpoint()?;
         }
-        let checkpoint = Box::new(checkpoint);
-        let message = Message::Keep { checkpoint, folder: folder.to_owned(), beside };
+        let message = Message::Keep { make: Box::new(make), folder: folder.to_owned(), beside };
         if self.sender.send(message).is_err() {
             return join(self.thread.take()).and(Err(OutputError::Stopped));
         }
@@ -271,8 +273,8 @@ fn write_all(
                 // A sender that has finished takes no buffers back.
                 let _ = outbox[target as usize].send(buffer);
             }
-            Message::Keep { checkpoint, folder, beside } => {
-                keep(&files, *checkpoint, &folder, beside.as_deref())?;
+            Message::Keep { make, folder, beside } => {
+                keep(&files, make, &folder, beside)?;
                 let _ = done.send(());
             }
         }
@@ -283,16 +285,20 @@ fn write_all(
 /// Results first: a checkpoint must not speak of what a power cut can still take away.
 fn keep(
     files: &RunFiles,
-    mut checkpoint: Checkpoint,
+    make: Box<Make>,
     folder: &Path,
-    beside: Option<&Path>,
+    beside: Option<(PathBuf, Kept)>,
 ) -> Result<(), OutputError> {
+    let (beside, probes) = beside.unzip();
     let own = [files.fields.path(), files.contact.path(), files.history.path()];
-    own.into_iter().chain(beside).try_for_each(sync_file)?;
-    checkpoint.results.fields = files.fields.kept();
-    checkpoint.results.contact = files.contact.kept();
-    checkpoint.results.history = files.history.kept();
-    checkpoint.write(folder)
+    own.into_iter().chain(beside.as_deref()).try_for_each(sync_file)?;
+    let results = Results {
+        fields: files.fields.kept(),
+        contact: files.contact.kept(),
+        history: files.history.kept(),
+        probes: probes.unwrap_or_default(),
+    };
+    make(results)?.write(folder)
 }
 
 fn join(

@@ -50,6 +50,12 @@ pub enum OutputError {
         /// What the system or the HDF5 library said.
         reason: String,
     },
+    /// A checkpoint of a form that this version does not know.
+    #[error("{} was written by another version of creepage, in a form that this one does not read", path.display())]
+    Form {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file is not as it was written.
     #[error("{} is damaged: {reason}", path.display())]
     Damaged {
@@ -75,6 +81,12 @@ pub enum OutputError {
         /// What the system said.
         cause: std::io::Error,
     },
+    /// A state that cannot be kept, or is of another type than the one that was kept.
+    #[error("the state of the run does not go through a checkpoint: {cause}")]
+    State {
+        /// What postcard said.
+        cause: postcard::Error,
+    },
     /// The background writer is gone: an earlier error was already returned, or it panicked.
     #[error(
         "the background writer has stopped; what was written before is readable; the first error \
@@ -87,7 +99,9 @@ impl OutputError {
     /// The file, if what it holds is the reason.
     pub fn damaged(&self) -> Option<&Path> {
         match self {
-            Self::Read { path, .. } | Self::Damaged { path, .. } => Some(path),
+            Self::Read { path, .. } | Self::Form { path } | Self::Damaged { path, .. } => {
+                Some(path)
+            }
             _ => None,
         }
     }

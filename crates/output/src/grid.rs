@@ -1,8 +1,10 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
 use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::layout::{CONSTANT, MESH, STEPS};
 use crate::sums::{Kept, Sums};
 use crate::{OutputError, Provenance};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Connectivity of a grid whose cells all have one shape; point indices from 0.
@@ -85,13 +87,13 @@ impl Values<'_> {
     }
 }
 
-/// Name, units and shape of a field.
+/// Name, units and shape of a field, or of a column over time, which is a scalar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldSpec {
     /// Name of the dataset and of the array in viewers.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// SI units, `"1"` for a pure number.
-    pub units: String,
+    pub units: Cow<'static, str>,
     /// Numbers per point or cell: 1, 3 or 6.
     pub components: usize,
     /// Stored as unsigned bytes instead of `f64`.
@@ -99,30 +101,57 @@ pub struct FieldSpec {
     /// On cells instead of points.
     pub on_cells: bool,
     /// What the field is, in a phrase.
-    pub description: String,
+    pub description: Cow<'static, str>,
+}
+
+/// Constructors from name, units and description.
+macro_rules! shapes {
+    ($($(#[$about:meta])* $shape:ident: $components:literal, $integer:literal, $on_cells:literal;)*) => {
+        impl FieldSpec {
+            $($(#[$about])*
+            pub const fn $shape(
+                name: &'static str,
+                units: &'static str,
+                description: &'static str,
+            ) -> Self {
+                Self {
+                    name: Cow::Borrowed(name),
+                    units: Cow::Borrowed(units),
+                    components: $components,
+                    integer: $integer,
+                    on_cells: $on_cells,
+                    description: Cow::Borrowed(description),
+                }
+            })*
+        }
+    };
+}
+
+shapes! {
+    /// A number at every point, or in every row of a history.
+    scalar: 1, false, false;
+    /// Components x, y, z at every point.
+    vector: 3, false, false;
+    /// A small integer at every point.
+    label: 1, true, false;
+    /// A number on every cell.
+    cell_scalar: 1, false, true;
+    /// A symmetric tensor on every cell, xx yy zz xy yz xz.
+    cell_tensor: 6, false, true;
+    /// A small integer on every cell.
+    cell_label: 1, true, true;
 }
 
 impl FieldSpec {
-    /// A scalar, vector (3) or symmetric tensor (6) at the points.
-    pub fn at_points(name: &str, units: &str, components: usize, description: &str) -> Self {
-        Self {
-            name: name.into(),
-            units: units.into(),
-            components,
-            integer: false,
-            on_cells: false,
-            description: description.into(),
-        }
-    }
-
-    /// The same field on cells.
-    pub fn on_cells(self) -> Self {
-        Self { on_cells: true, ..self }
-    }
-
-    /// The same field stored as unsigned bytes.
-    pub fn integer(self) -> Self {
-        Self { integer: true, ..self }
+    /// Its shape in words: how many numbers, and at what.
+    pub fn shape(&self) -> String {
+        let numbers = match (self.integer, self.components) {
+            (true, _) => "label",
+            (false, 1) => "scalar",
+            (false, 3) => "vector",
+            (false, _) => "symmetric tensor",
+        };
+        if self.on_cells { format!("{numbers}, cells") } else { numbers.to_owned() }
     }
 }
 
@@ -133,6 +162,18 @@ pub struct StaticField<'a> {
     pub spec: FieldSpec,
     /// Its values at every point or cell.
     pub values: Values<'a>,
+}
+
+impl<'a> StaticField<'a> {
+    /// The bodies of the cells.
+    pub fn body(labels: &'a [u8]) -> Self {
+        Self { spec: CONSTANT.body.clone(), values: Values::Integer(labels) }
+    }
+
+    /// Tributary areas of the points (m2).
+    pub fn area(areas: &'a [f64]) -> Self {
+        Self { spec: CONSTANT.area.clone(), values: Values::Scalar(areas) }
+    }
 }
 
 /// The part of a grid that does not change in time.
@@ -172,7 +213,7 @@ impl TransientGrid {
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
-        file.close_settled(|path| settle(path, &writer.growing(), &STEPS, COUNT, 0))?;
+        file.close_settled(|path| settle(path, &writer.growing(), &GROUP, COUNT, 0))?;
         writer.sums = Sums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }
@@ -188,7 +229,7 @@ impl TransientGrid {
         let steps = kept.records as usize;
         let mut writer = Self { steps, ..Self::at(path.as_ref(), grid, fields) };
         writer.check_grid(grid)?;
-        cut_to_go_on(&writer.path, &writer.growing(), &STEPS, COUNT, steps)?;
+        cut_to_go_on(&writer.path, &writer.growing(), &GROUP, COUNT, steps)?;
         writer.sums = Sums::of_kept(kept, writer.names());
         Ok(writer)
     }
@@ -209,10 +250,8 @@ impl TransientGrid {
         for (name, on_cells) in &self.constant_names {
             all.push(one(offset_path(name, *on_cells), Kind::Whole));
         }
-        all.push(one(TIMES.into(), Kind::Real));
-        for name in ["NumberOfParts"].iter().chain(&MESH_OFFSETS) {
-            all.push(one(format!("VTKHDF/Steps/{name}"), Kind::Whole));
-        }
+        all.push(one(step_path(&STEPS.times), Kind::Real));
+        all.extend(counts_of_step().map(|(name, _)| one(name, Kind::Whole)));
         all
     }
 
@@ -222,7 +261,7 @@ impl TransientGrid {
     }
 
     fn at(path: &Path, grid: &GridSpec<'_>, fields: &[FieldSpec]) -> Self {
-        let name = |field: &StaticField<'_>| (field.spec.name.clone(), field.spec.on_cells);
+        let name = |field: &StaticField<'_>| (field.spec.name.to_string(), field.spec.on_cells);
         Self {
             path: path.to_owned(),
             fields: fields.to_vec(),
@@ -245,7 +284,7 @@ impl TransientGrid {
             Err(OutputError::Another { .. }) => self.sums = before,
             Err(_) => {
                 self.sums = before;
-                undo(&self.path, &self.growing(), &STEPS, COUNT, self.steps);
+                undo(&self.path, &self.growing(), &GROUP, COUNT, self.steps);
             }
         }
         appended
@@ -254,7 +293,8 @@ impl TransientGrid {
     fn append_whole(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         let step = self.steps as i64;
         let mut file = Appender::open(&self.path)?;
-        file.expect(TIMES, self.steps)?;
+        let times = step_path(&STEPS.times);
+        file.expect(&times, self.steps)?;
         file.make_room(values.iter().map(Values::bytes).sum())?;
         let rows = [self.points, self.cells];
         let Self { fields, constant_names, sums, .. } = self;
@@ -284,12 +324,11 @@ impl TransientGrid {
         for (name, on_cells) in constant_names {
             index(&mut file, sums, &offset_path(name, *on_cells), 0)?;
         }
-        append_reals(&mut file, sums, TIMES, &[time])?;
-        index(&mut file, sums, "VTKHDF/Steps/NumberOfParts", 1)?;
-        for name in MESH_OFFSETS {
-            index(&mut file, sums, &format!("VTKHDF/Steps/{name}"), 0)?;
+        append_reals(&mut file, sums, &times, &[time])?;
+        for (name, number) in counts_of_step() {
+            index(&mut file, sums, &name, number)?;
         }
-        file.close_with_count(&STEPS, COUNT, step + 1)
+        file.close_with_count(&GROUP, COUNT, step + 1)
     }
 
     /// What a checkpoint needs to know of the snapshots written.
@@ -396,38 +435,24 @@ impl TransientGrid {
             grid.cells.connectivity().iter().map(|&index| i64::from(index)).collect();
         let offsets: Vec<i64> = (0..=self.cells).map(|cell| (cell * corners) as i64).collect();
         let types = vec![grid.cells.vtk_type(); self.cells];
-        let at = |name: &'static str, units, components, description| LayOut {
-            group: &["VTKHDF"],
-            name,
-            units,
-            components,
-            description,
-        };
-        file.constant(&at("Points", "m", 3, "reference coordinates"), grid.points.as_flattened())?;
-        file.constant(
-            &at("Connectivity", "1", 1, "point indices of the cells, one cell after the other"),
-            &connectivity,
-        )?;
-        file.constant(
-            &at("Offsets", "1", 1, "where each cell starts in Connectivity, and its end"),
-            &offsets,
-        )?;
-        file.constant(&at("Types", "1", 1, "VTK cell type"), &types)?;
-        for (name, count, description) in [
-            ("NumberOfPoints", self.points, "points of the only part"),
-            ("NumberOfCells", self.cells, "cells of the only part"),
-            ("NumberOfConnectivityIds", connectivity.len(), "length of Connectivity"),
-        ] {
-            file.constant(&at(name, "1", 1, description), &[count as i64])?;
-        }
-        Ok(())
+        let counts = [
+            (&MESH.point_count, self.points),
+            (&MESH.cell_count, self.cells),
+            (&MESH.connectivity_count, connectivity.len()),
+        ];
+        let at = |spec| place(&["VTKHDF"], spec);
+        file.constant(&at(&MESH.points), grid.points.as_flattened())?;
+        file.constant(&at(&MESH.connectivity), &connectivity)?;
+        file.constant(&at(&MESH.offsets), &offsets)?;
+        file.constant(&at(&MESH.types), &types)?;
+        counts.into_iter().try_for_each(|(spec, n)| file.constant(&at(spec), &[n as i64]))
     }
 
     fn lay_out_fields(&self, file: &mut Creator, grid: &GridSpec<'_>) -> Result<(), OutputError> {
         file.group(&["VTKHDF", "PointData"])?;
         file.group(&["VTKHDF", "CellData"])?;
         for StaticField { spec, values } in grid.constant {
-            let place = place(spec);
+            let place = data_place(spec);
             match *values {
                 Values::Scalar(values) => file.constant(&place, values)?,
                 Values::Vector(values) => file.constant(&place, values.as_flattened())?,
@@ -438,37 +463,30 @@ impl TransientGrid {
         for spec in &self.fields {
             let rows = self.count(spec.on_cells);
             if spec.integer {
-                file.snapshots::<u8>(&place(spec), rows)?;
+                file.snapshots::<u8>(&data_place(spec), rows)?;
             } else {
-                file.snapshots::<f64>(&place(spec), rows)?;
+                file.snapshots::<f64>(&data_place(spec), rows)?;
             }
         }
         Ok(())
     }
 
     fn lay_out_steps(&self, file: &mut Creator) -> Result<(), OutputError> {
-        let steps = STEPS;
-        file.group(&steps)?;
-        let at = |name, units, description| LayOut {
-            group: &steps,
-            name,
-            units,
-            components: 1,
-            description,
-        };
-        file.rows::<f64>(&at("Values", "s", "simulated time of each step"))?;
-        file.rows::<i64>(&at("NumberOfParts", "1", "parts of each step"))?;
-        file.rows::<i64>(&at("PartOffsets", "1", "first part of each step"))?;
-        for name in &MESH_OFFSETS[1..] {
+        file.group(&GROUP)?;
+        let at = |spec| place(&GROUP, spec);
+        file.rows::<f64>(&at(&STEPS.times))?;
+        file.rows::<i64>(&at(&STEPS.parts))?;
+        file.rows::<i64>(&at(&STEPS.part_offsets))?;
+        for spec in [&STEPS.point_offsets, &STEPS.cell_offsets, &STEPS.connectivity_offsets] {
             // VTK wants one column per topology here, and an unstructured grid has one.
-            file.column::<i64>(&at(name, "1", "the mesh is the same for all steps"))?;
+            file.column::<i64>(&at(spec))?;
         }
         let groups = [false, true].map(offset_group);
         for group in &groups {
             file.group(group)?;
         }
         let constant = grid_names(&self.constant_names);
-        let transient = self.fields.iter().map(|spec| (spec.name.as_str(), spec.on_cells));
+        let transient = self.fields.iter().map(|spec| (&*spec.name, spec.on_cells));
         for (name, on_cells) in transient.chain(constant) {
             file.rows::<i64>(&LayOut {
                 group: &groups[usize::from(on_cells)],
@@ -478,7 +496,7 @@ impl TransientGrid {
                 description: "first row of each step in the array of this name",
             })?;
         }
-        file.count(&steps, COUNT, 0)
+        file.count(&GROUP, COUNT, 0)
     }
 }
 
@@ -493,27 +511,38 @@ fn append_reals(
 }
 
 /// Group of what belongs to the steps, and its attribute that counts them.
-const STEPS: [&str; 2] = ["VTKHDF", "Steps"];
+const GROUP: [&str; 2] = ["VTKHDF", "Steps"];
 const COUNT: &str = "NSteps";
-/// Dataset of the times of the snapshots.
-const TIMES: &str = "VTKHDF/Steps/Values";
 
-/// Offsets into the mesh at each step, all zero since the mesh is stored once.
-const MESH_OFFSETS: [&str; 4] =
-    ["PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
+/// Path of a dataset of the mesh.
+pub(crate) fn mesh_path(spec: &FieldSpec) -> String {
+    format!("VTKHDF/{}", spec.name)
+}
+
+/// Path of a dataset of the steps.
+pub(crate) fn step_path(spec: &FieldSpec) -> String {
+    format!("{}/{}", GROUP.join("/"), spec.name)
+}
+
+/// Of all steps 1 for their parts, and zero for where these begin, since the mesh is stored once.
+fn counts_of_step() -> impl Iterator<Item = (String, i64)> {
+    let [_, parts, offsets @ ..] = STEPS.each();
+    std::iter::once((parts, 1))
+        .chain(offsets.map(|spec| (spec, 0)))
+        .map(|(spec, n)| (step_path(spec), n))
+}
 
 fn grid_names(names: &[(String, bool)]) -> impl Iterator<Item = (&str, bool)> {
     names.iter().map(|(name, on_cells)| (name.as_str(), *on_cells))
 }
 
-fn place(spec: &FieldSpec) -> LayOut<'_> {
-    LayOut {
-        group: if spec.on_cells { &["VTKHDF", "CellData"] } else { &["VTKHDF", "PointData"] },
-        name: &spec.name,
-        units: &spec.units,
-        components: spec.components,
-        description: &spec.description,
-    }
+pub(crate) fn place<'a>(group: &'a [&'a str], spec: &'a FieldSpec) -> LayOut<'a> {
+    let FieldSpec { name, units, components, description, .. } = spec;
+    LayOut { group, name, units, components: *components, description }
+}
+
+fn data_place(spec: &FieldSpec) -> LayOut<'_> {
+    place(if spec.on_cells { &["VTKHDF", "CellData"] } else { &["VTKHDF", "PointData"] }, spec)
 }
 
 fn offset_group(on_cells: bool) -> [&'static str; 3] {

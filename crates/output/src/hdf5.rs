@@ -5,8 +5,9 @@
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
 use crate::caught::caught;
-use crate::checkpoint::Numbers;
 use crate::free::free_space;
+use crate::grid::mesh_path;
+use crate::layout::{MESH, attribute};
 use crate::room::{Room, end_of_file};
 use crate::{OutputError, Provenance};
 use files::input;
@@ -57,9 +58,9 @@ impl Creator {
                 .file_space(FileSpaceStrategy::Page, false, 1)
                 .file_space_page_size(PAGE)
                 .create(&partial)?;
-            file.set_attr_string("creepage_version", &provenance.creepage_version)?;
-            file.set_attr_string("case_hash", &provenance.case_hash)?;
-            file.set_attr_string("created", &provenance.created)?;
+            file.set_attr_string(attribute::VERSION, &provenance.creepage_version)?;
+            file.set_attr_string(attribute::CASE_HASH, &provenance.case_hash)?;
+            file.set_attr_string(attribute::CREATED, &provenance.created)?;
             for (name, text) in &provenance.attributes {
                 file.set_attr_string(name, text)?;
             }
@@ -516,11 +517,11 @@ impl Source {
     /// Rows that a record of a growing dataset has: those of the points or cells of a grid, else one.
     pub fn rows_per_record(&self, dataset: &str) -> Result<usize, OutputError> {
         let count = match dataset.split('/').nth(1) {
-            Some("PointData") => "VTKHDF/NumberOfPoints",
-            Some("CellData") => "VTKHDF/NumberOfCells",
+            Some("PointData") => mesh_path(&MESH.point_count),
+            Some("CellData") => mesh_path(&MESH.cell_count),
             _ => return Ok(1),
         };
-        Ok(self.rows(count, 0, 1)?.first().map_or(1, |count| (*count as usize).max(1)))
+        Ok(self.rows(&count, 0, 1)?.first().map_or(1, |count| (*count as usize).max(1)))
     }
 
     fn read<T>(&self, read: impl FnOnce() -> H5Result<T>) -> Result<T, OutputError> {
@@ -541,22 +542,9 @@ impl Source {
         self.read(|| Ok(self.file.dataset_names()))
     }
 
-    /// All numbers of a dataset of [`Creator::plain`].
-    pub fn plain(&self, dataset: &str) -> Result<Numbers, OutputError> {
-        let read = || -> H5Result<Numbers> {
-            let dataset = self.dataset(dataset)?;
-            if dataset.shape().contains(&0) {
-                return Ok(match dataset.datatype()? {
-                    DatatypeMessage::FloatingPoint { .. } => Numbers::Real(Vec::new()),
-                    _ => Numbers::Whole(Vec::new()),
-                });
-            }
-            match dataset.datatype()? {
-                DatatypeMessage::FloatingPoint { .. } => Ok(Numbers::Real(dataset.read_raw()?)),
-                _ => Ok(Numbers::Whole(dataset.read_raw()?)),
-            }
-        };
-        self.read(read)
+    /// All bytes of a dataset of [`Creator::plain`].
+    pub fn bytes(&self, dataset: &str) -> Result<Vec<u8>, OutputError> {
+        self.read(|| self.dataset(dataset)?.read_raw())
     }
 
     /// Names of the datasets directly in a group, sorted.

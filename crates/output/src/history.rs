@@ -2,34 +2,16 @@
 
 use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
 use crate::sums::{Kept, Sums};
-use crate::{OutputError, Provenance};
+use crate::{FieldSpec, OutputError, Provenance};
 use std::path::{Path, PathBuf};
-
-/// One column of a [`History`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Column {
-    /// Name of the dataset.
-    pub name: String,
-    /// SI units, `"1"` for a pure number.
-    pub units: String,
-    /// What it is, in a phrase.
-    pub description: String,
-}
-
-impl Column {
-    /// A column from its three texts.
-    pub fn new(name: &str, units: &str, description: &str) -> Self {
-        Self { name: name.into(), units: units.into(), description: description.into() }
-    }
-}
 
 /// Root attribute that counts the rows.
 pub(crate) const COUNT: &str = "rows";
 
 /// The datasets of the columns.
-fn growing(columns: &[Column]) -> Vec<Growing> {
-    let dataset = |column: &Column| Growing {
-        name: column.name.clone(),
+fn growing(columns: &[FieldSpec]) -> Vec<Growing> {
+    let dataset = |column: &FieldSpec| Growing {
+        name: column.name.to_string(),
         kind: Kind::Real,
         components: 1,
         rows: 1,
@@ -37,15 +19,15 @@ fn growing(columns: &[Column]) -> Vec<Growing> {
     columns.iter().map(dataset).collect()
 }
 
-fn names(columns: &[Column]) -> impl Iterator<Item = String> {
-    columns.iter().map(|column| column.name.clone())
+fn names(columns: &[FieldSpec]) -> impl Iterator<Item = String> {
+    columns.iter().map(|column| column.name.to_string())
 }
 
 /// Writer of `history.h5`.
 #[derive(Debug)]
 pub struct History {
     path: PathBuf,
-    columns: Vec<Column>,
+    columns: Vec<FieldSpec>,
     rows: usize,
     sums: Sums,
     scratch: Vec<f64>,
@@ -55,7 +37,7 @@ impl History {
     /// Writes the metadata of an empty history to `path` (replacing what is there) and closes it.
     pub fn create(
         path: impl AsRef<Path>,
-        columns: &[Column],
+        columns: &[FieldSpec],
         provenance: &Provenance,
     ) -> Result<Self, OutputError> {
         let path = path.as_ref().to_owned();
@@ -89,7 +71,7 @@ impl History {
     /// that are kept; [`prove`](crate::prove) says whether it still holds them.
     pub fn reopen(
         path: impl AsRef<Path>,
-        columns: &[Column],
+        columns: &[FieldSpec],
         kept: &Kept,
     ) -> Result<Self, OutputError> {
         let (path, rows) = (path.as_ref().to_owned(), kept.records as usize);
@@ -153,7 +135,7 @@ impl History {
     }
 
     /// The columns, in the order of a row.
-    pub fn columns(&self) -> &[Column] {
+    pub fn columns(&self) -> &[FieldSpec] {
         &self.columns
     }
 

@@ -7,6 +7,7 @@
 use crate::OutputError;
 use crate::checkpoint::hexadecimal;
 use crate::hdf5::damaged;
+use crate::layout::file;
 use crc32fast::Hasher;
 use files::input::{self, Fault, InputError};
 use serde::{Deserialize, Serialize};
@@ -92,7 +93,7 @@ fn own_sum(summary: &Map<String, Value>) -> String {
 /// # Errors
 /// A summary that is not what was written, or gone although the run's log says that it ended.
 pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
-    let path = folder.join("summary.json");
+    let path = folder.join(file::SUMMARY);
     let text = match input::bytes(&path, input::DOCUMENT) {
         Ok(text) => text,
         Err(error) if error.is_missing() => {
@@ -118,7 +119,7 @@ pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
 }
 
 fn log_says_it_ended(folder: &Path) -> bool {
-    let log = input::bytes(&folder.join("run.log"), input::LOG).unwrap_or_default();
+    let log = input::bytes(&folder.join(file::LOG), input::LOG).unwrap_or_default();
     let log = String::from_utf8_lossy(&log);
     let last = log.lines().next_back().and_then(|line| line.strip_prefix(LOG_END));
     last.and_then(|how| how.split_once(' ')).is_some_and(|(_, rest)| rest.starts_with("after "))

@@ -37,6 +37,7 @@ mod hdf5;
 mod history;
 mod integrity;
 mod json;
+pub mod layout;
 mod made;
 mod reader;
 mod room;
@@ -45,11 +46,11 @@ mod sums;
 mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
-pub use checkpoint::{Array, CHECKPOINTS, Checkpoint, Numbers, Results};
+pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
 pub use error::OutputError;
 pub use free::{free_space, room_left};
 pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
-pub use history::{Column, History};
+pub use history::History;
 pub use integrity::{
     FileSum, LOG_END, as_long_as_written, as_written, read_summary, seal, sums_of_files,
 };

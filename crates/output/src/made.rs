@@ -1,6 +1,7 @@
 //! How result files of this program are known.
 
 use crate::hdf5::Source;
+use crate::layout::attribute;
 use files::Made;
 use std::path::Path;
 
@@ -15,5 +16,5 @@ pub const VTKHDF: Made = Made {
 
 /// Whether this program wrote an HDF5 file.
 pub fn is_ours(path: &Path) -> bool {
-    Source::open(path).is_ok_and(|file| file.root_text("creepage_version").is_ok())
+    Source::open(path).is_ok_and(|file| file.root_text(attribute::VERSION).is_ok())
 }

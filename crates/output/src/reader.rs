@@ -5,9 +5,10 @@
 //! some datasets one snapshot longer than others, and the readers ignore the excess. (They go by
 //! the lengths because the HDF5 library does not read numbers from a group's attributes.)
 
-use crate::OutputError;
-use crate::grid::data_path;
+use crate::grid::{data_path, mesh_path, step_path};
 use crate::hdf5::{Source, read_error};
+use crate::layout::{MESH, STEPS};
+use crate::{FieldSpec, OutputError};
 use std::ops::Range;
 use std::path::Path;
 
@@ -42,9 +43,9 @@ impl GridFile {
     /// Opens `path` without locking it.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let source = Source::open(path.as_ref())?;
-        let points = first(&source, "VTKHDF/NumberOfPoints")?;
-        let cells = first(&source, "VTKHDF/NumberOfCells")?;
-        let steps = source.length("VTKHDF/Steps/Values")?;
+        let points = first(&source, &MESH.point_count)?;
+        let cells = first(&source, &MESH.cell_count)?;
+        let steps = source.length(&step_path(&STEPS.times))?;
         let mut file = Self { source, points, cells, steps, fields: Vec::new() };
         for on_cells in [false, true] {
             let group = if on_cells { "CellData" } else { "PointData" };
@@ -66,7 +67,7 @@ impl GridFile {
 
     /// Simulated time of each step (s).
     pub fn times(&self) -> Result<Vec<f64>, OutputError> {
-        self.source.rows("VTKHDF/Steps/Values", 0, self.steps)
+        self.source.rows(&step_path(&STEPS.times), 0, self.steps)
     }
 
     /// The fields, points first, each group in the order of names.
@@ -81,7 +82,7 @@ impl GridFile {
 
     /// Reference coordinates (m).
     pub fn points(&self) -> Result<Vec<[f64; 3]>, OutputError> {
-        let flat = self.source.rows("VTKHDF/Points", 0, self.points)?;
+        let flat = self.source.rows(&mesh_path(&MESH.points), 0, self.points)?;
         Ok(flat.as_chunks::<3>().0.to_vec())
     }
 
@@ -92,8 +93,8 @@ impl GridFile {
 
     /// Point indices of all cells, one cell after the other.
     pub fn connectivity(&self) -> Result<Vec<u32>, OutputError> {
-        let length = first(&self.source, "VTKHDF/NumberOfConnectivityIds")?;
-        let flat = self.source.rows("VTKHDF/Connectivity", 0, length)?;
+        let length = first(&self.source, &MESH.connectivity_count)?;
+        let flat = self.source.rows(&mesh_path(&MESH.connectivity), 0, length)?;
         Ok(flat.into_iter().map(|index| index as u32).collect())
     }
 
@@ -185,10 +186,10 @@ impl HistoryFile {
         self.source.root_text(attribute)
     }
 
-    /// All complete rows of a column, if there is one of this name.
-    pub fn column(&self, name: &str) -> Result<Option<Vec<f64>>, OutputError> {
-        let there = self.columns()?.iter().any(|column| column == name);
-        there.then(|| self.read(name)).transpose()
+    /// All complete rows of a column, if the file has it.
+    pub fn column(&self, column: &FieldSpec) -> Result<Option<Vec<f64>>, OutputError> {
+        let there = self.columns()?.iter().any(|name| *name == column.name);
+        there.then(|| self.read(&column.name)).transpose()
     }
 
     /// All complete rows of a column.
@@ -197,10 +198,10 @@ impl HistoryFile {
     }
 }
 
-fn first(source: &Source, dataset: &str) -> Result<usize, OutputError> {
-    let values = source.rows(dataset, 0, 1)?;
+fn first(source: &Source, dataset: &FieldSpec) -> Result<usize, OutputError> {
+    let values = source.rows(&mesh_path(dataset), 0, 1)?;
     let value = values.first().copied();
     value
         .map(|count| count as usize)
-        .ok_or_else(|| read_error(source.path(), format!("`{dataset}` is empty")))
+        .ok_or_else(|| read_error(source.path(), format!("`{}` is empty", mesh_path(dataset))))
 }

@@ -1,5 +1,6 @@
 //! The summary of a run: what `creepage run --json` prints and `summary.json` holds.
 
+use crate::layout::file;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -120,9 +121,9 @@ pub struct Files {
 impl Default for Files {
     fn default() -> Self {
         Self {
-            fields: "fields.vtkhdf".into(),
-            contact: "contact.vtkhdf".into(),
-            history: "history.h5".into(),
+            fields: file::FIELDS.into(),
+            contact: file::CONTACT.into(),
+            history: file::HISTORY.into(),
             postmortem: None,
         }
     }

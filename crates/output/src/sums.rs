@@ -8,11 +8,12 @@ use crate::OutputError;
 use crate::hdf5::{Source, damaged};
 use crate::history::COUNT;
 use crc32fast::Hasher;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What of a result file belongs to a checkpoint.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Kept {
     /// Snapshots or rows.
     pub records: u64,

@@ -3,9 +3,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::{
-    Array, CHECKPOINTS, Cells, Checkpoint, Column, FieldSpec, GridFile, GridSpec, History,
-    HistoryFile, Kept, Numbers, OutputError, Provenance, Results, StaticField, TransientGrid,
-    Values, prove,
+    CHECKPOINTS, Cells, Checkpoint, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
+    OutputError, Provenance, Results, StaticField, TransientGrid, Values, prove,
 };
 use std::path::Path;
 
@@ -18,49 +17,38 @@ fn provenance() -> Provenance {
     }
 }
 
-fn checkpoint(step: u64) -> Checkpoint {
-    let array = |name: &str, components, values| Array {
-        name: name.into(),
-        units: "m".into(),
-        components,
-        description: "a number".into(),
-        values,
-    };
-    Checkpoint {
-        provenance: provenance(),
+/// What a run may keep.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct State {
+    step: u64,
+    displacement: Vec<[f64; 3]>,
+    slaves: Vec<u32>,
+    hub: Option<(f64, bool)>,
+}
+
+fn state(step: u64) -> State {
+    State {
         step,
-        results: Results {
-            fields: Kept { records: 1, sums: vec![1, u32::MAX] },
-            contact: Kept { records: 2, sums: vec![3] },
-            history: Kept { records: 3, sums: Vec::new() },
-            probes: Kept { records: 4, sums: vec![5, 6, 7] },
-        },
-        arrays: vec![
-            array(
-                "nodes/displacement",
-                3,
-                Numbers::Real(vec![0.1, -0.0, f64::NAN, 5e-324, 1e300, step as f64]),
-            ),
-            array("contact/rows/slave", 1, Numbers::Whole(vec![0, 7, u64::MAX])),
-            array("contact/rows/gap", 1, Numbers::Real(Vec::new())),
-            array("step", 1, Numbers::Whole(vec![step])),
-        ],
+        displacement: vec![[0.1, -0.0, f64::NAN], [5e-324, 1e300, f64::NEG_INFINITY]],
+        slaves: vec![0, 7, u32::MAX],
+        hub: Some((f64::from_bits(0xfff8_0000_0000_1234), true)),
     }
 }
 
-/// NaN is not equal to itself; the bits of its array are.
-fn bits(checkpoint: &Checkpoint) -> String {
-    let mut sorted = checkpoint.clone();
-    sorted.arrays.sort_by(|a, b| a.name.cmp(&b.name));
-    let numbers: Vec<Vec<u64>> = sorted
-        .arrays
-        .iter()
-        .map(|array| match &array.values {
-            Numbers::Real(values) => values.iter().map(|x| x.to_bits()).collect(),
-            Numbers::Whole(values) => values.clone(),
-        })
-        .collect();
-    format!("{sorted:?} {numbers:?}")
+fn checkpoint(step: u64) -> Checkpoint {
+    let results = Results {
+        fields: Kept { records: 1, sums: vec![1, u32::MAX] },
+        contact: Kept { records: 2, sums: vec![3] },
+        history: Kept { records: 3, sums: Vec::new() },
+        probes: Kept { records: 4, sums: vec![5, 6, 7] },
+    };
+    Checkpoint::new(provenance(), step, results, &state(step)).unwrap()
+}
+
+/// NaN is not equal to itself; its bits are.
+fn bits(state: &State) -> (Vec<u64>, String) {
+    let numbers = state.displacement.as_flattened().iter().chain(state.hub.iter().map(|(x, _)| x));
+    (numbers.map(|x| x.to_bits()).collect(), format!("{state:?}"))
 }
 
 #[test]
@@ -71,7 +59,9 @@ fn a_checkpoint_reads_back_to_the_bit_and_the_one_before_is_kept() {
     }
     for (name, step) in CHECKPOINTS.iter().zip([30, 20]) {
         let found = Checkpoint::read(&folder.path().join(name)).unwrap();
-        assert_eq!(bits(&found), bits(&checkpoint(step)), "{name}");
+        assert_eq!(found, checkpoint(step), "{name}");
+        assert_eq!(bits(&found.state().unwrap()), bits(&state(step)), "{name}");
+        assert!(found.state::<Vec<String>>().is_err(), "a state of another type");
         assert_eq!(found.text("facts"), Some("{\"dt\":1e-7}"));
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "partial files are left");
@@ -83,14 +73,14 @@ fn no_byte_of_the_state_can_be_changed_and_no_end_cut_off_unnoticed() {
     checkpoint(10).write(folder.path()).unwrap();
     let path = folder.path().join(CHECKPOINTS[0]);
     let whole = std::fs::read(&path).unwrap();
-    let expected = bits(&checkpoint(10));
+    let expected = checkpoint(10);
     let mut refused = 0;
     for at in (0..whole.len()).step_by(7) {
         let mut damaged = whole.clone();
         damaged[at] ^= 0x10;
         std::fs::write(&path, &damaged).unwrap();
         match Checkpoint::read(&path) {
-            Ok(found) => assert_eq!(bits(&found), expected, "byte {at} was changed unnoticed"),
+            Ok(found) => assert_eq!(found, expected, "byte {at} was changed unnoticed"),
             Err(_) => refused += 1,
         }
     }
@@ -98,8 +88,18 @@ fn no_byte_of_the_state_can_be_changed_and_no_end_cut_off_unnoticed() {
     for length in (0..whole.len()).step_by(101) {
         std::fs::write(&path, &whole[..length]).unwrap();
         let Ok(found) = Checkpoint::read(&path) else { continue };
-        assert_eq!(bits(&found), expected, "cut off at {length} unnoticed");
+        assert_eq!(found, expected, "cut off at {length} unnoticed");
     }
+}
+
+#[test]
+fn a_checkpoint_of_another_form_is_refused_as_one_of_another_version() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(CHECKPOINTS[0]);
+    // a file of this program without the attribute, as it was before there was one
+    History::create(&path, &[FieldSpec::scalar("time", "s", "t")], &provenance()).unwrap();
+    let error = Checkpoint::read(&path).unwrap_err().to_string();
+    assert!(error.contains("another version of creepage"), "{error}");
 }
 
 const POINTS: [[f64; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
@@ -109,15 +109,15 @@ fn with_grid<T>(then: impl FnOnce(&GridSpec<'_>, &[FieldSpec]) -> T) -> T {
         points: &POINTS,
         cells: Cells::Quads(&[[0, 1, 2, 3]]),
         constant: &[StaticField {
-            spec: FieldSpec::at_points("body", "1", 1, "label").integer().on_cells(),
+            spec: FieldSpec::cell_label("body", "1", "label"),
             values: Values::Integer(&[1]),
         }],
     };
     let fields = [
-        FieldSpec::at_points("pressure", "Pa", 1, "pressure"),
-        FieldSpec::at_points("shear", "Pa", 3, "shear"),
-        FieldSpec::at_points("stress", "Pa", 6, "stress").on_cells(),
-        FieldSpec::at_points("state", "1", 1, "state").integer(),
+        FieldSpec::scalar("pressure", "Pa", "pressure"),
+        FieldSpec::vector("shear", "Pa", "shear"),
+        FieldSpec::cell_tensor("stress", "Pa", "stress"),
+        FieldSpec::label("state", "1", "state"),
     ];
     then(&grid, &fields)
 }
@@ -178,7 +178,7 @@ fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
 #[test]
 fn a_history_cut_off_and_continued_holds_what_one_written_at_once_holds() {
     let folder = tempfile::tempdir().unwrap();
-    let columns = ["time", "force"].map(|name| Column::new(name, "1", "a number"));
+    let columns = ["time", "force"].map(|name| FieldSpec::scalar(name, "1", "a number"));
     let path = folder.path().join("history.h5");
     let rows = |range: std::ops::Range<usize>| -> Vec<f64> {
         range.flat_map(|row| [row as f64, 1.0 / (row as f64 + 1.0)]).collect()
@@ -262,7 +262,7 @@ fn no_damage_of_a_grid_that_is_to_be_continued_passes_unnoticed() {
 #[test]
 fn no_damage_of_a_history_that_is_to_be_continued_passes_unnoticed() {
     let folder = tempfile::tempdir().unwrap();
-    let columns = ["time", "force"].map(|name| Column::new(name, "N", "a number"));
+    let columns = ["time", "force"].map(|name| FieldSpec::scalar(name, "N", "a number"));
     let path = folder.path().join("history.h5");
     let mut history = History::create(&path, &columns, &provenance()).unwrap();
     let rows: Vec<f64> = (0..600).map(f64::from).collect();

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::{
-    BackgroundWriter, Cells, Column, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
+    BackgroundWriter, Cells, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
     OutputError, Provenance, RunFiles, StaticField, TransientGrid, Values, write_json_atomically,
 };
 use std::path::Path;
@@ -32,7 +32,7 @@ fn provenance() -> Provenance {
 
 fn body(labels: &[u8]) -> StaticField<'_> {
     StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
+        spec: FieldSpec::cell_label("body", "1", "0 disk, 1 bar"),
         values: Values::Integer(labels),
     }
 }
@@ -41,10 +41,8 @@ fn fields_file(path: &Path) -> TransientGrid {
     let labels = [3];
     let constant = [body(&labels)];
     let grid = GridSpec { points: &CUBE, cells: Cells::Hexahedra(&HEX), constant: &constant };
-    let fields = [
-        FieldSpec::at_points("displacement", "m", 3, "u"),
-        FieldSpec::at_points("stress", "Pa", 6, "s").on_cells(),
-    ];
+    let fields =
+        [FieldSpec::vector("displacement", "m", "u"), FieldSpec::cell_tensor("stress", "Pa", "s")];
     TransientGrid::create(path, &grid, &fields, &provenance()).unwrap()
 }
 
@@ -52,15 +50,12 @@ fn contact_file(path: &Path) -> TransientGrid {
     let labels = [0, 1];
     let constant = [body(&labels)];
     let grid = GridSpec { points: &CUBE, cells: Cells::Quads(&FACES), constant: &constant };
-    let fields = [
-        FieldSpec::at_points("pressure", "Pa", 1, "p"),
-        FieldSpec::at_points("state", "1", 1, "s").integer(),
-    ];
+    let fields = [FieldSpec::scalar("pressure", "Pa", "p"), FieldSpec::label("state", "1", "s")];
     TransientGrid::create(path, &grid, &fields, &provenance()).unwrap()
 }
 
 fn history_file(path: &Path) -> History {
-    let columns = [Column::new("time", "s", "t"), Column::new("force", "N", "f")];
+    let columns = [FieldSpec::scalar("time", "s", "t"), FieldSpec::scalar("force", "N", "f")];
     History::create(path, &columns, &provenance()).unwrap()
 }
 
@@ -219,7 +214,7 @@ fn wrong_shapes_are_refused_before_anything_is_written() {
     assert!(error.to_string().contains("point 8"), "{error}");
     let empty = GridSpec { points: &[], cells: Cells::Quads(&[]), constant: &[] };
     assert!(TransientGrid::create(&path, &empty, &[], &provenance()).is_err());
-    let twice = [0, 0].map(|_| FieldSpec::at_points("u", "m", 3, ""));
+    let twice = [0, 0].map(|_| FieldSpec::vector("u", "m", ""));
     let grid = GridSpec { points: &CUBE, cells: Cells::Hexahedra(&HEX), constant: &[] };
     assert!(TransientGrid::create(&path, &grid, &twice, &provenance()).is_err());
 }
@@ -228,7 +223,7 @@ fn wrong_shapes_are_refused_before_anything_is_written() {
 fn a_path_that_cannot_be_written_is_named_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("missing").join("history.h5");
-    let error = History::create(&path, &[Column::new("time", "s", "t")], &provenance());
+    let error = History::create(&path, &[FieldSpec::scalar("time", "s", "t")], &provenance());
     let text = error.unwrap_err().to_string();
     assert!(text.contains("history.h5") && text.contains("folder exists"), "{text}");
     let text = write_json_atomically(&path, &1).unwrap_err().to_string();
@@ -254,7 +249,7 @@ fn json_replaces_the_old_text_whole_and_leaves_no_neighbour() {
 fn who_finds_rows_of_another_process_stops_and_leaves_them() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.h5");
-    let columns = [Column::new("time", "s", "t"), Column::new("force", "N", "f")];
+    let columns = [FieldSpec::scalar("time", "s", "t"), FieldSpec::scalar("force", "N", "f")];
     let mut first = history_file(&path);
     first.append(&[0.0, 1.0]).unwrap();
     let nothing = Kept { records: 0, sums: Vec::new() };

@@ -37,19 +37,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     let count = points.len();
-    let at = FieldSpec::at_points;
     let fields = [
-        at("pressure", "Pa", 1, "p"),
-        at("shear", "Pa", 3, "t"),
-        at("slip_velocity", "m/s", 3, "s"),
-        at("gap", "m", 1, "gap"),
-        at("mu", "1", 1, "mu"),
-        at("state", "1", 1, "state").integer(),
-        at("velocity", "m/s", 3, "v"),
-        at("displacement", "m", 3, "u"),
+        FieldSpec::scalar("pressure", "Pa", "p"),
+        FieldSpec::vector("shear", "Pa", "t"),
+        FieldSpec::vector("slip_velocity", "m/s", "s"),
+        FieldSpec::scalar("gap", "m", "gap"),
+        FieldSpec::scalar("mu", "1", "mu"),
+        FieldSpec::label("state", "1", "state"),
+        FieldSpec::vector("velocity", "m/s", "v"),
+        FieldSpec::vector("displacement", "m", "u"),
     ];
     let constant = [StaticField {
-        spec: at("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
+        spec: FieldSpec::cell_label("body", "1", "0 disk, 1 bar"),
         values: Values::Integer(&body),
     }];
     let grid = GridSpec { points: &points, cells: Cells::Quads(&faces), constant: &constant };

@@ -7,6 +7,7 @@ use crate::recorded_law::{RecordedLaw, recorded_law};
 use contact::patch::PatchShape;
 use files::input::{self, Kind};
 use friction::{Parameters, all_parameters};
+use output::layout::{HISTORY, file};
 use output::{SAMPLED_LAW, read_summary};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -86,9 +87,6 @@ pub struct RunPaths {
 }
 
 impl RunPaths {
-    /// Name of the contact history in a run's folder.
-    pub const CONTACT: &str = "contact.vtkhdf";
-
     /// The files of a run given by its folder or by its contact history.
     ///
     /// # Errors
@@ -96,11 +94,11 @@ impl RunPaths {
     pub fn of(run: &Path) -> Result<Self, PostError> {
         let none = || PostError::NoContactFile { path: run.into() };
         let folder = if run.is_dir() { run } else { run.parent().ok_or_else(none)? };
-        let contact = if run.is_dir() { run.join(Self::CONTACT) } else { run.into() };
+        let contact = if run.is_dir() { run.join(file::CONTACT) } else { run.into() };
         if !contact.is_file() {
             return Err(none());
         }
-        Ok(Self { folder: folder.into(), contact, case: folder.join("case.toml") })
+        Ok(Self { folder: folder.into(), contact, case: folder.join(file::CASE) })
     }
 }
 
@@ -132,7 +130,7 @@ impl Basis {
         };
         basis.read_case();
         basis.read_summary();
-        basis.read_history(&paths.folder.join("history.h5"))?;
+        basis.read_history(&paths.folder.join(file::HISTORY))?;
         Ok(basis)
     }
 
@@ -278,12 +276,13 @@ impl Basis {
     /// The time step and the creepage of a run in progress.
     fn read_history(&mut self, path: &Path) -> Result<(), PostError> {
         let Some(history) = open_history(path)? else { return Ok(()) };
-        if let (Some(time), Some(step)) = (history.column("time")?, history.column("step")?)
+        if let (Some(time), Some(step)) =
+            (history.column(&HISTORY.time)?, history.column(&HISTORY.step)?)
             && let ([t0, .., t1], [n0, .., n1]) = (&time[..], &step[..])
         {
             self.offer("dt", (t1 - t0) / (n1 - n0), "history");
         }
-        if let Some(last) = history.column("creepage")?.and_then(|c| c.last().copied()) {
+        if let Some(last) = history.column(&HISTORY.creepage)?.and_then(|c| c.last().copied()) {
             self.offer("creepage", last, "history, last row");
         }
         Ok(())

@@ -17,6 +17,7 @@ use crate::patch_series;
 use crate::vector::{Vec3, axpy};
 use crate::window::{Span, Window};
 use figure::{Figure, colour};
+use output::layout::file;
 use std::ops::Range;
 
 /// Interval of the papers' snapshots (s).
@@ -129,11 +130,11 @@ pub fn figures(
             figure: maps::space_time(&scene, &band),
         },
     ];
-    if let Some(figure) = histories::histories(&scene, &paths.folder.join("history.h5"))? {
+    if let Some(figure) = histories::histories(&scene, &paths.folder.join(file::HISTORY))? {
         let about = "forces, creepage, patch and energies over time";
         all.push(Named { stem: "histories", about, figure });
     }
-    if let Some(figure) = spectrum::spectrum(&scene, &paths.folder.join("probes.h5"))? {
+    if let Some(figure) = spectrum::spectrum(&scene, &paths.folder.join(file::PROBES))? {
         let about = "spectrum of the slip velocity at the probe nodes";
         all.push(Named { stem: "spectrum", about, figure });
     }

@@ -4,43 +4,12 @@
 use crate::PostError;
 use crate::surface::Surface;
 use crate::vector::Vec3;
-use output::{GridFile, HistoryFile, OutputError};
+use output::layout::{BODY_NAMES, CONTACT, MORTAR, Pairing, attribute};
+use output::{FieldSpec, GridFile, HistoryFile, OutputError};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
-
-/// Whether the slip velocity beside the traction of t^n is that of the step that led there or of
-/// the step that leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Pairing {
-    /// p(t^n) with s(t^{n-1/2}).
-    Before,
-    /// p(t^n) with s(t^{n+1/2}).
-    After,
-}
-
-impl Pairing {
-    /// Its name in options, documents and the file's attribute.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Before => "before",
-            Self::After => "after",
-        }
-    }
-}
-
-/// Root attribute of a contact history that says how slip is paired with traction in a record:
-/// `before` (as without it) or `after`.
-pub const PAIRING_ATTRIBUTE: &str = "slip_pairing";
-
-/// Root attribute of a contact history that names the body, `disk` or `bar`, at whose nodes the
-/// method enforces the conditions of contact; the other body's nodes receive what its faces bear.
-pub const ENFORCED_ATTRIBUTE: &str = "enforced_on";
-
-/// Root attribute of a contact history whose method enforces the conditions in means over the faces
-/// around a node (`mortar`), not at the nodes themselves (`node_to_face`, as without it).
-pub const ROWS_ATTRIBUTE: &str = "contact_rows";
 
 /// One record.
 #[derive(Clone, Debug, Default)]
@@ -81,16 +50,23 @@ pub struct ContactHistory {
     pub enforced_on: Option<u8>,
     /// Whether it enforces them in means over the faces around each node.
     pub in_means: bool,
-    has: Optional,
+    /// What its records hold beside tractions and slip velocity.
+    pub has: Recorded,
 }
 
+/// What records of contact may hold.
 #[derive(Clone, Copy, Debug)]
-struct Optional {
-    gap: bool,
-    mu: bool,
-    state: bool,
-    motion: bool,
-    pass_pressure: bool,
+pub struct Recorded {
+    /// The gap.
+    pub gap: bool,
+    /// The coefficient of friction that the algorithm used.
+    pub mu: bool,
+    /// Whether a node sticks or slips.
+    pub state: bool,
+    /// Displacement and velocity.
+    pub motion: bool,
+    /// The part of the pressure that a node's own pass carries.
+    pub pass_pressure: bool,
 }
 
 impl ContactHistory {
@@ -105,41 +81,36 @@ impl ContactHistory {
     pub fn open(path: &Path) -> Result<Self, PostError> {
         let file = open(path)?;
         let lacks = |what: String| PostError::Lacks { path: path.into(), what };
-        let mut found = Vec::new();
-        for (name, units, components) in [
-            ("pressure", "Pa", 1),
-            ("shear", "Pa", 3),
-            ("slip_velocity", "m/s", 3),
-            ("gap", "m", 1),
-            ("mu", "1", 1),
-            ("state", "1", 1),
-            ("displacement", "m", 3),
-            ("velocity", "m/s", 3),
-            ("pass_pressure", "Pa", 1),
-        ] {
-            let field = file.fields().iter().find(|f| f.name == name && !f.on_cells);
-            if let Some(field) = field {
-                if field.units != units {
-                    return Err(lacks(format!(
-                        "{name} is in {:?}, but {units} is needed: convert it",
-                        field.units
-                    )));
-                }
-                if field.components != components {
-                    return Err(lacks(format!(
-                        "{name} has {} components, but {components} are needed",
-                        field.components
-                    )));
-                }
+        let found = |wanted: &FieldSpec| {
+            let FieldSpec { name, units, components, .. } = wanted;
+            let field = file.fields().iter().find(|f| f.name == *name && !f.on_cells);
+            match field {
+                Some(field) if field.units != *units => Err(lacks(format!(
+                    "{name} is in {:?}, but {units} is needed: convert it",
+                    field.units
+                ))),
+                Some(field) if field.components != *components => Err(lacks(format!(
+                    "{name} has {} components, but {components} are needed",
+                    field.components
+                ))),
+                field => Ok(field.is_some()),
             }
-            found.push(field.is_some());
+        };
+        for needed in [&CONTACT.pressure, &CONTACT.shear, &CONTACT.slip_velocity] {
+            if !found(needed)? {
+                return Err(lacks(format!(
+                    "it has no point data {:?}: this is no contact history (docs/files.md)",
+                    needed.name
+                )));
+            }
         }
-        if let Some(at) = found[..3].iter().position(|found| !found) {
-            let name = ["pressure", "shear", "slip_velocity"][at];
-            return Err(lacks(format!(
-                "it has no point data {name:?}: this is no contact history (docs/files.md)"
-            )));
-        }
+        let has = Recorded {
+            gap: found(&CONTACT.gap)?,
+            mu: found(&CONTACT.mu)?,
+            state: found(&CONTACT.state)?,
+            motion: found(&CONTACT.displacement)? & found(&CONTACT.velocity)?,
+            pass_pressure: found(&CONTACT.pass_pressure)?,
+        };
         let times = file.times()?;
         if times.is_empty() {
             return Err(lacks("it holds no record yet".into()));
@@ -147,24 +118,16 @@ impl ContactHistory {
         if !times.windows(2).all(|pair| pair[0] < pair[1]) || !times.iter().all(|t| t.is_finite()) {
             return Err(lacks("its times do not rise".into()));
         }
-        let pairing = match file.provenance(PAIRING_ATTRIBUTE).as_deref() {
-            Ok("after") => (Pairing::After, true),
-            Ok("before") => (Pairing::Before, true),
-            _ => (Pairing::Before, false),
+        let text = |attribute| file.provenance(attribute).ok();
+        let said = |pairing: &Pairing| {
+            text(attribute::SLIP_PAIRING).is_some_and(|text| text == pairing.name())
         };
-        let enforced_on = match file.provenance(ENFORCED_ATTRIBUTE).as_deref() {
-            Ok("disk") => Some(0),
-            Ok("bar") => Some(1),
-            _ => None,
-        };
-        let in_means = file.provenance(ROWS_ATTRIBUTE).is_ok_and(|rows| rows == "mortar");
-        let has = Optional {
-            gap: found[3],
-            mu: found[4],
-            state: found[5],
-            motion: found[6] && found[7],
-            pass_pressure: found[8],
-        };
+        let stated = [Pairing::Before, Pairing::After].into_iter().find(said);
+        let pairing = (stated.unwrap_or(Pairing::Before), stated.is_some());
+        let enforced_on = text(attribute::ENFORCED_ON)
+            .and_then(|text| BODY_NAMES.iter().position(|name| **name == text))
+            .map(|body| body as u8);
+        let in_means = text(attribute::CONTACT_ROWS).is_some_and(|rows| rows == MORTAR);
         let surface = Surface::read(&file, path)?;
         Ok(Self { path: path.into(), surface, times, pairing, enforced_on, in_means, has })
     }
@@ -172,18 +135,6 @@ impl ContactHistory {
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path
-    }
-
-    /// Whether records hold a gap, a coefficient of friction, a state, a motion, the pressure of each pass.
-    pub fn has(&self, field: &str) -> bool {
-        match field {
-            "gap" => self.has.gap,
-            "mu" => self.has.mu,
-            "state" => self.has.state,
-            "motion" => self.has.motion,
-            "pass_pressure" => self.has.pass_pressure,
-            _ => false,
-        }
     }
 
     /// Indices of the records from `from` to `to` (s), both included to round-off.
@@ -359,14 +310,14 @@ impl Reading<'_> {
     /// Records without their motion.
     fn tractions(&self, records: Range<usize>) -> Result<Vec<Frame>, PostError> {
         let has = self.history.has;
-        let all = |name, components| self.numbers(name, records.clone(), components);
-        let some = |there: bool, name| there.then(|| all(name, 1)).transpose();
-        let (pressure, shear) = (all("pressure", 1)?, all("shear", 3)?);
-        let slip_velocity = all("slip_velocity", 3)?;
-        let gap = some(has.gap, "gap")?;
-        let mu = some(has.mu, "mu")?;
-        let state = some(has.state, "state")?;
-        let pass = some(has.pass_pressure, "pass_pressure")?;
+        let all = |field| self.numbers(field, records.clone());
+        let some = |there: bool, field| there.then(|| all(field)).transpose();
+        let (pressure, shear) = (all(&CONTACT.pressure)?, all(&CONTACT.shear)?);
+        let slip_velocity = all(&CONTACT.slip_velocity)?;
+        let gap = some(has.gap, &CONTACT.gap)?;
+        let mu = some(has.mu, &CONTACT.mu)?;
+        let state = some(has.state, &CONTACT.state)?;
+        let pass = some(has.pass_pressure, &CONTACT.pass_pressure)?;
         let label = |states: &[f64]| states.iter().map(|state| *state as u8).collect();
         let frame = |(k, index): (usize, usize)| Frame {
             index,
@@ -387,8 +338,8 @@ impl Reading<'_> {
         if !self.history.has.motion {
             return Ok(vec![None; records.len()]);
         }
-        let displacement = self.numbers("displacement", records.clone(), 3)?;
-        let velocity = self.numbers("velocity", records.clone(), 3)?;
+        let displacement = self.numbers(&CONTACT.displacement, records.clone())?;
+        let velocity = self.numbers(&CONTACT.velocity, records.clone())?;
         let of = |k| Some([self.vectors(&displacement, k), self.vectors(&velocity, k)]);
         Ok((0..records.len()).map(of).collect())
     }
@@ -406,11 +357,11 @@ impl Reading<'_> {
     /// A field at all of `records`, the nodes of one after those of the other.
     fn numbers(
         &self,
-        field: &'static str,
+        field: &'static FieldSpec,
         records: Range<usize>,
-        components: usize,
     ) -> Result<Vec<f64>, PostError> {
-        let values = self.file.read_steps(field, false, records.clone())?;
+        let components = field.components;
+        let values = self.file.read_steps(&field.name, false, records.clone())?;
         let path = || self.history.path.clone();
         let per_record = components * self.history.surface.points.len();
         if values.len() != per_record * records.len() {
@@ -424,7 +375,7 @@ impl Reading<'_> {
             None => Ok(values),
             Some(at) => Err(PostError::NotANumber {
                 path: path(),
-                field,
+                field: &field.name,
                 node: at % per_record / components,
                 time: self.history.times[records.start + at / per_record],
             }),

@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use files::input;
+use output::layout::{CONSTANT, CONTACT, HISTORY};
 use output::{
     Cells, FieldSpec, GridSpec, OutputError, Provenance, StaticField, TransientGrid, Values,
 };
@@ -51,16 +52,16 @@ pub enum ImportError {
     Output(#[from] OutputError),
 }
 
-/// A field of the layout: name, units, components, meaning, whether it must be there.
-const FIELDS: [(&str, &str, usize, &str, bool); 8] = [
-    ("pressure", "Pa", 1, "contact pressure, positive in compression", true),
-    ("shear", "Pa", 3, "shear traction on this surface", true),
-    ("slip_velocity", "m/s", 3, "velocity of this surface relative to the other", true),
-    ("gap", "m", 1, "gap, negative when penetrating", false),
-    ("mu", "1", 1, "coefficient of friction that the algorithm used", false),
-    ("state", "1", 1, "0 open, 1 stick, 2 slip", false),
-    ("velocity", "m/s", 3, "velocity", false),
-    ("displacement", "m", 3, "displacement", false),
+/// Fields of the layout, and whether they must be there.
+static FIELDS: [(&FieldSpec, bool); 8] = [
+    (&CONTACT.pressure, true),
+    (&CONTACT.shear, true),
+    (&CONTACT.slip_velocity, true),
+    (&CONTACT.gap, false),
+    (&CONTACT.mu, false),
+    (&CONTACT.state, false),
+    (&CONTACT.velocity, false),
+    (&CONTACT.displacement, false),
 ];
 
 /// Reads the tables and writes the history.
@@ -70,7 +71,7 @@ const FIELDS: [(&str, &str, usize, &str, bool); 8] = [
 pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> {
     let mut nodes = Table::open(files.nodes)?;
     let place = nodes.columns(&["x", "y", "z"])?;
-    let area_column = nodes.column("area");
+    let area_column = nodes.column(&CONSTANT.area.name);
     let (mut points, mut areas) = (Vec::new(), Vec::new());
     while let Some(row) = nodes.next()? {
         points.push([row[place[0]], row[place[1]], row[place[2]]]);
@@ -78,7 +79,7 @@ pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> 
     }
     let mut table = Table::open(files.faces)?;
     let corners = table.columns(&["n0", "n1", "n2", "n3"])?;
-    let body_column = table.columns(&["body"])?[0];
+    let body_column = table.columns(&[&CONSTANT.body.name])?[0];
     let (mut faces, mut body) = (Vec::new(), Vec::new());
     while let Some(row) = table.next()? {
         let mut face = [0; 4];
@@ -101,30 +102,22 @@ fn values(
     body: &[u8],
 ) -> Result<(usize, usize), ImportError> {
     let mut table = Table::open(files.values)?;
-    let key = table.columns(&["time", "node"])?;
+    let key = table.columns(&[&HISTORY.time.name, "node"])?;
     let mut fields = Vec::new();
-    for (name, units, components, about, needed) in FIELDS {
-        let names: Vec<String> = match components {
-            1 => vec![name.into()],
-            _ => ["x", "y", "z"].iter().map(|axis| format!("{name}_{axis}")).collect(),
+    for (field, needed) in FIELDS {
+        let names: Vec<String> = match field.components {
+            1 => vec![field.name.to_string()],
+            _ => ["x", "y", "z"].iter().map(|axis| format!("{}_{axis}", field.name)).collect(),
         };
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         if needed || table.column(names[0]).is_some() {
-            let spec = FieldSpec::at_points(name, units, components, about);
-            let spec = if name == "state" { spec.integer() } else { spec };
-            fields.push((spec, table.columns(&names)?));
+            fields.push((field.clone(), table.columns(&names)?));
         }
     }
     let specs: Vec<FieldSpec> = fields.iter().map(|(spec, _)| spec.clone()).collect();
-    let mut constant = vec![StaticField {
-        spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
-        values: Values::Integer(body),
-    }];
+    let mut constant = vec![StaticField::body(body)];
     if !areas.is_empty() {
-        constant.push(StaticField {
-            spec: FieldSpec::at_points("area", "m2", 1, "tributary area of the node"),
-            values: Values::Scalar(areas),
-        });
+        constant.push(StaticField::area(areas));
     }
     let grid = GridSpec { points, cells: Cells::Quads(faces), constant: &constant };
     let provenance = Provenance {

@@ -3,6 +3,7 @@
 use crate::PostError;
 use crate::basis::RunPaths;
 use crate::frames;
+use output::layout::{attribute, file};
 use output::{OutputError, as_long_as_written, as_written, read_summary};
 
 /// How much is proven.
@@ -15,7 +16,7 @@ pub enum Depth {
 }
 
 /// The files that checks, figures and pages are made from, beside the summary.
-const READ: [&str; 4] = ["case.toml", "contact.vtkhdf", "history.h5", "probes.h5"];
+const READ: [&str; 4] = [file::CASE, file::CONTACT, file::HISTORY, file::PROBES];
 
 /// Proves by the summary of a run that its files are those that it left; of a run without a summary, which
 /// goes on or was killed, nothing is known. Returns what to warn of: that there was nothing to prove it by.
@@ -50,8 +51,8 @@ pub fn prove(paths: &RunPaths, depth: Depth) -> Result<Option<String>, PostError
 /// A case with another hash.
 pub fn prove_case(paths: &RunPaths, hash: &str, version: &str) -> Result<(), PostError> {
     let file = frames::open(&paths.contact)?;
-    let of_this_version = file.provenance("creepage_version").is_ok_and(|found| found == version);
-    match file.provenance("case_hash") {
+    let of_this_version = file.provenance(attribute::VERSION).is_ok_and(|found| found == version);
+    match file.provenance(attribute::CASE_HASH) {
         Ok(found) if of_this_version && found != hash && is_hash(&found) => {
             let reason = "it is not the case of this run: contact.vtkhdf names another".into();
             Err(OutputError::Damaged { path: paths.case.clone(), reason }.into())

@@ -5,6 +5,7 @@ use crate::check::Scales;
 use crate::conditions::{IN_CONTACT, Judge, Node};
 use crate::frames::Frame;
 use crate::surface::Surface;
+use output::layout::attribute;
 use output::{
     Cells, FieldSpec, GridFile, GridSpec, Provenance, StaticField, TransientGrid, Values,
 };
@@ -38,24 +39,20 @@ impl MapWriter {
         let text = |name: &str| source.provenance(name).unwrap_or_default();
         let provenance = Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
-            case_hash: text("case_hash"),
-            created: text("created"),
+            case_hash: text(attribute::CASE_HASH),
+            created: text(attribute::CREATED),
             attributes: Vec::new(),
         };
         let mut fields: Vec<FieldSpec> = FIELDS
             .iter()
-            .map(|(name, units, about)| FieldSpec::at_points(name, units, 1, about))
+            .map(|(name, units, about)| FieldSpec::scalar(name, units, about))
             .collect();
         let about = "0 none or no contact, 1 the contact conditions are violated";
-        fields.push(FieldSpec::at_points("violates", "1", 1, about).integer());
-        let body = StaticField {
-            spec: FieldSpec::at_points("body", "1", 1, "0 disk, 1 bar").integer().on_cells(),
-            values: Values::Integer(&surface.face_body),
-        };
+        fields.push(FieldSpec::label("violates", "1", about));
         let grid = GridSpec {
             points: &surface.points,
             cells: Cells::Quads(&surface.faces),
-            constant: &[body],
+            constant: &[StaticField::body(&surface.face_body)],
         };
         let count = surface.points.len();
         Ok(Self {

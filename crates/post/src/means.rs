@@ -10,7 +10,9 @@ use crate::frames::open_history;
 use crate::patch_series::{PATCH_MEASURES, PatchRow};
 use crate::statistics::{mean_and_deviation, time_weights};
 use crate::window::Window;
+use output::FieldSpec;
 use output::confidence::of_series;
+use output::layout::{HISTORY, file};
 use serde_json::{Map, Value, json};
 use std::collections::HashMap;
 use std::path::Path;
@@ -18,12 +20,15 @@ use std::path::Path;
 /// The creepage, which a run's history holds and its records of contact do not: name, unit, meaning.
 const CREEPAGE: (&str, &str, &str) = ("creepage", "1", "longitudinal creepage");
 
+/// The column of a run's history that holds a measure of the patch.
+fn column(measure: &str) -> Option<&'static FieldSpec> {
+    let of_patch = |name: &str| name.strip_prefix("patch_") == Some(measure);
+    HISTORY.each().into_iter().find(|column| column.name == measure || of_patch(&column.name))
+}
+
 /// What a measure of the patch is called in a run's summary and history.
-fn name_in_run(measure: &str) -> String {
-    match measure {
-        "half_length" | "half_width" | "area" => format!("patch_{measure}"),
-        other => other.to_owned(),
-    }
+fn name_in_run(measure: &str) -> &str {
+    column(measure).map_or(measure, |column| &column.name)
 }
 
 /// Why a measure has no mean where the run itself does not say.
@@ -46,7 +51,7 @@ pub(crate) struct Sources<'a> {
 /// The history of a run over a window.
 struct Rows {
     /// Columns by their names.
-    columns: HashMap<String, Vec<f64>>,
+    columns: HashMap<&'static str, Vec<f64>>,
     /// Time within the window that each row stands for (s).
     weights: Vec<f64>,
 }
@@ -66,7 +71,7 @@ struct Found {
 impl<'a> Sources<'a> {
     /// Those of a run; the files beside a contact history of another name are not its own.
     pub fn of(paths: &RunPaths, basis: &'a Basis, window: &Window) -> Result<Self, PostError> {
-        let own = paths.contact.file_name().is_some_and(|name| name == RunPaths::CONTACT);
+        let own = paths.contact.file_name().is_some_and(|name| name == file::CONTACT);
         let summary = basis.summary.as_ref().filter(|_| own && window.of_summary);
         let history = if own { history(&paths.folder, window)? } else { None };
         Ok(Self { summary, history })
@@ -85,10 +90,10 @@ impl<'a> Sources<'a> {
     /// What the run itself says of a measure; nothing where it holds no such number.
     fn of_run(&self, measure: &str) -> Option<Found> {
         let name = name_in_run(measure);
-        self.in_summary(&name).or_else(|| {
+        self.in_summary(name).or_else(|| {
             let Rows { columns, weights } = self.history.as_ref()?;
-            let mean = mean_and_deviation(weights, columns.get(&name)?.iter().copied());
-            Some(Found { mean, from: "history", half: self.half(&name), note: None })
+            let mean = mean_and_deviation(weights, columns.get(name)?.iter().copied());
+            Some(Found { mean, from: "history", half: self.half(name), note: None })
         })
     }
 
@@ -146,17 +151,17 @@ fn half(weights: &[f64], values: &[f64]) -> Option<f64> {
 /// What the history of the run in `folder` holds for the window; nothing where there is no history or
 /// none of its rows stands for a part of it.
 fn history(folder: &Path, window: &Window) -> Result<Option<Rows>, PostError> {
-    let Some(history) = open_history(&folder.join("history.h5"))? else { return Ok(None) };
-    let Some(times) = history.column("time")? else { return Ok(None) };
+    let Some(history) = open_history(&folder.join(file::HISTORY))? else { return Ok(None) };
+    let Some(times) = history.column(&HISTORY.time)? else { return Ok(None) };
     let weights = time_weights(&times, window.span);
     if !weights.iter().any(|weight| *weight > 0.0) {
         return Ok(None);
     }
     let mut columns = HashMap::new();
     for (measure, ..) in PATCH_MEASURES.into_iter().chain([CREEPAGE]) {
-        let name = name_in_run(measure);
-        if let Some(values) = history.column(&name)? {
-            columns.insert(name, values);
+        let Some(column) = column(measure) else { continue };
+        if let Some(values) = history.column(column)? {
+            columns.insert(&*column.name, values);
         }
     }
     Ok(Some(Rows { columns, weights }))

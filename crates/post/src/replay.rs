@@ -99,7 +99,7 @@ impl Replay {
         let constant = law.remembers() == Remembers::Nothing && !law.is_implicit();
         let method = match history.enforced_on {
             Some(slaves) => Method::Exact { slaves },
-            None if history.has("pass_pressure") && history.has("gap") => Method::Passes,
+            None if history.has.pass_pressure && history.has.gap => Method::Passes,
             // what depends on nothing needs no timing
             None if constant => Method::Passes,
             None => {
@@ -117,7 +117,7 @@ impl Replay {
         };
         let surface = &history.surface;
         let two = method == Method::Passes && !constant && surface.bodies() == [0, 1];
-        if method == Method::Passes && !constant && !(two && history.has("motion")) {
+        if method == Method::Passes && !constant && !(two && history.has.motion) {
             return Err("two passes need two bodies and their displacement".into());
         }
         Ok(Self {

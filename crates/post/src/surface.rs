@@ -2,7 +2,8 @@
 
 use crate::PostError;
 use crate::vector::Vec3;
-use output::GridFile;
+use output::layout::{BODY_NAMES, CONSTANT};
+use output::{FieldSpec, GridFile};
 use std::path::Path;
 
 /// The surfaces of both bodies.
@@ -25,11 +26,7 @@ pub const NO_BODY: u8 = u8::MAX;
 
 /// The name of a body.
 pub fn body_name(body: u8) -> &'static str {
-    match body {
-        0 => "disk",
-        1 => "bar",
-        _ => "other",
-    }
+    BODY_NAMES.get(usize::from(body)).copied().unwrap_or("other")
 }
 
 impl Surface {
@@ -47,23 +44,20 @@ impl Surface {
         if points.as_flattened().iter().any(|x| !x.is_finite()) {
             return Err(lacks("a node has coordinates that are not numbers"));
         }
-        let has = |name: &str, on_cells| {
-            file.fields().iter().any(|f| f.name == name && f.on_cells == on_cells)
+        let constant = |field: &FieldSpec| {
+            let has =
+                file.fields().iter().any(|f| f.name == field.name && f.on_cells == field.on_cells);
+            has.then(|| file.read(&field.name, field.on_cells, 0)).transpose()
         };
-        let face_body: Vec<u8> = if has("body", true) {
-            file.read("body", true, 0)?.into_iter().map(|b| b as u8).collect()
-        } else {
-            vec![0; faces.len()]
+        let face_body: Vec<u8> = match constant(&CONSTANT.body)? {
+            Some(labels) => labels.into_iter().map(|b| b as u8).collect(),
+            None => vec![0; faces.len()],
         };
         let mut body = vec![NO_BODY; points.len()];
         for (face, &label) in faces.iter().zip(&face_body) {
             face.iter().for_each(|&node| body[node as usize] = label);
         }
-        let area = if has("area", false) {
-            file.read("area", false, 0)?
-        } else {
-            tributary_areas(&points, &faces)
-        };
+        let area = constant(&CONSTANT.area)?.unwrap_or_else(|| tributary_areas(&points, &faces));
         if area.iter().any(|a| !a.is_finite() || *a < 0.0) {
             return Err(lacks("the field area holds values that are no areas"));
         }

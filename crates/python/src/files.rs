@@ -4,13 +4,41 @@
 //! other threads.
 
 use numpy::{IntoPyArray, PyArray1};
-use output::{GridFile, HistoryFile, OutputError};
+use output::layout::{CONSTANT, HISTORY, file};
+use output::{FieldSpec, GridFile, HistoryFile, OutputError};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::path::PathBuf;
 
 fn failed(error: OutputError) -> PyErr {
     PyOSError::new_err(error.to_string())
+}
+
+/// The names of a run's files and of the datasets that the package itself reads, and what each file holds: for each
+/// dataset its name, units, shape and meaning.
+#[pyfunction]
+pub fn layout(py: Python<'_>) -> PyResult<(Bound<'_, PyDict>, Bound<'_, PyDict>)> {
+    let (names, files) = (PyDict::new(py), PyDict::new(py));
+    for (key, name) in [
+        ("case", file::CASE),
+        ("fields", file::FIELDS),
+        ("contact", file::CONTACT),
+        ("history", file::HISTORY),
+        ("probes", file::PROBES),
+        ("summary", file::SUMMARY),
+        ("body", &CONSTANT.body.name),
+        ("time", &HISTORY.time.name),
+    ] {
+        names.set_item(key, name)?;
+    }
+    for (file, fields) in output::layout::files() {
+        let described = |field: &FieldSpec| {
+            [&*field.name, &*field.units, &*field.shape(), &*field.description].map(str::to_owned)
+        };
+        files.set_item(file, fields.iter().map(described).collect::<Vec<_>>())?;
+    }
+    Ok((names, files))
 }
 
 /// A field: name, units, components, integer, on_cells, constant.

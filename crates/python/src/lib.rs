@@ -18,7 +18,7 @@ mod _creepage {
     #[pymodule_export]
     use crate::command::{command, from_toml, main, toml};
     #[pymodule_export]
-    use crate::files::{Grid, History};
+    use crate::files::{Grid, History, layout};
     #[pymodule_export]
     use crate::law::check_law;
 }

@@ -100,3 +100,12 @@ def test_figures_and_the_page_are_written(small, tmp_path):
 def test_a_folder_without_a_run_is_refused(tmp_path):
     with pytest.raises(creepage.CaseError, match="no run"):
         creepage.Run(tmp_path)
+
+
+def test_every_dataset_of_a_run_is_declared_with_its_units(small):
+    layout = creepage.layout()
+    for file, records in (("fields.vtkhdf", small.fields), ("contact.vtkhdf", small.contact)):
+        declared = {name: units for name, units, *_ in layout[file]}
+        assert {name: field.units for name, field in records.items()}.items() <= declared.items()
+    declared = [(name, units) for name, units, *_ in layout["history.h5"]]
+    assert sorted(declared) == sorted(small.history.units.items())

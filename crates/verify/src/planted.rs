@@ -10,7 +10,7 @@ use crate::row::Row;
 use crate::{
     Size, contact_turn, finite_body, free_block, interface_patch, patch, shear_column, sliding,
 };
-use contact::{Contact, Numbers, PenaltyContact};
+use contact::{Contact, PenaltyContact};
 use friction::{Implicit, Lagged};
 use mesh::Mesh;
 use solid::Element;
@@ -117,24 +117,16 @@ fn half_the_mass_of_a_surface_node_is_caught_by_the_free_block() {
 fn friction_that_does_not_turn_with_the_face_is_caught_by_a_turn() {
     /// Turns what the springs hold back by the part of the turn along the normal: it stays as it is in space.
     fn back(contact: &mut PenaltyContact, turn: [f64; 3]) -> Result<(), crate::Cause> {
-        let mut state = contact.snapshot();
-        for pass in ["pass_0", "pass_1"] {
-            let reals = |name: &str| {
-                let name = format!("{pass}/{name}");
-                let column = state.columns.iter().find(|column| column.name == name).unwrap();
-                let Numbers::Real(values) = &column.values else { panic!("{name}") };
-                values.clone()
-            };
-            let (normals, mut framed) = (reals("normal"), reals("framed_friction"));
-            for (n, f) in normals.chunks_exact(3).zip(framed.chunks_exact_mut(2)) {
-                let angle: f64 = (0..3).map(|k| n[k] * turn[k]).sum();
-                let (s, c) = libm::sincos(angle);
-                f.copy_from_slice(&[c * f[0] + s * f[1], c * f[1] - s * f[0]]);
-            }
-            let name = format!("{pass}/framed_friction");
-            let column = state.columns.iter_mut().find(|column| column.name == name).unwrap();
-            column.values = Numbers::Real(framed);
+        let mut state = toml::Value::try_from(contact.snapshot()).unwrap();
+        let reals = |value: &toml::Value| -> Vec<f64> { value.clone().try_into().unwrap() };
+        let passes = state["points"]["Penalty"].as_array_mut().unwrap();
+        for point in passes.iter_mut().flat_map(|pass| pass.as_array_mut().unwrap()) {
+            let (n, f) = (reals(&point["normal"]), reals(&point["framed"]));
+            let angle: f64 = (0..3).map(|k| n[k] * turn[k]).sum();
+            let (s, c) = libm::sincos(angle);
+            point["framed"] = vec![c * f[0] + s * f[1], c * f[1] - s * f[0]].into();
         }
+        let state = state.try_into().unwrap();
         Ok(contact.restore(&state)?)
     }
     catches(

@@ -1,7 +1,7 @@
 //! The folder of a run, taken; its model, made; and where the run goes on.
 
 use super::{RunOptions, write_text};
-use crate::folder::{self, Content, LOG};
+use crate::folder::{self, Content};
 use crate::held::Held;
 use crate::load::inputs;
 use crate::log::Log;
@@ -10,6 +10,7 @@ use crate::model::Model;
 use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;
+use output::layout::file;
 
 /// A run about to begin, or to go on.
 pub(super) struct Opened {
@@ -50,12 +51,12 @@ pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunErro
         folder::check(&options.out, replaces)?;
     }
     let model = model(case, options, point.as_ref())?;
-    let log_file = options.out.join(LOG);
+    let log_file = options.out.join(file::LOG);
     let (held, mut log) = match (&point, held) {
         (Some(_), Some(held)) => (held, Log::append(log_file)?),
         (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
     };
-    write_text(options.out.join("case.toml"), &case.to_toml())?;
+    write_text(options.out.join(file::CASE), &case.to_toml())?;
     tell(case, options, &model, why, &mut log)?;
     Ok(Opening::Run(Box::new(Opened { held, log, model, point })))
 }

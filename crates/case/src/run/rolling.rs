@@ -138,7 +138,9 @@ impl<'a> Rolling<'a> {
             wall: [0, 1].map(|i: usize| self.before[i] + self.since[i].elapsed()),
         };
         let kernels = self.simulation.solid().level().name();
-        self.recorder.keep(state.into_checkpoint(&basis.provenance, kernels), basis.folder)?;
+        let provenance = basis.provenance.clone();
+        let make = move |results| state.checkpoint(provenance, kernels, results);
+        self.recorder.keep(make, basis.folder)?;
         self.keeping += begun.elapsed();
         Ok(())
     }

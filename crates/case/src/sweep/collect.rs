@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use files::input;
+use output::layout::file;
 use serde_json::{Value, json};
 
 use super::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
@@ -105,7 +106,7 @@ const NOT_BEGUN: &str = "not begun";
 
 /// How far a run in `folder` is; one of another case has not begun.
 pub fn state(folder: &Path, run: &Point) -> State {
-    let case = input::text(&folder.join("case.toml"), input::CASE).unwrap_or_default();
+    let case = input::text(&folder.join(file::CASE), input::CASE).unwrap_or_default();
     if case != run.case.to_toml() {
         return State::Undone(NOT_BEGUN);
     }
@@ -132,7 +133,7 @@ pub fn state(folder: &Path, run: &Point) -> State {
 
 /// What a run that was refused after its mesh said at the end of its log.
 fn last_words(folder: &Path) -> Option<String> {
-    let log = input::text(&folder.join("run.log"), input::LOG).ok()?;
+    let log = input::text(&folder.join(file::LOG), input::LOG).ok()?;
     let last = log.lines().next_back()?;
     last.strip_prefix(crate::run::REFUSED).map(str::to_owned)
 }

@@ -5,11 +5,11 @@ use super::{CheckOptions, Report};
 use crate::accumulator::{Statistic, Switches};
 use crate::basis::{Basis, Bound, SCALES};
 use crate::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
-use crate::frames::Pairing;
 use crate::law::Law;
 use crate::limits::{Limit, MEASURES, Measure};
 use crate::surface::body_name;
 use crate::window::Window;
+use output::layout::Pairing;
 use serde_json::{Map, Value, json};
 
 impl Pass<'_> {
@@ -117,7 +117,7 @@ impl Pass<'_> {
     /// What the law made again from the records cannot say, and why.
     fn law_followed(&self, metrics: &Map<String, Value>) -> Option<String> {
         if let Err(why) = &self.replay {
-            let looked = self.history.has("mu") && !why.is_empty();
+            let looked = self.history.has.mu && !why.is_empty();
             return looked.then(|| {
                 format!("the law's mu is not made again from the records, mu is not judged: {why}")
             });
@@ -154,14 +154,18 @@ impl Pass<'_> {
     /// What could not be measured.
     fn gaps(&self, crossed: usize) -> Vec<String> {
         let mut notes = Vec::new();
-        for (field, lost) in [
-            ("gap", "penetration and complementarity are not measured"),
-            ("mu", "law_error_own and mu_error are not measured"),
-            ("state", "switches are counted from the slip velocity"),
-            ("motion", "the slip of the pair is not measured (displacement and velocity)"),
+        let has = self.history.has;
+        for (there, lost) in [
+            (has.gap, "gap: penetration and complementarity are not measured"),
+            (has.mu, "mu: law_error_own and mu_error are not measured"),
+            (has.state, "state: switches are counted from the slip velocity"),
+            (
+                has.motion,
+                "motion: the slip of the pair is not measured (displacement and velocity)",
+            ),
         ] {
-            if !self.history.has(field) {
-                notes.push(format!("the file has no {field}: {lost}"));
+            if !there {
+                notes.push(format!("the file has no {lost}"));
             }
         }
         let other = match self.history.pairing.0 {
@@ -273,7 +277,7 @@ impl Pass<'_> {
         let states: Vec<_> = self
             .sides
             .iter()
-            .filter(|_| self.history.has("state"))
+            .filter(|_| self.history.has.state)
             .filter_map(|(body, side)| Some((body_name(*body), Switches::rate(&side.states)?)))
             .collect();
         let slips = by_slip.iter().filter_map(|(view, _, found)| Some((*view, found.value?)));
@@ -327,17 +331,17 @@ impl Pass<'_> {
     fn why_none(&self, name: &str, basis: &Basis) -> &'static str {
         let no_law = basis.law.is_none() && self.replay.is_err();
         match name {
-            "penetration" | "complementarity" if !self.history.has("gap") => {
+            "penetration" | "complementarity" if !self.history.has.gap => {
                 "the file has no field gap"
             }
             "penetration" | "complementarity" => "the scale approach is not known",
             "law_error" | "law_error_let_slip" | "roughness_ratio" | "law_scatter" if no_law => {
                 "the friction law is not known"
             }
-            "law_error_let_slip" | "direction_let_slip" if !self.history.has("state") => {
+            "law_error_let_slip" | "direction_let_slip" if !self.history.has.state => {
                 "the file has no field state"
             }
-            "law_error_own" | "mu_error" | "mu_error_blurred" if !self.history.has("mu") => {
+            "law_error_own" | "mu_error" | "mu_error_blurred" if !self.history.has.mu => {
                 "the file has no field mu"
             }
             "mu_error" | "mu_error_blurred" if self.replay.is_err() => {

@@ -5,7 +5,7 @@ use crate::PostError;
 use crate::accumulator::{Accumulator, SideAccumulator};
 use crate::basis::{Basis, Bound};
 use crate::conditions::{IN_CONTACT, Judge, Node};
-use crate::frames::{ContactHistory, Frame, Pairing};
+use crate::frames::{ContactHistory, Frame};
 use crate::patch_series::{self, PatchRow};
 use crate::projection::Pair;
 use crate::replay::{Allowed, Replay};
@@ -14,6 +14,7 @@ use crate::vector::{Vec3, axpy, norm};
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
 use friction::Place;
+use output::layout::Pairing;
 
 /// A part of the interface on which the tangential conditions are judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +79,7 @@ impl<'a> Pass<'a> {
         let surface = &history.surface;
         let nodes = surface.points.len();
         let bodies = surface.bodies();
-        let pair = (bodies.len() == 2 && history.has("motion"))
+        let pair = (bodies.len() == 2 && history.has.motion)
             .then(|| Pair::new(surface, finer_body(surface, &bodies)));
         let views = bodies.iter().map(|&body| (View::Side(body), body));
         let views = views.chain(pair.as_ref().map(|pair| (View::Pair, pair.slave)));
@@ -95,7 +96,7 @@ impl<'a> Pass<'a> {
         Self {
             history,
             judge: Judge::new(basis, scales.slip_speed),
-            replay: if history.has("mu") {
+            replay: if history.has.mu {
                 Replay::new(history, basis, scales.dt)
             } else {
                 Err("the file has no field mu".into())

@@ -53,7 +53,7 @@ impl Scales {
                  drive.creepage",
             )
         })?;
-        if basis.bound == Bound::Used && !history.has("mu") {
+        if basis.bound == Bound::Used && !history.has.mu {
             return Err(unknown(
                 "the bound of friction",
                 "the file has no field mu; give --case CASE.toml with friction.law and its \

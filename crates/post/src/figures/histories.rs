@@ -5,46 +5,48 @@ use super::caption::caption;
 use crate::PostError;
 use crate::frames::open_history;
 use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
+use output::FieldSpec;
+use output::layout::HISTORY;
 use std::path::Path;
 
 /// A line: column, label, factor to the axis's unit, colour.
-type Line = (&'static str, &'static str, f64, [u8; 3]);
+type Line = (&'static FieldSpec, &'static str, f64, [u8; 3]);
 
 /// Axis label and lines of each panel.
-const PANELS: [(&str, &[Line]); 6] = [
+static PANELS: [(&str, &[Line]); 6] = [
     (
         "force (kN)",
         &[
-            ("normal_force", "normal", 1e-3, colour::BLACK),
-            ("tangential_force", "tangential", 1e-3, colour::BLUE),
-            ("lateral_force", "lateral", 1e-3, colour::GREY),
+            (&HISTORY.normal_force, "normal", 1e-3, colour::BLACK),
+            (&HISTORY.tangential_force, "tangential", 1e-3, colour::BLUE),
+            (&HISTORY.lateral_force, "lateral", 1e-3, colour::GREY),
         ],
     ),
-    ("traction coefficient (-)", &[("traction_coefficient", "T/N", 1.0, colour::BLUE)]),
-    ("creepage (10\u{207b}\u{b3})", &[("creepage", "creepage", 1e3, colour::RED)]),
+    ("traction coefficient (-)", &[(&HISTORY.traction_coefficient, "T/N", 1.0, colour::BLUE)]),
+    ("creepage (10\u{207b}\u{b3})", &[(&HISTORY.creepage, "creepage", 1e3, colour::RED)]),
     (
         "patch (mm)",
         &[
-            ("patch_half_length", "half length", 1e3, colour::BLUE),
-            ("patch_half_width", "half width", 1e3, colour::GREEN),
+            (&HISTORY.patch_half_length, "half length", 1e3, colour::BLUE),
+            (&HISTORY.patch_half_width, "half width", 1e3, colour::GREEN),
         ],
     ),
     (
         "share of the patch (-)",
         &[
-            ("stick_fraction", "sticks", 1.0, colour::BLUE),
-            ("slip_fraction", "slips", 1.0, colour::ORANGE),
+            (&HISTORY.stick_fraction, "sticks", 1.0, colour::BLUE),
+            (&HISTORY.slip_fraction, "slips", 1.0, colour::ORANGE),
         ],
     ),
     (
         "energy (J)",
         &[
-            ("internal", "internal", 1.0, colour::BLACK),
-            ("hourglass", "hourglass", 1.0, colour::GREY),
-            ("contact_stored", "contact springs", 1.0, colour::BLUE),
-            ("friction_dissipated", "heat of friction", 1.0, colour::RED),
-            ("damping_dissipated", "damping", 1.0, colour::GREEN),
-            ("imbalance", "imbalance", 1.0, colour::PURPLE),
+            (&HISTORY.internal, "internal", 1.0, colour::BLACK),
+            (&HISTORY.hourglass, "hourglass", 1.0, colour::GREY),
+            (&HISTORY.contact_stored, "contact springs", 1.0, colour::BLUE),
+            (&HISTORY.friction_dissipated, "heat of friction", 1.0, colour::RED),
+            (&HISTORY.damping_dissipated, "damping", 1.0, colour::GREEN),
+            (&HISTORY.imbalance, "imbalance", 1.0, colour::PURPLE),
         ],
     ),
 ];
@@ -55,9 +57,11 @@ const COLUMNS: usize = 1200;
 /// The histories; `None` where there is no history.
 pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
     let Some(history) = open_history(path)? else { return Ok(None) };
-    let Some(time) = history.column("time")?.filter(|time| time.len() > 1) else { return Ok(None) };
+    let Some(time) = history.column(&HISTORY.time)?.filter(|time| time.len() > 1) else {
+        return Ok(None);
+    };
     let mut panels = Vec::new();
-    for (label, lines) in PANELS {
+    for (label, lines) in &PANELS {
         let mut series = Vec::new();
         for (column, label, factor, colour) in lines.iter() {
             let Some(values) = history.column(column)? else { continue };

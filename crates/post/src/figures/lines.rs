@@ -47,7 +47,7 @@ pub(super) fn velocities(scene: &Scene<'_>) -> Figure {
     };
     let slip = |instant: &Instant, row: usize| instant.frame.slip_velocity[row][0];
     let mut panels = Vec::new();
-    if scene.history.has("motion") {
+    if scene.history.has.motion {
         for &body in bodies.iter().rev() {
             let title = format!("Surface nodes of the {}", crate::surface::body_name(body));
             let series = at_instants(scene, body, true, &velocity);

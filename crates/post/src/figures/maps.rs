@@ -123,7 +123,7 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
     let height = 1.35 * 1e3 * scene.basis.scale("half_width").unwrap_or(10.0 * scene.scales.size);
     let mut panels = Vec::new();
     for by_state in [true, false] {
-        if by_state && !scene.history.has("state") {
+        if by_state && !scene.history.has.state {
             continue;
         }
         for instant in &scene.instants {
@@ -188,7 +188,7 @@ pub(super) fn space_time(scene: &Scene<'_>, band: &Band) -> Figure {
         }
     };
     let mut panels = vec![panel(&speed_key, &|sample| speed_key.colour(sample.speed))];
-    if scene.history.has("state") {
+    if scene.history.has.state {
         panels.push(panel(&states(), &|sample| state_colour(sample.state)));
     }
     panels.push(panel(&ratio_key, &|sample| ratio_key.colour(sample.ratio)));

@@ -6,6 +6,7 @@ use crate::PostError;
 use crate::conditions::IN_CONTACT;
 use crate::frames::open_history;
 use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
+use output::layout::{HISTORY, PROBE, of_probe};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -15,12 +16,16 @@ const COLOURS: [[u8; 3]; 6] =
 /// The spectra; `None` where the run has no probes or none of them was in contact.
 pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
     let Some(probes) = open_history(path)? else { return Ok(None) };
-    let Some(time) = probes.column("time")?.filter(|time| time.len() > 64) else { return Ok(None) };
+    let Some(time) = probes.column(&HISTORY.time)?.filter(|time| time.len() > 64) else {
+        return Ok(None);
+    };
     let dt = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let mut series = Vec::new();
     for k in 0.. {
-        let column = |name: &str| probes.column(&format!("probe{k}_{name}"));
-        let (Some(pressure), Some(slip)) = (column("pressure")?, column("slip_velocity_x")?) else {
+        let column = |column| probes.column(&of_probe(k, column));
+        let (Some(pressure), Some(slip)) =
+            (column(&PROBE.pressure)?, column(&PROBE.slip_velocity_x)?)
+        else {
             break;
         };
         let touches = |p: &f64| *p > IN_CONTACT * scene.scales.peak_pressure;
@@ -34,9 +39,8 @@ pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>,
         }
         let points = density(&slip[from..=to], dt);
         let points: Vec<_> = points.into_iter().map(|[f, power]| [1e-3 * f, power]).collect();
-        let node = probes.units(&format!("probe{k}_pressure")).map(|_| format!("probe {k}"));
         series.push(Series {
-            label: node.unwrap_or_default(),
+            label: format!("probe {k}"),
             points: thin(&points, 600),
             draw: Draw::Line(COLOURS[k % COLOURS.len()]),
         });

@@ -135,20 +135,19 @@ pub fn case(folder: &Path, friction: &str, enforcement: &str) {
 }
 
 pub fn create(path: &Path, s: &Surfaces, leave: Leave) -> TransientGrid {
-    let at = FieldSpec::at_points;
     let mut fields = vec![
-        at("pressure", "Pa", 1, "p"),
-        at("shear", "Pa", 3, "t"),
-        at("slip_velocity", "m/s", 3, "s"),
-        at("mu", "1", 1, "mu"),
-        at("state", "1", 1, "state").integer(),
+        FieldSpec::scalar("pressure", "Pa", "p"),
+        FieldSpec::vector("shear", "Pa", "t"),
+        FieldSpec::vector("slip_velocity", "m/s", "s"),
+        FieldSpec::scalar("mu", "1", "mu"),
+        FieldSpec::label("state", "1", "state"),
     ];
     if !leave.gap {
-        fields.push(at("gap", "m", 1, "gap"));
+        fields.push(FieldSpec::scalar("gap", "m", "gap"));
     }
     if !leave.motion {
-        fields.push(at("velocity", "m/s", 3, "v"));
-        fields.push(at("displacement", "m", 3, "u"));
+        fields.push(FieldSpec::vector("velocity", "m/s", "v"));
+        fields.push(FieldSpec::vector("displacement", "m", "u"));
     }
     let provenance = Provenance {
         creepage_version: "0".into(),
@@ -158,11 +157,11 @@ pub fn create(path: &Path, s: &Surfaces, leave: Leave) -> TransientGrid {
     };
     let constant = [
         StaticField {
-            spec: FieldSpec::at_points("body", "1", 1, "body").integer().on_cells(),
+            spec: FieldSpec::cell_label("body", "1", "body"),
             values: Values::Integer(&s.body),
         },
         StaticField {
-            spec: FieldSpec::at_points("area", "m2", 1, "area"),
+            spec: FieldSpec::scalar("area", "m2", "area"),
             values: Values::Scalar(&s.area),
         },
     ];

@@ -11,7 +11,7 @@ apex at the origin.
 from ._commands import run, schema, slider, sweep, verify
 from ._errors import CaseError, CreepageError, Interrupted, LimitError, RunError
 from ._mesh import mesh
-from ._run import Field, History, Records, Run, Side
+from ._run import Field, History, Records, Run, Side, layout
 
 __all__ = [
     "CaseError",
@@ -24,6 +24,7 @@ __all__ = [
     "Run",
     "RunError",
     "Side",
+    "layout",
     "mesh",
     "run",
     "schema",

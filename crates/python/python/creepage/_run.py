@@ -14,6 +14,13 @@ from . import _creepage
 from ._errors import CaseError, LimitError
 from ._execute import execute, options
 
+_NAMES, _LAYOUT = _creepage.layout()
+
+
+def layout() -> dict:
+    """What each file of a run holds: for each dataset its name, units, shape and meaning, by the name of the file."""
+    return {file: [tuple(row) for row in rows] for file, rows in _LAYOUT.items()}
+
 
 class Field:
     """A field over the records of a file, read when it is indexed.
@@ -168,7 +175,7 @@ class Records(Mapping):
 
     def _side(self, body):
         if self._sides is None:
-            bodies = self["body"][:]
+            bodies = self[_NAMES["body"]][:]
             self._sides = []
             for k in (0, 1):
                 mine = np.flatnonzero(bodies == k)
@@ -249,8 +256,9 @@ class History(Mapping):
         """A ``pandas.DataFrame`` over the time (s); units are in its ``attrs["units"]``."""
         import pandas
 
-        columns = {name: self[name] for name in self if name != "time"}
-        frame = pandas.DataFrame(columns, index=pandas.Index(self["time"], name="time"))
+        time = _NAMES["time"]
+        columns = {name: self[name] for name in self if name != time}
+        frame = pandas.DataFrame(columns, index=pandas.Index(self[time], name=time))
         frame.attrs["units"] = self.units
         return frame
 
@@ -269,8 +277,8 @@ class Run:
 
     def __init__(self, path):
         self.path = Path(path)
-        if not (self.path / "case.toml").is_file():
-            raise CaseError(f"{self.path} holds no run: there is no case.toml in it")
+        if not (self.path / _NAMES["case"]).is_file():
+            raise CaseError(f"{self.path} holds no run: there is no {_NAMES['case']} in it")
         self._open = {}
 
     def _file(self, name, kind):
@@ -288,37 +296,35 @@ class Run:
 
     @property
     def fields(self) -> Records:
-        """Both bodies over time: displacement (m), deformation (m; displacement less the body's rigid motion),
-        velocity (m/s), stress (Pa; xx yy zz xy yz xz)."""
-        return self._file("fields.vtkhdf", Records)
+        """Both bodies over time; the fields are those of ``creepage.layout()["fields.vtkhdf"]``."""
+        return self._file(_NAMES["fields"], Records)
 
     @property
     def contact(self) -> Records:
-        """Both contact surfaces over time: pressure, shear (Pa), slip_velocity (m/s), slip (m), mu, state (0
-        open, 1 stick, 2 slip), gap (m), area (m2), velocity (m/s), displacement (m); one surface by
-        ``contact.disk`` and ``contact.bar``."""
-        return self._file("contact.vtkhdf", Records)
+        """Both contact surfaces over time; the fields are those of ``creepage.layout()["contact.vtkhdf"]``. One
+        surface by ``contact.disk`` and ``contact.bar``."""
+        return self._file(_NAMES["contact"], Records)
 
     @property
     def history(self) -> History:
-        """Scalars over time: energies (J), forces (N), torque (N m), creepage, patch."""
-        return self._file("history.h5", History)
+        """Scalars over time; the columns are those of ``creepage.layout()["history.h5"]``."""
+        return self._file(_NAMES["history"], History)
 
     @property
     def probes(self) -> History:
         """Chosen nodes at every step, of a case with output.probes."""
-        return self._file("probes.h5", History)
+        return self._file(_NAMES["probes"], History)
 
     @property
     def summary(self) -> dict:
         """What ``creepage run --json`` prints; empty while the run goes on."""
-        path = self.path / "summary.json"
+        path = self.path / _NAMES["summary"]
         return json.loads(path.read_text("utf-8")) if path.is_file() else {}
 
     @property
     def case(self) -> dict:
         """The case as resolved, every default written out."""
-        return json.loads(_creepage.from_toml((self.path / "case.toml").read_text("utf-8")))
+        return json.loads(_creepage.from_toml((self.path / _NAMES["case"]).read_text("utf-8")))
 
     def check(self, window=None, limits=None, *, pairing=None, strict=False) -> dict:
         """Where and by how much the run violates the contact conditions.
