@@ -383,6 +383,60 @@ pub fn find(path: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.path == path)
 }
 
+/// Whether every dotted path in a text is that of a key or a section, and every word in square brackets
+/// that of a section. To be asked while compiling.
+pub(crate) const fn names_only_keys(text: &str) -> bool {
+    let text = text.as_bytes();
+    let mut at = 0;
+    while at < text.len() {
+        let start = at;
+        let mut dots = 0;
+        while at < text.len() && (is_of_path(text[at]) || dotted(text, at)) {
+            dots += (text[at] == b'.') as usize;
+            at += 1;
+        }
+        let in_brackets =
+            start > 0 && text[start - 1] == b'[' && at < text.len() && text[at] == b']';
+        let begins = at > start && text[start].is_ascii_lowercase();
+        if begins && (dots > 0 || in_brackets) && !is_there(text, start, at) {
+            return false;
+        }
+        at += 1;
+    }
+    true
+}
+
+const fn is_of_path(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// Whether there is a dot with a letter on both its sides.
+const fn dotted(text: &[u8], at: usize) -> bool {
+    text[at] == b'.'
+        && at > 0
+        && is_of_path(text[at - 1])
+        && at + 1 < text.len()
+        && text[at + 1].is_ascii_alphabetic()
+}
+
+/// Whether the bytes from `start` to `end` are the path of a key or of a section.
+const fn is_there(text: &[u8], start: usize, end: usize) -> bool {
+    let mut key = 0;
+    while key < KEYS.len() {
+        let path = KEYS[key].path.as_bytes();
+        let mut same = 0;
+        while start + same < end && same < path.len() && text[start + same] == path[same] {
+            same += 1;
+        }
+        let whole = start + same == end;
+        if whole && (same == path.len() || path[same] == b'.' || path[same] == b'[') {
+            return true;
+        }
+        key += 1;
+    }
+    false
+}
+
 /// Whether the path is that of a list of sections.
 pub fn is_list(path: &str) -> bool {
     KEYS.iter().any(|key| key.path.strip_prefix(path).is_some_and(|rest| rest.starts_with("[]")))

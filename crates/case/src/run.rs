@@ -19,6 +19,7 @@ use crate::model::Model;
 use crate::postmortem::{self, POSTMORTEM};
 use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
+use crate::remedy::Remedy;
 use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;

@@ -9,6 +9,7 @@ use crate::memory::peak_rss_mb;
 use crate::model::Model;
 use crate::postmortem::POSTMORTEM;
 use crate::preload::PreloadError;
+use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;

@@ -20,7 +20,7 @@ mod rolling;
 mod simulation;
 mod state;
 
-pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, Watch};
+pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, USUAL_HOURGLASS, Watch};
 pub use hub::{Hub, HubState, Spin, Vertical, smoothstep};
 pub use ledger::{Energies, LEDGER_NUMBERS, Ledger};
 pub use load::{Fixed, Load};

@@ -2,6 +2,7 @@
 
 use super::{Translation, Units, translate};
 use crate::Case;
+use crate::Remedy;
 use crate::schema::{ContactLayers, Crown, Stiffness};
 use friction::Kind;
 use mesh::import::{ImportError, SetNames, Unit, bodies, read_abaqus};
