@@ -45,6 +45,7 @@ pub mod resume;
 pub mod run;
 mod run_error;
 pub mod schema;
+mod section;
 mod start;
 mod summary;
 pub mod sweep;

@@ -124,8 +124,7 @@ fn remedies() -> Vec<String> {
         Value { name: "", value: 0.0, range: "" } ImplicitLaw {} NoStabilityScale {});
     let law = every!(LawError: Expression (friction::Expression::new("(").unwrap_err())
         Table (friction::TableError::Empty));
-    let report =
-        RelaxationReport { iterations: 1, kinetic_ratio: 1.0, normal_force: 0.0, hub: 0.0 };
+    let report = RelaxationReport::default();
     let relaxation = every!(RelaxationError: Slow { report, tolerance: 1e-8 }
         BlowUp { iteration: 1 } Interrupted {});
     [
@@ -180,18 +179,31 @@ fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// The dotted words between quotes, or of a comment between grave accents.
-fn dotted_words(text: &str) -> Vec<&str> {
-    let mut words = Vec::new();
-    for line in text.lines() {
-        let comment = line.trim_start().starts_with("//");
-        let quoted = line.split(if comment { '`' } else { '"' }).skip(1);
-        let quoted = quoted.step_by(if comment { 2 } else { 1 });
-        let outside = |c: char| !(c.is_ascii_alphanumeric() || "_.".contains(c));
-        let dotted = quoted.flat_map(|part| part.split(outside)).map(|word| word.trim_matches('.'));
-        words.extend(dotted.filter(|word| word.contains('.')));
+/// The texts between quotes, also over several lines.
+fn literals(text: &str) -> Vec<String> {
+    let code: String = text
+        .lines()
+        .map(|line| if line.trim_start().starts_with("//") { "" } else { line })
+        .flat_map(|line| [line, "\n"])
+        .collect();
+    let (mut found, mut literal) = (Vec::new(), None);
+    let mut chars = code.replace("'\"'", "").chars().collect::<Vec<_>>().into_iter();
+    while let Some(c) = chars.next() {
+        match (&mut literal, c) {
+            (Some(_), '"') => found.extend(literal.take()),
+            (None, '"') => literal = Some(String::new()),
+            (Some(literal), '\\') => literal.extend(chars.next().filter(|c| !c.is_alphanumeric())),
+            (Some(literal), c) => literal.push(c),
+            (None, _) => {}
+        }
     }
-    words
+    found
+}
+
+/// The dotted words of a text.
+fn dotted(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "_.".contains(c)));
+    words.map(|word| word.trim_matches('.')).filter(|word| word.contains('.'))
 }
 
 fn crates() -> PathBuf {
@@ -200,14 +212,19 @@ fn crates() -> PathBuf {
 
 #[test]
 fn the_rooms_below_name_no_key() {
+    let is_key = |word: &str| {
+        KEYS.iter()
+            .filter_map(|key| key.path.strip_prefix(word))
+            .any(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
     for room in ["mesh", "solid", "contact", "statics", "dynamics"] {
         for (path, text) in sources(&crates().join(room).join("src")) {
-            for word in dotted_words(&text) {
-                let known = KEYS.iter().any(|key| {
-                    let rest = key.path.strip_prefix(word);
-                    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-                });
-                assert!(!known, "{} names the key {word}", path.display());
+            let comments = text.lines().filter(|line| line.trim_start().starts_with("//"));
+            let marked = comments.flat_map(|line| line.split('`').skip(1).step_by(2));
+            let literals = literals(&text);
+            for said in literals.iter().map(String::as_str).chain(marked) {
+                let key = dotted(said).find(|word| is_key(word));
+                assert_eq!(key, None, "{}: {said}", path.display());
             }
         }
     }
@@ -216,21 +233,18 @@ fn the_rooms_below_name_no_key() {
 #[test]
 fn the_messages_of_the_case_name_only_keys_that_there_are() {
     let top: Vec<_> = KEYS.iter().filter_map(|key| key.path.split_once('.')).map(|k| k.0).collect();
+    let files = ["toml", "h5", "vtkhdf", "inp", "vtu", "log"];
+    let of_a_key = |word: &&str| {
+        let is_file = files.iter().any(|ending| word.ends_with(ending));
+        !is_file && word.split_once('.').is_some_and(|(head, _)| top.contains(&head))
+    };
     let mut seen = 0;
     for room in ["case", "cli"] {
         for (path, text) in sources(&crates().join(room).join("src")) {
-            let literals = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-            for literal in literals.flat_map(|line| line.split('"').skip(1).step_by(2)) {
-                let words =
-                    literal.split(|c: char| !(c.is_ascii_alphanumeric() || "_.".contains(c)));
-                for word in words.map(|word| word.trim_matches('.')) {
-                    let file = ["toml", "h5", "vtkhdf"].iter().any(|end| word.ends_with(end));
-                    let of_a_key =
-                        word.split_once('.').is_some_and(|(head, _)| top.contains(&head));
-                    if of_a_key && !file {
-                        seen += 1;
-                        assert!(names_only_keys(word), "{} names {word}", path.display());
-                    }
+            for literal in literals(&text) {
+                for word in dotted(&literal).filter(of_a_key) {
+                    seen += 1;
+                    assert!(names_only_keys(word), "{}: {literal}", path.display());
                 }
             }
         }
