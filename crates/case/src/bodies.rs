@@ -51,7 +51,8 @@ section! {
         crown_radius: Crown = Crown::Radius(0.30) => CROWN;
         /// x of the bar's rear end (m); rolling starts at x = 0. Default -0.09.
         start: f64 = -0.09
-            => key(Number(within(-10.0, 10.0)), "m", "give x of the bar's rear end, negative: rolling starts at x = 0");
+            => key(Number(within(-10.0, 10.0)), "m",
+                "give x of the bar's rear end, negative: rolling starts at x = 0");
         /// `"quiet"` (Lysmer's viscous boundary, waves leave) or `"free"` ends. Default `"quiet"`.
         ends: Ends = Ends::Quiet => word(Ends::WORDS);
         /// Material keys in which the bar differs from `[material]`. Default: none.
@@ -132,7 +133,8 @@ section! {
         /// `[bar]` and `mesh.zone` then say what the mesh is, and must agree with it; `growth`, `coarsest`
         /// and `zone.depth` are without meaning. Default: the mesh is generated.
         file: Option<String>
-            => key(Text, "", "give the path of a .msh, .inp or .vtu file in quotes, relative to the case file; with --set, \
+            => key(Text, "",
+                "give the path of a .msh, .inp or .vtu file in quotes, relative to the case file; with --set, \
          to the working directory");
         /// SHA-256 of the file, in hexadecimal. Written into the case of a run, so that no other mesh
         /// takes its place unseen. Default with `file`: that of the file.
@@ -145,7 +147,8 @@ section! {
         sets: MeshSets;
         /// Ratio of neighbouring element sizes outside the fine zone (dimensionless). Default 1.35.
         growth: f64 = 1.35
-            => key(Number(within(1.05, 3.0)), "-", "give the ratio of neighbouring element sizes: 1.35 grades gently");
+            => key(Number(within(1.05, 3.0)), "-",
+                "give the ratio of neighbouring element sizes: 1.35 grades gently");
         /// Largest element size (m). Default 0.05.
         coarsest: f64 = 0.05 => LENGTH;
         /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
@@ -228,6 +231,7 @@ section! {
         depth: f64 = 0.008 => LENGTH;
         /// x of the zone's rear end (m); rolling starts at x = 0. Default -0.010.
         start: f64 = -0.010
-            => key(Number(within(-10.0, 10.0)), "m", "give x of the zone's rear end, negative: rolling starts at x = 0");
+            => key(Number(within(-10.0, 10.0)), "m",
+                "give x of the zone's rear end, negative: rolling starts at x = 0");
     }
 }

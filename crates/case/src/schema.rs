@@ -128,7 +128,8 @@ section! {
     required Load ["load."] {
         /// Force pressing the disk down on the bar (N), positive. Required.
         normal: f64
-            => needed(Number(over(0.0, 1e8)), "N", "give the force that presses the disk down, positive, in newtons: `normal = 100e3`; a \
+            => needed(Number(over(0.0, 1e8)), "N",
+                "give the force that presses the disk down, positive, in newtons: `normal = 100e3`; a \
          load upwards would lift the disk off the bar");
         /// `"load"`: the force is prescribed while rolling; `"height"`: the hub is held at the
         /// height that the preload found. Default `"load"`.
@@ -166,11 +167,14 @@ section! {
         /// the effective rolling radius that the preload gives.
         /// Required with `mode = "creepage"`, refused with `"torque"`.
         creepage: Option<f64>
-            => needed(Number(within(-0.5, 0.5)), "-", "give a plain ratio, not per cent or per mille: 2.4e-3 for 2.4 per mille").only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
+            => needed(Number(within(-0.5, 0.5)), "-",
+                "give a plain ratio, not per cent or per mille: 2.4e-3 for 2.4 per mille")
+                .only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
         /// Torque about the hub's axis (N m); positive when driving. Required with
         /// `mode = "torque"`, refused with `"creepage"`.
         torque: Option<f64>
-            => needed(Number(within(-1e7, 1e7)), "N m", "give the torque in N m").only_with("drive.mode", &["torque"]).instead_of("drive.creepage");
+            => needed(Number(within(-1e7, 1e7)), "N m", "give the torque in N m")
+                .only_with("drive.mode", &["torque"]).instead_of("drive.creepage");
         /// Time over which creepage or torque rises by a smoothstep (s). Default 0.74e-3.
         #[serde(default = "Drive::default_ramp")]
         ramp: f64 => key(Number(within(0.0, 1.0)), "s", "give a time in seconds: 0.74e-3");
@@ -275,7 +279,8 @@ section! {
         /// `"static"`, the kinetic over the internal energy with `"relaxation"`. Default 1e-9 with
         /// `"static"`, 1e-8 with `"relaxation"`.
         tolerance: Option<f64>
-            => key(Number(over(0.0, 1e-2)), "-", "give the residual over the load (static) or the ratio of kinetic to internal energy: 1e-9");
+            => key(Number(over(0.0, 1e-2)), "-",
+                "give the residual over the load (static) or the ratio of kinetic to internal energy: 1e-9");
         /// The preload gives up after so many iterations (dimensionless). Default 100 of Newton's with
         /// `"static"`, 40000 with `"relaxation"`.
         max_iterations: Option<u64>
@@ -284,7 +289,8 @@ section! {
         /// 1 + r disturbance in each direction, r drawn from -1 to 1. Two runs that differ in it alone show how
         /// fast small differences grow. Default: none.
         disturbance: Option<f64>
-            => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9").only_with("preload.method", &["static", "relaxation"]);
+            => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9")
+                .only_with("preload.method", &["static", "relaxation"]);
         /// What the draws of `disturbance` begin with (dimensionless). Default 1 with it, refused without.
         seed: Option<u64>
             => key(Count(0, 1_000_000), "-", "give a whole number").only_with("preload.disturbance", &[]);
@@ -319,7 +325,8 @@ section! {
         /// Default 0.67 without `step`.
         #[schemars(extend("default" = Time::FACTOR))]
         factor: Option<f64>
-            => key(Number(over(0.0, 2.0)), "-", "0.67 is the default; up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
+            => key(Number(over(0.0, 2.0)), "-",
+                "0.67 is the default; up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
         /// Longest time step (s), whatever the stability limit; refused above that limit. Runs whose
         /// stability limits differ then have the same step. Give this or `factor`, not both.
         /// Default: none.
@@ -327,7 +334,8 @@ section! {
             => key(Number(over(0.0, 1e-3)), "s", "give the step in seconds: 1.5e-7").instead_of("time.factor");
         /// Rolled distance (m). Give this or `duration`, not both. Default 0.060.
         roll: Option<f64>
-            => key(Number(over(0.0, 10.0)), "m", "give the rolled distance in metres: 0.06").instead_of("time.duration");
+            => key(Number(over(0.0, 10.0)), "m",
+                "give the rolled distance in metres: 0.06").instead_of("time.duration");
         /// Duration of rolling (s). Give this or `roll`, not both. Default: `roll / drive.speed`.
         duration: Option<f64>
             => key(Number(over(0.0, 10.0)), "s", "give the time in seconds: 1.5e-3").instead_of("time.roll");
@@ -364,7 +372,8 @@ section! {
         /// Rolled distance at the end of the run over which means are taken (m). Default 0.020, or
         /// the last third of a run shorter than 0.060 m.
         last: Option<f64>
-            => key(Number(over(0.0, 10.0)), "m", "give the rolled distance in metres: 0.02").instead_of("evaluate.transits");
+            => key(Number(over(0.0, 10.0)), "m",
+                "give the rolled distance in metres: 0.02").instead_of("evaluate.transits");
         /// The same distance in contact transits (dimensionless), instead of `last`: a transit is 2a with a Hertz's half axis
         /// along the rolling direction. Where slip fluctuates a mean needs several. Default: none.
         transits: Option<f64>

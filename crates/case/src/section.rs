@@ -77,4 +77,12 @@ macro_rules! words {
     };
 }
 
-pub(crate) use {section, words};
+/// Declares the rows of keys whose struct another crate declares.
+macro_rules! rows {
+    ($(#[$meta:meta])* $($path:literal => $key:expr;)*) => {
+        $(#[$meta])*
+        pub(crate) const KEYS: &[Key] = &[$(Key { path: $path, ..$key }),*];
+    };
+}
+
+pub(crate) use {rows, section, words};

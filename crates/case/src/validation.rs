@@ -174,7 +174,7 @@ fn check_rules(case: &Case, found: &mut Findings) {
         let rival = key.instead_of.filter(|other| is_given && get(&given, other).is_some());
         if let Some(other) = rival {
             let both = || format!("{path} and {other} are both given");
-            found.require(path < other, &[path, other], both, "give one of them, not both");
+            found.require(path > other, &[path, other], both, "give one of them, not both");
             continue;
         }
         let Some((other, words)) = key.only else { continue };

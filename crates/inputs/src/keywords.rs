@@ -2,8 +2,8 @@
 
 use std::hint::black_box;
 
-use case::Case;
 use case::ls_dyna::{Units, translate};
+use case::{Case, Remedy};
 use mesh::import::{SetNames, Unit, bodies, read_abaqus};
 
 use crate::text::{in_a_folder, told, write};

@@ -356,7 +356,7 @@ fn sizes_places_and_shapes_other_than_the_case_gives_are_refused() {
         (disk(Disk { width: 0.03, ..DISK }), Parameter::DiskWidth),
         (bar(Bar { length: 0.2, ..BAR }), Parameter::BarLength),
         (bar(Bar { width: 0.03, ..BAR }), Parameter::BarWidth),
-        (bar(Bar { height: 0.03, ..BAR }), "bar.height"),
+        (bar(Bar { height: 0.03, ..BAR }), Parameter::BarHeight),
     ] {
         let found = with(shape);
         let sized = matches!(found, Fault::Size { parameter, .. } if parameter == expected);
