@@ -1,40 +1,28 @@
 //! The keys of the two bodies and of their mesh.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use crate::forms::Crown;
+use crate::keys::Form::{Number, Text};
+use crate::keys::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, over, within, word};
+use crate::section::{section, words};
 
-/// The disk: an annulus with a rigid hub, rolling in +x.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Disk {
-    /// Rolling radius (m). Default 0.46.
-    pub radius: f64,
-    /// Radius of the rigid hub (m). Default 0.10.
-    pub hub_radius: f64,
-    /// Width in y (m). Default 0.06.
-    pub width: f64,
-    /// Transverse radius of the tread (m), or `"flat"` for a straight tread. Default `"flat"`.
-    pub crown_radius: Crown,
-    /// Height of the undeformed disk above touching at the start (m). Default 0. Above zero only
-    /// with `preload.method = "none"`: a disk that does not touch cannot be preloaded.
-    pub lift: f64,
-    /// Material keys in which the disk differs from `[material]`. Default: none.
-    #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
-    pub material: MaterialOverride,
-}
-
-impl Default for Disk {
-    fn default() -> Self {
-        Self {
-            radius: 0.46,
-            hub_radius: 0.10,
-            width: 0.06,
-            crown_radius: Crown::Flat,
-            lift: 0.0,
-            material: MaterialOverride::default(),
-        }
+section! {
+    /// The disk: an annulus with a rigid hub, rolling in +x.
+    optional Disk ["disk."] {
+        /// Rolling radius (m). Default 0.46.
+        radius: f64 = 0.46 => LENGTH;
+        /// Radius of the rigid hub (m). Default 0.10.
+        hub_radius: f64 = 0.10 => LENGTH;
+        /// Width in y (m). Default 0.06.
+        width: f64 = 0.06 => LENGTH;
+        /// Transverse radius of the tread (m), or `"flat"` for a straight tread. Default `"flat"`.
+        crown_radius: Crown = Crown::Flat => CROWN;
+        /// Height of the undeformed disk above touching at the start (m). Default 0. Above zero only
+        /// with `preload.method = "none"`: a disk that does not touch cannot be preloaded.
+        lift: f64
+            => key(Number(within(0.0, 0.1)), "m", "leave it out: the disk then touches the bar at the start");
+        /// Material keys in which the disk differs from `[material]`. Default: none.
+        #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
+        material: MaterialOverride;
     }
 }
 
@@ -50,38 +38,26 @@ impl Disk {
     }
 }
 
-/// The bar: clamped at its bottom, its top's apex at z = 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Bar {
-    /// Length in x (m). Default 0.24.
-    pub length: f64,
-    /// Width in y (m). Default 0.06.
-    pub width: f64,
-    /// Height from the clamped bottom to the top's apex (m). Default 0.07.
-    pub height: f64,
-    /// Transverse radius of the top (m), or `"flat"`. Default 0.30.
-    pub crown_radius: Crown,
-    /// x of the bar's rear end (m); rolling starts at x = 0. Default -0.09.
-    pub start: f64,
-    /// `"quiet"` (Lysmer's viscous boundary, waves leave) or `"free"` ends. Default `"quiet"`.
-    pub ends: Ends,
-    /// Material keys in which the bar differs from `[material]`. Default: none.
-    #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
-    pub material: MaterialOverride,
-}
-
-impl Default for Bar {
-    fn default() -> Self {
-        Self {
-            length: 0.24,
-            width: 0.06,
-            height: 0.07,
-            crown_radius: Crown::Radius(0.30),
-            start: -0.09,
-            ends: Ends::Quiet,
-            material: MaterialOverride::default(),
-        }
+section! {
+    /// The bar: clamped at its bottom, its top's apex at z = 0.
+    optional Bar ["bar."] {
+        /// Length in x (m). Default 0.24.
+        length: f64 = 0.24 => LENGTH;
+        /// Width in y (m). Default 0.06.
+        width: f64 = 0.06 => LENGTH;
+        /// Height from the clamped bottom to the top's apex (m). Default 0.07.
+        height: f64 = 0.07 => LENGTH;
+        /// Transverse radius of the top (m), or `"flat"`. Default 0.30.
+        crown_radius: Crown = Crown::Radius(0.30) => CROWN;
+        /// x of the bar's rear end (m); rolling starts at x = 0. Default -0.09.
+        start: f64 = -0.09
+            => key(Number(within(-10.0, 10.0)), "m",
+                "give x of the bar's rear end, negative: rolling starts at x = 0");
+        /// `"quiet"` (Lysmer's viscous boundary, waves leave) or `"free"` ends. Default `"quiet"`.
+        ends: Ends = Ends::Quiet => word(Ends::WORDS);
+        /// Material keys in which the bar differs from `[material]`. Default: none.
+        #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
+        material: MaterialOverride;
     }
 }
 
@@ -98,48 +74,41 @@ impl Bar {
     }
 }
 
-/// The two ends of the bar.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Ends {
-    /// Lysmer's viscous boundary: waves leave the model.
-    #[default]
-    Quiet,
-    /// No traction: waves are reflected.
-    Free,
-}
-
-/// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Material {
-    /// Young's modulus (Pa). Default 210e9.
-    pub young: f64,
-    /// Poisson's ratio (dimensionless). Default 0.3.
-    pub poisson: f64,
-    /// Density (kg/m^3). Default 7800.
-    pub density: f64,
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Self { young: 210e9, poisson: 0.3, density: 7800.0 }
+words! {
+    /// The two ends of the bar.
+    Ends {
+        /// Lysmer's viscous boundary: waves leave the model.
+        #[default]
+        Quiet = "quiet",
+        /// No traction: waves are reflected.
+        Free = "free",
     }
 }
 
-/// Those keys of a [`Material`] in which one body differs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct MaterialOverride {
-    /// Young's modulus of this body (Pa). Default: `material.young`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub young: Option<f64>,
-    /// Poisson's ratio of this body (dimensionless). Default: `material.poisson`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poisson: Option<f64>,
-    /// Density of this body (kg/m^3). Default: `material.density`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub density: Option<f64>,
+section! {
+    /// An isotropic elastic material.
+    #[derive(Copy)]
+    optional Material ["material."] {
+        /// Young's modulus (Pa). Default 210e9.
+        young: f64 = 210e9 => YOUNG;
+        /// Poisson's ratio (dimensionless). Default 0.3.
+        poisson: f64 = 0.3 => POISSON;
+        /// Density (kg/m^3). Default 7800.
+        density: f64 = 7800.0 => DENSITY;
+    }
+}
+
+section! {
+    /// Those keys of a [`Material`] in which one body differs.
+    #[derive(Copy)]
+    optional MaterialOverride ["disk.material.", "bar.material."] {
+        /// Young's modulus of this body (Pa). Default: `material.young`.
+        young: Option<f64> => YOUNG;
+        /// Poisson's ratio of this body (dimensionless). Default: `material.poisson`.
+        poisson: Option<f64> => POISSON;
+        /// Density of this body (kg/m^3). Default: `material.density`.
+        density: Option<f64> => DENSITY;
+    }
 }
 
 impl MaterialOverride {
@@ -157,50 +126,38 @@ impl MaterialOverride {
     }
 }
 
-/// The mesh: a fine zone where contact passes, graded to coarse elements elsewhere; or a file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Meshing {
-    /// Mesh of another program, relative to this file: Gmsh `.msh`, Abaqus `.inp` or `.vtu`. `[disk]`,
-    /// `[bar]` and `mesh.zone` then say what the mesh is, and must agree with it; `growth`, `coarsest`
-    /// and `zone.depth` are without meaning. Default: the mesh is generated.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
-    /// SHA-256 of the file, in hexadecimal. Written into the case of a run, so that no other mesh
-    /// takes its place unseen. Default with `file`: that of the file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sha256: Option<String>,
-    /// Unit of the file's coordinates: `"m"`, `"cm"`, `"mm"` or `"in"`. Default with `file`: `"m"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unit: Option<LengthUnit>,
-    /// Names of the sets in the file.
-    #[serde(skip_serializing_if = "MeshSets::is_empty")]
-    pub sets: MeshSets,
-    /// Ratio of neighbouring element sizes outside the fine zone (dimensionless). Default 1.35.
-    pub growth: f64,
-    /// Largest element size (m). Default 0.05.
-    pub coarsest: f64,
-    /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
-    /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
-    /// width, which only scales the forces; one near that of the coarsest elements keeps these well
-    /// shaped. Default false.
-    pub plane_strain: bool,
-    /// The fine zone.
-    pub zone: Zone,
-}
-
-impl Default for Meshing {
-    fn default() -> Self {
-        Self {
-            file: None,
-            sha256: None,
-            unit: None,
-            sets: MeshSets::default(),
-            growth: 1.35,
-            coarsest: 0.05,
-            plane_strain: false,
-            zone: Zone::default(),
-        }
+section! {
+    /// The mesh: a fine zone where contact passes, graded to coarse elements elsewhere; or a file.
+    optional Meshing ["mesh."] {
+        /// Mesh of another program, relative to this file: Gmsh `.msh`, Abaqus `.inp` or `.vtu`. `[disk]`,
+        /// `[bar]` and `mesh.zone` then say what the mesh is, and must agree with it; `growth`, `coarsest`
+        /// and `zone.depth` are without meaning. Default: the mesh is generated.
+        file: Option<String>
+            => key(Text, "",
+                "give the path of a .msh, .inp or .vtu file in quotes, relative to the case file; with --set, \
+         to the working directory");
+        /// SHA-256 of the file, in hexadecimal. Written into the case of a run, so that no other mesh
+        /// takes its place unseen. Default with `file`: that of the file.
+        sha256: Option<String>
+            => key(Text, "", "leave it out: it is written into the case of a run").only_with("mesh.file", &[]);
+        /// Unit of the file's coordinates: `"m"`, `"cm"`, `"mm"` or `"in"`. Default with `file`: `"m"`.
+        unit: Option<LengthUnit> => word(LengthUnit::WORDS).only_with("mesh.file", &[]);
+        /// Names of the sets in the file.
+        #[serde(skip_serializing_if = "MeshSets::is_empty")]
+        sets: MeshSets;
+        /// Ratio of neighbouring element sizes outside the fine zone (dimensionless). Default 1.35.
+        growth: f64 = 1.35
+            => key(Number(within(1.05, 3.0)), "-",
+                "give the ratio of neighbouring element sizes: 1.35 grades gently");
+        /// Largest element size (m). Default 0.05.
+        coarsest: f64 = 0.05 => LENGTH;
+        /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
+        /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
+        /// width, which only scales the forces; one near that of the coarsest elements keeps these well
+        /// shaped. Default false.
+        plane_strain: bool => FLAG;
+        /// The fine zone.
+        zone: Zone;
     }
 }
 
@@ -220,46 +177,38 @@ impl Meshing {
     }
 }
 
-/// A unit of length.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum LengthUnit {
-    /// Metre.
-    #[default]
-    #[serde(rename = "m")]
-    Metre,
-    /// Centimetre.
-    #[serde(rename = "cm")]
-    Centimetre,
-    /// Millimetre.
-    #[serde(rename = "mm")]
-    Millimetre,
-    /// Inch.
-    #[serde(rename = "in")]
-    Inch,
+words! {
+    /// A unit of length.
+    LengthUnit {
+        /// Metre.
+        #[default]
+        Metre = "m",
+        /// Centimetre.
+        Centimetre = "cm",
+        /// Millimetre.
+        Millimetre = "mm",
+        /// Inch.
+        Inch = "in",
+    }
 }
 
-/// Names of the sets in a mesh file.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct MeshSets {
-    /// The disk's elements. Default with `mesh.file`: `"disk"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub disk: Option<String>,
-    /// The bar's elements. Default with `mesh.file`: `"bar"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bar: Option<String>,
-    /// Nodes or faces of the rigid hub. Default with `mesh.file`: `"hub"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hub: Option<String>,
-    /// Faces or nodes of the disk's running surface. Default with `mesh.file`: `"tread"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tread: Option<String>,
-    /// Faces or nodes of the bar's running surface. Default with `mesh.file`: `"top"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub top: Option<String>,
-    /// Nodes or faces by which the bar is clamped. Default with `mesh.file`: `"clamp"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clamp: Option<String>,
+section! {
+    /// Names of the sets in a mesh file.
+    #[derive(Eq)]
+    optional MeshSets ["mesh.sets."] {
+        /// The disk's elements. Default with `mesh.file`: `"disk"`.
+        disk: Option<String> => SET;
+        /// The bar's elements. Default with `mesh.file`: `"bar"`.
+        bar: Option<String> => SET;
+        /// Nodes or faces of the rigid hub. Default with `mesh.file`: `"hub"`.
+        hub: Option<String> => SET;
+        /// Faces or nodes of the disk's running surface. Default with `mesh.file`: `"tread"`.
+        tread: Option<String> => SET;
+        /// Faces or nodes of the bar's running surface. Default with `mesh.file`: `"top"`.
+        top: Option<String> => SET;
+        /// Nodes or faces by which the bar is clamped. Default with `mesh.file`: `"clamp"`.
+        clamp: Option<String> => SET;
+    }
 }
 
 impl MeshSets {
@@ -268,24 +217,21 @@ impl MeshSets {
     }
 }
 
-/// The fine zone of both bodies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Zone {
-    /// Element size in the fine zone (m); the one key that refines everything. Default 1e-3.
-    pub size: f64,
-    /// Length in x (m). Default 0.08.
-    pub length: f64,
-    /// Width in y, centred on y = 0 (m). Default 0.02.
-    pub width: f64,
-    /// Depth below the surface (m). Default 0.008.
-    pub depth: f64,
-    /// x of the zone's rear end (m); rolling starts at x = 0. Default -0.010.
-    pub start: f64,
-}
-
-impl Default for Zone {
-    fn default() -> Self {
-        Self { size: 1e-3, length: 0.08, width: 0.02, depth: 0.008, start: -0.010 }
+section! {
+    /// The fine zone of both bodies.
+    optional Zone ["mesh.zone."] {
+        /// Element size in the fine zone (m); the one key that refines everything. Default 1e-3.
+        size: f64 = 1e-3
+            => key(Number(over(0.0, 0.1)), "m", "give the element size in metres: 1e-3 for 1 mm");
+        /// Length in x (m). Default 0.08.
+        length: f64 = 0.08 => LENGTH;
+        /// Width in y, centred on y = 0 (m). Default 0.02.
+        width: f64 = 0.02 => LENGTH;
+        /// Depth below the surface (m). Default 0.008.
+        depth: f64 = 0.008 => LENGTH;
+        /// x of the zone's rear end (m); rolling starts at x = 0. Default -0.010.
+        start: f64 = -0.010
+            => key(Number(within(-10.0, 10.0)), "m",
+                "give x of the zone's rear end, negative: rolling starts at x = 0");
     }
 }

@@ -102,7 +102,7 @@ fn check_table(
 }
 
 fn check_needed(layers: &Layers, errors: &mut Vec<KeyError>) {
-    for key in KEYS.iter().filter(|key| key.needed && !key.path.contains("[]")) {
+    for key in KEYS.iter().filter(|key| key.is_always_needed()) {
         let Some((section, name)) = key.path.rsplit_once('.') else {
             continue;
         };

@@ -1,14 +1,13 @@
 //! Values that a case file may write in more than one form.
-//!
-//! They are read by visitors rather than untagged enums, because an untagged enum forgets where
-//! in the file its value stood.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, SerializeMap, Serializer};
+use toml::Value;
+
+use crate::check::float;
 
 /// Transverse shape of a running surface: `"flat"`, or the radius of its crown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,35 +47,11 @@ impl Serialize for Crown {
 
 impl<'de> Deserialize<'de> for Crown {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(CrownVisitor)
-    }
-}
-
-struct CrownVisitor;
-
-impl Visitor<'_> for CrownVisitor {
-    type Value = Crown;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a radius in metres or \"flat\"")
-    }
-
-    fn visit_f64<E: de::Error>(self, radius: f64) -> Result<Crown, E> {
-        Ok(Crown::Radius(radius))
-    }
-
-    fn visit_i64<E: de::Error>(self, radius: i64) -> Result<Crown, E> {
-        Ok(Crown::Radius(radius as f64))
-    }
-
-    fn visit_u64<E: de::Error>(self, radius: u64) -> Result<Crown, E> {
-        Ok(Crown::Radius(radius as f64))
-    }
-
-    fn visit_str<E: de::Error>(self, word: &str) -> Result<Crown, E> {
-        match word {
-            "flat" => Ok(Crown::Flat),
-            _ => Err(E::invalid_value(de::Unexpected::Str(word), &self)),
+        match Value::deserialize(deserializer)? {
+            Value::String(word) if word == "flat" => Ok(Self::Flat),
+            value => float(&value)
+                .map(Self::Radius)
+                .ok_or_else(|| D::Error::custom("expected a radius in metres or \"flat\"")),
         }
     }
 }
@@ -117,46 +92,15 @@ impl Serialize for Stiffness {
 
 impl<'de> Deserialize<'de> for Stiffness {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(StiffnessVisitor)
-    }
-}
-
-struct StiffnessVisitor;
-
-impl<'de> Visitor<'de> for StiffnessVisitor {
-    type Value = Stiffness;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number, { stiffness = N/m^3 } or { stability = fraction }")
-    }
-
-    fn visit_f64<E: de::Error>(self, factor: f64) -> Result<Stiffness, E> {
-        Ok(Stiffness::Factor(factor))
-    }
-
-    fn visit_i64<E: de::Error>(self, factor: i64) -> Result<Stiffness, E> {
-        Ok(Stiffness::Factor(factor as f64))
-    }
-
-    fn visit_u64<E: de::Error>(self, factor: u64) -> Result<Stiffness, E> {
-        Ok(Stiffness::Factor(factor as f64))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Stiffness, A::Error> {
-        let Some(key) = map.next_key::<String>()? else {
-            return Err(de::Error::custom(
-                "an empty table: expected `stiffness` or `stability` in it",
-            ));
-        };
-        let stiffness = match key.as_str() {
-            "stiffness" => Stiffness::Areal(map.next_value()?),
-            "stability" => Stiffness::Stability(map.next_value()?),
-            other => return Err(de::Error::unknown_field(other, &["stiffness", "stability"])),
-        };
-        match map.next_key::<String>()? {
-            None => Ok(stiffness),
-            Some(_) => Err(de::Error::custom("give `stiffness` or `stability`, not both")),
-        }
+        let value = Value::deserialize(deserializer)?;
+        let only = value.as_table().filter(|table| table.len() == 1);
+        let form = |name| only.and_then(|table| table.get(name)).and_then(float);
+        let areal = || form("stiffness").map(Self::Areal);
+        let stability = || form("stability").map(Self::Stability);
+        let stiffness = float(&value).map(Self::Factor).or_else(areal).or_else(stability);
+        stiffness.ok_or_else(|| {
+            D::Error::custom("expected a number, { stiffness = N/m^3 } or { stability = fraction }")
+        })
     }
 }
 

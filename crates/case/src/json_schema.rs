@@ -76,7 +76,7 @@ fn limit(schema: &mut Map<String, Value>, range: Range) {
 /// Keys that a case must have may come from the file that it extends.
 fn allow_extending(schema: &mut Value) {
     let mut required = Map::new();
-    for key in KEYS.iter().filter(|key| key.needed && !key.path.contains("[]")) {
+    for key in KEYS.iter().filter(|key| key.is_always_needed()) {
         let Some((section, name)) = key.path.rsplit_once('.') else {
             continue;
         };

@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 
 use files::input::{self, Kind};
 use files::printable;
+use serde::Deserialize;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeTable, DeValue, Deserializer};
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
@@ -50,20 +51,6 @@ pub struct Layers {
     pub origins: BTreeMap<String, Origin>,
     pub sources: Vec<Source>,
 }
-
-/// Choosing the left (a key, and for some the word it is set to) takes the right back from the
-/// layers beneath: a file that extends a case with a creepage may set a torque instead. Choosing a
-/// friction law takes the keys back that it does not use.
-const TAKES_BACK: &[(&str, Option<&str>, &[&str])] = &[
-    ("time.factor", None, &["time.step"]),
-    ("time.step", None, &["time.factor"]),
-    ("time.roll", None, &["time.duration"]),
-    ("time.duration", None, &["time.roll"]),
-    ("drive.creepage", None, &["drive.torque"]),
-    ("drive.torque", None, &["drive.creepage"]),
-    ("drive.mode", Some("creepage"), &["drive.torque"]),
-    ("drive.mode", Some("torque"), &["drive.creepage"]),
-];
 
 impl Layers {
     /// Reads a case file with everything that it extends.
@@ -225,22 +212,25 @@ impl Layers {
                 };
             CaseError::Key(Box::new(key_error_at(&source, span, "", &problem, remedy)))
         };
-        let table = toml::from_str::<Table>(&source.text).map_err(&malformed)?;
-        let spans = DeTable::parse(&source.text).map_err(&malformed)?;
+        let parsed = DeTable::parse(&source.text).map_err(&malformed)?;
         let mut origins = BTreeMap::new();
-        record(spans.get_ref(), "", self.sources.len(), &mut origins);
+        record(parsed.get_ref(), "", self.sources.len(), &mut origins);
+        let table = Table::deserialize(Deserializer::from(parsed)).map_err(&malformed)?;
         self.sources.push(source);
         Ok((table, origins))
     }
 
     fn lay_over(&mut self, top: Table, origins: BTreeMap<String, Origin>) {
-        for (key, word, taken) in TAKES_BACK {
-            let chosen = get(&top, key)
-                .is_some_and(|value| word.is_none_or(|word| value.as_str() == Some(word)));
-            if chosen {
-                for path in taken.iter() {
-                    self.drop_key(path);
-                }
+        // A choice takes back from the layers beneath what it stands for: a file that extends a case with a
+        // creepage may set a torque instead. A friction law takes back the keys that it does not use.
+        for key in keys::KEYS.iter().filter(|key| key.instead_of.is_some()) {
+            let replaced = key.instead_of.is_some_and(|other| get(&top, other).is_some());
+            let ruled_out = key.only.is_some_and(|(other, words)| {
+                let word = get(&top, other).and_then(Value::as_str);
+                word.is_some_and(|word| !words.contains(&word))
+            });
+            if replaced || ruled_out {
+                self.drop_key(key.path);
             }
         }
         let law = get(&top, "friction.law").and_then(Value::as_str);

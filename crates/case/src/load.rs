@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
 use crate::check;
@@ -94,9 +95,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     table::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
     check::keys(&layers)?;
-    // Rendered and read again, the merged keys go through serde's own strictness as well.
-    let merged = toml::to_string(&layers.table).unwrap_or_default();
-    let mut case: Case = toml::from_str(&merged).map_err(|error| {
+    let mut case = Case::deserialize(layers.table.clone()).map_err(|error| {
         let message = error.message().replace('\n', "; ");
         let remedy = "see `creepage schema` for the keys and their forms";
         CaseError::Key(Box::new(layers.error_nowhere("", &message, remedy)))

@@ -11,6 +11,7 @@ use toml::Value;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::preload::store::hexadecimal;
+use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::{Case, Ends, LengthUnit};
 

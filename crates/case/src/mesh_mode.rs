@@ -1,6 +1,7 @@
 //! Whether slip and the elements below the contact show a mode of the mesh, over the evaluation window.
 
 use crate::model::{BAR, DISK, Model};
+use crate::remedy::remedy;
 use crate::run_error::RunError;
 use crate::schema::{Case, ContactLayers};
 use crate::validation::LAYERS;
@@ -40,6 +41,10 @@ impl MeshModeSums {
     pub(crate) fn warnings(&self, case: &Case) -> Vec<String> {
         let one_point = case.element.contact_layers == ContactLayers::OnePoint;
         let slip = self.alternating(case).and_then(|share| warning(share, one_point));
+        let slip = slip.map(|text| match one_point {
+            true => format!("{text}: {}", remedy!("use element.contact_layers = \"full\"")),
+            false => text.to_owned(),
+        });
         let energy = self.hourglass().filter(|part| *part > HOURGLASS_LIMIT).map(|part| {
             format!(
                 "the hourglass energy of the elements below the contact is {:.0} % of their strain energy: they \
@@ -47,7 +52,7 @@ impl MeshModeSums {
                 100.0 * part
             )
         });
-        slip.map(str::to_owned).into_iter().chain(energy).collect()
+        slip.into_iter().chain(energy).collect()
     }
 
     /// `mesh_mode` of a summary.

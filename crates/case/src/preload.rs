@@ -151,32 +151,6 @@ impl PreloadError {
                 | Self::Relaxation(RelaxationError::Interrupted)
         )
     }
-
-    /// What to do about it.
-    pub(crate) fn remedy(&self) -> &'static str {
-        const MESH: &str = "look at the quality of the mesh with `creepage mesh`; lower \
-                            contact.penalty.normal, or mesh.growth";
-        const INTERRUPTED: &str = "the disk had not begun to roll, so there are no results yet";
-        match self {
-            Self::Relaxation(RelaxationError::Slow { .. }) => {
-                "raise preload.max_iterations, or raise preload.tolerance to a ratio that it \
-                 reaches"
-            }
-            Self::Relaxation(RelaxationError::BlowUp { .. }) => MESH,
-            Self::Static(StaticsError::Slow { .. } | StaticsError::Linear { .. }) => {
-                "raise preload.max_iterations, or try preload.method = \"relaxation\""
-            }
-            Self::Static(StaticsError::Inverted { .. } | StaticsError::Flat { .. }) => {
-                "lower load.normal; `creepage mesh` tells what Hertz's contact expects of it"
-            }
-            Self::Static(StaticsError::Open { .. }) => {
-                "give a load.normal that presses the disk on the bar"
-            }
-            Self::Relaxation(RelaxationError::Interrupted)
-            | Self::Static(StaticsError::Interrupted) => INTERRUPTED,
-            Self::Static(_) => MESH,
-        }
-    }
 }
 
 /// What the preload found.

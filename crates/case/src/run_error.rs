@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::remedy::{Remedy, key, key_of_mesh};
+
 /// Why a run did not come to its end.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum RunError {
@@ -18,8 +20,8 @@ pub enum RunError {
     #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
     Restore(#[from] dynamics::RestoreError),
     /// The mesh cannot be built.
-    #[error(transparent)]
-    #[diagnostic(help("change the keys of [disk], [bar] or [mesh] that it names"))]
+    #[error("{}", named(.0))]
+    #[diagnostic(help("{}", .0.remedy()))]
     Mesh(#[from] mesh::MeshError),
     /// The mesh file cannot be used.
     #[error(transparent)]
@@ -33,15 +35,15 @@ pub enum RunError {
     Slice(#[from] mesh::NoSlice),
     /// The elements cannot be set up.
     #[error(transparent)]
-    #[diagnostic(help("change the keys of [material], [disk], [bar] or [mesh] that it names"))]
+    #[diagnostic(help("{}", .0.remedy()))]
     Solid(#[from] solid::SolidError),
     /// The contact cannot be set up.
     #[error(transparent)]
-    #[diagnostic(help("change the keys of [contact.penalty]"))]
+    #[diagnostic(help("{}", .0.remedy()))]
     Contact(#[from] contact::ContactError),
     /// There is no friction law.
     #[error(transparent)]
-    #[diagnostic(help("change the keys of [friction]"))]
+    #[diagnostic(help("{}", .0.remedy()))]
     Friction(#[from] friction::LawError),
     /// The machine has too little memory for the mesh.
     #[error(
@@ -111,14 +113,17 @@ impl RunError {
     /// The key of the case that the error is about, where it is about one.
     pub fn key(&self) -> Option<&'static str> {
         match self {
-            Self::Mesh(mesh::MeshError::OutOfRange { parameter, .. }) => Some(parameter),
-            Self::Mesh(mesh::MeshError::TooManyElements { .. }) | Self::Memory { .. } => {
-                Some("mesh.zone.size")
-            }
-            Self::Slice(_) => Some("mesh.plane_strain"),
-            Self::Step { .. } => Some("time.step"),
+            Self::Mesh(error) => key_of_mesh(error),
+            Self::Memory { .. } => Some(key!("mesh.zone.size")),
+            Self::Slice(_) => Some(key!("mesh.plane_strain")),
+            Self::Step { .. } => Some(key!("time.step")),
             _ => None,
         }
+    }
+
+    /// What to do about it, in the keys of the case file.
+    pub fn remedy(&self) -> String {
+        miette::Diagnostic::help(self).map_or("change this key".into(), |help| help.to_string())
     }
 
     /// Exit code of the process: 2 for bad input, 3 where the run's own guards stopped it, 130
@@ -143,6 +148,11 @@ impl RunError {
             Self::Preload(_) | Self::Output(_) | Self::Text { .. } => 3,
         }
     }
+}
+
+/// What is wrong with a mesh, after the key that it is refused by.
+fn named(error: &mesh::MeshError) -> String {
+    key_of_mesh(error).map_or(error.to_string(), |key| format!("{key}: {error}"))
 }
 
 fn output_help(error: &output::OutputError) -> &'static str {

@@ -7,6 +7,7 @@ use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
 use crate::preload::PreloadError;
+use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::{Case, Enforcement};
 use crate::start::Facts;

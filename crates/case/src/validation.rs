@@ -4,15 +4,15 @@ use crate::check::raise;
 use crate::error::{CaseError, KeyError};
 use crate::friction_law;
 use crate::hertz::hertz;
-use crate::keys::{self, number};
-use crate::layers::{Layers, Origin, key_error_in};
+use crate::keys::{self, KEYS, number};
+use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
 use crate::schema::{
-    Case, ContactLayers, Crown, DriveMode, Enforcement, LoadMode, Material, PreloadMethod,
-    Stiffness, Time, Window,
+    Case, Crown, Enforcement, LoadMode, Material, PreloadMethod, Stiffness, Time, Window,
 };
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
+use toml::{Table, Value};
 
 /// Fully integrated layers where a case with them does not say how many.
 pub const LAYERS: u64 = 2;
@@ -104,75 +104,7 @@ fn check_name(case: &Case, found: &mut Findings) {
 }
 
 fn check_choices(case: &Case, found: &mut Findings) {
-    let drive = &case.drive;
-    match drive.mode {
-        DriveMode::Creepage => {
-            found.require(
-                drive.torque.is_none(),
-                &["drive.torque"],
-                || "drive.torque is not used with drive.mode = \"creepage\"".into(),
-                "set drive.mode = \"torque\" and leave creepage out, or leave torque out",
-            );
-            found.require(
-                drive.creepage.is_some(),
-                &["drive.mode", "drive"],
-                || {
-                    "drive.creepage is missing: drive.mode = \"creepage\" needs it, a number from \
-                    -0.5 to 0.5"
-                        .into()
-                },
-                "in [drive] give the creepage: `creepage = 2.4e-3`",
-            );
-        }
-        DriveMode::Torque => {
-            found.require(
-                drive.creepage.is_none(),
-                &["drive.creepage"],
-                || "drive.creepage is not used where a torque drives".into(),
-                "give drive.creepage or drive.torque, not both",
-            );
-            found.require(
-                drive.torque.is_some(),
-                &["drive.mode", "drive"],
-                || {
-                    "drive.torque is missing: drive.mode = \"torque\" needs it, a number of N m"
-                        .into()
-                },
-                "in [drive] give the torque: `torque = 12.9e3`",
-            );
-        }
-    }
-    let mesh = &case.mesh;
-    let sets = [
-        ("mesh.sets.disk", &mesh.sets.disk),
-        ("mesh.sets.bar", &mesh.sets.bar),
-        ("mesh.sets.hub", &mesh.sets.hub),
-        ("mesh.sets.tread", &mesh.sets.tread),
-        ("mesh.sets.top", &mesh.sets.top),
-        ("mesh.sets.clamp", &mesh.sets.clamp),
-    ];
-    let given = sets.into_iter().map(|(key, name)| (key, name.is_some()));
-    let others = [("mesh.unit", mesh.unit.is_some()), ("mesh.sha256", mesh.sha256.is_some())];
-    for (key, given) in given.chain(others) {
-        found.require(
-            mesh.file.is_some() || !given,
-            &[key],
-            || format!("{key} is not used without mesh.file"),
-            "name the mesh file in mesh.file, or leave this key out",
-        );
-    }
-    let element = &case.element;
-    for (key, given) in [
-        ("element.layers", element.layers.is_some()),
-        ("element.volumetric", element.volumetric.is_some()),
-    ] {
-        found.require(
-            !given || element.contact_layers == ContactLayers::Full,
-            &[key],
-            || format!("{key} is not used with element.contact_layers = \"one-point\""),
-            "leave it out, or set element.contact_layers = \"full\"",
-        );
-    }
+    check_rules(case, found);
     check_friction(&case.friction, found);
     let friction = &case.friction;
     let exact = case.contact.enforcement == Enforcement::Exact;
@@ -195,16 +127,7 @@ fn check_choices(case: &Case, found: &mut Findings) {
         );
     }
     found.require(
-        exact || case.contact.rows.is_none(),
-        &["contact.rows", "contact.enforcement"],
-        || {
-            "contact.rows is not used with contact.enforcement = \"penalty\": its pairs are springs"
-                .into()
-        },
-        "set contact.enforcement = \"exact\", or leave contact.rows out",
-    );
-    found.require(
-        element.hourglass > 0.0 || case.preload.method != PreloadMethod::Static,
+        case.element.hourglass > 0.0 || case.preload.method != PreloadMethod::Static,
         &["element.hourglass"],
         || {
             "element.hourglass = 0 leaves the elements without stiffness against hourglassing: the \
@@ -222,32 +145,7 @@ fn check_choices(case: &Case, found: &mut Findings) {
         },
         "set preload.method = \"static\"",
     );
-    let time = &case.time;
-    found.require(
-        time.roll.is_none() || time.duration.is_none(),
-        &["time.duration"],
-        || "time.duration and time.roll are both given".into(),
-        "give the rolled distance or the duration, not both",
-    );
-    found.require(
-        time.factor.is_none() || time.step.is_none(),
-        &["time.step"],
-        || "time.step and time.factor are both given".into(),
-        "give the step itself or its fraction of the stability limit, not both",
-    );
     let preloaded = case.preload.method != PreloadMethod::None;
-    found.require(
-        case.preload.disturbance.is_none() || preloaded,
-        &["preload.disturbance"],
-        || "preload.disturbance disturbs a preload, but there is none".into(),
-        "set preload.method = \"static\", or leave preload.disturbance out",
-    );
-    found.require(
-        case.preload.seed.is_none() || case.preload.disturbance.is_some(),
-        &["preload.seed"],
-        || "preload.seed is the seed of preload.disturbance, which is not given".into(),
-        "give preload.disturbance, such as 1e-9, or leave preload.seed out",
-    );
     found.require(
         case.disk.lift == 0.0 || !preloaded,
         &["disk.lift"],
@@ -267,6 +165,52 @@ fn check_choices(case: &Case, found: &mut Findings) {
     );
 }
 
+/// No key is given that another makes useless, and none is missing that another needs.
+fn check_rules(case: &Case, found: &mut Findings) {
+    // A case holds nothing that TOML cannot.
+    let given = Table::try_from(case).unwrap_or_default();
+    for key in KEYS {
+        let (path, is_given) = (key.path, get(&given, key.path).is_some());
+        let rival = key.instead_of.filter(|other| is_given && get(&given, other).is_some());
+        if let Some(other) = rival {
+            let both = || format!("{path} and {other} are both given");
+            found.require(path > other, &[path, other], both, "give one of them, not both");
+            continue;
+        }
+        let Some((other, words)) = key.only else { continue };
+        let now = get(&given, other);
+        let word = now.and_then(Value::as_str).unwrap_or_default();
+        let used = now.is_some() && (words.is_empty() || words.contains(&word));
+        let (problem, remedy) = match words {
+            [] => (format!("without {other}"), format!("give {other}")),
+            _ => (
+                format!("with {}", quoted(other, &[word])),
+                format!("set {}", quoted(other, words)),
+            ),
+        };
+        found.require(
+            used || !is_given,
+            &[path, other],
+            || format!("{path} is not used {problem}"),
+            &format!("{remedy}, or leave {path} out"),
+        );
+        let section = path.split('.').next().unwrap_or(path);
+        let allowed = key.form.allowed(key.unit);
+        found.require(
+            !key.needed || !used || is_given,
+            &[other, section],
+            || format!("{path} is missing: {} needs it, {allowed}", quoted(other, &[word])),
+            &format!("in [{section}] {}", key.remedy),
+        );
+    }
+}
+
+/// A key with the words that it may be.
+fn quoted(key: &str, words: &[&str]) -> String {
+    let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    format!("{key} = {}", words.join(" or "))
+}
+
 /// The friction law has the keys that it uses, no others, and they agree.
 fn check_friction(friction: &Parameters, found: &mut Findings) {
     let uses = Uses::of(friction.law);
@@ -279,8 +223,8 @@ fn check_friction(friction: &Parameters, found: &mut Findings) {
             &[&path],
             || format!("{path} is not used with {law}"),
             &format!(
-                "leave it out, or set friction.law = {}",
-                others.map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+                "leave it out, or set {}",
+                quoted("friction.law", &others.collect::<Vec<_>>())
             ),
         );
     }
@@ -481,12 +425,6 @@ fn check_output(case: &Case, found: &mut Findings) {
     let rolled = case.rolled();
     let last = case.evaluate_last();
     let key = if case.evaluate.transits.is_some() { "evaluate.transits" } else { "evaluate.last" };
-    found.require(
-        case.evaluate.last.is_none() || case.evaluate.transits.is_none(),
-        &["evaluate.transits", "evaluate.last"],
-        || "evaluate.transits and evaluate.last are two lengths of one window".into(),
-        "give one of them",
-    );
     found.require(
         last <= rolled * (1.0 + 1e-12),
         &[key, "time.roll", "time.duration"],

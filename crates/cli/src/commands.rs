@@ -185,7 +185,7 @@ fn placed(error: RunError, args: &Args, case: &Path, sets: &[String]) -> Failure
     let text = text(args);
     match error.key() {
         Some(key) => {
-            case::error_at_key(case, text, sets, key, &error.to_string(), "change this key").into()
+            case::error_at_key(case, text, sets, key, &error.to_string(), &error.remedy()).into()
         }
         None => error.into(),
     }

@@ -131,7 +131,7 @@ fn a_mesh_that_is_too_large_is_refused_at_its_line_and_costs_no_earlier_run_its_
     fs::write(out.join("summary.json"), "{}").unwrap();
     let sets = ["--set", "mesh.zone.size=1e-3"];
     let run = ["run", &path, "--out", out.to_str().unwrap(), "--force"];
-    let words = ["--set: `mesh.zone.size` = 0.001", "elements", "raise the size"];
+    let words = ["--set: mesh.zone.size: elements of 0.001 m", "allowed", "raise mesh.zone.size"];
     refused(&[&run[..], &sets].concat(), &words);
     assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "{}");
     assert!(!out.join("case.toml").exists());

@@ -108,7 +108,7 @@ fn a_bad_mesh_ends_with_code_2_file_line_element_or_set_and_remedy() {
         "m.msh",
         msh.as_bytes(),
         "unit = \"mm\"",
-        &["radius of the disk", "but disk.radius = 0.1 m", "set disk.radius"],
+        &["radius of the disk", "not 0.1 m", "set disk.radius"],
     );
     refused("m.msh", b"$MeshFormat\n4.1 1 8\n", "", &["m.msh:2", "binary"]);
     refused("m.stl", b"solid", "", &["case.toml", "mesh.file", ".msh, .inp"]);

@@ -63,8 +63,8 @@ impl MeshMode {
 /// with fully integrated ones; nothing of slip that the mesh resolves.
 pub fn warning(share: f64, one_point: bool) -> Option<&'static str> {
     (share > MESH_MODE_LIMIT).then_some(if one_point {
-        "slip alternates from node to node: a mode of the mesh, not friction; use element.contact_layers = \
-         \"full\""
+        "slip alternates from node to node: a mode of the mesh, not friction; fully integrated elements below \
+         the contact do not have it"
     } else {
         "slip alternates from node to node and the elements have no such mode: this mesh does not resolve it \
          (refine it; where friction falls with slip velocity and has no memory, no mesh does)"

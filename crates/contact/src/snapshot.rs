@@ -53,8 +53,7 @@ pub(crate) fn check_points<E: Enforced>(
         return Err(StateError::Range { name: "slave" });
     }
     let projects = |point: &ContactPoint<E>| {
-        (point.face as usize) < masters.faces.len()
-            || (!point.is_closed() && point.face == NONE)
+        (point.face as usize) < masters.faces.len() || (!point.is_closed() && point.face == NONE)
     };
     if points.iter().all(projects) { Ok(()) } else { Err(StateError::Range { name: "face" }) }
 }

@@ -20,7 +20,7 @@ pub const SHAPE_STEPS: usize = 500;
 const LANCZOS: usize = 40;
 
 /// Coefficient of the hourglass stiffness that is usual (Flanagan and Belytschko 1981).
-const USUAL_HOURGLASS: f64 = 0.05;
+pub const USUAL_HOURGLASS: f64 = 0.05;
 
 /// What no sound run does. Energy from nowhere and numbers that are none need no limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -276,43 +276,6 @@ impl fmt::Display for Diagnosis {
 }
 
 impl Diagnosis {
-    /// What to change.
-    pub fn remedy(&self) -> &'static str {
-        match self.cause {
-            Cause::UnstableStep { .. } => "set time.factor below 1; 0.67 is the default",
-            Cause::StiffContact { .. } => {
-                "lower the contact stiffness (contact.penalty.normal and .tangential) or time.factor; \
-                 with preload.method = \"static\" the step respects the springs"
-            }
-            Cause::EnergyGrowth => {
-                "lower time.factor or the contact stiffness (contact.penalty.normal and .tangential)"
-            }
-            Cause::NotFinite => "lower time.factor and look at the last readable results",
-            Cause::Friction { .. } => {
-                "correct the law ([friction]), or raise guards.friction where it is meant so"
-            }
-            Cause::Inverted { .. } => {
-                "check load.normal, drive.torque, drive.speed and the units of [material]; raise \
-                 element.hourglass to 0.05 if it is lower"
-            }
-            Cause::Hourglass { coefficient, .. } if coefficient < USUAL_HOURGLASS => {
-                "raise element.hourglass to 0.05"
-            }
-            Cause::Hourglass { .. } => {
-                "refine mesh.zone.size, or set element.contact_layers = \"full\""
-            }
-            Cause::Penetration { .. } => {
-                "stiffen the springs (contact.penalty.normal; 0.1 to 1 is usual), lower the load or the \
-                 torque, or raise guards.penetration where it is meant so"
-            }
-            Cause::ContactLost { .. } => {
-                "check load.normal, disk.lift and load.hub_mass, or raise guards.parted where the disk \
-                 is meant to jump"
-            }
-            Cause::EndOfBar { .. } => "roll less (time.roll), or lengthen the bar (bar.length)",
-        }
-    }
-
     /// Whether the place is a contact node that the cause is about.
     fn is_contact(&self) -> bool {
         matches!(self.cause, Cause::Friction { .. } | Cause::Penetration { .. })

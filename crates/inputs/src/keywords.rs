@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use case::Case;
+use case::{Case, Remedy};
 use ls_dyna::{Units, translate};
 use mesh::import::{SetNames, Unit, bodies, read_abaqus};
 

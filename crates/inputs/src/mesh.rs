@@ -2,6 +2,7 @@
 
 use std::hint::black_box;
 
+use case::Remedy;
 use mesh::import::{Format, SetNames, Shape, Unit, bodies, fit, write_abaqus};
 use mesh::{Bar, Disk, FineZone, quality};
 

@@ -1,10 +1,10 @@
 //! The bar: a tensor-product mesh, fine under the contact.
 
-use crate::error::{MAX_ELEMENTS, positive};
+use crate::error::{MAX_ELEMENTS, finite, positive, within};
 use crate::grading::{Axis, whole};
 use crate::grid::{Grid, nodes_of};
 use crate::zone::{check_crown, sag};
-use crate::{FineZone, Mesh, MeshError, SmoothSurface, Surface};
+use crate::{Allowed, FineZone, Mesh, MeshError, Parameter, SmoothSurface, Surface};
 
 /// A straight bar along `x` with its top's apex at `z = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,32 +79,20 @@ pub fn bar(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
 
 fn check(shape: &Bar, zone: &FineZone) -> Result<(), MeshError> {
     let Bar { length, width, height, crown, start } = *shape;
-    positive("bar.length", length)?;
-    positive("bar.width", width)?;
-    positive("bar.height", height)?;
-    if !start.is_finite() {
-        return Err(MeshError::range(
-            "bar.start",
-            start,
-            "a finite number",
-            "give the x of the bar's rear end in metres",
-        ));
-    }
-    check_crown("bar.crown_radius", crown, width, height)?;
+    positive(Parameter::BarLength, length)?;
+    positive(Parameter::BarWidth, width)?;
+    positive(Parameter::BarHeight, height)?;
+    finite(Parameter::BarStart, start)?;
+    check_crown(Parameter::BarCrown, crown, width, height)?;
     zone.check()?;
-    FineZone::fits("mesh.zone.length", zone.length, length, "the length of the bar")?;
-    FineZone::fits("mesh.zone.width", zone.width, width, "the width of the bar")?;
-    FineZone::fits("mesh.zone.depth", zone.depth, height, "the height of the bar")?;
+    FineZone::fits(Parameter::ZoneLength, zone.length, length, "the length of the bar")?;
+    FineZone::fits(Parameter::ZoneWidth, zone.width, width, "the width of the bar")?;
+    FineZone::fits(Parameter::ZoneDepth, zone.depth, height, "the height of the bar")?;
     let slack = 1e-9 * length;
     let range = [start, start + length - zone.length];
-    if zone.start < range[0] - slack || zone.start > range[1] + slack {
-        return Err(MeshError::range(
-            "mesh.zone.start",
-            zone.start,
-            format!("from {} to {}, for the zone to lie on the bar", range[0], range[1]),
-            "move the zone or the bar, or lengthen the bar",
-        ));
-    }
+    let on_the_bar = zone.start >= range[0] - slack && zone.start <= range[1] + slack;
+    let allowed = Allowed::Between(range[0], range[1], "for the zone to lie on the bar");
+    within(on_the_bar, Parameter::ZoneStart, zone.start, allowed)?;
     let count =
         |span, fine| Axis::estimate(span, fine, zone.size, zone.growth, zone.coarsest).max(1.0);
     let estimate =

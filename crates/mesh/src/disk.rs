@@ -1,11 +1,11 @@
 //! The disk: a plane mesh of a ring, coarsened towards the hub, drawn out along `y`.
 
-use crate::error::{MAX_ELEMENTS, positive};
+use crate::error::{MAX_ELEMENTS, positive, within};
 use crate::grading::{Axis, LEAST_GAP, cells, outward, whole};
 use crate::grid::nodes_of;
 use crate::ring::Ring;
 use crate::zone::{check_crown, sag};
-use crate::{Body, Face, FineZone, Mesh, MeshError, SmoothSurface, Surface};
+use crate::{Allowed, Body, Face, FineZone, Mesh, MeshError, Parameter, SmoothSurface, Surface};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -148,39 +148,23 @@ fn rows(shape: &Disk, zone: &FineZone) -> (Vec<f64>, usize) {
 
 fn check(shape: &Disk, zone: &FineZone) -> Result<(), MeshError> {
     let Disk { radius, hub_radius, width, crown } = *shape;
-    positive("disk.radius", radius)?;
-    positive("disk.hub_radius", hub_radius)?;
-    positive("disk.width", width)?;
-    if hub_radius >= radius {
-        return Err(MeshError::range(
-            "disk.hub_radius",
-            hub_radius,
-            format!("below disk.radius = {radius}"),
-            "lower it, or enlarge the disk",
-        ));
-    }
+    positive(Parameter::DiskRadius, radius)?;
+    positive(Parameter::HubRadius, hub_radius)?;
+    positive(Parameter::DiskWidth, width)?;
+    let allowed = Allowed::Below(radius, "the radius of the disk");
+    within(hub_radius < radius, Parameter::HubRadius, hub_radius, allowed)?;
     let thickness = radius - hub_radius;
-    check_crown("disk.crown_radius", crown, width, thickness)?;
+    check_crown(Parameter::DiskCrown, crown, width, thickness)?;
     zone.check()?;
-    FineZone::fits("mesh.zone.length", zone.length, PI * radius, "half the turn of the disk")?;
-    FineZone::fits("mesh.zone.width", zone.width, width, "the width of the disk")?;
-    FineZone::fits("mesh.zone.depth", zone.depth, thickness, "the disk from hub to tread")?;
-    if zone.size > 0.5 * WIDEST_ELEMENT * radius {
-        return Err(MeshError::range(
-            "mesh.zone.size",
-            zone.size,
-            format!("at most {}, an eighth of the disk's radius", 0.5 * WIDEST_ELEMENT * radius),
-            "lower it, or enlarge the disk",
-        ));
-    }
-    if zone.start.abs() > PI * radius {
-        return Err(MeshError::range(
-            "mesh.zone.start",
-            zone.start,
-            format!("within half a turn of the disk, {} either way", PI * radius),
-            "move the zone nearer to the first contact",
-        ));
-    }
+    let turn = PI * radius;
+    FineZone::fits(Parameter::ZoneLength, zone.length, turn, "half the turn of the disk")?;
+    FineZone::fits(Parameter::ZoneWidth, zone.width, width, "the width of the disk")?;
+    FineZone::fits(Parameter::ZoneDepth, zone.depth, thickness, "the disk from hub to tread")?;
+    let widest = 0.5 * WIDEST_ELEMENT * radius;
+    let allowed = Allowed::AtMost(widest, "an eighth of the disk's radius");
+    within(zone.size <= widest, Parameter::ZoneSize, zone.size, allowed)?;
+    let allowed = Allowed::Between(-turn, turn, "half a turn of the disk either way");
+    within(zone.start.abs() <= turn, Parameter::ZoneStart, zone.start, allowed)?;
     // With the rows of the fine zone alone this is a lower bound.
     let count =
         |span, fine| Axis::estimate(span, fine, zone.size, zone.growth, zone.coarsest).max(1.0);

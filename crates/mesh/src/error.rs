@@ -1,27 +1,139 @@
 //! What can be wrong with a mesh or with the shape asked for.
 
+use std::fmt;
+
 /// Largest number of elements that a generator accepts.
 pub const MAX_ELEMENTS: f64 = 5e7;
+
+/// A parameter of a generator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Radius of the disk (m).
+    DiskRadius,
+    /// Radius of the disk's rigid hub (m).
+    HubRadius,
+    /// Width of the disk (m).
+    DiskWidth,
+    /// Transverse radius of the disk's tread (m).
+    DiskCrown,
+    /// Length of the bar (m).
+    BarLength,
+    /// Width of the bar (m).
+    BarWidth,
+    /// Height of the bar (m).
+    BarHeight,
+    /// Transverse radius of the bar's top (m).
+    BarCrown,
+    /// x of the bar's rear end (m).
+    BarStart,
+    /// Element size of the fine zone (m).
+    ZoneSize,
+    /// Length of the fine zone (m).
+    ZoneLength,
+    /// Width of the fine zone (m).
+    ZoneWidth,
+    /// Depth of the fine zone (m).
+    ZoneDepth,
+    /// x of the fine zone's rear end (m).
+    ZoneStart,
+    /// Ratio of successive element sizes outside the fine zone (dimensionless).
+    Growth,
+    /// Largest element size (m).
+    Coarsest,
+    /// Length of a line that is divided (m).
+    Line,
+    /// A plane between the cells of a block (m).
+    Plane,
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::DiskRadius => "the radius of the disk",
+            Self::HubRadius => "the radius of the hub",
+            Self::DiskWidth => "the width of the disk",
+            Self::DiskCrown => "the transverse radius of the tread",
+            Self::BarLength => "the length of the bar",
+            Self::BarWidth => "the width of the bar",
+            Self::BarHeight => "the height of the bar",
+            Self::BarCrown => "the transverse radius of the bar's top",
+            Self::BarStart => "x of the bar's rear end",
+            Self::ZoneSize => "the element size of the fine zone",
+            Self::ZoneLength => "the length of the fine zone",
+            Self::ZoneWidth => "the width of the fine zone",
+            Self::ZoneDepth => "the depth of the fine zone",
+            Self::ZoneStart => "x of the fine zone's rear end",
+            Self::Growth => "the growth ratio of element sizes outside the fine zone",
+            Self::Coarsest => "the largest element size",
+            Self::Line => "the length of the line",
+            Self::Plane => "a plane between cells",
+        })
+    }
+}
+
+/// What a parameter of a generator may be; lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Allowed {
+    /// Positive and finite.
+    Positive,
+    /// Finite.
+    Finite,
+    /// A ratio by which sizes grow.
+    Growth,
+    /// This or more: so large is what is named.
+    AtLeast(f64, &'static str),
+    /// This or less: so large is what is named.
+    AtMost(f64, &'static str),
+    /// Less than this: so large is what is named.
+    Below(f64, &'static str),
+    /// From the first to the second, for the reason named.
+    Between(f64, f64, &'static str),
+    /// A crown that falls over the width by less than `most`, not by `fall`.
+    Falls {
+        /// How far it falls (m).
+        fall: f64,
+        /// How far it may fall (m).
+        most: f64,
+    },
+    /// More than the plane before it.
+    Ascending,
+}
+
+impl fmt::Display for Allowed {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Positive => f.write_str("a positive, finite number"),
+            Self::Finite => f.write_str("a finite number"),
+            Self::Growth => f.write_str("above 1 and at most 3"),
+            Self::AtLeast(least, what) => write!(f, "at least {least}, {what}"),
+            Self::AtMost(most, what) => write!(f, "at most {most}, {what}"),
+            Self::Below(end, what) => write!(f, "below {end}, {what}"),
+            Self::Between(low, high, why) => write!(f, "from {low} to {high}, {why}"),
+            Self::Falls { fall, most } => {
+                write!(f, "large enough to fall by less than {most} over the width, not by {fall}")
+            }
+            Self::Ascending => f.write_str("above the plane before it"),
+        }
+    }
+}
 
 /// A refused shape, or a fault found by [`check`](crate::check()).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// A parameter of a generator lies outside its range.
-    #[error("`{parameter}` = {value} is out of range: it must be {allowed}; {remedy}")]
+    #[error("{parameter}, {value}, must be {allowed}")]
     OutOfRange {
-        /// Key of the parameter, as in `mesh.zone.length`.
-        parameter: &'static str,
-        /// The value given (SI units).
+        /// The parameter.
+        parameter: Parameter,
+        /// The value given (m, or dimensionless).
         value: f64,
-        /// The range allowed, in words and numbers.
-        allowed: String,
-        /// What to do about it.
-        remedy: String,
+        /// What it may be.
+        allowed: Allowed,
     },
     /// The shape would need more than [`MAX_ELEMENTS`] elements.
     #[error(
-        "`mesh.zone.size` = {size} asks for about {estimate:.2e} elements of the {body}, more \
-         than the {MAX_ELEMENTS:.0e} allowed; raise the size or shrink the zone"
+        "elements of {size} m in the fine zone are about {estimate:.2e} of the {body}, more than the \
+         {MAX_ELEMENTS:.0e} allowed"
     )]
     TooManyElements {
         /// Body that is too large.
@@ -123,21 +235,29 @@ pub enum MeshError {
     },
 }
 
-impl MeshError {
-    pub(crate) fn range(
-        parameter: &'static str,
-        value: f64,
-        allowed: impl Into<String>,
-        remedy: impl Into<String>,
-    ) -> Self {
-        Self::OutOfRange { parameter, value, allowed: allowed.into(), remedy: remedy.into() }
-    }
+/// Refuses a value that is not `allowed`.
+pub(crate) fn within(
+    fine: bool,
+    parameter: Parameter,
+    value: f64,
+    allowed: Allowed,
+) -> Result<(), MeshError> {
+    if fine { Ok(()) } else { Err(MeshError::OutOfRange { parameter, value, allowed }) }
 }
 
 /// Refuses a value that is not a positive, finite number.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<(), MeshError> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(MeshError::range(parameter, value, "a positive, finite number", "give a length in metres"))
+pub(crate) fn positive(parameter: Parameter, value: f64) -> Result<(), MeshError> {
+    within(value.is_finite() && value > 0.0, parameter, value, Allowed::Positive)
+}
+
+/// Refuses a value that is not a finite number.
+pub(crate) fn finite(parameter: Parameter, value: f64) -> Result<(), MeshError> {
+    within(value.is_finite(), parameter, value, Allowed::Finite)
+}
+
+/// Refuses a ratio by which element sizes cannot grow, and a largest size below the `size` of the zone.
+pub(crate) fn graded(size: f64, growth: f64, coarsest: f64) -> Result<(), MeshError> {
+    within(growth > 1.0 && growth <= 3.0, Parameter::Growth, growth, Allowed::Growth)?;
+    let allowed = Allowed::AtLeast(size, "the element size of the fine zone");
+    within(coarsest >= size, Parameter::Coarsest, coarsest, allowed)
 }

@@ -1,7 +1,7 @@
 //! Graded divisions of a line.
 
-use crate::MeshError;
-use crate::error::{MAX_ELEMENTS, positive};
+use crate::error::{MAX_ELEMENTS, graded, positive, within};
+use crate::{Allowed, MeshError, Parameter};
 use std::ops::Range;
 
 /// A gap next to the zone that is shorter than this many elements joins the zone.
@@ -70,22 +70,13 @@ pub fn graded_line(
     growth: f64,
     coarsest: f64,
 ) -> Result<Vec<f64>, MeshError> {
-    positive("line.size", size)?;
-    positive("line.span", span[1] - span[0])?;
-    positive("line.fine", fine[1] - fine[0])?;
-    let within = fine[0] >= span[0] && fine[1] <= span[1];
-    if !within {
-        let allowed = format!("within {} to {}", span[0], span[1]);
-        return Err(MeshError::range("line.fine", fine[0], allowed, "shrink the fine stretch"));
-    }
-    if !(growth > 1.0 && growth <= 3.0) {
-        let allowed = "above 1 and at most 3";
-        return Err(MeshError::range("line.growth", growth, allowed, "1.35 is a good value"));
-    }
-    if coarsest.is_nan() || coarsest < size {
-        let allowed = format!("at least line.size = {size}");
-        return Err(MeshError::range("line.coarsest", coarsest, allowed, "raise it"));
-    }
+    positive(Parameter::ZoneSize, size)?;
+    positive(Parameter::Line, span[1] - span[0])?;
+    positive(Parameter::ZoneLength, fine[1] - fine[0])?;
+    let inside = fine[0] >= span[0] && fine[1] <= span[1];
+    let allowed = Allowed::Between(span[0], span[1], "for the zone to lie on the line");
+    within(inside, Parameter::ZoneStart, fine[0], allowed)?;
+    graded(size, growth, coarsest)?;
     let estimate = Axis::estimate(span[1] - span[0], fine[1] - fine[0], size, growth, coarsest);
     if estimate > MAX_ELEMENTS {
         return Err(MeshError::TooManyElements { body: "line", size, estimate });

@@ -1,7 +1,7 @@
 //! Tensor-product grids: the bar and the block.
 
-use crate::error::MAX_ELEMENTS;
-use crate::{Body, Face, HEX_FACES, Mesh, MeshError, Surface};
+use crate::error::{MAX_ELEMENTS, within};
+use crate::{Allowed, Body, Face, HEX_FACES, Mesh, MeshError, Parameter, Surface};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -106,8 +106,7 @@ pub(crate) fn nodes_of(faces: &[Face]) -> Vec<u32> {
 /// [`MeshError::OutOfRange`] for a division with fewer than two planes or not ascending, and
 /// [`MeshError::TooManyElements`].
 pub fn graded_block(divisions: [&[f64]; 3]) -> Result<Mesh, MeshError> {
-    const NAMES: [&str; 3] = ["block.x", "block.y", "block.z"];
-    for (name, planes) in NAMES.into_iter().zip(divisions) {
+    for planes in divisions {
         let fault = match planes.windows(2).find(|w| w[0].is_nan() || w[1] <= w[0] || w[1].is_nan())
         {
             Some(w) => Some(w[1]),
@@ -115,8 +114,7 @@ pub fn graded_block(divisions: [&[f64]; 3]) -> Result<Mesh, MeshError> {
             None => None,
         };
         if let Some(value) = fault {
-            let remedy = "give at least two planes in ascending order";
-            return Err(MeshError::range(name, value, "above the plane before it", remedy));
+            within(false, Parameter::Plane, value, Allowed::Ascending)?;
         }
     }
     let cells = divisions.map(|d| d.len() - 1);

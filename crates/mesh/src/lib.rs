@@ -27,7 +27,7 @@ mod zone;
 pub use bar::{Bar, bar};
 pub use check::check;
 pub use disk::{Disk, disk};
-pub use error::{MAX_ELEMENTS, MeshError};
+pub use error::{Allowed, MAX_ELEMENTS, MeshError, Parameter};
 pub use grading::graded_line;
 pub use grid::{block, graded_block};
 pub use hex::{HEX_CORNERS, HEX_EDGES, HEX_FACES, hex_volume, quad_corner_areas};

@@ -1,7 +1,7 @@
 //! The fine zone: where contact passes.
 
-use crate::MeshError;
-use crate::error::positive;
+use crate::error::{finite, graded, positive, within};
+use crate::{Allowed, MeshError, Parameter};
 
 /// The region of uniformly fine elements that contact passes over, and the grading around it.
 ///
@@ -29,63 +29,26 @@ pub struct FineZone {
 impl FineZone {
     /// Refuses what no body could satisfy.
     pub(crate) fn check(&self) -> Result<(), MeshError> {
-        positive("mesh.zone.size", self.size)?;
-        positive("mesh.zone.length", self.length)?;
-        positive("mesh.zone.width", self.width)?;
-        positive("mesh.zone.depth", self.depth)?;
-        positive("mesh.zone.coarsest", self.coarsest)?;
-        if !self.start.is_finite() {
-            return Err(MeshError::range(
-                "mesh.zone.start",
-                self.start,
-                "a finite number",
-                "give the x of the zone's rear end in metres",
-            ));
-        }
-        if !(self.growth > 1.0 && self.growth <= 3.0) {
-            return Err(MeshError::range(
-                "mesh.zone.growth",
-                self.growth,
-                "above 1 and at most 3",
-                "1.35 is a good value",
-            ));
-        }
-        if self.coarsest < self.size {
-            return Err(MeshError::range(
-                "mesh.zone.coarsest",
-                self.coarsest,
-                format!("at least mesh.zone.size = {}", self.size),
-                "raise it, or lower the size",
-            ));
-        }
+        positive(Parameter::ZoneSize, self.size)?;
+        positive(Parameter::ZoneLength, self.length)?;
+        positive(Parameter::ZoneWidth, self.width)?;
+        positive(Parameter::ZoneDepth, self.depth)?;
+        positive(Parameter::Coarsest, self.coarsest)?;
+        finite(Parameter::ZoneStart, self.start)?;
+        graded(self.size, self.growth, self.coarsest)?;
         let least = self.length.min(self.width).min(self.depth);
-        if self.size > least {
-            return Err(MeshError::range(
-                "mesh.zone.size",
-                self.size,
-                format!("at most {least}, the least of the zone's length, width and depth"),
-                "lower it, or enlarge the zone",
-            ));
-        }
-        Ok(())
+        let allowed = Allowed::AtMost(least, "the least of the zone's length, width and depth");
+        within(self.size <= least, Parameter::ZoneSize, self.size, allowed)
     }
 
     /// Refuses a zone that is larger than `room` in one direction.
     pub(crate) fn fits(
-        parameter: &'static str,
+        parameter: Parameter,
         value: f64,
         room: f64,
-        what: &str,
+        what: &'static str,
     ) -> Result<(), MeshError> {
-        if value <= room * (1.0 + 1e-12) {
-            return Ok(());
-        }
-        Err(MeshError::range(
-            parameter,
-            value,
-            format!("at most {room}, {what}"),
-            "shrink the zone or enlarge the body",
-        ))
+        within(value <= room * (1.0 + 1e-12), parameter, value, Allowed::AtMost(room, what))
     }
 }
 
@@ -101,29 +64,15 @@ pub(crate) fn sag(crown: Option<f64>, y: f64) -> f64 {
 
 /// Refuses a crown that does not reach across `width`, or that eats half of `thickness`.
 pub(crate) fn check_crown(
-    parameter: &'static str,
+    parameter: Parameter,
     crown: Option<f64>,
     width: f64,
     thickness: f64,
 ) -> Result<(), MeshError> {
     let Some(c) = crown else { return Ok(()) };
     positive(parameter, c)?;
-    if c < 0.5 * width {
-        return Err(MeshError::range(
-            parameter,
-            c,
-            format!("at least {}, half the width", 0.5 * width),
-            "raise it, or leave it out for a straight profile",
-        ));
-    }
-    let drop = sag(crown, 0.5 * width);
-    if drop > 0.5 * thickness {
-        return Err(MeshError::range(
-            parameter,
-            c,
-            format!("large enough to fall by less than {} over the width", 0.5 * thickness),
-            format!("it falls by {drop}: raise it, or narrow the body"),
-        ));
-    }
-    Ok(())
+    let half = 0.5 * width;
+    within(c >= half, parameter, c, Allowed::AtLeast(half, "half the width"))?;
+    let (fall, most) = (sag(crown, half), 0.5 * thickness);
+    within(fall <= most, parameter, c, Allowed::Falls { fall, most })
 }

@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh::import::{
-    Fault, Foreign, ImportError, Imported, Set, SetNames, Shape, Unit, bodies, fit,
+    Fault, Foreign, ImportError, Imported, Set, SetNames, SetRole, Shape, Unit, bodies, fit,
 };
-use mesh::{Bar, Disk, FineZone, HEX_FACES, Mesh, bar, disk, join};
+use mesh::{Bar, Disk, FineZone, HEX_FACES, Mesh, Parameter, bar, disk, join};
 
 const DISK: Disk = Disk { radius: 0.1, hub_radius: 0.05, width: 20e-3, crown: None };
 const BAR: Bar = Bar { length: 0.1, width: 20e-3, height: 20e-3, crown: Some(0.3), start: -0.05 };
@@ -228,23 +228,22 @@ fn a_missing_set_is_refused_with_those_that_there_are() {
     mesh.sets.insert("running surface".into(), set);
     let error = import(&mesh).unwrap_err();
     let text = error.to_string();
-    for word in ["`tread`", "mesh.sets.tread", "`running surface`", "`hub`", "`clamp`"] {
+    for word in ["`tread`", "running surface", "`running surface`", "`hub`", "`clamp`"] {
         assert!(text.contains(word), "{text}");
     }
-    assert!(error.fault.remedy().contains("mesh.sets.tread = "));
 }
 
 #[test]
 fn empty_sets_and_sets_that_name_both_bodies_are_refused() {
     let mut mesh = foreign();
     let hub = std::mem::take(&mut mesh.sets.get_mut("hub").unwrap().nodes);
-    assert!(matches!(fault(&mesh), Fault::EmptySet { key: "mesh.sets.hub", .. }));
+    assert!(matches!(fault(&mesh), Fault::EmptySet { role: SetRole::Hub, .. }));
     mesh.sets.get_mut("hub").unwrap().nodes = hub;
     let other = mesh.sets["clamp"].nodes[0];
     mesh.sets.get_mut("hub").unwrap().nodes.push(other);
     let found = fault(&mesh);
     assert!(
-        matches!(found, Fault::BothBodies { key: "mesh.sets.hub", node, body: "disk", .. } if node == u64::from(other)),
+        matches!(found, Fault::BothBodies { role: SetRole::Hub, node, body: "disk", .. } if node == u64::from(other)),
         "{found}"
     );
 }
@@ -297,10 +296,9 @@ fn a_wheel_on_another_axis_is_told_by_that_axis_and_not_as_a_hole() {
         }
         let found = fault(&mesh);
         assert!(
-            matches!(found, Fault::Axis { key: "mesh.sets.tread", axis, .. } if axis == expected),
+            matches!(found, Fault::Axis { role: SetRole::Tread, axis, .. } if axis == expected),
             "{found}"
         );
-        assert!(found.remedy().contains(&format!("its {expected} becomes y")), "{found:?}");
     }
 }
 
@@ -310,7 +308,6 @@ fn a_node_without_a_place_is_to_be_given_one() {
     mesh.points[7][1] = f64::NAN;
     let found = fault(&mesh);
     assert!(matches!(found, Fault::NotFinite { node: 7, .. }), "{found}");
-    assert!(found.remedy().contains("the node three finite coordinates"), "{}", found.remedy());
 }
 
 #[test]
@@ -322,7 +319,7 @@ fn a_top_in_two_pieces_and_a_face_inside_the_bar_are_refused() {
         !(0.08..0.13).contains(&x)
     };
     mesh.sets.get_mut("top").unwrap().faces.retain(apart);
-    assert!(matches!(fault(&mesh), Fault::Pieces { key: "mesh.sets.top", .. }), "{}", fault(&mesh));
+    assert!(matches!(fault(&mesh), Fault::Pieces { role: SetRole::Top, .. }), "{}", fault(&mesh));
     let mut mesh = foreign();
     let hex = mesh.hexes[mesh.hexes.len() / 2 + 1000];
     let inner = HEX_FACES[0].map(|c| hex[c]);
@@ -336,11 +333,11 @@ fn millimetres_where_metres_are_expected_are_named_and_the_unit_mends_them() {
     mesh.points.iter_mut().flatten().for_each(|x| *x *= 1000.0);
     let error = import(&mesh).unwrap_err();
     assert!(error.to_string().contains("are in mm"), "{error}");
-    assert_eq!(error.fault.remedy(), "set mesh.unit = \"mm\"");
+    assert!(matches!(error.fault, Fault::Unit { unit: Unit::Millimetre, .. }));
     import_in(&mesh, Unit::Millimetre).unwrap();
     assert!(matches!(
         import_in(&foreign(), Unit::Millimetre).unwrap_err().fault,
-        Fault::Size { key: "disk.radius", .. }
+        Fault::Size { parameter: Parameter::DiskRadius, .. }
     ));
 }
 
@@ -353,16 +350,17 @@ fn sizes_places_and_shapes_other_than_the_case_gives_are_refused() {
     let disk = |disk: Disk| Shape { disk, ..SHAPE };
     let bar = |bar: Bar| Shape { bar, ..SHAPE };
     let zone = |zone: FineZone| Shape { zone, ..SHAPE };
-    for (shape, key) in [
-        (disk(Disk { radius: 0.12, ..DISK }), "disk.radius"),
-        (disk(Disk { hub_radius: 0.04, ..DISK }), "disk.hub_radius"),
-        (disk(Disk { width: 0.03, ..DISK }), "disk.width"),
-        (bar(Bar { length: 0.2, ..BAR }), "bar.length"),
-        (bar(Bar { width: 0.03, ..BAR }), "bar.width"),
-        (bar(Bar { height: 0.03, ..BAR }), "bar.height"),
+    for (shape, expected) in [
+        (disk(Disk { radius: 0.12, ..DISK }), Parameter::DiskRadius),
+        (disk(Disk { hub_radius: 0.04, ..DISK }), Parameter::HubRadius),
+        (disk(Disk { width: 0.03, ..DISK }), Parameter::DiskWidth),
+        (bar(Bar { length: 0.2, ..BAR }), Parameter::BarLength),
+        (bar(Bar { width: 0.03, ..BAR }), Parameter::BarWidth),
+        (bar(Bar { height: 0.03, ..BAR }), Parameter::BarHeight),
     ] {
         let found = with(shape);
-        assert!(matches!(found, Fault::Size { key: k, .. } if k == key), "{key}: {found}");
+        let sized = matches!(found, Fault::Size { parameter, .. } if parameter == expected);
+        assert!(sized, "{expected}: {found}");
     }
     assert!(matches!(with(bar(Bar { start: -0.04, ..BAR })), Fault::Place { .. }));
     let off = with(bar(Bar { crown: Some(0.29), ..BAR }));

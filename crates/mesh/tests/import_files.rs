@@ -114,7 +114,7 @@ fn cells_other_than_hexahedra_are_refused_by_number_and_line_in_every_format() {
         let error = read_gmsh(&text).unwrap_err();
         assert_eq!(error.line, Some(22));
         assert!(error.to_string().contains("element 7") && error.to_string().contains(name));
-        assert!(error.fault.remedy().contains("hexahedra"));
+        assert!(matches!(error.fault, Fault::Cell { .. }));
     }
     let inp = "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT, TYPE=C3D4, ELSET=disk\n31,1,2,1,2\n";
     let error = read_abaqus(inp.as_bytes()).unwrap_err();
@@ -201,8 +201,8 @@ fn what_is_not_read_is_refused_by_line_with_what_to_do() {
     ] {
         let error = read_abaqus(text.as_bytes()).unwrap_err();
         assert_eq!(error.line, Some(line), "{text}");
-        assert!(matches!(error.fault, Fault::Unsupported { .. }));
-        assert!(error.to_string().contains(word) && !error.fault.remedy().is_empty(), "{error}");
+        assert!(matches!(error.fault, Fault::Unsupported { remedy, .. } if !remedy.is_empty()));
+        assert!(error.to_string().contains(word), "{error}");
     }
     for (format, word) in [("4 0 8", "MSH format 4"), ("4.1 1 8", "binary"), ("2.2 1 8", "binary")]
     {

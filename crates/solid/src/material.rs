@@ -15,10 +15,10 @@ pub struct Material {
 
 /// A material that is no material.
 #[derive(Debug, Error, PartialEq)]
-#[error("material: {key} = {value} is outside {range}")]
+#[error("{property} = {value} is outside {range}")]
 pub struct MaterialError {
     /// Which property.
-    pub key: &'static str,
+    pub property: &'static str,
     /// Its value.
     pub value: f64,
     /// What is allowed.
@@ -28,17 +28,18 @@ pub struct MaterialError {
 impl Material {
     /// The material, if its constants are physical.
     pub fn checked(self) -> Result<Self, MaterialError> {
-        let positive = |key, value: f64| {
+        let positive = |property, value: f64| {
             if value.is_finite() && value > 0.0 {
                 Ok(())
             } else {
-                Err(MaterialError { key, value, range: "(0, inf)" })
+                Err(MaterialError { property, value, range: "(0, inf)" })
             }
         };
-        positive("young", self.young)?;
-        positive("density", self.density)?;
+        positive("Young's modulus (Pa)", self.young)?;
+        positive("the density (kg/m^3)", self.density)?;
         if !(self.poisson > -1.0 && self.poisson < 0.5) {
-            return Err(MaterialError { key: "poisson", value: self.poisson, range: "(-1, 0.5)" });
+            let (property, range) = ("Poisson's ratio", "(-1, 0.5)");
+            return Err(MaterialError { property, value: self.poisson, range });
         }
         Ok(self)
     }

@@ -7,6 +7,7 @@ use crate::held::Held;
 use crate::means::Means;
 use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
+use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::Facts;

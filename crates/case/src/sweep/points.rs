@@ -131,15 +131,14 @@ impl Sweep {
 
     /// An error of a run before it began, at the place that caused it.
     pub(crate) fn refused(&self, error: RunError, indices: &[usize]) -> CaseError {
-        let message = error.to_string();
+        let (message, remedy) = (error.to_string(), error.remedy());
         let place = error.key().and_then(|key| self.place_of(key, indices));
         match (place, error.key()) {
             (Some(place), _) => {
-                let error = self.layers.error_at(&place, &message, "change this value");
-                CaseError::Key(Box::new(error))
+                CaseError::Key(Box::new(self.layers.error_at(&place, &message, &remedy)))
             }
             (None, Some(key)) => {
-                crate::load::error_at_key(&self.base, None, &[], key, &message, "change this key")
+                crate::load::error_at_key(&self.base, None, &[], key, &message, &remedy)
             }
             (None, None) => {
                 let remedy = "change the base case or the axes";

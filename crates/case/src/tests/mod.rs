@@ -2,6 +2,7 @@
 
 mod any_input;
 mod refusals;
+mod remedies;
 mod schema;
 mod sweep;
 

@@ -151,7 +151,10 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         ("output.window=3", vec!["output.window = 3", "list"]),
         ("evaluate.last=0.07", vec!["evaluate.last = 0.07", "0.06"]),
         ("evaluate.transits=9", vec!["evaluate.transits = 9 transits", "0.06"]),
-        ("evaluate={last=0.01,transits=1}", vec!["two lengths of one window"]),
+        (
+            "evaluate={last=0.01,transits=1}",
+            vec!["evaluate.transits", "evaluate.last", "both given"],
+        ),
         ("name=\"../up\"", vec!["name", "cannot name a folder"]),
         ("name=\"..\"", vec!["name", "cannot name a folder"]),
         ("drive.mode=torque", vec!["drive.torque is missing"]),

@@ -58,6 +58,28 @@ fn every_key_of_the_schema_tells_unit_default_and_range() {
     }
 }
 
+#[test]
+fn the_default_that_a_key_tells_is_the_one_that_it_has() {
+    let schema = json_schema();
+    let mut compared = 0;
+    for key in KEYS {
+        let pointer = key.path.replace("[]", "/items").replace('.', "/properties/");
+        let at = schema.pointer(&format!("/properties/{pointer}")).unwrap();
+        let text = at["description"].as_str().unwrap();
+        let told = text.split("Default ").nth(1).and_then(|rest| rest.split_whitespace().next());
+        let Some(told) = told.map(|told| told.trim_end_matches(['.', ',', ':'])) else { continue };
+        let same = match &at.get("default") {
+            Some(Value::Number(x)) => told.parse().ok() == x.as_f64(),
+            Some(Value::Bool(x)) => told == x.to_string(),
+            Some(Value::String(word)) => told == format!("`\"{word}\"`"),
+            _ => continue,
+        };
+        compared += 1;
+        assert!(same, "{}: {told} is told, {:?} is taken", key.path, at.get("default"));
+    }
+    assert!(compared > 40, "{compared}");
+}
+
 /// The folder of the project's cases.
 fn cases() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases")

@@ -1,7 +1,7 @@
 //! From named sets to the two bodies.
 
 use super::contact_surface::{Sheet, check};
-use super::error::{Fault, ImportError};
+use super::error::{Fault, ImportError, SetRole};
 use super::foreign::{Foreign, Labels, Set};
 use super::order::along_curve;
 use super::parts::Parts;
@@ -84,18 +84,18 @@ pub fn bodies(foreign: &Foreign, names: &SetNames, unit: Unit) -> Result<Importe
         outside[body] = check_body(&imported, body)?;
     }
     let find = Finder { foreign, place: &place };
-    for (body, key, name, ours) in
-        [(0, "mesh.sets.hub", &names.hub, "hub"), (1, "mesh.sets.clamp", &names.clamp, "bottom")]
+    for (body, role, name, ours) in
+        [(0, SetRole::Hub, &names.hub, "hub"), (1, SetRole::Clamp, &names.clamp, "bottom")]
     {
-        let nodes = find.nodes(&imported, body, key, name)?;
+        let nodes = find.nodes(&imported, body, role, name)?;
         imported.mesh.bodies[body].node_sets.insert(ours.into(), nodes);
     }
-    for (body, sheet, key, name, ours) in [
-        (0, Sheet::Band, "mesh.sets.tread", &names.tread, "tread"),
-        (1, Sheet::Patch, "mesh.sets.top", &names.top, "top"),
+    for (body, sheet, role, name, ours) in [
+        (0, Sheet::Band, SetRole::Tread, &names.tread, "tread"),
+        (1, Sheet::Patch, SetRole::Top, &names.top, "top"),
     ] {
-        let chosen = find.faces(&imported, body, key, name, &outside[body])?;
-        check(&imported, (key, name), sheet, &outside[body], &chosen)?;
+        let chosen = find.faces(&imported, body, role, name, &outside[body])?;
+        check(&imported, (role, name), sheet, &outside[body], &chosen)?;
         let faces: Vec<Face> =
             outside[body].iter().zip(&chosen).filter(|c| *c.1).map(|c| *c.0).collect();
         let body = &mut imported.mesh.bodies[body];
@@ -148,7 +148,7 @@ fn check_arrays(foreign: &Foreign) -> Result<(), ImportError> {
 }
 
 /// A set by its name; letter case counts only where it must.
-fn set<'a>(foreign: &'a Foreign, key: &'static str, name: &str) -> Result<&'a Set, ImportError> {
+fn set<'a>(foreign: &'a Foreign, role: SetRole, name: &str) -> Result<&'a Set, ImportError> {
     let sets = &foreign.sets;
     let alike: Vec<&Set> =
         sets.iter().filter(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, set)| set).collect();
@@ -162,7 +162,7 @@ fn set<'a>(foreign: &'a Foreign, key: &'static str, name: &str) -> Result<&'a Se
                 n if n < sets.len() => format!("{} and others", there.join(", ")),
                 _ => there.join(", "),
             };
-            Err(Fault::MissingSet { key, name: name.into(), there }.nowhere())
+            Err(Fault::MissingSet { role, name: name.into(), there }.nowhere())
         }
     }
 }
@@ -171,14 +171,14 @@ fn set<'a>(foreign: &'a Foreign, key: &'static str, name: &str) -> Result<&'a Se
 fn owners(foreign: &Foreign, names: &SetNames) -> Result<Vec<u8>, ImportError> {
     const NEITHER: u8 = 2;
     let mut owner = vec![NEITHER; foreign.hexes.len()];
-    let keys = [("mesh.sets.disk", &names.disk), ("mesh.sets.bar", &names.bar)];
+    let sets = [(SetRole::Disk, &names.disk), (SetRole::Bar, &names.bar)];
     let fault = |e: usize, of: &'static str| {
         let (disk, bar) = (names.disk.clone(), names.bar.clone());
         let element = foreign.elements.id(e);
         Err(foreign.elements.fault(e, Fault::NoBody { element, of, disk, bar }))
     };
-    for (body, (key, name)) in keys.into_iter().enumerate() {
-        let set = set(foreign, key, name)?;
+    for (body, (role, name)) in sets.into_iter().enumerate() {
+        let set = set(foreign, role, name)?;
         let mut members: Vec<u32> = set.hexes.clone();
         if members.is_empty() {
             // a body may be named by its nodes
@@ -188,7 +188,7 @@ fn owners(foreign: &Foreign, names: &SetNames) -> Result<Vec<u8>, ImportError> {
             members.extend((0..).zip(&foreign.hexes).filter(|(_, h)| all(h)).map(|(e, _)| e));
         }
         if members.is_empty() {
-            return Err(Fault::EmptySet { key, name: name.clone(), what: "hexahedra" }.nowhere());
+            return Err(Fault::EmptySet { role, name: name.clone(), what: "hexahedra" }.nowhere());
         }
         for e in members {
             if owner[e as usize] < body as u8 {
@@ -354,7 +354,7 @@ impl Finder<'_> {
         &self,
         imported: &Imported,
         body: usize,
-        (key, name): (&'static str, &str),
+        (role, name): (SetRole, &str),
         node: u32,
     ) -> Result<Option<u32>, ImportError> {
         let Some(place) = self.place[node as usize] else { return Ok(None) };
@@ -363,7 +363,7 @@ impl Finder<'_> {
         }
         let nodes = &self.foreign.nodes;
         let fault = Fault::BothBodies {
-            key,
+            role,
             name: name.into(),
             node: nodes.id(node as usize),
             body: BODIES[body],
@@ -377,18 +377,18 @@ impl Finder<'_> {
         &self,
         imported: &Imported,
         body: usize,
-        key: &'static str,
+        role: SetRole,
         name: &str,
     ) -> Result<Vec<u32>, ImportError> {
-        let set = set(self.foreign, key, name)?;
+        let set = set(self.foreign, role, name)?;
         let corners = set.hexes.iter().flat_map(|&e| &self.foreign.hexes[e as usize]);
         let mut found = BTreeSet::new();
         for &node in set.nodes.iter().chain(set.faces.iter().flatten()).chain(corners) {
-            found.extend(self.on(imported, body, (key, name), node)?);
+            found.extend(self.on(imported, body, (role, name), node)?);
         }
         if found.len() < 3 {
             let name = name.to_owned();
-            return Err(Fault::EmptySet { key, name, what: "three nodes or more" }.nowhere());
+            return Err(Fault::EmptySet { role, name, what: "three nodes or more" }.nowhere());
         }
         Ok(found.into_iter().collect())
     }
@@ -399,11 +399,11 @@ impl Finder<'_> {
         &self,
         imported: &Imported,
         body: usize,
-        key: &'static str,
+        role: SetRole,
         name: &str,
         outside: &[Face],
     ) -> Result<Vec<bool>, ImportError> {
-        let set = set(self.foreign, key, name)?;
+        let set = set(self.foreign, role, name)?;
         let sorted = |mut nodes: [u32; 4]| {
             nodes.sort_unstable();
             nodes
@@ -412,7 +412,7 @@ impl Finder<'_> {
         if set.faces.is_empty() {
             let mut inside = vec![false; imported.mesh.nodes.len()];
             for &node in &set.nodes {
-                if let Some(n) = self.on(imported, body, (key, name), node)? {
+                if let Some(n) = self.on(imported, body, (role, name), node)? {
                     inside[n as usize] = true;
                 }
             }
@@ -425,7 +425,7 @@ impl Finder<'_> {
             for face in &set.faces {
                 let mut nodes = [None; 4];
                 for (place, &node) in nodes.iter_mut().zip(face) {
-                    *place = self.on(imported, body, (key, name), node)?;
+                    *place = self.on(imported, body, (role, name), node)?;
                 }
                 let place = match nodes {
                     [Some(a), Some(b), Some(c), Some(d)] => places.get(&sorted([a, b, c, d])),
@@ -434,7 +434,7 @@ impl Finder<'_> {
                 let Some(&place) = place else {
                     let nodes = face.map(|n| self.foreign.nodes.id(n as usize));
                     let (name, body) = (name.to_owned(), BODIES[body]);
-                    let fault = Fault::NotOutside { key, name, nodes, body };
+                    let fault = Fault::NotOutside { role, name, nodes, body };
                     return Err(self.foreign.nodes.fault(face[0] as usize, fault));
                 };
                 chosen[place] = true;
@@ -442,7 +442,7 @@ impl Finder<'_> {
         }
         if !chosen.contains(&true) {
             let what = "faces of the outside, nor all nodes of one";
-            return Err(Fault::EmptySet { key, name: name.into(), what }.nowhere());
+            return Err(Fault::EmptySet { role, name: name.into(), what }.nowhere());
         }
         Ok(chosen)
     }

@@ -1,7 +1,7 @@
 //! What the set of a contact surface must be: one sheet without holes.
 
 use super::bodies::Imported;
-use super::error::{Fault, ImportError};
+use super::error::{Fault, ImportError, SetRole};
 use super::parts::Parts;
 use crate::Face;
 use std::collections::{BTreeMap, HashMap};
@@ -19,12 +19,12 @@ pub(super) enum Sheet {
 /// Checks that the faces `chosen` of `boundary` make one sheet without holes.
 pub(super) fn check(
     imported: &Imported,
-    set: (&'static str, &str),
+    (role, name): (SetRole, &str),
     sheet: Sheet,
     boundary: &[Face],
     chosen: &[bool],
 ) -> Result<(), ImportError> {
-    let (key, name) = (set.0, set.1.to_owned());
+    let name = name.to_owned();
     let inside: Vec<&Face> = boundary.iter().zip(chosen).filter(|c| *c.1).map(|c| c.0).collect();
     // Faces of each edge.
     let mut edges: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
@@ -43,7 +43,7 @@ pub(super) fn check(
             let faces = &edges[&edge];
             if faces.len() > 2 {
                 let edge = edge.map(|n| imported.nodes.id(n as usize));
-                return Err(at_face(face, Fault::Fold { key, name, edge }));
+                return Err(at_face(face, Fault::Fold { role, name, edge }));
             }
             faces.iter().for_each(|&other| pieces.join(i as u32, other));
             if faces.len() == 1 {
@@ -53,14 +53,14 @@ pub(super) fn check(
     }
     if let Some(apart) = pieces.apart() {
         let face = inside[apart as usize];
-        return Err(at_face(face, Fault::Pieces { key, name, element: element(face) }));
+        return Err(at_face(face, Fault::Pieces { role, name, element: element(face) }));
     }
 
     let loops = loops(&border);
     if sheet == Sheet::Band
         && let Some(axis) = another_axis(imported, &loops)
     {
-        return Err(at_face(inside[0], Fault::Axis { key, name, axis }));
+        return Err(at_face(inside[0], Fault::Axis { role, name, axis }));
     }
     let (rims, holes): (Vec<_>, Vec<_>) = match sheet {
         Sheet::Band => loops.into_iter().partition(|l| winding(imported, l, Y) != 0),
@@ -86,13 +86,13 @@ pub(super) fn check(
         Some(hole) if !open || holes.len() > 1 => {
             let face = beyond(hole[0]).unwrap_or(*inside[0]);
             let at = imported.mesh.nodes[hole[0][0] as usize];
-            let fault = Fault::Hole { key, name, edges: hole.len(), at, element: element(&face) };
+            let fault = Fault::Hole { role, name, edges: hole.len(), at, element: element(&face) };
             Err(at_face(&face, fault))
         }
         _ if open => {
             let edge = border.values().find_map(|&edge| beyond(edge));
             let face = edge.unwrap_or(*inside[0]);
-            Err(at_face(&face, Fault::Open { key, name, element: element(&face) }))
+            Err(at_face(&face, Fault::Open { role, name, element: element(&face) }))
         }
         _ => Ok(()),
     }

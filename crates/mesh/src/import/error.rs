@@ -1,5 +1,39 @@
 //! What can be wrong with a foreign mesh.
 
+use super::unit::Unit;
+use crate::Parameter;
+use std::fmt;
+
+/// What a set of a mesh file is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SetRole {
+    /// The elements of the disk.
+    Disk,
+    /// The elements of the bar.
+    Bar,
+    /// The disk's rigid hub.
+    Hub,
+    /// The disk's running surface.
+    Tread,
+    /// The bar's running surface.
+    Top,
+    /// Where the bar is clamped.
+    Clamp,
+}
+
+impl fmt::Display for SetRole {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Disk => "the disk",
+            Self::Bar => "the bar",
+            Self::Hub => "the disk's hub",
+            Self::Tread => "the disk's running surface",
+            Self::Top => "the bar's running surface",
+            Self::Clamp => "the bar's clamp",
+        })
+    }
+}
+
 /// Why a foreign mesh is refused, and the line of a text file where that stands.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
@@ -134,20 +168,20 @@ pub enum Fault {
         bar: String,
     },
     /// A set is not in the file.
-    #[error("there is no set `{name}` ({key}); the file has {there}")]
+    #[error("there is no set `{name}` for {role}; the file has {there}")]
     MissingSet {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What the set is of.
+        role: SetRole,
         /// The name looked for.
         name: String,
         /// The sets that there are.
         there: String,
     },
     /// A set holds nothing of the kind that is needed.
-    #[error("set `{name}` ({key}) holds no {what}")]
+    #[error("set `{name}` of {role} holds no {what}")]
     EmptySet {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// What it should hold.
@@ -155,11 +189,11 @@ pub enum Fault {
     },
     /// A set names nodes or faces of the wrong body.
     #[error(
-        "set `{name}` ({key}) names both bodies: node {node} is of the {other}, not of the {body}"
+        "set `{name}` of {role} names both bodies: node {node} is of the {other}, not of the {body}"
     )]
     BothBodies {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// A node of the other body.
@@ -171,11 +205,11 @@ pub enum Fault {
     },
     /// A face of a set is not on the outside of its body.
     #[error(
-        "set `{name}` ({key}): the face with the nodes {nodes:?} is none of the {body}'s outside"
+        "set `{name}` of {role}: the face with the nodes {nodes:?} is none of the {body}'s outside"
     )]
     NotOutside {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// Corner nodes.
@@ -203,12 +237,12 @@ pub enum Fault {
     },
     /// A contact surface has a hole.
     #[error(
-        "set `{name}` ({key}) has a hole, bounded by {edges} edges, at {at:?} m: a face of element \
+        "set `{name}` of {role} has a hole, bounded by {edges} edges, at {at:?} m: a face of element \
          {element} is left out of it"
     )]
     Hole {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// Edges around the hole.
@@ -220,11 +254,11 @@ pub enum Fault {
     },
     /// The tread does not go round the disk.
     #[error(
-        "set `{name}` ({key}) does not go round the disk: it ends at a face of element {element}"
+        "set `{name}` of {role} does not go round the disk: it ends at a face of element {element}"
     )]
     Open {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// Element of a face beyond the end.
@@ -232,60 +266,60 @@ pub enum Fault {
     },
     /// The tread goes round another axis than the disk's.
     #[error(
-        "set `{name}` ({key}) goes round an axis along {axis}: the axis of the disk must be along y"
+        "set `{name}` of {role} goes round an axis along {axis}: the axis of the disk must be along y"
     )]
     Axis {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// The axis that it goes round.
         axis: char,
     },
     /// A contact surface is in several pieces.
-    #[error("set `{name}` ({key}) is in several pieces: a face of element {element} is apart")]
+    #[error("set `{name}` of {role} is in several pieces: a face of element {element} is apart")]
     Pieces {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// Element of a face of a smaller piece.
         element: u64,
     },
     /// A contact surface that more than two faces meet in at an edge.
-    #[error("set `{name}` ({key}): more than two of its faces meet in the edge of nodes {edge:?}")]
+    #[error(
+        "set `{name}` of {role}: more than two of its faces meet in the edge of nodes {edge:?}"
+    )]
     Fold {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// Ends of the edge.
         edge: [u64; 2],
     },
     /// A size of the mesh is not what the case says.
-    #[error("the {what} of the mesh is {found} m, but {key} = {expected} m")]
+    #[error("{parameter} is {found} m in the mesh, not {expected} m")]
     Size {
         /// What was measured.
-        what: &'static str,
+        parameter: Parameter,
         /// Its value (m).
         found: f64,
-        /// Key of the case.
-        key: &'static str,
-        /// Value of the key (m).
+        /// What it must be (m).
         expected: f64,
     },
     /// All sizes are off by the ratio of two units.
     #[error(
-        "the disk of the mesh has a radius of {found} m, but disk.radius = {expected} m: its \
-         coordinates are in {unit}"
+        "the disk of the mesh has a radius of {found} m, not {expected} m: its coordinates are in {}",
+        unit.symbol()
     )]
     Unit {
         /// Radius found (m).
         found: f64,
-        /// `disk.radius` (m).
+        /// What it must be (m).
         expected: f64,
-        /// The unit it must have been written in, as `mesh.unit` names it.
-        unit: &'static str,
+        /// The unit it must have been written in.
+        unit: Unit,
     },
     /// The mesh is not where the case's frame wants it.
     #[error("the {what} of the mesh lies at {found} m, not at {expected} m")]
@@ -299,8 +333,8 @@ pub enum Fault {
     },
     /// A node of a contact surface is off the cylinder or crown that the case gives.
     #[error(
-        "node {node} of set `{name}` lies {distance:.2e} m off the surface that {keys} describe, \
-         more than {limit:.2e} m"
+        "node {node} of set `{name}` lies {distance:.2e} m off {role} by its radii, more than \
+         {limit:.2e} m"
     )]
     OffSurface {
         /// The node.
@@ -309,18 +343,18 @@ pub enum Fault {
         name: String,
         /// Distance (m).
         distance: f64,
-        /// Keys of the case.
-        keys: &'static str,
+        /// The surface that it is the set of.
+        role: SetRole,
         /// Largest distance allowed (m).
         limit: f64,
     },
     /// No face, or too few, in the zone.
     #[error(
-        "set `{name}` ({key}) covers {covered:.0} % of the zone of mesh.zone: {faces} faces lie there"
+        "set `{name}` of {role} covers {covered:.0} % of the fine zone: {faces} faces lie there"
     )]
     Uncovered {
-        /// Key of the case that names it.
-        key: &'static str,
+        /// What it is the set of.
+        role: SetRole,
         /// Its name.
         name: String,
         /// Area of the faces over that of the zone (%).
@@ -331,18 +365,18 @@ pub enum Fault {
     /// The faces of the zone have another size than the case says.
     #[error(
         "in the zone the faces of the mesh have edges of {disk:.3e} m (disk) and {bar:.3e} m (bar), \
-         but mesh.zone.size = {size} m"
+         not {size} m"
     )]
     ZoneSize {
         /// Mean edge on the disk (m).
         disk: f64,
         /// Mean edge on the bar (m).
         bar: f64,
-        /// `mesh.zone.size` (m).
+        /// What they must be near (m).
         size: f64,
     },
     /// An end of the bar is not plane.
-    #[error("the bar has no plane {which} end x = {at} m, on which bar.ends = \"quiet\" could act")]
+    #[error("the bar has no plane {which} end x = {at} m, on which a quiet boundary could act")]
     NoEnd {
         /// `"rear"` or `"front"`.
         which: &'static str,
@@ -363,80 +397,5 @@ impl Fault {
     /// The fault at a line, counted from 1.
     pub(crate) fn at(self, line: usize) -> ImportError {
         ImportError { line: Some(line), fault: self }
-    }
-
-    /// What to do about it.
-    pub fn remedy(&self) -> String {
-        match self {
-            Self::Syntax { .. } | Self::Unknown { .. } => {
-                "write the file anew with the program that it comes from".into()
-            }
-            Self::Unsupported { remedy, .. } => (*remedy).into(),
-            Self::Cell { .. } | Self::NoHexes => {
-                "mesh both bodies with linear hexahedra; in Gmsh: recombine and extrude with \
-                 layers, order 1"
-                    .into()
-            }
-            Self::Repeated { .. } => "number nodes and elements without repetition".into(),
-            Self::NotFinite { .. } => {
-                "give the node three finite coordinates in the program that made the mesh".into()
-            }
-            Self::Collapsed { .. } | Self::Inverted { .. } => {
-                "mend the element in the program that made the mesh".into()
-            }
-            Self::Coincident { .. } | Self::FaceShared { .. } | Self::Hanging { .. } => {
-                "merge coincident nodes within each body (Gmsh: Coherence Mesh, meshio: \
-                 merge duplicates), and make its elements match"
-                    .into()
-            }
-            Self::SharedNode { .. } => {
-                "mesh the two bodies apart, also where they touch, and do not merge their nodes"
-                    .into()
-            }
-            Self::NoBody { .. } => {
-                "put every hexahedron into one of the two sets; mesh.sets.disk and mesh.sets.bar \
-                 name them"
-                    .into()
-            }
-            Self::MissingSet { key, .. } => {
-                format!(
-                    "name the set so in the file, or give its name in the case: {key} = \"...\""
-                )
-            }
-            Self::EmptySet { .. } | Self::BothBodies { .. } | Self::NotOutside { .. } => {
-                "choose the nodes or faces of the set anew".into()
-            }
-            Self::SetsMeet { .. } => "end one of the sets before the other begins".into(),
-            Self::Loose { .. } => {
-                "merge the nodes where the parts touch, or leave the part out".into()
-            }
-            Self::Hole { .. } | Self::Open { .. } | Self::Pieces { .. } | Self::Fold { .. } => {
-                "put all faces of the running surface into the set and no others".into()
-            }
-            Self::Axis { axis, .. } => format!(
-                "turn the mesh so that its {axis} becomes y: x is the rolling direction, z up, the \
-                 disk touches the bar's top at the origin with its axis along y"
-            ),
-            Self::Size { key, found, .. } => {
-                format!("set {key} = {found}, or mesh the body in its size")
-            }
-            Self::Unit { unit, .. } => format!("set mesh.unit = \"{unit}\""),
-            Self::Place { .. } => "move the mesh: x is the rolling direction, z up, the disk \
-                                   touches the bar's top at the origin with its axis along y"
-                .into(),
-            Self::OffSurface { .. } => {
-                "give the radii of the mesh in those keys, or contact.curvature = false for a \
-                 surface of another shape"
-                    .into()
-            }
-            Self::Uncovered { .. } => {
-                "move or shorten mesh.zone, or extend the set: contact passes over the zone".into()
-            }
-            Self::ZoneSize { disk, bar, .. } => {
-                format!("set mesh.zone.size = {:.2e}, or refine the mesh", disk.min(*bar))
-            }
-            Self::NoEnd { .. } => "make the ends plane, or set bar.ends = \"free\"".into(),
-            Self::Mesh(_) => "mend the mesh in the program that made it".into(),
-        }
     }
 }

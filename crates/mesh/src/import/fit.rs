@@ -1,11 +1,13 @@
 //! The imported bodies against the shapes that the case gives.
 
 use super::bodies::Imported;
-use super::error::{Fault, ImportError};
+use super::error::{Fault, ImportError, SetRole};
 use super::unit::Unit;
 use crate::check::boundary;
 use crate::grid::nodes_of;
-use crate::{Bar, Disk, Face, FineZone, Mesh, SmoothSurface, Surface, quad_corner_areas};
+use crate::{
+    Bar, Disk, Face, FineZone, Mesh, Parameter, SmoothSurface, Surface, quad_corner_areas,
+};
 
 /// Relative deviation of a size of the mesh from that of the case: polygons instead of circles, and
 /// coordinates of few digits.
@@ -52,9 +54,9 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
     let top = SmoothSurface::Top { apex: 0.0, crown: bar.crown };
     let names = imported.names.clone();
     let mut edges = [0.0; 2];
-    for (body, ours, key, name, smooth, keys) in [
-        (0, "tread", "mesh.sets.tread", &names.tread, tread, "disk.radius and disk.crown_radius"),
-        (1, "top", "mesh.sets.top", &names.top, top, "bar.crown_radius"),
+    for (body, ours, role, name, smooth) in [
+        (0, "tread", SetRole::Tread, &names.tread, tread),
+        (1, "top", SetRole::Top, &names.top, top),
     ] {
         let mesh = &imported.mesh;
         let all = mesh.bodies[body].surfaces[ours].faces.clone();
@@ -69,7 +71,7 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
         if faces.is_empty() || covered < (1.0 - row).max(0.25) {
             let name = name.clone();
             let (covered, faces) = (100.0 * covered, faces.len());
-            return Err(Fault::Uncovered { key, name, covered, faces }.nowhere());
+            return Err(Fault::Uncovered { role, name, covered, faces }.nowhere());
         }
         let nodes = nodes_of(&faces);
         if shape.exact {
@@ -78,7 +80,7 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
             let worst = nodes.iter().copied().max_by(|a, b| off(a).total_cmp(&off(b)));
             if let Some(n) = worst.filter(|n| off(n) > limit) {
                 let (node, distance) = (imported.nodes.id(n as usize), off(&n));
-                let fault = Fault::OffSurface { node, name: name.clone(), distance, keys, limit };
+                let fault = Fault::OffSurface { node, name: name.clone(), distance, role, limit };
                 return Err(imported.nodes.fault(n as usize, fault));
             }
         }
@@ -114,8 +116,8 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
         let unit = Unit::ALL.into_iter().filter(|u| *u != Unit::Metre);
         let mut unit = unit.filter(|u| close(u.metres(radius), expected));
         return Err(match unit.next() {
-            Some(unit) => Fault::Unit { found: digits(radius), expected, unit: unit.symbol() },
-            None => size("radius of the disk", radius, "disk.radius", expected),
+            Some(unit) => Fault::Unit { found: digits(radius), expected, unit },
+            None => size(Parameter::DiskRadius, radius, expected),
         }
         .nowhere());
     }
@@ -132,15 +134,15 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
         Err(Fault::Place { what, found: digits(found), expected }.nowhere())
     };
     nearly("x of the disk's axis", x, 0.0, SIZE * disk.radius)?;
-    for (what, found, key, expected) in [
-        ("width of the disk", span(&whole[0], 1), "disk.width", disk.width),
-        ("radius of the hub", hub, "disk.hub_radius", disk.hub_radius),
-        ("length of the bar", span(&whole[1], 0), "bar.length", bar.length),
-        ("width of the bar", span(&whole[1], 1), "bar.width", bar.width),
-        ("height of the bar", span(&whole[1], 2), "bar.height", bar.height),
+    for (parameter, found, expected) in [
+        (Parameter::DiskWidth, span(&whole[0], 1), disk.width),
+        (Parameter::HubRadius, hub, disk.hub_radius),
+        (Parameter::BarLength, span(&whole[1], 0), bar.length),
+        (Parameter::BarWidth, span(&whole[1], 1), bar.width),
+        (Parameter::BarHeight, span(&whole[1], 2), bar.height),
     ] {
         if !close(found, expected) {
-            return Err(size(what, found, key, expected).nowhere());
+            return Err(size(parameter, found, expected).nowhere());
         }
     }
     nearly("rear end of the bar (x)", whole[1].low[0], bar.start, SIZE * bar.length)?;
@@ -159,8 +161,8 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     nearly("apex of the bar's top (z)", top.high[2], 0.0, apex(bar.crown))
 }
 
-fn size(what: &'static str, found: f64, key: &'static str, expected: f64) -> Fault {
-    Fault::Size { what, found: digits(found), key, expected }
+fn size(parameter: Parameter, found: f64, expected: f64) -> Fault {
+    Fault::Size { parameter, found: digits(found), expected }
 }
 
 /// A measured length to six digits, as a person would give it.

@@ -23,7 +23,7 @@ mod vtu;
 
 pub use abaqus::{read_abaqus, write_abaqus};
 pub use bodies::{Imported, SetNames, bodies};
-pub use error::{Fault, ImportError};
+pub use error::{Fault, ImportError, SetRole};
 pub use file::Format;
 pub use fit::{Shape, fit};
 pub use foreign::{Foreign, Labels, Set};

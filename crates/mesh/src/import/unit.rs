@@ -18,7 +18,7 @@ impl Unit {
     /// All units.
     pub const ALL: [Self; 4] = [Self::Metre, Self::Centimetre, Self::Millimetre, Self::Inch];
 
-    /// Its symbol, as the key `mesh.unit` has it.
+    /// Its symbol.
     pub const fn symbol(self) -> &'static str {
         match self {
             Self::Metre => "m",
