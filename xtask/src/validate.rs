@@ -95,11 +95,13 @@ fn links(root: &Path) -> Outcome {
     }
 }
 
-/// The crates use one another as they are drawn.
+/// The crates use one another as they are drawn, and their modules without circles.
 fn structure(root: &Path) -> Outcome {
-    match crate::structure::differences(root) {
-        Ok(differences) if differences.is_empty() => Outcome::Passed,
-        Ok(differences) => told(&differences),
+    use crate::structure::{circles, differences};
+    let faults = differences(root).and_then(|drawn| Ok([drawn, circles(root)?].concat()));
+    match faults {
+        Ok(faults) if faults.is_empty() => Outcome::Passed,
+        Ok(faults) => told(&faults),
         Err(error) => told(&[error]),
     }
 }
