@@ -102,7 +102,7 @@ impl<'a> Names<'a> {
         let mut names = Self { files, imported: BTreeMap::new() };
         let mut imported = BTreeMap::new();
         for mention in mentions {
-            let (Some(name), Some(path)) = (&mention.known_as, names.from_root(mention)) else {
+            let (Some(name), Some(path)) = (&mention.known_as, names.rooted(mention)) else {
                 continue;
             };
             let here = [&mention.within[..], std::slice::from_ref(name)].concat();
@@ -115,7 +115,7 @@ impl<'a> Names<'a> {
     }
 
     /// The path of a mention from the root of the crate; none for what other crates have.
-    fn from_root(&self, mention: &Mention) -> Option<Module> {
+    fn rooted(&self, mention: &Mention) -> Option<Module> {
         let Mention { within, names, .. } = mention;
         let ups = names.iter().take_while(|name| *name == "super").count();
         let (base, rest) = match names.first()?.as_str() {
@@ -136,7 +136,7 @@ impl<'a> Names<'a> {
 
     /// The file that defines what a mention means.
     fn file(&self, mention: &Mention) -> Option<Module> {
-        let mut path = self.from_root(mention)?;
+        let mut path = self.rooted(mention)?;
         // as often as one file may hand a name on to the next; names that go round have no definition
         for _ in 0..8 {
             let file = (0..=path.len()).rev().find(|&n| self.files.contains_key(&path[..n]))?;
