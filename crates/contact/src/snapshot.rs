@@ -5,8 +5,8 @@
 //! the search keeps where the surfaces were when it last looked: it decides when the lists are made
 //! anew, and so the order in which forces are added.
 
-use crate::point::{ContactPoint, Enforced, Listed, State};
-use crate::search::Search;
+use crate::point::{ContactPoint, Enforced, State};
+use crate::search::{Listed, Search};
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::Vec3;
 
