@@ -115,7 +115,9 @@ fn path(tokens: &[TokenTree]) -> Vec<String> {
 
 /// The leaves of what follows `use`, behind the names of `before`.
 fn imports(tree: &[TokenTree], before: &[String], within: &Module, found: &mut Vec<Mention>) {
-    for tree in tree.split(|token| is(Some(token), ',')) {
+    let trees = tree.split(|token| is(Some(token), ','));
+    // behind a last comma there is nothing
+    for tree in trees.filter(|tree| !tree.is_empty()) {
         let names = [before, &path(tree)].concat();
         let known_as = match tree {
             [.., TokenTree::Ident(word), TokenTree::Ident(name)] if *word == "as" => {
@@ -131,7 +133,6 @@ fn imports(tree: &[TokenTree], before: &[String], within: &Module, found: &mut V
                 let inner: Vec<TokenTree> = group.stream().into_iter().collect();
                 imports(&inner, &names, within, found);
             }
-            _ if names.is_empty() => {}
             _ => found.push(Mention { within: within.clone(), names, known_as }),
         }
     }
@@ -153,7 +154,7 @@ mod tests {
 
     #[test]
     fn the_leaves_of_use_are_told_with_the_names_they_get() {
-        let found = read("pub(crate) use crate::{b::{self, C as D}, e::*};\nuse super::F;");
+        let found = read("pub(crate) use crate::{b::{self, C as D}, e::*,};\nuse super::F;");
         let wanted = [
             "a: crate::b::self as b",
             "a: crate::b::C as D",
