@@ -33,8 +33,8 @@ fn read(tokens: TokenStream, within: &Module, found: &mut Vec<Mention>) {
             TokenTree::Punct(_) if is_for_tests(rest) => item(rest),
             TokenTree::Ident(word) if *word == "use" && !is(rest.get(1), '<') => {
                 let length = item(rest);
-                let tree = &rest[1..length];
-                imports(tree, &[], within, found);
+                let tree = rest[1..length].split(|token| is(Some(token), ';')).next();
+                imports(tree.unwrap_or_default(), &[], within, found);
                 length
             }
             TokenTree::Ident(word) if *word == "mod" => inline_module(rest, within, found),
@@ -121,9 +121,6 @@ fn imports(tree: &[TokenTree], before: &[String], within: &Module, found: &mut V
         let names = [before, &path(tree)].concat();
         let known_as = match tree {
             [.., TokenTree::Ident(word), TokenTree::Ident(name)] if *word == "as" => {
-                Some(name.to_string())
-            }
-            [.., TokenTree::Ident(word), TokenTree::Ident(name), _] if *word == "as" => {
                 Some(name.to_string())
             }
             _ => names.iter().rfind(|name| *name != "self").cloned(),
