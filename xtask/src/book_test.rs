@@ -23,6 +23,7 @@ use std::time::Instant;
 use clap::Parser;
 
 use crate::book::chapters;
+use crate::chores::Args;
 use crate::markdown::{Block, code_spans, parse};
 use crate::shell::commands;
 
@@ -190,7 +191,7 @@ fn check_command(root: &Path, programs: &Programs, command: &[String]) -> Result
     match words[..] {
         ["creepage" | "$CREEPAGE", ..] => reads(root, programs, &words[1..]),
         ["cargo", "run", "--release", "--", ..] => reads(root, programs, &words[4..]),
-        ["cargo", "xtask", ..] => match crate::Args::try_parse_from(&words[1..]) {
+        ["cargo", "xtask", ..] => match Args::try_parse_from(&words[1..]) {
             Err(error) if error.use_stderr() => Err(error.to_string()),
             _ => Ok(()),
         },

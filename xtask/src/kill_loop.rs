@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::validate::{Outcome, built, telling};
+use crate::step::{Outcome, built, telling};
 
 /// Builds program and loop and runs the latter with `options`.
 pub fn kill_loop(root: &Path, options: &[String]) -> Outcome {

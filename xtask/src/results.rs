@@ -6,6 +6,7 @@
 
 mod age;
 mod extract;
+mod instruction_set;
 mod manifest;
 mod markers;
 mod pages;
@@ -19,11 +20,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::SystemTime;
 
+use self::instruction_set::kernels;
 use self::manifest::Manifest;
 use self::pages::Tables;
 use self::record::{Found, Record};
 use self::steps::{Gathered, Runner, sum};
-use crate::validate::{self, Outcome};
+use crate::step::{self, Outcome};
 
 /// What to do with the tables of the documents.
 #[derive(Debug, clap::Args)]
@@ -49,7 +51,7 @@ pub struct Options {
 
 /// The chore.
 pub fn results(options: &Options) -> ExitCode {
-    let root = validate::root();
+    let root = step::root();
     let done = if options.list {
         list(&root)
     } else if options.check {
@@ -174,17 +176,17 @@ fn runner<'a>(
 ) -> Result<Runner<'a>, String> {
     let program = match &options.program {
         Some(program) => program.clone(),
-        None => validate::built(root, "creepage").ok_or("the program cannot be built")?,
+        None => step::built(root, "creepage").ok_or("the program cannot be built")?,
     };
     let mut steps = chosen.values().flat_map(|manifest| &manifest.steps);
     let python = match steps.any(|step| step.command.starts_with("python ")) {
-        true => Some(validate::python(root)?),
+        true => Some(step::python(root)?),
         false => None,
     };
     let python = python.as_deref().and_then(Path::parent);
     // a comparison with what was kept would compare results with themselves
     let since = if options.compare { SystemTime::now() } else { SystemTime::UNIX_EPOCH };
-    Runner::new(root, &validate::target(root), &program, python, since)
+    Runner::new(root, &step::target(root), &program, python, since)
 }
 
 fn compare(manifest: &Manifest, record: &Record, gathered: &Gathered) -> Result<(), String> {
@@ -242,20 +244,6 @@ fn keep(
         pictures,
     };
     record.write(root, name)
-}
-
-/// The instruction set that the program takes on this machine (`Level::detect` of `creepage-solid`).
-fn kernels() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if std::is_x86_feature_detected!("avx512f") {
-            return "avx512";
-        }
-        if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
-            return "avx2";
-        }
-    }
-    "portable"
 }
 
 /// Names all tables with their age.

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use self::record::Trial;
 use crate::results;
-use crate::validate::{self, Outcome};
+use crate::step::{self, Outcome};
 
 pub use damage::sample as sample_of_damage;
 pub use kills::sample as sample_of_kills;
@@ -48,7 +48,7 @@ const MINUTES: u32 = 10;
 
 /// Runs one part, or all in full.
 pub fn soak(part: Option<Part>) -> ExitCode {
-    let root = validate::root();
+    let root = step::root();
     let parts = part.map_or_else(all, |part| vec![part]);
     let outcomes: Vec<Outcome> = parts.iter().map(|part| run(&root, part)).collect();
     if outcomes.contains(&Outcome::Failed) { ExitCode::FAILURE } else { ExitCode::SUCCESS }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-use crate::validate::{Outcome, execute, missing, python, root, target};
+use crate::step::{Outcome, execute, missing, python, root, target};
 
 /// Builds the wheel and says where it is.
 pub fn wheel() -> ExitCode {

@@ -8,7 +8,7 @@ use output::OutputError;
 use post::{Basis, CheckOptions, Depth, Limits, Pairing, PostError, Report, RunPaths, Span};
 
 use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure};
+use crate::failure::{BAD_INPUT, Failure};
 use crate::outputs::{claim_grid, of_the_run};
 use crate::report;
 

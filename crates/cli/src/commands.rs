@@ -1,80 +1,144 @@
-//! What each command does.
+//! The commands by their names, and which module does each.
 
-use std::io::Write;
-use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use clap::{Parser, Subcommand};
 
-use case::{Case, RunError, RunOptions};
-use miette::Diagnostic;
-use miette::{Report, miette};
-use serde_json::{Value, json};
+use crate::args::Args;
+use crate::bench::BenchArgs;
+use crate::case_file::load;
+use crate::check::CheckArgs;
+use crate::compare::CompareArgs;
+use crate::failure::Failure;
+use crate::import_contact::ImportArgs;
+use crate::import_k::ImportKArgs;
+use crate::mesh::MeshArgs;
+use crate::plot::PlotArgs;
+use crate::report_page::ReportArgs;
+use crate::run::RunArgs;
+use crate::slider::SliderArgs;
+use crate::sweep::SweepArgs;
+use crate::verify::VerifyArgs;
 
-use crate::args::{Args, BenchArgs, Command, MeshArgs, RunArgs};
-use crate::embedded::Told;
-use crate::outputs::claim_grid;
-use crate::progress::Watch;
-use crate::report;
-use crate::stop::Stop;
-
-/// Exit code: bad input.
-pub const BAD_INPUT: u8 = 2;
-/// Exit code: stopped by the run's own guards.
-pub const STOPPED_BY_GUARD: u8 = 3;
-/// Exit code: interrupted by Ctrl-C or SIGTERM.
-pub const INTERRUPTED: u8 = 130;
-
-/// A command that failed.
-#[derive(Debug)]
-pub struct Failure {
-    /// What to say.
-    pub report: Report,
-    /// The exit code.
-    pub code: u8,
+/// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
+#[derive(Debug, Parser)]
+#[command(
+    name = "creepage",
+    version,
+    arg_required_else_help = true,
+    after_help = "Exit codes: 0 done; 1 a check failed; 2 bad input; 3 stopped by the run's own \
+                  guards; 130 interrupted.\n\nExamples:\n  creepage run cases/quick.toml\n  \
+                  creepage mesh cases/quick.toml --out quick.vtu\n  creepage schema > \
+                  case.schema.json\n  creepage check runs/quick\n  creepage report runs/quick"
+)]
+pub struct Line {
+    /// The options that all commands share.
+    #[command(flatten)]
+    pub args: Args,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
 }
 
-impl Failure {
-    /// The JSON document of the failure: what was wrong, what to do, and what else was wrong.
-    pub fn document(&self) -> Value {
-        let mut document = failure(&self.report.to_string(), self.code);
-        let help = |diagnostic: &dyn Diagnostic| diagnostic.help().map(|help| help.to_string());
-        document["help"] = json!(help(&*self.report).unwrap_or_default());
-        let others = self.report.related().into_iter().flatten();
-        let others: Vec<_> = others
-            .map(|other| json!({ "error": other.to_string(), "help": help(other) }))
-            .collect();
-        document["others"] = json!(others);
-        document
-    }
-}
-
-/// The JSON document of a command that failed: with `--json`, standard output holds one document
-/// whatever happens.
-pub fn failure(message: &str, code: u8) -> Value {
-    json!({ "status": "failed", "exit_code": code, "error": message })
-}
-
-impl From<case::CaseError> for Failure {
-    fn from(error: case::CaseError) -> Self {
-        Self { report: error.into(), code: BAD_INPUT }
-    }
-}
-
-impl From<RunError> for Failure {
-    fn from(error: RunError) -> Self {
-        let code = error.exit_code();
-        Self { report: error.into(), code }
-    }
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a case
+    #[command(after_help = "Examples:\n  creepage run cases/quick.toml\n  creepage run \
+        cases/quick.toml --set friction.static=0.3 --out runs/slippery\n  creepage run \
+        cases/zhao-li/b-falling.toml --set mesh.zone.size=2e-3 --threads 2\n  creepage run \
+        cases/quick.toml --resume\n\nCtrl-C and SIGTERM end the run in order: a checkpoint is written and \
+        what was computed so far is readable. --resume goes on from the last checkpoint (one every five \
+        minutes, and on Ctrl-C) and leaves the same bits as a run that was not interrupted; on any \
+        number of threads, also after kill -9. In a batch script, --resume --force begins the run or goes on with it.")]
+    Run(RunArgs),
+    /// Build the mesh of a case: counts, quality, stable step, memory and run-time estimate
+    #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
+        cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
+    Mesh(MeshArgs),
+    /// Check where and by how much a run violates the contact conditions; exit code 1 beyond a limit
+    #[command(after_help = "Examples:\n  creepage check runs/quick\n  creepage check runs/quick \
+        --window 1.2e-3:1.5e-3 --limit violating_fraction=0.05\n  creepage check runs/b-falling \
+        --map violations.vtkhdf --json > check.json\n  creepage check other-code.vtkhdf --case \
+        case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
+        docs/checks.md.")]
+    Check(CheckArgs),
+    /// Compare runs: slip and shear over place and time, means, statistics, growth of a disturbance
+    #[command(
+        after_help = "Examples:\n  creepage compare runs/coarse runs/fine\n  creepage compare \
+        runs/space-memory/runs/* --plot memory.png\n\nWhat the numbers are: docs/checks.md."
+    )]
+    Compare(CompareArgs),
+    /// Draw the figures of a run (those of the papers, histories, slip over space and time, spectra)
+    /// or of a sweep (measures over its axes, profiles, maps)
+    #[command(
+        after_help = "Examples:\n  creepage plot runs/quick\n  creepage plot runs/b-falling \
+        --out figures --format svg\n\nWhat each figure shows: docs/checks.md."
+    )]
+    Plot(PlotArgs),
+    /// Write one self-contained HTML page about a run or a sweep: case, numbers, checks, figures
+    #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
+        runs/b-falling --out b-falling.html")]
+    Report(ReportArgs),
+    /// Run a case many times over a grid of parameters: one table, and a report; exit code 1 if a
+    /// run fails
+    #[command(
+        after_help = "Examples:\n  creepage sweep cases/sweeps/kt.toml --jobs 2\n  creepage \
+        sweep cases/sweeps/kt.toml --resume\n  creepage sweep cases/sweeps/kt-large.toml --plan \
+        runs.sh\n  creepage sweep cases/sweeps/kt-large.toml --collect\n  creepage report \
+        runs/kt\n\nCtrl-C ends the runs under way in order; --resume goes on. The sweep file, \
+        other engines, results: docs/sweeps.md."
+    )]
+    Sweep(SweepArgs),
+    /// Bring a contact history of another code, as CSV, into the layout that the checks read
+    #[command(
+        after_help = "Example:\n  creepage import-contact --nodes nodes.csv --faces faces.csv \
+        --values values.csv --out contact.vtkhdf\n  creepage check contact.vtkhdf --case case.toml\n\n\
+        The columns, with a small example: docs/checks.md."
+    )]
+    ImportContact(ImportArgs),
+    /// Make a case and a mesh file of an LS-DYNA keyword file of a disk on a bar
+    #[command(
+        after_help = "Example:\n  creepage import-k meshes/small.k --unit mm-ton-s --out small\n  \
+        creepage run small/case.toml\n\nThe cards that are read, and the keys that they become: \
+        docs/ls-dyna.md. All others are refused by their line."
+    )]
+    ImportK(ImportKArgs),
+    /// Print the JSON Schema of a case file: every key with unit, default and range
+    #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
+    Schema,
+    /// The 1-D slider of the paper: a block on a belt with falling friction
+    #[command(
+        after_help = "Examples:\n  creepage slider --tables\n  creepage slider --thresholds \
+        --mass 0.1\n  creepage slider --method explicit --dt 3e-5 --csv slider.csv\n  creepage \
+        slider --plot figures\n  creepage slider --method penalty --stiffness 1e5 --dt 1e-5\n  \
+        creepage slider --method exact --expression \"0.3 + 0.2*exp(-2*s)\"\n  creepage slider \
+        --config slider.toml --mass 0.02"
+    )]
+    Slider(Box<SliderArgs>),
+    /// Run verification problems against their references; exit code 1 if one misses its limit
+    #[command(
+        after_help = "Examples:\n  creepage verify --list\n  creepage verify hertz-wheel\n  \
+        creepage verify --quick --json > verify.json"
+    )]
+    Verify(VerifyArgs),
+    /// Measure the element kernel and whole step on this machine, beside what its memory and arithmetic
+    /// allow
+    #[command(
+        after_help = "Examples:\n  creepage bench --threads 2 --json\n  creepage bench --set \
+        mesh.zone.size=0.5e-3 --set contact.enforcement='\"exact\"'\n  creepage bench --block 48 \
+        --element full --threads 1"
+    )]
+    Bench(BenchArgs),
 }
 
 /// Runs the command and returns the exit code.
-pub fn dispatch(args: &Args) -> Result<u8, Failure> {
+pub fn dispatch(line: &Line) -> Result<u8, Failure> {
+    let args = &line.args;
     if args.check_args {
-        return check_args(args);
+        return check_args(line);
     }
-    match &args.command {
-        Command::Run(options) => run(args, options),
-        Command::Mesh(options) => mesh(args, options),
+    match &line.command {
+        Command::Run(options) => crate::run::command(args, options),
+        Command::Mesh(options) => crate::mesh::command(args, options),
         Command::Check(options) => crate::check::command(args, options),
         Command::Compare(options) => crate::compare::command(args, options),
         Command::Plot(options) => crate::plot::command(args, options),
@@ -88,149 +152,17 @@ pub fn dispatch(args: &Args) -> Result<u8, Failure> {
         }
         Command::Slider(options) => crate::slider::command(args, options),
         Command::Verify(options) => crate::verify::command(args, options),
-        Command::Bench(options) => bench(args, options),
+        Command::Bench(options) => crate::bench::command(args, options),
     }
 }
 
 /// Reads what a command would compute from, and computes nothing.
-fn check_args(args: &Args) -> Result<u8, Failure> {
-    match &args.command {
+fn check_args(line: &Line) -> Result<u8, Failure> {
+    let args = &line.args;
+    match &line.command {
         Command::Run(options) => load(args, &options.case, &options.sets).map(|_| 0),
         Command::Mesh(options) => load(args, &options.case, &options.sets).map(|_| 0),
         Command::Sweep(options) => crate::sweep::load(options).map(|_| 0),
         _ => Ok(0),
-    }
-}
-
-fn run(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
-    let sets = options.sets();
-    let case = load(args, &options.case, &sets)?;
-    let out = options.out.clone().unwrap_or_else(|| case::folder::default_folder(&case));
-    let run_options = RunOptions {
-        out: out.clone(),
-        threads: options.threads.unwrap_or_else(all_cores),
-        force: options.force,
-        resume: options.resume,
-        preload_cache: options.preload_cache.clone(),
-        source: options.case.clone(),
-        law: args.embedded.as_ref().and_then(|embedded| embedded.law.clone()),
-    };
-    let stop = stop_flag(args);
-    args.tell(|| Told::Folder(out.clone()));
-    let mut watch = Watch::new(args.quiet, options.leash);
-    if options.leash {
-        hold_leash(args.stop.clone())?;
-    }
-    let result = case::run(&case, &run_options, &stop, &mut |progress| {
-        if progress.stage == case::Stage::Roll {
-            args.stop.hears();
-        }
-        watch.show(progress);
-        args.tell(|| Told::Run(*progress));
-    });
-    watch.finish();
-    let summary = result.map_err(|error| placed(error, args, &options.case, &sets))?;
-    if args.json {
-        args.print_json(&summary);
-    } else if !args.quiet {
-        report::print_run(&summary, &out);
-    }
-    let status = summary.get("status").and_then(Value::as_str);
-    let diagnosis = summary.get("diagnosis").and_then(Value::as_str);
-    if let Some(diagnosis) = diagnosis.filter(|_| args.embedded.is_none()) {
-        let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
-    }
-    if status == Some("interrupted") && !args.quiet {
-        let _ = writeln!(std::io::stderr(), "interrupted: --resume goes on");
-    }
-    Ok(match status {
-        Some("interrupted") => INTERRUPTED,
-        Some("failed") => STOPPED_BY_GUARD,
-        _ => 0,
-    })
-}
-
-fn mesh(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
-    let case = load(args, &options.case, &options.sets)?;
-    if let Some(out) = &options.out {
-        claim_grid("--out", out, &case::inputs(&case, &options.case))?;
-    }
-    let found = case::mesh_report(&case, options.out.as_deref())
-        .map_err(|error| placed(error, args, &options.case, &options.sets))?;
-    if args.json {
-        args.print_json(&found);
-    } else if !args.quiet {
-        report::print_mesh(&found);
-    }
-    Ok(0)
-}
-
-fn bench(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
-    let threads = options.threads.unwrap_or_else(all_cores);
-    let found = match options.block {
-        Some(n) => case::bench_block(n, options.element, threads, options.kernels)?,
-        None => case::bench(threads, options.kernels, &options.sets)
-            .map_err(|error| placed(error, args, Path::new("reference.toml"), &options.sets))?,
-    };
-    if args.json {
-        args.print_json(&found);
-    } else if !args.quiet {
-        report::print_bench(&found);
-    }
-    Ok(0)
-}
-
-/// An error about a key of the case, with the line where the key was written.
-fn placed(error: RunError, args: &Args, case: &Path, sets: &[String]) -> Failure {
-    let text = text(args);
-    match error.key() {
-        Some(key) => {
-            case::error_at_key(case, text, sets, key, &error.to_string(), &error.remedy()).into()
-        }
-        None => error.into(),
-    }
-}
-
-fn load(args: &Args, path: &Path, sets: &[String]) -> Result<Case, Failure> {
-    let case = match text(args) {
-        Some(text) => Case::from_text(text, path, sets)?,
-        None => Case::load(path, sets)?,
-    };
-    case.warnings().iter().for_each(|warning| args.say(&format!("warning: {warning}")));
-    Ok(case)
-}
-
-/// The case where it is not in a file.
-fn text(args: &Args) -> Option<&str> {
-    args.embedded.as_ref()?.case.as_deref()
-}
-
-pub fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get())
-}
-
-/// Ends the run with the process at the other end of standard input: in order where that asks for
-/// it, at once where it is gone.
-fn hold_leash(stop: Stop) -> Result<(), Failure> {
-    let held = std::thread::Builder::new().spawn(move || {
-        for line in std::io::stdin().lines().map_while(Result::ok) {
-            if line == case::sweep::schedule::STOP {
-                stop.ask();
-            }
-        }
-        std::process::exit(INTERRUPTED.into());
-    });
-    held.map(|_| ()).map_err(|error| Failure {
-        report: miette!("the thread that minds the sweep cannot be started: {error}"),
-        code: STOPPED_BY_GUARD,
-    })
-}
-
-/// The flag that ends a command in order: at the first Ctrl-C or SIGTERM, or by the program that holds
-/// it.
-pub fn stop_flag(args: &Args) -> Arc<AtomicBool> {
-    match &args.embedded {
-        Some(embedded) => Arc::clone(&embedded.stop),
-        None => args.stop.in_order(),
     }
 }

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::args::Args;
 use crate::check::{BasisArgs, WindowArgs, basis};
-use crate::commands::{BAD_INPUT, Failure};
+use crate::failure::{BAD_INPUT, Failure};
 use crate::report;
 
 /// Options of `compare`.

@@ -8,7 +8,7 @@ use post::{ImportError, ImportFiles, Imported, import_contact};
 use serde_json::json;
 
 use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure};
+use crate::failure::{BAD_INPUT, Failure};
 use crate::outputs::claim_grid;
 
 /// Options of `import-contact`.

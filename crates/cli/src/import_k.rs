@@ -11,7 +11,7 @@ use miette::miette;
 use serde_json::json;
 
 use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure};
+use crate::failure::{BAD_INPUT, Failure};
 
 /// Options of `import-k`.
 #[derive(Debug, clap::Args)]

@@ -4,23 +4,29 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod args;
+mod bench;
+mod case_file;
 mod check;
 mod commands;
 mod compare;
 mod convergence_plot;
 mod embedded;
+mod failure;
 mod import_contact;
 mod import_k;
+mod mesh;
 mod outputs;
 mod plot;
 mod progress;
 mod report;
 mod report_page;
+mod run;
 mod rupture_plot;
 mod slider;
 mod stop;
 mod sweep;
 mod sweep_folder;
+mod threads;
 mod verify;
 
 use std::ffi::OsString;
@@ -31,29 +37,32 @@ use std::sync::{Arc, atomic::AtomicBool};
 use clap::Parser;
 
 use args::Args;
-pub use commands::Failure;
+use commands::Line;
 pub use embedded::{Embedded, Told};
+pub use failure::Failure;
 
 /// Runs the command that `words` write, the first of which is the program's name, for the terminal; returns
 /// the exit code. `program` and its first arguments do the runs of a sweep; where it is empty, the program
 /// that calls this.
 pub fn main(words: impl IntoIterator<Item = OsString>, program: Vec<OsString>) -> u8 {
     let words: Vec<_> = words.into_iter().collect();
-    let mut args = match Args::try_parse_from(&words) {
-        Ok(args) => args,
+    let mut line = match Line::try_parse_from(&words) {
+        Ok(line) => line,
         Err(error) => return usage(&error, &words),
     };
+    let args = &mut line.args;
     args.program = program;
-    set_up_messages(&args);
-    let done = full_disks_are_errors().and_then(|()| stop::Stop::listening(args.json));
+    set_up_messages(args);
+    let json = args.json;
+    let done = full_disks_are_errors().and_then(|()| stop::Stop::listening(json));
     let done = done.and_then(|stop| {
-        args.stop = stop;
-        commands::dispatch(&args)
+        line.args.stop = stop;
+        commands::dispatch(&line)
     });
     match done {
         Ok(code) => code,
         Err(failure) => {
-            if args.json {
+            if json {
                 report::print_json(&failure.document());
             }
             // A closed standard error is no reason to panic.
@@ -73,13 +82,14 @@ pub fn command(
     words: impl IntoIterator<Item = OsString>,
     embedded: Embedded,
 ) -> Result<u8, Failure> {
-    let mut args = Args::try_parse_from(words).map_err(|error| {
+    let mut line = Line::try_parse_from(words).map_err(|error| {
         let text = error.render().to_string();
         let report = miette::miette!("{}", text.trim_end().trim_start_matches("error: "));
-        Failure { report, code: commands::BAD_INPUT }
+        Failure { report, code: failure::BAD_INPUT }
     })?;
+    let args = &mut line.args;
     (args.json, args.quiet, args.embedded) = (true, true, Some(embedded));
-    commands::dispatch(&args)
+    commands::dispatch(&line)
 }
 
 /// A file that reaches the limit of a file's size (`ulimit -f`) is one that cannot be written, as on a full
@@ -91,7 +101,7 @@ fn full_disks_are_errors() -> Result<(), Failure> {
     let unheard = Arc::new(AtomicBool::new(false));
     register(SIGXFSZ, unheard).map(|_| ()).map_err(|error| Failure {
         report: miette::miette!("the handler of SIGXFSZ cannot be set: {error}"),
-        code: commands::STOPPED_BY_GUARD,
+        code: failure::STOPPED_BY_GUARD,
     })
 }
 
@@ -106,10 +116,10 @@ fn usage(error: &clap::Error, words: &[OsString]) -> u8 {
     if error.use_stderr() && wanted {
         let text = error.render().to_string();
         let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-        report::print_json(&commands::failure(message, commands::BAD_INPUT));
+        report::print_json(&failure::failure(message, failure::BAD_INPUT));
     }
     let _ = error.print();
-    if error.use_stderr() { commands::BAD_INPUT } else { 0 }
+    if error.use_stderr() { failure::BAD_INPUT } else { 0 }
 }
 
 fn set_up_messages(args: &Args) {

@@ -6,7 +6,7 @@ use case::folder::VTKHDF;
 use files::output::{Made, OutputRefused, VTU, check};
 use miette::miette;
 
-use crate::commands::{BAD_INPUT, Failure};
+use crate::failure::{BAD_INPUT, Failure};
 
 /// Refuses the file of an option where writing it would replace an input, or what this program did not
 /// write.

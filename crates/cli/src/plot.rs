@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::args::Args;
 use crate::check::{BasisArgs, WindowArgs, basis};
-use crate::commands::Failure;
+use crate::failure::Failure;
 use crate::sweep_folder as sweep;
 
 /// Options of `plot`.

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::args::Args;
 use crate::check::{BasisArgs, basis, inputs};
-use crate::commands::Failure;
+use crate::failure::Failure;
 use crate::outputs::claim;
 use crate::sweep_folder as sweep;
 

@@ -16,8 +16,8 @@ use serde_json::{Value, json};
 use slider::figures::{figure_6, figure_7, figure_8, time_step_map};
 use slider::{BlowUp, Method, Outcome, Parameters, Threshold, figures, tables};
 
-use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD, stop_flag};
+use crate::args::{Args, stop_flag};
+use crate::failure::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD};
 use crate::outputs::claim;
 use csv_file::{CsvFile, Unwritable};
 use settings::{SettingError, Settings, Sources};

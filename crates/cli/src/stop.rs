@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use miette::miette;
 
-use crate::commands::{Failure, INTERRUPTED, STOPPED_BY_GUARD, failure};
+use crate::failure::{Failure, INTERRUPTED, STOPPED_BY_GUARD, failure};
 use crate::report;
 
 /// How long a command has to hear that it is asked to end.

@@ -14,13 +14,14 @@ use miette::{Report, miette};
 use post::PostError;
 use serde_json::Value;
 
-use crate::args::{Args, threads};
-use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, all_cores, stop_flag};
+use crate::args::{Args, stop_flag};
 use crate::embedded::Told;
+use crate::failure::{BAD_INPUT, Failure, INTERRUPTED};
 use crate::outputs::claim;
 use crate::progress::SweepWatch;
 use crate::report;
 use crate::report_page::{claim_sweep, write_sweep};
+use crate::threads::{all_cores, threads};
 
 /// Exit code: a run failed.
 const FAILED: u8 = 1;

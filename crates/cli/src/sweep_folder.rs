@@ -6,7 +6,7 @@ use files::input;
 use post::PostError;
 use serde_json::Value;
 
-use crate::commands::Failure;
+use crate::failure::Failure;
 
 /// What `sweep.json` in `folder` holds; `None` where there is none.
 pub fn read(folder: &Path) -> Result<Option<Value>, Failure> {

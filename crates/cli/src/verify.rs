@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use verify::{PROBLEMS, Problem, Row, Size, VerifyError};
 
 use crate::args::Args;
-use crate::commands::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD};
+use crate::failure::{BAD_INPUT, Failure, INTERRUPTED, STOPPED_BY_GUARD};
 use crate::{convergence_plot, rupture_plot};
 
 /// Exit code: a row beyond its limit.

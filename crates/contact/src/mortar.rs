@@ -625,7 +625,7 @@ mod tests {
         let mut differ = |shift: f64| {
             rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
             let new = rig.means(false)[slave].clone().unwrap();
-            let mut constraint = crate::point::Listed::near(slave as u32, 0);
+            let mut constraint = crate::search::Listed::near(slave as u32, 0);
             let x = rig.positions().at(rig.sides[0].nodes[slave]);
             let kinematics = rig.kinematics(slave, &old);
             let mut legs = Vec::new();

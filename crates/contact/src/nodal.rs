@@ -2,7 +2,8 @@
 
 use crate::PenaltyContact;
 use crate::penalty_point::PenaltyPoint;
-use crate::point::{ContactPoint, Enforced, Listed, State};
+use crate::point::{ContactPoint, Enforced, State};
+use crate::search::Listed;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{axpy, scale};
 use mesh::Face;

@@ -2,8 +2,8 @@
 
 use crate::face::Positions;
 use crate::penalty_point::{Pass, PenaltyPoint, scatter};
-use crate::point::{Listed, State};
-use crate::search::{Search, neighbours};
+use crate::point::State;
+use crate::search::{Listed, Search, neighbours};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy, dot, scale};

@@ -2,7 +2,8 @@
 
 use crate::Motion;
 use crate::face::{Positions, SurfacePoint, shape};
-use crate::point::{ContactPoint, Enforced, Listed, State, relative_velocity, sleep};
+use crate::point::{ContactPoint, Enforced, State, relative_velocity, sleep};
+use crate::search::Listed;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};

@@ -1,6 +1,7 @@
 //! The contact point: a slave node and its projection on the master, as every enforcement knows it.
 
 use crate::face::{Followed, Positions, Projection, project};
+use crate::search::Listed;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy, dot, norm, scale, tangential};
 use friction::{Place, Slid};
@@ -20,16 +21,6 @@ pub(crate) enum State {
     Open = 0,
     Stick = 1,
     Slip = 2,
-}
-
-/// A slave node that the search lists because it is near the other surface.
-pub(crate) trait Listed: Copy {
-    /// An open node whose projection is to be sought from `face`.
-    fn near(slave: u32, face: u32) -> Self;
-    /// The node, in its surface.
-    fn slave(&self) -> u32;
-    /// Closed nodes stay listed.
-    fn is_closed(&self) -> bool;
 }
 
 /// What one method of enforcement keeps of a contact point besides what all of them do.

@@ -20,7 +20,6 @@
 //! the first call are found too. Pairs that are closed stay listed until they open.
 
 use crate::face::Positions;
-use crate::point::Listed;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use parry3d_f64::bounding_volume::Aabb;
@@ -44,6 +43,16 @@ const DUE: f64 = 0.7;
 pub(crate) type Span = [Vec3; 2];
 
 const NOTHING: Span = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+
+/// A slave node that the search lists because it is near the other surface.
+pub(crate) trait Listed: Copy {
+    /// An open node whose projection is to be sought from `face`.
+    fn near(slave: u32, face: u32) -> Self;
+    /// The node, in its surface.
+    fn slave(&self) -> u32;
+    /// Closed nodes stay listed.
+    fn is_closed(&self) -> bool;
+}
 
 /// When to search again.
 #[derive(Clone, Debug, Serialize, Deserialize)]

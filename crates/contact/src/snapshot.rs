@@ -7,8 +7,8 @@
 use crate::constraint::Constraint;
 use crate::mortar::Mean;
 use crate::penalty_point::PenaltyPoint;
-use crate::point::{ContactPoint, Enforced, Listed};
-use crate::search::Search;
+use crate::point::{ContactPoint, Enforced};
+use crate::search::{Listed, Search};
 use crate::surface::{ContactSurface, NONE};
 use serde::{Deserialize, Serialize};
 

@@ -1,18 +1,7 @@
 //! Friction of a contact node: a law together with the state that it keeps from step to step.
 
-use crate::{Coulomb, FrictionLaw, Memory};
+use crate::{Coulomb, FrictionLaw, Memory, Place};
 use std::fmt::Debug;
-
-/// Where a contact node is, when, and what presses it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
-    /// Position (m).
-    pub position: [f64; 3],
-    /// Time (s).
-    pub time: f64,
-    /// Contact pressure (Pa).
-    pub pressure: f64,
-}
 
 /// A node that has been in contact since the step before, on its way to the state of this step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -17,6 +17,7 @@ mod centreline;
 mod check;
 mod compare;
 mod conditions;
+mod digits;
 mod error;
 mod figures;
 mod frames;

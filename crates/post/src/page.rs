@@ -6,6 +6,7 @@ mod verdict;
 
 use crate::PostError;
 use crate::basis::Basis;
+use crate::digits::digits;
 use crate::figures::Named;
 use crate::limits::MEASURES;
 use crate::patch_series::{PATCH_TABLE, PatchLine};
@@ -75,20 +76,6 @@ fn head(name: &str) -> String {
 /// Text as HTML.
 pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// A number in few digits.
-pub(crate) fn digits(value: f64, significant: i32) -> String {
-    let size = value.abs();
-    let text = if size == 0.0 {
-        "0".into()
-    } else if (1e-3..1e6).contains(&size) {
-        let decimals = (significant - 1 - libm::log10(size).floor() as i32).max(0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.*e}", (significant - 1).max(0) as usize)
-    };
-    text.replace('-', "\u{2212}")
 }
 
 fn number(document: &Value, pointer: &str) -> Option<f64> {
@@ -317,10 +304,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_cannot_become_markup_and_numbers_stay_short() {
+    fn text_cannot_become_markup() {
         assert_eq!(escape("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
-        assert_eq!(digits(-0.012_345, 3), "\u{2212}0.0123");
-        assert_eq!(digits(1.5e-9, 2), "1.5e\u{2212}9");
-        assert_eq!(digits(0.0, 3), "0");
     }
 }

@@ -11,6 +11,7 @@ mod map;
 mod parameters;
 mod penalty;
 mod run;
+mod state;
 mod stick;
 pub mod tables;
 mod thresholds;
@@ -21,7 +22,8 @@ pub use implicit::{ImplicitEquation, Iterations, implicit_step};
 pub use map::{MapPoint, map};
 pub use parameters::{MOST_STEPS, ParameterError, Parameters};
 pub use penalty::{penalty_stable_step, penalty_step};
-pub use run::{BlowUp, Method, Outcome, State, run, unobserved};
+pub use run::{BlowUp, Method, Outcome, run, unobserved};
+pub use state::State;
 pub use stick::Ringing;
 pub use thresholds::{Threshold, Thresholds, chatter_step, collapse_step, thresholds};
 

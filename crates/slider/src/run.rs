@@ -1,24 +1,11 @@
 //! A run and its characteristic values.
 
 use crate::stick::{Ringing, StickWatch};
-use crate::{Parameters, exact_step, explicit_step, implicit_step, memory_step, penalty_step};
+use crate::{
+    Parameters, State, exact_step, explicit_step, implicit_step, memory_step, penalty_step,
+};
 use std::ops::ControlFlow;
 use thiserror::Error;
-
-/// The block at the end of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
-    /// Position (m).
-    pub x: f64,
-    /// Velocity (m/s).
-    pub v: f64,
-    /// Slip velocity s = v - v_ref (m/s).
-    pub slip: f64,
-    /// Friction force F_fric that acted in the step (N).
-    pub friction: f64,
-    /// Coefficient of friction that the method used in the step; with memory its value at the end.
-    pub mu: f64,
-}
 
 /// The time-stepping methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,11 @@
 //! Which elements of a mesh are fully integrated.
 
-use crate::Element;
+/// Options of the one-point element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Element {
+    /// Flanagan–Belytschko hourglass stiffness coefficient kappa; 0.05 is usual.
+    pub hourglass: f64,
+}
 
 /// How the volumetric part of a fully integrated element is integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -24,12 +24,12 @@ mod stable;
 mod stiffness;
 mod stress;
 
-pub use formulation::{Elements, Formulation, Volumetric};
+pub use formulation::{Element, Elements, Formulation, Volumetric};
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;
 pub use mass::lumped_mass;
 pub use material::{Material, MaterialError};
 pub use peak::multiply_additions;
-pub use solid::{Element, ElementState, ForceSums, Solid, SolidError, Viscosity};
+pub use solid::{ElementState, ForceSums, Solid, SolidError, Viscosity};
 pub use stable::{element_frequency_bound, largest_frequency, nodal_stiffness_bounds};
 pub use stiffness::element_stiffness;

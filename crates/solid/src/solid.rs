@@ -2,7 +2,7 @@
 
 use crate::blocks::{Batch, Block, Blocks};
 use crate::count::work;
-use crate::formulation::{Elements, Formulation, Volumetric};
+use crate::formulation::{Element, Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
@@ -15,13 +15,6 @@ use crate::stress::{deformation, determinant, mean_cauchy, one_point_cauchy};
 use mesh::{Mesh, Padded};
 use rayon::prelude::*;
 use thiserror::Error;
-
-/// Options of the one-point element.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
-    /// Flanagan–Belytschko hourglass stiffness coefficient kappa; 0.05 is usual.
-    pub hourglass: f64,
-}
 
 /// Viscous stresses in the elements, each zero by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

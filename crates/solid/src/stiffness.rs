@@ -1,10 +1,9 @@
 //! Stiffness matrix of one element about the undeformed state, for assembled matrices.
 
-use crate::formulation::Formulation;
+use crate::formulation::{Element, Formulation};
 use crate::full_stiffness::full_stiffness;
 use crate::geometry::{dot, mean_gradient};
 use crate::material::Material;
-use crate::solid::Element;
 use mesh::HEX_CORNERS as CORNERS;
 
 /// Stiffness of a hexahedron with corners `x` (m) in `VTK_HEXAHEDRON` order, tangent at the

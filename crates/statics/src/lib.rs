@@ -14,11 +14,13 @@ mod link;
 mod newton;
 mod problem;
 mod skyline;
+mod solve;
 mod space;
 mod springs;
 mod supports;
 mod system;
 
 pub use error::StaticsError;
-pub use problem::{Contact, Ending, Equilibrium, Iteration, Problem, Report, Spin, solve};
+pub use problem::{Contact, Ending, Equilibrium, Iteration, Problem, Report, Spin};
+pub use solve::solve;
 pub use supports::{Axis, Supports, Tied};

@@ -9,6 +9,7 @@
 
 mod convergence;
 mod problem;
+mod problems;
 mod rolling_dynamic;
 mod row;
 
@@ -39,5 +40,6 @@ mod steady_rolling;
 mod waves;
 
 pub use convergence::{Convergence, Sample};
-pub use problem::{Cause, PROBLEMS, Problem, Size, VerifyError, find};
+pub use problem::{Cause, Problem, Size, VerifyError};
+pub use problems::{PROBLEMS, find};
 pub use row::{Field, Row};

@@ -16,6 +16,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::extract::{document, table};
+use super::instruction_set::kernels;
 use super::manifest::{Manifest, Step};
 
 /// What runs, sweeps and verifications read.
@@ -96,7 +97,7 @@ impl<'a> Runner<'a> {
 
     /// Runs a step, or finds that it ran, and reads what it left.
     fn step(&self, step: &Step) -> Result<Value, String> {
-        let key = text_sum(&[&self.program, &self.inputs, super::kernels(), &step.command]);
+        let key = text_sum(&[&self.program, &self.inputs, kernels(), &step.command]);
         let file = self.kept.join(format!("{}.json", text_sum(&[&step.command])));
         let read = step.read.as_ref().map(|read| self.root.join(read));
         let said = match self.kept(step, &file, &key, read.as_deref()) {

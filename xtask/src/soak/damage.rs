@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::kill_loop::with_program;
-use crate::validate::Outcome;
+use crate::step::Outcome;
 
 /// Builds program and trial and runs the latter with `options`; gives what it said last, too.
 pub fn damage(root: &Path, options: &[String]) -> (Outcome, String) {

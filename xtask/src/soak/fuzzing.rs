@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::available_parallelism;
 
-use crate::validate::Outcome;
+use crate::step::Outcome;
 
 /// How long, and what.
 #[derive(Debug, clap::Args)]

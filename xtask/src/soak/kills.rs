@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::kill_loop::with_program;
-use crate::validate::Outcome;
+use crate::step::Outcome;
 
 /// Builds program and kills and runs the latter with `options`; gives what it said last, too.
 pub fn kills(root: &Path, options: &[String]) -> (Outcome, String) {

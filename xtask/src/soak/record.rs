@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime};
 
 use serde::{Deserialize, Serialize};
 
-use crate::validate::Outcome;
+use crate::step::Outcome;
 
 const FILE: &str = "docs/soak.json";
 const PAGE: &str = "docs/soak.md";
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_page_says_what_the_trials_said() {
-        let root = crate::validate::root();
+        let root = crate::step::root();
         let page = text_of(&root.join(PAGE)).unwrap();
         let trials = read(&root).unwrap();
         assert!(!trials.is_empty());

@@ -2,7 +2,7 @@ use super::{Rig, SETTINGS};
 use crate::PenaltySettings;
 use crate::face::{Positions, project};
 use crate::plates::{STEEL, plate, tread};
-use crate::point::Listed;
+use crate::search::Listed;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, norm, sub};
 use friction::Coulomb;

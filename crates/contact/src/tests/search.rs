@@ -1,7 +1,7 @@
 use super::{K, Rig, SETTINGS};
 use crate::face::{Positions, project};
 use crate::plates::{plate, tread};
-use crate::point::Listed;
+use crate::search::Listed;
 use crate::vector::Vec3;
 use friction::Coulomb;
 use proptest::prelude::*;

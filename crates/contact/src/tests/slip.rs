@@ -1,5 +1,5 @@
 use super::{K, Rig, SETTINGS};
-use crate::point::Listed;
+use crate::search::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use crate::{Contact, PenaltySettings, Stiffness};
 use friction::{

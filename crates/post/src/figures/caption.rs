@@ -1,6 +1,6 @@
 //! The key numbers of a case, in a caption.
 
-use super::Scene;
+use super::scene::Scene;
 use crate::basis::number_at;
 use crate::law::Law;
 

@@ -1,6 +1,6 @@
 //! The half-space reference of Figure 3.
 
-use super::Scene;
+use super::scene::Scene;
 use crate::basis::number_at;
 use crate::law::Law;
 

@@ -1,7 +1,7 @@
 //! Time histories of the whole run.
 
-use super::Scene;
 use super::caption::caption;
+use super::scene::Scene;
 use crate::PostError;
 use crate::frames::open_history;
 use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};

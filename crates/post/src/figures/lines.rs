@@ -2,7 +2,7 @@
 
 use super::caption::caption;
 use super::half_space;
-use super::{INSTANTS, Instant, Scene, time_label};
+use super::scene::{INSTANTS, Instant, Scene, time_label};
 use crate::vector::norm;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 

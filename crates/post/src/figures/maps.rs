@@ -1,7 +1,7 @@
 //! Maps: stick and slip over the patch, slip along y = 0 over time.
 
 use super::caption::caption;
-use super::{Instant, Scene, time_label};
+use super::scene::{Instant, Scene, time_label};
 use crate::PostError;
 use crate::vector::norm;
 use figure::{Axis, Cell, Figure, Fill, Key, Panel, Scale, colour};

@@ -1,8 +1,8 @@
 //! Figure 7's analogue: all nodes of the window over the friction law.
 
-use super::Scene;
 use super::caption::caption;
 use super::maps::Band;
+use super::scene::Scene;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 
 /// p_f/p against |s| of every node in contact in the window, over the graph of the law.

@@ -1,7 +1,7 @@
 //! Spectrum of the slip velocity at probe nodes, recorded at every step.
 
-use super::Scene;
 use super::caption::caption;
+use super::scene::Scene;
 use crate::PostError;
 use crate::conditions::IN_CONTACT;
 use crate::frames::open_history;

@@ -1,7 +1,7 @@
 //! The dimensionless numbers of a run and what they mean.
 
-use super::digits;
 use crate::basis::Basis;
+use crate::digits::digits;
 use std::fmt::Write;
 
 /// What a number of the summary's section `numbers` is called, and what it means.

@@ -1,7 +1,8 @@
 //! The page of a sweep: its table, what its trends say, and its figures.
 
-use super::{digits, escape, head};
+use super::{escape, head};
 use crate::PostError;
+use crate::digits::digits;
 use crate::sweep::{MEASURES, RULE, Sweep, SweepVerdict, shown, sweep_figures, sweep_verdicts};
 use serde_json::Value;
 use std::fmt::Write;

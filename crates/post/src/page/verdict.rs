@@ -1,6 +1,6 @@
 //! What a measure's value means, in a sentence.
 
-use super::digits;
+use crate::digits::digits;
 use serde_json::Value;
 
 /// The verdict on a measure from its entry in the document of a check.

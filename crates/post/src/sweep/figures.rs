@@ -1,8 +1,9 @@
 //! The figures of a sweep.
 
+use super::document::{Group, Sweep, shown};
+use super::measures::{MEASURES, Point};
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
-use super::{Group, MEASURES, Point, Sweep, shown, spans_decades};
 use crate::PostError;
 use figure::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour, viridis};
 use serde_json::Value;
@@ -283,6 +284,14 @@ fn edges(values: &[f64]) -> Vec<f64> {
     edges.extend((0..n - 1).map(|i| places[i] + half(i)));
     edges.push(places[n - 1] + half(n - 2));
     edges.into_iter().map(from).collect()
+}
+
+/// Whether values span more than a decade, so that a logarithmic axis shows them.
+fn spans_decades(values: impl Iterator<Item = f64>) -> bool {
+    let ends = values
+        .filter(|value| value.is_finite())
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+    ends[0] > 0.0 && ends[1] > 10.0 * ends[0]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What is followed over the axes of a sweep.
 
-use super::Run;
+use super::document::Run;
 use serde_json::Value;
 
 /// A number that every run of a sweep has.

@@ -5,7 +5,7 @@
 //! extrapolation (Richardson 1911; Roache 1994), with q left free. For q -> 0 it becomes growth by
 //! the logarithm, for q < 0 growth by a power: neither has a limit.
 
-use crate::page::digits;
+use crate::digits::digits;
 
 /// A measure at one value of the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

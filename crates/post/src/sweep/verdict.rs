@@ -1,6 +1,8 @@
 //! The verdicts of a sweep: every measure along every axis.
 
-use super::{MEASURES, Sample, Sweep, Trend, trend};
+use super::document::Sweep;
+use super::measures::MEASURES;
+use super::trend::{Sample, Trend, trend};
 use crate::PostError;
 use serde_json::{Value, json};
 use std::path::Path;

@@ -1,0 +1,102 @@
+//! What every figure is drawn from.
+
+use crate::basis::Basis;
+use crate::check::Scales;
+use crate::frames::{ContactHistory, Frame};
+use crate::patch_series;
+use crate::vector::{Vec3, axpy};
+use figure::colour;
+use std::ops::Range;
+
+/// Interval of the papers' snapshots (s).
+const SNAPSHOTS: f64 = 5.7e-6;
+
+/// Colours of the three instants.
+pub(crate) const INSTANTS: [[u8; 3]; 3] = [colour::BLUE, colour::RED, colour::GREEN];
+
+/// A record that is drawn, with where its patch is.
+pub(crate) struct Instant {
+    pub frame: Frame,
+    /// x of the patch's centre (m).
+    pub centre: f64,
+}
+
+/// Means over the window that figures state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FigureMeans {
+    pub normal_force: Option<f64>,
+    pub creepage: Option<f64>,
+    pub traction_coefficient: Option<f64>,
+}
+
+/// What every figure is drawn from.
+pub(crate) struct Scene<'a> {
+    pub history: &'a ContactHistory,
+    pub basis: &'a Basis,
+    pub scales: Scales,
+    /// The body whose nodes are drawn: the bar where there are two.
+    pub body: u8,
+    pub records: Range<usize>,
+    /// From and to (s).
+    pub window: [f64; 2],
+    /// Means over the window, as far as the run holds them.
+    pub means: FigureMeans,
+    pub instants: Vec<Instant>,
+}
+
+impl Scene<'_> {
+    /// The last record and two before it.
+    pub fn instant_indices(&self) -> Vec<usize> {
+        let times = &self.history.times;
+        let last = self.records.end - 1;
+        let mut chosen = vec![last];
+        for back in 1..3 {
+            let wanted = times[last] - SNAPSHOTS * f64::from(back);
+            let before = self.records.start..chosen[0];
+            let away = |i: &usize| (times[*i] - wanted).abs();
+            if let Some(index) = before.min_by(|a, b| away(a).total_cmp(&away(b))) {
+                chosen.insert(0, index);
+            }
+        }
+        chosen
+    }
+
+    pub fn centre(&self, frame: &Frame) -> f64 {
+        let p0 = self.scales.peak_pressure;
+        let row =
+            patch_series::measure(&self.history.surface, frame, self.body, p0, self.basis.shape);
+        if row.values[2].is_finite() { row.values[2] } else { 0.0 }
+    }
+
+    pub fn position(&self, frame: &Frame, row: usize) -> Vec3 {
+        let point = self.history.surface.points[row];
+        match &frame.motion {
+            Some([displacement, _]) => axpy(point, 1.0, displacement[row]),
+            None => point,
+        }
+    }
+
+    /// Rows of a body's nodes nearest y = 0, by their reference x.
+    pub fn centreline(&self, body: u8) -> Vec<usize> {
+        self.history.surface.centreline(body, self.scales.size)
+    }
+
+    /// Half of what is drawn along x (m).
+    pub fn reach(&self) -> f64 {
+        1.35 * self.basis.scale("half_length").unwrap_or(10.0 * self.scales.size)
+    }
+
+    pub fn in_contact(&self, frame: &Frame, row: usize) -> bool {
+        frame.pressure[row] > crate::conditions::IN_CONTACT * self.scales.peak_pressure
+    }
+
+    /// Coefficient of friction at rest.
+    pub fn mu_static(&self) -> f64 {
+        self.basis.law.map_or(0.5, |law| law.mu_static())
+    }
+}
+
+/// A time in the legend.
+pub(crate) fn time_label(instant: &Instant) -> String {
+    format!("t = {:.4} ms", 1e3 * instant.frame.time)
+}

@@ -1,0 +1,164 @@
+//! The runs of a sweep, as its document holds them.
+
+use crate::PostError;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// A sweep as its document holds it.
+pub(crate) struct Sweep<'a> {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Keys of the axes, that of the members of an ensemble left out.
+    pub axes: Vec<&'a str>,
+    /// The runs, of a sweep with an ensemble its points: means over their members.
+    pub runs: Vec<Run<'a>>,
+    /// Whether the runs are points of an ensemble.
+    pub ensemble: bool,
+}
+
+/// A run of a sweep.
+#[derive(Clone, Copy)]
+pub(crate) struct Run<'a> {
+    /// Its entry in the document.
+    pub entry: &'a Value,
+}
+
+/// Runs that differ in one axis only.
+pub(crate) struct Group<'a> {
+    /// The other axes with their values; empty where there are none.
+    pub label: String,
+    /// Value of the axis and run, by rising value.
+    pub members: Vec<(f64, Run<'a>)>,
+}
+
+impl<'a> Sweep<'a> {
+    /// The sweep of a document.
+    ///
+    /// # Errors
+    /// A document that is no sweep.
+    pub fn of(folder: &Path, document: &'a Value) -> Result<Self, PostError> {
+        let lacks = |what: &str| PostError::Text {
+            path: folder.join("sweep.json"),
+            reason: format!("is no sweep: it has no {what}"),
+        };
+        let axes = document["parameters"].as_array().ok_or_else(|| lacks("parameters"))?;
+        let runs = document["runs"].as_array().ok_or_else(|| lacks("runs"))?;
+        let members = document["ensemble"].as_str();
+        let points = document["points"].as_array().filter(|_| members.is_some());
+        Ok(Self {
+            folder: folder.into(),
+            axes: axes
+                .iter()
+                .filter_map(Value::as_str)
+                .filter(|axis| Some(*axis) != members || points.is_none())
+                .collect(),
+            runs: points.unwrap_or(runs).iter().map(|entry| Run { entry }).collect(),
+            ensemble: points.is_some(),
+        })
+    }
+
+    /// Runs that reached their end: the others have no results to draw.
+    pub fn completed(&self) -> impl Iterator<Item = Run<'a>> + '_ {
+        self.runs.iter().copied().filter(|run| run.completed())
+    }
+
+    /// Axes whose values are numbers, more than one among the runs that completed.
+    pub fn numeric_axes(&self) -> Vec<&'a str> {
+        let varies = |axis: &&str| self.values(axis).len() > 1;
+        self.axes.iter().copied().filter(varies).collect()
+    }
+
+    /// The values of an axis, rising.
+    pub fn values(&self, axis: &str) -> Vec<f64> {
+        let mut values: Vec<f64> = self.completed().filter_map(|run| run.number(axis)).collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        values
+    }
+
+    /// The completed runs in groups that differ in `axis` only, in the order of the document. Where
+    /// no two do (axes that go together), all of them are one group.
+    pub fn groups(&self, axis: &str) -> Vec<Group<'a>> {
+        let mut groups: Vec<Group<'a>> = Vec::new();
+        let mut all = Group { label: String::new(), members: Vec::new() };
+        for run in self.completed() {
+            let Some(value) = run.number(axis) else {
+                continue;
+            };
+            let others = self.axes.iter().filter(|other| **other != axis);
+            let label: Vec<String> =
+                others.map(|other| format!("{other} = {}", shown(&run.parameter(other)))).collect();
+            let label = label.join(", ");
+            all.members.push((value, run));
+            match groups.iter_mut().find(|group| group.label == label) {
+                Some(group) => group.members.push((value, run)),
+                None => groups.push(Group { label, members: vec![(value, run)] }),
+            }
+        }
+        if groups.iter().all(|group| group.members.len() < 2) {
+            groups = vec![all];
+        }
+        for group in &mut groups {
+            group.members.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        groups
+    }
+}
+
+impl<'a> Run<'a> {
+    pub fn status(self) -> &'a str {
+        self.entry["status"].as_str().unwrap_or("unknown")
+    }
+
+    /// A run without a status counts as completed where it has a summary.
+    pub fn completed(self) -> bool {
+        match self.entry["status"].as_str() {
+            Some(status) => status == "completed",
+            None => self.entry["summary"].is_object(),
+        }
+    }
+
+    pub fn parameter(self, key: &str) -> Value {
+        self.entry["parameters"][key].clone()
+    }
+
+    pub fn number(self, key: &str) -> Option<f64> {
+        self.entry["parameters"][key].as_f64().filter(|value| value.is_finite())
+    }
+
+    /// Its folder, relative to that of the sweep.
+    pub fn folder(self) -> Option<&'a Path> {
+        self.entry["run"].as_str().map(Path::new)
+    }
+}
+
+/// A parameter's value as text.
+pub(crate) fn shown(value: &Value) -> String {
+    match value {
+        Value::Number(n) => n.as_f64().map_or(String::new(), short),
+        Value::String(text) => text.clone(),
+        Value::Null => "\u{2013}".into(),
+        other => other.to_string(),
+    }
+}
+
+/// A number to four digits, without zeros behind.
+fn short(x: f64) -> String {
+    let x = format!("{x:.3e}").parse().unwrap_or(x);
+    let plain = x == 0.0 || (1e-3..1e6).contains(&f64::abs(x));
+    let text = if plain { format!("{x}") } else { format!("{x:e}") };
+    text.replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn values_of_an_axis_are_short() {
+        for (x, text) in [(0.01, "0.01"), (10.0, "10"), (0.0, "0"), (0.123_456, "0.1235")] {
+            assert_eq!(short(x), text);
+        }
+        assert_eq!(short(-5e-9), "\u{2212}5e\u{2212}9");
+    }
+}

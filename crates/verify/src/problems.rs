@@ -1,0 +1,186 @@
+//! The list of problems.
+
+use crate::{
+    Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block, hertz,
+    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture,
+    shear_column, shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
+};
+
+/// All problems, from the element to rolling contact.
+pub const PROBLEMS: &[Problem] = &[
+    Problem {
+        name: "patch",
+        about: "A uniform finite strain of seven distorted elements: exact stress, no residual",
+        run: patch::patch,
+    },
+    Problem {
+        name: "rotation",
+        about: "A rigid rotation through a full turn: no stress, no force",
+        run: patch::rotation,
+    },
+    Problem {
+        name: "free-block",
+        about: "A free block of fully integrated elements: five other codes to 7 digits",
+        run: free_block::run,
+    },
+    Problem {
+        name: "bar-wave",
+        about: "A wave in a slender bar: speed sqrt(E/rho) and stress rho c v",
+        run: waves::bar,
+    },
+    Problem {
+        name: "column-wave",
+        about: "A wave in a laterally confined column: speed c_p and stress rho c_p v",
+        run: waves::column,
+    },
+    Problem {
+        name: "block-slide",
+        about: "A block that slides on a plane, stops at v0^2/(2 mu g) and stays",
+        run: sliding::stop,
+    },
+    Problem {
+        name: "incline",
+        about: "A block on an incline: sticks below the angle of friction, slides above",
+        run: sliding::incline,
+    },
+    Problem {
+        name: "colliding-bars",
+        about: "Two equal bars colliding: contact time 2L/c, pressure rho c v, energies, momentum",
+        run: collision::run,
+    },
+    Problem {
+        name: "block-slide-exact",
+        about: "The sliding block with exact contact",
+        run: sliding::stop_exact,
+    },
+    Problem {
+        name: "incline-exact",
+        about: "The block on an incline with exact contact",
+        run: sliding::incline_exact,
+    },
+    Problem {
+        name: "block-slide-mortar",
+        about: "The sliding block with mortar rows on a plane of another pitch",
+        run: sliding::stop_mortar,
+    },
+    Problem {
+        name: "incline-mortar",
+        about: "The block on an incline with mortar rows on a plane of another pitch",
+        run: sliding::incline_mortar,
+    },
+    Problem {
+        name: "colliding-bars-exact",
+        about: "The colliding bars with exact contact",
+        run: collision::run_exact,
+    },
+    Problem {
+        name: "shear-column",
+        about: "Falling friction between two half-spaces sheared in one dimension: both jumps",
+        run: shear_column::run,
+    },
+    Problem {
+        name: "shear-column-penalty",
+        about: "The same by penalty and friction of the step before: what refinement at one k_t tends to",
+        run: shear_column_penalty::run,
+    },
+    Problem {
+        name: "perturbation-growth",
+        about: "A disturbance of steady sliding under falling friction with memory: how fast it grows",
+        run: perturbation_growth::run,
+    },
+    Problem {
+        name: "rupture",
+        about: "A fault that ruptures by itself, TPV3: rupture times of the boundary integral solution",
+        run: rupture::run,
+    },
+    Problem {
+        name: "contact-turn",
+        about: "Bodies that turn in contact: gaps of the circle, friction that turns with its face",
+        run: contact_turn::run,
+    },
+    Problem {
+        name: "interface-patch",
+        about: "Uniform pressure across meshes that do not match: the pressure of exact contact",
+        run: interface_patch::run,
+    },
+    Problem {
+        name: "lysmer",
+        about: "A wave that meets a quiet end: what comes back",
+        run: lysmer::run,
+    },
+    Problem {
+        name: "lamb",
+        about: "A load that appears on a half-space: static tail and Rayleigh wave",
+        run: lamb::run,
+    },
+    Problem {
+        name: "hertz-sphere",
+        about: "A sphere on a flat: the patch of Hertz",
+        run: hertz::sphere,
+    },
+    Problem {
+        name: "hertz-wheel",
+        about: "The reference wheel on its crown: the patch of Hertz, and the bias of penalty springs",
+        run: hertz::wheel,
+    },
+    Problem {
+        name: "hertz-line",
+        about: "A cylinder on a flat: the patch of Hertz",
+        run: hertz::line,
+    },
+    Problem {
+        name: "cattaneo",
+        about: "A sphere pressed and shifted: zone of stick and shift of Cattaneo and Mindlin",
+        run: cattaneo::run,
+    },
+    Problem {
+        name: "carter",
+        about: "A rolling cylinder: creepage and zone of stick of Carter",
+        run: carter::run,
+    },
+    Problem {
+        name: "kalker",
+        about: "Rolling of a circular contact: Kalker's coefficients C11 and C22",
+        run: kalker::circle,
+    },
+    Problem {
+        name: "kalker-ellipse",
+        about: "Rolling of the reference ellipse: Kalker's coefficients C11 and C22",
+        run: kalker::ellipse,
+    },
+    Problem {
+        name: "steady-rolling",
+        about: "The reference wheel rolling steadily: creepage, stick, shear and profiles of CONTACT",
+        run: steady_rolling::steady,
+    },
+    Problem {
+        name: "creep-force",
+        about: "The reference wheel: eight points of the creep-force curve of CONTACT",
+        run: steady_rolling::creep_force,
+    },
+    Problem {
+        name: "finite-body",
+        about: "The disk on the bar as meshed beside half-spaces; the approach of finite blocks",
+        run: finite_body::run,
+    },
+    Problem {
+        name: "rolling-dynamic",
+        about: "Steady rolling by explicit dynamics, penalty bias extrapolated, beside CONTACT",
+        run: rolling_dynamic::run,
+    },
+    Problem {
+        name: "rolling-exact",
+        about: "Steady rolling by explicit dynamics with exact contact, as it is, beside CONTACT",
+        run: rolling_dynamic::run_exact,
+    },
+    Problem {
+        name: "slider-tables",
+        about: "The 1-D slider of the paper: Tables 2 and 3 to every printed digit",
+        run: slider_tables::run,
+    },
+];
+
+/// The problem of a name.
+pub fn find(name: &str) -> Option<&'static Problem> {
+    PROBLEMS.iter().find(|problem| problem.name == name)
+}

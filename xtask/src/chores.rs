@@ -1,0 +1,45 @@
+//! The chores by their names and options on the command line.
+
+use clap::{Parser, Subcommand};
+
+use crate::{results, soak};
+
+/// The project's chores.
+#[derive(Debug, Parser)]
+#[command(name = "xtask")]
+pub struct Args {
+    /// Which one.
+    #[command(subcommand)]
+    pub chore: Chore,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Chore {
+    /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
+    /// the case files, the kernels' instructions, a smoke run with the checks of its files, the Python package
+    Validate,
+    /// Build the documents as a book, target/book/html, and check its links and its equations
+    Book,
+    /// Run the commands of the documents in a copy of the checkout, and check the long ones
+    BookTest {
+        /// Run the long ones, too
+        #[arg(long)]
+        all: bool,
+    },
+    /// Build the wheel of the Python package into target/wheel
+    Wheel,
+    /// Kill runs at random moments, resume them, and compare every bit: `--help` after it for more
+    #[command(disable_help_flag = true)]
+    KillLoop {
+        /// Options of the loop
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        options: Vec<String>,
+    },
+    /// Tables and pictures of the documents: make them anew from the commands of docs/results/NAME.toml
+    Results(results::Options),
+    /// Long trials of the whole program: all of them, or one
+    Soak {
+        #[command(subcommand)]
+        part: Option<soak::Part>,
+    },
+}

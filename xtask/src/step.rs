@@ -1,0 +1,139 @@
+//! A step of the checks: how it ends, and the commands that it runs.
+
+use std::env;
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, ExitStatus, Stdio};
+
+/// How a step ended.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// All is well.
+    Passed,
+    /// Something is wrong, and has been told.
+    Failed,
+    /// This machine lacks what the step needs.
+    Skipped,
+}
+
+/// A check of the project, given its root folder.
+pub type Step = fn(&Path) -> Outcome;
+
+/// Runs one step.
+pub fn alone(step: Step) -> ExitCode {
+    if step(&root()) == Outcome::Passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The root folder of the project.
+pub fn root() -> PathBuf {
+    // Asked at run time: clones that share a target folder share this program as well.
+    let home = env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
+    Path::new(&home).parent().unwrap_or(Path::new(".")).to_path_buf()
+}
+
+/// Tells what is wrong.
+pub fn told(faults: &[String]) -> Outcome {
+    faults.iter().for_each(|fault| eprintln!("error: {fault}"));
+    Outcome::Failed
+}
+
+/// Something is missing on this machine; the continuous integration must have it.
+pub fn missing(problem: &str, what: &str) -> Outcome {
+    if env::var_os("CI").is_some() {
+        return told(&[problem.to_owned()]);
+    }
+    eprintln!("warning: {problem}; {what} was skipped");
+    Outcome::Skipped
+}
+
+/// The interpreter of a virtual environment under the target folder with the requirements of
+/// the checks, made on the first call.
+pub fn python(root: &Path) -> Result<PathBuf, String> {
+    let venv = target(root).join("python");
+    let bin = venv.join(if cfg!(windows) { "Scripts" } else { "bin" });
+    let python = bin.join(if cfg!(windows) { "python.exe" } else { "python" });
+    let requirements = root.join("tests/python/requirements.txt");
+    let wanted = std::fs::read(&requirements)
+        .map_err(|error| format!("{} cannot be read: {error}", requirements.display()))?;
+    let installed = venv.join("requirements.txt");
+    if std::fs::read(&installed).is_ok_and(|installed| installed == wanted) {
+        return Ok(python);
+    }
+    let system = if cfg!(windows) { "python" } else { "python3" };
+    if execute(Command::new(system).args(["-m", "venv", "--clear"]).arg(&venv)) != Outcome::Passed {
+        return Err(format!(
+            "`{system} -m venv` failed (on Debian and Ubuntu: apt-get install python3-venv)"
+        ));
+    }
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
+    if execute(Command::new(&python).args(pip).arg(&requirements)) != Outcome::Passed {
+        return Err("pip could not install tests/python/requirements.txt".into());
+    }
+    std::fs::write(&installed, wanted).map_err(|error| error.to_string())?;
+    Ok(python)
+}
+
+/// The target folder; cargo itself gives it the same place.
+pub fn target(root: &Path) -> PathBuf {
+    match env::var_os("CARGO_TARGET_DIR") {
+        Some(folder) => root.join(folder),
+        None => root.join("target"),
+    }
+}
+
+/// Runs cargo to its end.
+pub fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    execute(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
+}
+
+/// A program of the workspace, built with everything that the README's test command builds: another selection of
+/// packages has other features of its dependencies, and would compile most of them again.
+pub fn built(root: &Path, name: &str) -> Option<PathBuf> {
+    let everything = ["test", "--release", "--workspace", "--no-run", "--quiet"];
+    (cargo(root, &everything, &[]) == Outcome::Passed)
+        .then(|| target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
+}
+
+/// Runs a command to its end.
+pub fn execute(command: &mut Command) -> Outcome {
+    let status = command.status();
+    ended(command, status)
+}
+
+/// Runs a command; gives the last line on its standard output, too.
+pub fn telling(command: &mut Command) -> (Outcome, String) {
+    let mut last = String::new();
+    let status = command.stdout(Stdio::piped()).spawn().and_then(|mut child| {
+        if let Some(out) = child.stdout.take() {
+            for line in BufReader::new(out).lines() {
+                let line = line?;
+                println!("{line}");
+                if !line.trim().is_empty() {
+                    last = line;
+                }
+            }
+        }
+        child.wait()
+    });
+    let told = status.as_ref().map_or_else(ToString::to_string, ToString::to_string);
+    let outcome = ended(command, status);
+    if outcome == Outcome::Failed {
+        last = format!("{last} ({told})");
+    }
+    (outcome, last)
+}
+
+fn ended(command: &Command, status: io::Result<ExitStatus>) -> Outcome {
+    match status {
+        Ok(status) if status.success() => Outcome::Passed,
+        Ok(status) => {
+            eprintln!("{command:?}: {status}");
+            Outcome::Failed
+        }
+        Err(error) => {
+            eprintln!("{command:?}: {error}");
+            Outcome::Failed
+        }
+    }
+}
