@@ -1,8 +1,8 @@
 //! The keys of the two bodies and of their mesh.
 
 use crate::forms::Crown;
-use crate::keys::Form::{Number, Text};
-use crate::keys::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, over, within, word};
+use crate::key::Form::{Number, Text};
+use crate::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, over, within, word};
 use crate::section::{section, words};
 
 section! {

@@ -3,7 +3,9 @@
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
-use crate::keys::{self, Form, KEYS, Key, STIFFNESS, number};
+use crate::forms::float;
+use crate::key::{Form, Key, STIFFNESS, number};
+use crate::keys::{self, KEYS};
 use crate::layers::{Layers, get, join, key_error_in};
 use friction::USES;
 
@@ -171,14 +173,6 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
         _ => false,
     };
     if fine { None } else { not_allowed() }
-}
-
-pub fn float(value: &Value) -> Option<f64> {
-    match value {
-        Value::Float(x) => Some(*x),
-        Value::Integer(n) => Some(*n as f64),
-        _ => None,
-    }
 }
 
 /// A value as it would be written, shortened.

@@ -7,8 +7,6 @@ use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use toml::Value;
 
-use crate::check::float;
-
 /// Transverse shape of a running surface: `"flat"`, or the radius of its crown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crown {
@@ -121,5 +119,13 @@ impl JsonSchema for Stiffness {
         json_schema!({
             "oneOf": [{ "type": "number" }, one_key("stiffness"), one_key("stability")]
         })
+    }
+}
+
+pub fn float(value: &Value) -> Option<f64> {
+    match value {
+        Value::Float(x) => Some(*x),
+        Value::Integer(n) => Some(*n as f64),
+        _ => None,
     }
 }

@@ -1,8 +1,8 @@
 //! The friction law of a case.
 
 use crate::hertz::hertz;
-use crate::keys::Form::{Curve, Number, Text};
-use crate::keys::{Key, key, needed, over, within, word};
+use crate::key::Form::{Curve, Number, Text};
+use crate::key::{Key, key, needed, over, within, word};
 use crate::schema::Case;
 use crate::section::rows;
 use friction::{Domain, Expression, LawError, NodeFriction, OwnLaw, USES};

@@ -3,7 +3,8 @@
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
-use crate::keys::{End, Form, KEYS, Key, Range};
+use crate::key::{End, Form, Key, Range};
+use crate::keys::KEYS;
 use crate::schema::Case;
 use friction::USES;
 

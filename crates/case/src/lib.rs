@@ -22,6 +22,7 @@ mod guards;
 mod held;
 pub mod hertz;
 pub mod json_schema;
+pub mod key;
 pub mod keys;
 mod layers;
 pub mod load;
@@ -51,6 +52,7 @@ pub mod sweep;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text_file;
 mod validation;
 
 pub use bench::{BlockElement, bench, bench_block};

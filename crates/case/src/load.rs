@@ -10,12 +10,12 @@ use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::mesh_file;
 use crate::name;
-use crate::preload::store::hexadecimal;
 use crate::schema::{
     Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing, Time,
 };
 use crate::table;
 use crate::validation;
+use output::hexadecimal;
 
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,

@@ -10,10 +10,10 @@ use toml::Value;
 
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
-use crate::preload::store::hexadecimal;
 use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::{Case, Ends, LengthUnit};
+use output::hexadecimal;
 
 const KEY: &str = "mesh.file";
 const DIGEST: &str = "mesh.sha256";

@@ -1,5 +1,6 @@
 //! The state before rolling: equilibrium under the load, by whichever method the case asks for.
 
+pub(crate) mod error;
 pub(crate) mod store;
 
 use crate::hertz::hertz;
@@ -8,12 +9,13 @@ use crate::progress::{Progress, Stage};
 use crate::run_error::RunError;
 use crate::schema::{Case, Enforcement, PreloadMethod};
 use contact::{Gap, StabilityScale};
-use dynamics::{Hub, Relaxation, RelaxationError, RelaxationReport};
+use dynamics::{Hub, Relaxation, RelaxationReport};
+use error::PreloadError;
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use solid::Solid;
-use statics::{Axis, Contact, Ending, Problem, Spin, StaticsError, Supports, Tied};
+use statics::{Axis, Contact, Ending, Problem, Spin, Supports, Tied};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -128,28 +130,6 @@ impl Report {
                 "kinetic_ratio": kinetic_ratio, "hub_displacement": hub
             }),
         }
-    }
-}
-
-/// Why no preload was found.
-#[derive(Debug, thiserror::Error)]
-pub enum PreloadError {
-    /// By Newton's method.
-    #[error("static preload: {0}")]
-    Static(#[from] StaticsError),
-    /// By dynamic relaxation.
-    #[error(transparent)]
-    Relaxation(#[from] RelaxationError),
-}
-
-impl PreloadError {
-    /// Whether it was asked to stop.
-    pub fn is_interruption(&self) -> bool {
-        matches!(
-            self,
-            Self::Static(StaticsError::Interrupted)
-                | Self::Relaxation(RelaxationError::Interrupted)
-        )
     }
 }
 

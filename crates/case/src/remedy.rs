@@ -3,7 +3,7 @@
 //! Those rooms tell what is wrong in the terms of mechanics and know no key. A text in [`remedy!`] that
 //! names a key or a section which there is not does not compile.
 
-use crate::preload::PreloadError;
+use crate::preload::error::PreloadError;
 use contact::ContactError;
 use dynamics::{Cause, Diagnosis, RelaxationError, USUAL_HOURGLASS};
 use friction::LawError;

@@ -2,12 +2,10 @@
 
 mod begin;
 mod opening;
+mod options;
 mod rolling;
 
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::{Instant, SystemTime};
 
@@ -20,40 +18,19 @@ use crate::progress::{Progress, Stage};
 use crate::record::{Basis, Recorder};
 use crate::run_error::RunError;
 use crate::schema::Case;
-use crate::start::Facts;
+use crate::start::{Facts, Start};
 use crate::summary::{Ending, summary, write as write_summary};
+use crate::text_file::remove;
 use crate::validation;
 use begin::{Begun, Resumed, begin};
 use dynamics::Simulation;
-use friction::{Kind, OwnLaw};
+use friction::Kind;
 use opening::{Opened, Opening, open};
+pub use options::RunOptions;
 use output::layout::file;
 use output::summary::Status;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 use rolling::{Rolled, Rolling, Stopped};
-
-/// How the last line of the log begins where a run was refused after its mesh was made.
-pub(crate) const REFUSED: &str = "end: refused before rolling: ";
-
-/// How to run a case, apart from what the case itself says.
-#[derive(Clone, Debug)]
-pub struct RunOptions {
-    /// Folder of the run.
-    pub out: PathBuf,
-    /// Number of threads, at least one.
-    pub threads: usize,
-    /// Replace the run that is already in `out`.
-    pub force: bool,
-    /// Go on with the run in `out` from its last checkpoint; with `force`, begin anew where that is
-    /// not possible.
-    pub resume: bool,
-    /// Folder in which preloads are kept for other runs with the same, and taken from.
-    pub preload_cache: Option<PathBuf>,
-    /// The case file, for the log.
-    pub source: PathBuf,
-    /// The friction law of a case with `friction.law = "python"`.
-    pub law: Option<Arc<dyn OwnLaw>>,
-}
 
 /// Runs a case to its end, to a stop request or to a guard, and returns its summary.
 ///
@@ -100,11 +77,11 @@ fn run_in_pool(
         Opening::Run(opened) => *opened,
     };
     observe(&stage(case, Stage::Mesh));
-    let (simulation, facts, resumed) = match begin(case, options, &mut opened, wall, stop, observe)?
-    {
+    let (start, resumed) = match begin(case, options, &mut opened, wall, stop, observe)? {
         Begun::Refused(document) => return Ok(document),
-        Begun::Rolling { simulation, facts, resumed } => (*simulation, facts, resumed),
+        Begun::Rolling(start, resumed) => (*start, resumed),
     };
+    let Start { simulation, facts } = start;
     let Opened { held, mut log, model, .. } = opened;
     tell(&simulation, &facts, &mut log)?;
     if resumed.is_none() {
@@ -113,7 +90,7 @@ fn run_in_pool(
         let disk = Disk::of(case, &model, facts.steps as f64);
         disk.shortage(&options.out).iter().try_for_each(|line| log.warn(line))?;
     }
-    let basis = basis(case, options, &facts, resumed.as_ref());
+    let basis = basis(case, options, &facts, resumed.as_deref());
     // another process may have come during the preload
     held.prove()?;
     if resumed.is_some() {
@@ -234,16 +211,6 @@ fn remove_checkpoints(folder: &Path) -> Result<(), RunError> {
     CHECKPOINTS.iter().try_for_each(|name| remove(&folder.join(name)))
 }
 
-/// Removes a file if it is there.
-fn remove(path: &Path) -> Result<(), RunError> {
-    match std::fs::remove_file(path) {
-        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
-            Err(RunError::Text { path: path.to_owned(), cause })
-        }
-        _ => Ok(()),
-    }
-}
-
 fn stage(case: &Case, stage: Stage) -> Progress {
     Progress {
         stage,
@@ -255,17 +222,4 @@ fn stage(case: &Case, stage: Stage) -> Progress {
         tangential_force: 0.0,
         element_steps_per_s: 0.0,
     }
-}
-
-/// Under another name first, and brought to the disk: a kill or a power cut leaves the old text or the
-/// new one.
-fn write_text(path: PathBuf, text: &str) -> Result<(), RunError> {
-    let partial = path.with_extension("toml.partial");
-    let write = || {
-        let mut file = File::create(&partial)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_all()?;
-        std::fs::rename(&partial, &path)
-    };
-    write().map_err(|cause| RunError::Text { path, cause })
 }

@@ -14,7 +14,7 @@ pub enum RunError {
     /// The run cannot be resumed.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Resume(#[from] crate::resume::ResumeError),
+    Resume(#[from] crate::resume::error::ResumeError),
     /// The state of a checkpoint is not of this model.
     #[error("the checkpoint cannot be used: {0}")]
     #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
@@ -84,7 +84,7 @@ pub enum RunError {
     /// The preload was not found.
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
-    Preload(#[from] crate::preload::PreloadError),
+    Preload(#[from] crate::preload::error::PreloadError),
     /// Result files of a run that was to go on are damaged, or results cannot be written.
     #[error(transparent)]
     #[diagnostic(help("{}", output_help(.0)))]

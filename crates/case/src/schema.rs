@@ -8,8 +8,8 @@ pub use crate::bodies::{
 };
 pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
-use crate::keys::Form::{Count, Number, Points, Text};
-use crate::keys::{FLAG, INTERVAL, PENALTY, key, needed, over, within, word};
+use crate::key::Form::{Count, Number, Points, Text};
+use crate::key::{FLAG, INTERVAL, PENALTY, key, needed, over, within, word};
 use crate::section::{section, words};
 
 section! {

@@ -51,12 +51,12 @@ macro_rules! section {
     (@or_default $value:expr) => { $value };
     (@rows $name:ident [$($path:literal),+] $rows:tt) => {
         impl $name {
-            pub(crate) const KEYS: &'static [&'static [crate::keys::Key]] =
+            pub(crate) const KEYS: &'static [&'static [crate::key::Key]] =
                 &[$(section!(@below $path $rows)),+];
         }
     };
     (@below $path:literal [$({ $name:ident $key:expr })*]) => {
-        &[$(crate::keys::Key { path: concat!($path, stringify!($name)), ..$key }),*]
+        &[$(crate::key::Key { path: concat!($path, stringify!($name)), ..$key }),*]
     };
     ($(#[$meta:meta])* $kind:ident $name:ident $paths:tt { $($line:tt)* }) => {
         section!(@line [$kind $name $paths $(#[$meta])*] [] [] [] $($line)*);

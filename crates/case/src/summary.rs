@@ -6,7 +6,7 @@ use crate::hertz::Hertz;
 use crate::means::Means;
 use crate::memory::peak_rss_mb;
 use crate::model::Model;
-use crate::preload::PreloadError;
+use crate::preload::error::PreloadError;
 use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::{Case, Enforcement};

@@ -49,7 +49,7 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
 
 /// Pairs of numbers, if they are.
 pub fn points(values: &[Value]) -> Option<Vec<[f64; 2]>> {
-    let number = crate::check::float;
+    let number = crate::forms::float;
     let pair = |value: &Value| match value.as_array()?.as_slice() {
         [speed, mu] => Some([number(speed)?, number(mu)?]),
         _ => None,

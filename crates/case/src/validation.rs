@@ -4,7 +4,8 @@ use crate::check::raise;
 use crate::error::{CaseError, KeyError};
 use crate::friction_law;
 use crate::hertz::hertz;
-use crate::keys::{self, KEYS, number};
+use crate::key::number;
+use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
 use crate::schema::{

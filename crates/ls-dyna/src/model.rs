@@ -317,7 +317,7 @@ fn crown(profile: &[[f64; 2]]) -> Option<f64> {
 
 /// Six digits, as a person would write them.
 fn six(x: f64) -> String {
-    case::keys::number(format!("{x:.5e}").parse().unwrap_or(x))
+    case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
 /// The case file.

@@ -8,7 +8,7 @@
 use crate::grid::place;
 use crate::hdf5::{Creator, Source, read_error};
 use crate::layout::attribute;
-use crate::sums::Kept;
+use crate::sums::{Kept, hexadecimal};
 use crate::{FieldSpec, OutputError, Provenance};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -161,10 +161,6 @@ fn checksum(provenance: &Provenance, datasets: [&[u8]; 2]) -> String {
         sum.update(bytes);
     }
     hexadecimal(&sum.finalize())
-}
-
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Brings the content of a result file to the disk.

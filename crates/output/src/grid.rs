@@ -1,10 +1,11 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
+use crate::OutputError;
+use crate::field::FieldSpec;
 use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
-use crate::layout::{CONSTANT, MESH, STEPS};
+use crate::layout::{CONSTANT, MESH, STEP_COUNT, STEPS, STEPS_GROUP, data_path, step_path};
+use crate::provenance::Provenance;
 use crate::sums::{Kept, Sums};
-use crate::{OutputError, Provenance};
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Connectivity of a grid whose cells all have one shape; point indices from 0.
@@ -87,74 +88,6 @@ impl Values<'_> {
     }
 }
 
-/// Name, units and shape of a field, or of a column over time, which is a scalar.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FieldSpec {
-    /// Name of the dataset and of the array in viewers.
-    pub name: Cow<'static, str>,
-    /// SI units, `"1"` for a pure number.
-    pub units: Cow<'static, str>,
-    /// Numbers per point or cell: 1, 3 or 6.
-    pub components: usize,
-    /// Stored as unsigned bytes instead of `f64`.
-    pub integer: bool,
-    /// On cells instead of points.
-    pub on_cells: bool,
-    /// What the field is, in a phrase.
-    pub description: Cow<'static, str>,
-}
-
-/// Constructors from name, units and description.
-macro_rules! shapes {
-    ($($(#[$about:meta])* $shape:ident: $components:literal, $integer:literal, $on_cells:literal;)*) => {
-        impl FieldSpec {
-            $($(#[$about])*
-            pub const fn $shape(
-                name: &'static str,
-                units: &'static str,
-                description: &'static str,
-            ) -> Self {
-                Self {
-                    name: Cow::Borrowed(name),
-                    units: Cow::Borrowed(units),
-                    components: $components,
-                    integer: $integer,
-                    on_cells: $on_cells,
-                    description: Cow::Borrowed(description),
-                }
-            })*
-        }
-    };
-}
-
-shapes! {
-    /// A number at every point, or in every row of a history.
-    scalar: 1, false, false;
-    /// Components x, y, z at every point.
-    vector: 3, false, false;
-    /// A small integer at every point.
-    label: 1, true, false;
-    /// A number on every cell.
-    cell_scalar: 1, false, true;
-    /// A symmetric tensor on every cell, xx yy zz xy yz xz.
-    cell_tensor: 6, false, true;
-    /// A small integer on every cell.
-    cell_label: 1, true, true;
-}
-
-impl FieldSpec {
-    /// Its shape in words: how many numbers, and at what.
-    pub fn shape(&self) -> String {
-        let numbers = match (self.integer, self.components) {
-            (true, _) => "label",
-            (false, 1) => "scalar",
-            (false, 3) => "vector",
-            (false, _) => "symmetric tensor",
-        };
-        if self.on_cells { format!("{numbers}, cells") } else { numbers.to_owned() }
-    }
-}
-
 /// A field that does not change in time, stored once.
 #[derive(Clone, Debug)]
 pub struct StaticField<'a> {
@@ -213,7 +146,7 @@ impl TransientGrid {
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
-        file.close_settled(|path| settle(path, &writer.growing(), &GROUP, COUNT, 0))?;
+        file.close_settled(|path| settle(path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, 0))?;
         writer.sums = Sums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }
@@ -229,7 +162,7 @@ impl TransientGrid {
         let steps = kept.records as usize;
         let mut writer = Self { steps, ..Self::at(path.as_ref(), grid, fields) };
         writer.check_grid(grid)?;
-        cut_to_go_on(&writer.path, &writer.growing(), &GROUP, COUNT, steps)?;
+        cut_to_go_on(&writer.path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, steps)?;
         writer.sums = Sums::of_kept(kept, writer.names());
         Ok(writer)
     }
@@ -284,7 +217,7 @@ impl TransientGrid {
             Err(OutputError::Another { .. }) => self.sums = before,
             Err(_) => {
                 self.sums = before;
-                undo(&self.path, &self.growing(), &GROUP, COUNT, self.steps);
+                undo(&self.path, &self.growing(), &STEPS_GROUP, STEP_COUNT, self.steps);
             }
         }
         appended
@@ -328,7 +261,7 @@ impl TransientGrid {
         for (name, number) in counts_of_step() {
             index(&mut file, sums, &name, number)?;
         }
-        file.close_with_count(&GROUP, COUNT, step + 1)
+        file.close_with_count(&STEPS_GROUP, STEP_COUNT, step + 1)
     }
 
     /// What a checkpoint needs to know of the snapshots written.
@@ -472,8 +405,8 @@ impl TransientGrid {
     }
 
     fn lay_out_steps(&self, file: &mut Creator) -> Result<(), OutputError> {
-        file.group(&GROUP)?;
-        let at = |spec| place(&GROUP, spec);
+        file.group(&STEPS_GROUP)?;
+        let at = |spec| place(&STEPS_GROUP, spec);
         file.rows::<f64>(&at(&STEPS.times))?;
         file.rows::<i64>(&at(&STEPS.parts))?;
         file.rows::<i64>(&at(&STEPS.part_offsets))?;
@@ -496,7 +429,7 @@ impl TransientGrid {
                 description: "first row of each step in the array of this name",
             })?;
         }
-        file.count(&GROUP, COUNT, 0)
+        file.count(&STEPS_GROUP, STEP_COUNT, 0)
     }
 }
 
@@ -508,20 +441,6 @@ fn append_reals(
 ) -> Result<(), OutputError> {
     sums.add(name, values);
     file.append(name, values)
-}
-
-/// Group of what belongs to the steps, and its attribute that counts them.
-const GROUP: [&str; 2] = ["VTKHDF", "Steps"];
-const COUNT: &str = "NSteps";
-
-/// Path of a dataset of the mesh.
-pub(crate) fn mesh_path(spec: &FieldSpec) -> String {
-    format!("VTKHDF/{}", spec.name)
-}
-
-/// Path of a dataset of the steps.
-pub(crate) fn step_path(spec: &FieldSpec) -> String {
-    format!("{}/{}", GROUP.join("/"), spec.name)
 }
 
 /// Of all steps 1 for their parts, and zero for where these begin, since the mesh is stored once.
@@ -547,11 +466,6 @@ fn data_place(spec: &FieldSpec) -> LayOut<'_> {
 
 fn offset_group(on_cells: bool) -> [&'static str; 3] {
     ["VTKHDF", "Steps", if on_cells { "CellDataOffsets" } else { "PointDataOffsets" }]
-}
-
-pub(crate) fn data_path(name: &str, on_cells: bool) -> String {
-    let group = if on_cells { "CellData" } else { "PointData" };
-    format!("VTKHDF/{group}/{name}")
 }
 
 fn offset_path(name: &str, on_cells: bool) -> String {

@@ -4,12 +4,12 @@
 //! compression that VTK's build reads; no locks because a viewer holding the file must not make an
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
+use crate::OutputError;
 use crate::caught::caught;
 use crate::free::free_space;
-use crate::grid::mesh_path;
-use crate::layout::{MESH, attribute};
+use crate::layout::{MESH, attribute, mesh_path};
+use crate::provenance::Provenance;
 use crate::room::{Room, end_of_file};
-use crate::{OutputError, Provenance};
 use files::input;
 use rust_hdf5::{
     DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,

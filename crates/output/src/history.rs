@@ -1,12 +1,12 @@
 //! Rows of scalars over time: one extendable 1-D dataset per column.
 
+use crate::OutputError;
+use crate::field::FieldSpec;
 use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::layout::ROW_COUNT;
+use crate::provenance::Provenance;
 use crate::sums::{Kept, Sums};
-use crate::{FieldSpec, OutputError, Provenance};
 use std::path::{Path, PathBuf};
-
-/// Root attribute that counts the rows.
-pub(crate) const COUNT: &str = "rows";
 
 /// The datasets of the columns.
 fn growing(columns: &[FieldSpec]) -> Vec<Growing> {
@@ -61,8 +61,8 @@ impl History {
                 description: &column.description,
             })?;
         }
-        file.count(&[], COUNT, 0)?;
-        file.close_settled(|path| settle(path, &growing(columns), &[], COUNT, 0))?;
+        file.count(&[], ROW_COUNT, 0)?;
+        file.close_settled(|path| settle(path, &growing(columns), &[], ROW_COUNT, 0))?;
         let sums = Sums::of_new(&path, names(columns))?;
         Ok(Self { path, columns: columns.to_vec(), rows: 0, sums, scratch: Vec::new() })
     }
@@ -75,7 +75,7 @@ impl History {
         kept: &Kept,
     ) -> Result<Self, OutputError> {
         let (path, rows) = (path.as_ref().to_owned(), kept.records as usize);
-        cut_to_go_on(&path, &growing(columns), &[], COUNT, rows)?;
+        cut_to_go_on(&path, &growing(columns), &[], ROW_COUNT, rows)?;
         let sums = Sums::of_kept(kept, names(columns));
         Ok(Self { path, columns: columns.to_vec(), rows, sums, scratch: Vec::new() })
     }
@@ -101,7 +101,7 @@ impl History {
             self.sums = before;
         }
         if !matches!(appended, Ok(()) | Err(OutputError::Another { .. })) {
-            undo(&self.path, &growing(&self.columns), &[], COUNT, self.rows);
+            undo(&self.path, &growing(&self.columns), &[], ROW_COUNT, self.rows);
         }
         appended
     }
@@ -119,7 +119,7 @@ impl History {
             file.append(&column.name, &self.scratch)?;
             self.sums.add(&column.name, &self.scratch);
         }
-        file.close_with_count(&[], COUNT, (self.rows + count) as i64)?;
+        file.close_with_count(&[], ROW_COUNT, (self.rows + count) as i64)?;
         self.rows += count;
         Ok(())
     }

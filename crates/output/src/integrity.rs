@@ -5,9 +5,9 @@
 //! takes a third of that, and misses one damage in four billion.
 
 use crate::OutputError;
-use crate::checkpoint::hexadecimal;
 use crate::hdf5::damaged;
 use crate::layout::file;
+use crate::sums::hexadecimal;
 use crc32fast::Hasher;
 use files::input::{self, Fault, InputError};
 use serde::{Deserialize, Serialize};

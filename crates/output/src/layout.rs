@@ -4,7 +4,7 @@
 //! ([`HISTORY`]) holds their [`FieldSpec`]s, a writer fills in numbers ([`HistoryRow`]) or arrays by their names, and
 //! readers ask for datasets by the declaration's names. `docs/files.md` has the same tables, which a test compares.
 
-use crate::FieldSpec;
+use crate::field::FieldSpec;
 
 /// Declares names with their meaning.
 macro_rules! names {
@@ -270,3 +270,26 @@ pub fn files() -> [(&'static str, Vec<FieldSpec>); 5] {
         (file::POSTMORTEM, owned(&[&POSTMORTEM.each()[..], &[&CONSTANT.body]].concat())),
     ]
 }
+
+/// Group of what belongs to the steps, and its attribute that counts them.
+pub(crate) const STEPS_GROUP: [&str; 2] = ["VTKHDF", "Steps"];
+pub(crate) const STEP_COUNT: &str = "NSteps";
+
+/// Path of a dataset of the mesh.
+pub(crate) fn mesh_path(spec: &FieldSpec) -> String {
+    format!("VTKHDF/{}", spec.name)
+}
+
+/// Path of a dataset of the steps.
+pub(crate) fn step_path(spec: &FieldSpec) -> String {
+    format!("{}/{}", STEPS_GROUP.join("/"), spec.name)
+}
+
+/// Path of a field of points or cells.
+pub(crate) fn data_path(name: &str, on_cells: bool) -> String {
+    let group = if on_cells { "CellData" } else { "PointData" };
+    format!("VTKHDF/{group}/{name}")
+}
+
+/// Root attribute that counts the rows.
+pub(crate) const ROW_COUNT: &str = "rows";

@@ -31,6 +31,7 @@ mod caught;
 mod checkpoint;
 pub mod confidence;
 mod error;
+mod field;
 mod free;
 mod grid;
 mod hdf5;
@@ -39,6 +40,7 @@ mod integrity;
 mod json;
 pub mod layout;
 mod made;
+mod provenance;
 mod reader;
 mod room;
 pub mod summary;
@@ -48,31 +50,20 @@ mod vtu;
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
 pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
 pub use error::OutputError;
+pub use field::FieldSpec;
 pub use free::{free_space, room_left};
-pub use grid::{Cells, FieldSpec, GridSpec, StaticField, TransientGrid, Values};
+pub use grid::{Cells, GridSpec, StaticField, TransientGrid, Values};
 pub use history::History;
 pub use integrity::{
     FileSum, LOG_END, as_long_as_written, as_written, read_summary, seal, sums_of_files,
 };
 pub use json::write_json_atomically;
 pub use made::{VTKHDF, is_ours};
+pub use provenance::Provenance;
 pub use reader::{FieldInfo, GridFile, HistoryFile};
-pub use sums::{Kept, prove};
+pub use sums::{Kept, hexadecimal, prove};
 pub use vtu::write_vtu;
 
 /// Key of the summary: points of a friction law that was handed over with the run, pairs of slip speed (m/s)
 /// and coefficient.
 pub const SAMPLED_LAW: &str = "friction_law";
-
-/// Where a file comes from: the root attributes of every HDF5 file of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Provenance {
-    /// Version of the program that wrote the file.
-    pub creepage_version: String,
-    /// Hash of the resolved case.
-    pub case_hash: String,
-    /// When the run started, ISO 8601 in UTC. The only content that differs between equal runs.
-    pub created: String,
-    /// Further root attributes: name and text.
-    pub attributes: Vec<(String, String)>,
-}

@@ -5,9 +5,8 @@
 //! some datasets one snapshot longer than others, and the readers ignore the excess. (They go by
 //! the lengths because the HDF5 library does not read numbers from a group's attributes.)
 
-use crate::grid::{data_path, mesh_path, step_path};
 use crate::hdf5::{Source, read_error};
-use crate::layout::{MESH, STEPS};
+use crate::layout::{MESH, STEPS, data_path, mesh_path, step_path};
 use crate::{FieldSpec, OutputError};
 use std::ops::Range;
 use std::path::Path;

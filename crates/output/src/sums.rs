@@ -6,7 +6,7 @@
 
 use crate::OutputError;
 use crate::hdf5::{Source, damaged};
-use crate::history::COUNT;
+use crate::layout::ROW_COUNT;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -116,7 +116,7 @@ fn fixed(source: &Source) -> Result<u32, OutputError> {
     names.sort();
     for name in names {
         // the count of rows changes
-        if name != COUNT {
+        if name != ROW_COUNT {
             let words = source.root_text(&name)?;
             [&name, &words].into_iter().for_each(|words| text(&mut sum, words));
         }
@@ -173,4 +173,9 @@ pub fn prove(path: impl AsRef<Path>, kept: &Kept) -> Result<(), OutputError> {
         }
     }
     Ok(())
+}
+
+/// Lower-case hexadecimal digits of a digest.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -23,6 +23,7 @@ use std::time::Duration;
 
 use files::input;
 use mesh::Padded;
+use output::hexadecimal;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use sha2::{Digest, Sha256};
@@ -180,9 +181,4 @@ fn write(path: &Path, header: &Header, displacement: &[Padded]) -> std::io::Resu
         let _ = fs::remove_file(&partial);
     }
     result
-}
-
-/// Lower-case hexadecimal digits.
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,15 +1,16 @@
 //! A run at its start, preloaded, or at the checkpoint that it goes on from.
 
 use super::opening::Opened;
-use super::{REFUSED, RunOptions, remove};
+use super::options::RunOptions;
 use crate::checkpoint::State;
+use crate::log::REFUSED;
 use crate::progress::Progress;
 use crate::resume::Point;
 use crate::run_error::RunError;
 use crate::schema::Case;
-use crate::start::{Facts, Start, restart, start};
+use crate::start::{Start, restart, start};
 use crate::summary::{without_rolling, write as write_summary};
-use dynamics::Simulation;
+use crate::text_file::remove;
 use output::{Checkpoint, LOG_END};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -25,7 +26,7 @@ pub(super) enum Begun {
     /// No preload: the summary that says so.
     Refused(serde_json::Value),
     /// The disk may roll.
-    Rolling { simulation: Box<Simulation>, facts: Facts, resumed: Option<Resumed> },
+    Rolling(Box<Start>, Option<Box<Resumed>>),
 }
 
 /// Preloads the model of a run, or takes the state of its checkpoint.
@@ -53,9 +54,9 @@ pub(super) fn begin(
             log.say(&format!("{REFUSED}{error}"))?;
             Err(error)
         }
-        Ok(Start { simulation, facts }) => {
-            facts.preload.iter().try_for_each(|preload| log.say(&preload.line()))?;
-            Ok(Begun::Rolling { simulation: Box::new(simulation), facts, resumed: None })
+        Ok(start) => {
+            start.facts.preload.iter().try_for_each(|preload| log.say(&preload.line()))?;
+            Ok(Begun::Rolling(Box::new(start), None))
         }
     }
 }
@@ -74,8 +75,6 @@ fn resume(
         remove(&options.out.join(name))?;
     }
     log.say(&format!("resumed from the checkpoint of step {}", checkpoint.step))?;
-    let begun = restart(case, &opened.model, state.found.clone(), &state.simulation)?;
-    let Start { simulation, facts } = begun;
-    let resumed = Some(Resumed { checkpoint, state });
-    Ok(Begun::Rolling { simulation: Box::new(simulation), facts, resumed })
+    let start = restart(case, &opened.model, state.found.clone(), &state.simulation)?;
+    Ok(Begun::Rolling(Box::new(start), Some(Box::new(Resumed { checkpoint, state }))))
 }

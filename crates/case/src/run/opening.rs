@@ -1,6 +1,6 @@
 //! The folder of a run, taken; its model, made; and where the run goes on.
 
-use super::{RunOptions, write_text};
+use super::options::RunOptions;
 use crate::folder::{self, Content};
 use crate::held::Held;
 use crate::load::inputs;
@@ -10,6 +10,7 @@ use crate::model::Model;
 use crate::resume::{self, Origin, Point};
 use crate::run_error::RunError;
 use crate::schema::Case;
+use crate::text_file::write_text;
 use output::layout::file;
 
 /// A run about to begin, or to go on.

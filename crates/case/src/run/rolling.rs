@@ -1,6 +1,6 @@
 //! The time loop of a run: steps, output, guards, checkpoints.
 
-use super::RunOptions;
+use super::options::RunOptions;
 use crate::checkpoint::{Clock, State};
 use crate::guards::READING;
 use crate::held::Held;

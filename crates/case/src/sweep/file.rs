@@ -7,7 +7,9 @@ use toml::{Table, Value};
 use super::ensemble;
 use crate::check::{self, raise};
 use crate::error::{CaseError, KeyError};
-use crate::keys::{self, Form, Key};
+use crate::forms::float;
+use crate::key::{Form, Key};
+use crate::keys;
 use crate::layers::{Layers, get, join};
 use crate::name;
 
@@ -343,7 +345,7 @@ impl Reading<'_> {
     fn number(&mut self, table: &Table, section: &str, name: &str) -> Option<f64> {
         let at = join(section, name);
         let value = table.get(name)?;
-        let number = check::float(value).filter(|x| x.is_finite());
+        let number = float(value).filter(|x| x.is_finite());
         if number.is_none() {
             let message = format!("{at} = {} must be a number", check::show(value));
             self.refuse(&at, &message, "give a number, without quotes");
@@ -582,7 +584,7 @@ impl Reading<'_> {
         let factor = self.number(table, at, "factor").unwrap_or(1.0);
         let power = self.number(table, at, "power").unwrap_or(1.0);
         for value in &axes[axis].values {
-            let Some(x) = check::float(value) else {
+            let Some(x) = float(value) else {
                 let message =
                     format!("{} follows {}, which is no number", key.path, check::show(value));
                 self.refuse(&join(at, "from"), &message, "let it follow an axis of numbers");

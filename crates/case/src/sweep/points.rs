@@ -7,13 +7,13 @@ use sha2::{Digest, Sha256};
 use toml::Value;
 
 use super::file::{Mode, Sweep};
-use crate::check;
 use crate::error::CaseError;
+use crate::forms::float;
 use crate::model::Model;
 use crate::name;
-use crate::preload::store::hexadecimal;
 use crate::run_error::RunError;
 use crate::schema::{Case, Time};
+use output::hexadecimal;
 
 /// More runs than this is a slip of a digit.
 const MOST_RUNS: usize = 10_000;
@@ -78,7 +78,7 @@ impl Sweep {
         }
         sets.extend(chosen.iter().map(|(key, value)| format!("{key}={value}")));
         for follow in &self.follows {
-            let x = check::float(chosen[follow.axis].1).unwrap_or(f64::NAN);
+            let x = float(chosen[follow.axis].1).unwrap_or(f64::NAN);
             let value = Value::Float(follow.factor * libm::pow(x, follow.power));
             sets.push(format!("{}={value}", follow.key));
         }
@@ -162,7 +162,7 @@ fn run_name(n: usize, chosen: &[(&str, &Value)]) -> String {
 
 fn shown(value: &Value) -> String {
     match value {
-        Value::Float(x) => crate::keys::number(*x),
+        Value::Float(x) => crate::key::number(*x),
         Value::Table(table) => {
             let entries: Vec<_> =
                 table.iter().map(|(key, value)| format!("{key}-{}", shown(value))).collect();

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::json_schema;
-use crate::keys::{Form, KEYS};
+use crate::key::Form;
+use crate::keys::KEYS;
 
 /// Paths of all keys in the JSON Schema.
 fn paths(schema: &Value, prefix: &str, found: &mut Vec<String>) {

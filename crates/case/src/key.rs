@@ -1,0 +1,179 @@
+//! A key of a case file: what it may hold, its unit, and what to do where it does not.
+
+use std::fmt;
+
+/// One end of a range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// The value itself is allowed.
+    Closed(f64),
+    /// The value itself is not allowed.
+    Open(f64),
+}
+
+/// A range of numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Lower end.
+    pub low: End,
+    /// Upper end.
+    pub high: End,
+}
+
+impl Range {
+    /// Whether `x` lies in the range; NaN lies in none.
+    pub fn holds(&self, x: f64) -> bool {
+        let low = match self.low {
+            End::Closed(end) => x >= end,
+            End::Open(end) => x > end,
+        };
+        let high = match self.high {
+            End::Closed(end) => x <= end,
+            End::Open(end) => x < end,
+        };
+        low && high
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.low {
+            End::Closed(end) => write!(f, "at least {}", number(end))?,
+            End::Open(end) => write!(f, "greater than {}", number(end))?,
+        }
+        match self.high {
+            End::Closed(end) => write!(f, " and at most {}", number(end)),
+            End::Open(end) => write!(f, " and less than {}", number(end)),
+        }
+    }
+}
+
+/// A number as a person would write it.
+pub fn number(x: f64) -> String {
+    let size = x.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) { format!("{x:e}") } else { format!("{x}") }
+}
+
+/// What kind of value a key holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A number in a range.
+    Number(Range),
+    /// A whole number from the first to the second.
+    Count(u64, u64),
+    /// `true` or `false`.
+    Flag,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// Any text.
+    Text,
+    /// `"flat"` or a radius in the range.
+    Crown(Range),
+    /// A penalty stiffness in one of its three forms.
+    Stiffness,
+    /// A list of pairs of numbers.
+    Points,
+    /// A curve: pairs of numbers at least 0, the first of them rising from 0. In a file it may be the
+    /// path of another file.
+    Curve,
+}
+
+/// One key of a case file.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    /// Dotted path; `[]` stands for the index in an array of tables.
+    pub path: &'static str,
+    /// What it holds.
+    pub form: Form,
+    /// SI unit; `-` for dimensionless, empty where the value is no number.
+    pub unit: &'static str,
+    /// Whether a case must give it.
+    pub needed: bool,
+    /// What to do where the value is refused, or the key is missing.
+    pub remedy: &'static str,
+    /// The key without which it is not used, and the words that this must be; none where any value does.
+    pub only: Option<(&'static str, &'static [&'static str])>,
+    /// The key that it stands for: both are not given, and it takes the other back from the files beneath.
+    pub instead_of: Option<&'static str>,
+}
+
+impl Key {
+    /// The key, used only where another has one of these words, or where it is given at all.
+    pub(crate) const fn only_with(
+        self,
+        other: &'static str,
+        words: &'static [&'static str],
+    ) -> Self {
+        Self { only: Some((other, words)), ..self }
+    }
+
+    /// The key, which stands for another.
+    pub(crate) const fn instead_of(self, other: &'static str) -> Self {
+        Self { instead_of: Some(other), ..self }
+    }
+
+    /// Whether every case must give it.
+    pub fn is_always_needed(&self) -> bool {
+        self.needed && self.only.is_none() && !self.path.contains("[]")
+    }
+}
+
+/// Ranges of the three forms of a penalty stiffness: factor (-), areal (N/m^3), stability (-).
+pub const STIFFNESS: [(&str, Range, &str); 3] = [
+    ("", over(0.0, 100.0), "-"),
+    ("stiffness", over(0.0, 1e18), "N/m^3"),
+    ("stability", over(0.0, 2.0), "-"),
+];
+
+pub(crate) const fn over(low: f64, high: f64) -> Range {
+    Range { low: End::Open(low), high: End::Closed(high) }
+}
+
+pub(crate) const fn within(low: f64, high: f64) -> Range {
+    Range { low: End::Closed(low), high: End::Closed(high) }
+}
+
+/// A row without its path.
+pub(crate) const fn key(form: Form, unit: &'static str, remedy: &'static str) -> Key {
+    Key { path: "", form, unit, needed: false, remedy, only: None, instead_of: None }
+}
+
+/// The same for a key that must be given.
+pub(crate) const fn needed(form: Form, unit: &'static str, remedy: &'static str) -> Key {
+    Key { needed: true, ..key(form, unit, remedy) }
+}
+
+/// The same for a key that is one of the words.
+pub(crate) const fn word(words: &'static [&'static str]) -> Key {
+    key(Word(words), "", "choose one of the words")
+}
+
+use Form::{Crown, Flag, Number, Stiffness, Text, Word};
+
+pub(crate) const FLAG: Key = key(Flag, "", "give true or false, without quotes");
+pub(crate) const LENGTH: Key =
+    key(Number(over(0.0, 10.0)), "m", "give the length in metres: 0.06 for 60 mm");
+pub(crate) const CROWN: Key =
+    key(Crown(over(0.0, 1e4)), "m", "give the radius in metres, or \"flat\"");
+pub(crate) const YOUNG: Key =
+    key(Number(within(1e3, 1e13)), "Pa", "give Young's modulus in pascal: 210e9 for steel");
+pub(crate) const POISSON: Key = key(
+    Number(Range { low: End::Closed(0.0), high: End::Open(0.5) }),
+    "-",
+    "an explicit solid needs a finite wave speed: steel has 0.3, rubber-like bodies up to 0.49",
+);
+pub(crate) const DENSITY: Key =
+    key(Number(within(1.0, 1e5)), "kg/m^3", "give the density in kg/m^3: 7800 for steel");
+pub(crate) const SET: Key =
+    key(Text, "", "give the name of a set of the mesh file in quotes").only_with("mesh.file", &[]);
+pub(crate) const INTERVAL: Key = key(
+    Number(over(0.0, 10.0)),
+    "s",
+    "give a positive time in seconds: 5.7e-6 for 5.7 microseconds",
+);
+pub(crate) const PENALTY: Key = key(
+    Stiffness,
+    "-",
+    "give a scale factor (0.1), an areal stiffness ({ stiffness = 3.5e13 }) or a fraction of the stability \
+     limit ({ stability = 0.5 })",
+);

@@ -1,0 +1,30 @@
+//! The small files of a run beside its results.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::run_error::RunError;
+
+/// Removes a file if it is there.
+pub(crate) fn remove(path: &Path) -> Result<(), RunError> {
+    match std::fs::remove_file(path) {
+        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+            Err(RunError::Text { path: path.to_owned(), cause })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file: under another name first, and brought to the disk: a kill or a power cut leaves the old text or the
+/// new one.
+pub(crate) fn write_text(path: PathBuf, text: &str) -> Result<(), RunError> {
+    let partial = path.with_extension("toml.partial");
+    let write = || {
+        let mut file = File::create(&partial)?;
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        std::fs::rename(&partial, &path)
+    };
+    write().map_err(|cause| RunError::Text { path, cause })
+}
