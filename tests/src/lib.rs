@@ -151,7 +151,7 @@ impl Results {
 pub fn timeless(summary: &Value) -> Value {
     let mut summary = summary.clone();
     let map = summary.as_object_mut().unwrap();
-    for key in case::sweep::collect::NOT_REPEATED {
+    for key in sweep::collect::NOT_REPEATED {
         assert!(map.remove(key).is_some(), "{key}");
     }
     summary

@@ -40,8 +40,9 @@ pub struct KeyError {
     #[label("{label}")]
     pub(crate) span: Option<SourceSpan>,
     pub(crate) label: String,
+    /// What to do.
     #[help]
-    pub(crate) help: Option<String>,
+    pub help: Option<String>,
     /// Further problems.
     #[related]
     pub others: Vec<KeyError>,

@@ -122,6 +122,7 @@ impl JsonSchema for Stiffness {
     }
 }
 
+/// A number, written as a float or as an integer.
 pub fn float(value: &Value) -> Option<f64> {
     match value {
         Value::Float(x) => Some(*x),

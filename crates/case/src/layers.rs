@@ -32,23 +32,31 @@ const SET: &str = "--set";
 /// A text that keys came from: a file, or one `--set` option.
 #[derive(Clone, Debug)]
 pub struct Source {
+    /// Its name, for messages.
     pub name: String,
+    /// What it holds.
     pub text: String,
 }
 
 /// Where a key was written.
 #[derive(Clone, Debug)]
 pub struct Origin {
+    /// Which of the sources.
     pub source: usize,
+    /// Bytes of the key in its text.
     pub key: Range<usize>,
+    /// Bytes of the value.
     pub value: Range<usize>,
 }
 
 /// The merged keys, and where each was written.
 #[derive(Clone, Debug, Default)]
 pub struct Layers {
+    /// The keys, the last layer on top.
     pub table: Table,
+    /// Where each key was written, by its dotted path.
     pub origins: BTreeMap<String, Origin>,
+    /// The texts, the lowest layer first.
     pub sources: Vec<Source>,
 }
 

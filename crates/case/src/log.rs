@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::run_error::RunError;
 
 /// How the last line of the log begins where a run was refused after its mesh was made.
-pub(crate) const REFUSED: &str = "end: refused before rolling: ";
+pub const REFUSED: &str = "end: refused before rolling: ";
 
 /// `run.log`: what the run said, line by line.
 pub(crate) struct Log {

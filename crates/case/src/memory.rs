@@ -8,7 +8,7 @@ use crate::run_error::RunError;
 use crate::schema::Case;
 
 /// Bytes per element of a whole run; the static preload takes the most.
-pub(crate) const BYTES_PER_ELEMENT: f64 = 950.0;
+pub const BYTES_PER_ELEMENT: f64 = 950.0;
 
 /// Bytes per element of its mesh alone, with the elements set up.
 const BYTES_PER_MESH_ELEMENT: f64 = 400.0;
@@ -46,7 +46,7 @@ fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), Run
 }
 
 /// Memory that the machine has free for this process (MB); infinite where the system does not tell.
-pub(crate) fn free_mb() -> f64 {
+pub fn free_mb() -> f64 {
     let free = entry("/proc/meminfo", "MemAvailable:").unwrap_or(f64::INFINITY);
     free.min(address_space_mb())
 }

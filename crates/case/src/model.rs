@@ -174,6 +174,14 @@ impl Model {
     }
 }
 
+/// Elements of the mesh of a case.
+///
+/// # Errors
+/// A mesh that cannot be made.
+pub fn elements(case: &Case) -> Result<usize, RunError> {
+    Ok(Model::build(case)?.mesh.hexes.len())
+}
+
 /// The meshes of the shapes that a case gives.
 fn generated(case: &Case) -> Result<Mesh, RunError> {
     let (mut disk, mut bar) = (case.disk.shape(), case.bar.shape());

@@ -4,15 +4,15 @@
 const LONGEST: usize = 100;
 
 /// What a name may be, for people.
-pub(crate) const REMEDY: &str = "use letters, digits, '-', '_', '+' and '.'";
+pub const REMEDY: &str = "use letters, digits, '-', '_', '+' and '.'";
 
 /// Whether a character may stand in a name.
-pub(crate) fn may_hold(c: char) -> bool {
+pub fn may_hold(c: char) -> bool {
     c.is_alphanumeric() || "-_. +".contains(c)
 }
 
 /// Why a name cannot name a folder inside another one, if it cannot.
-pub(crate) fn refused(name: &str) -> Option<String> {
+pub fn refused(name: &str) -> Option<String> {
     let fine = !name.trim_matches(['.', ' ']).is_empty()
         && name.len() <= LONGEST
         && name.chars().all(may_hold);

@@ -299,7 +299,7 @@ section! {
 
 impl Preload {
     /// The preload before it is disturbed.
-    pub(crate) fn undisturbed(&self) -> Self {
+    pub fn undisturbed(&self) -> Self {
         Self { disturbance: None, seed: None, ..self.clone() }
     }
 }

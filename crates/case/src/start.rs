@@ -105,14 +105,14 @@ struct Settled {
     limit: f64,
 }
 
-/// Longest stable step (s) of a case: that of the preloaded state.
-pub(crate) fn stable_limit(
-    case: &Case,
-    model: &Model,
-    cache: Option<&Path>,
-    stop: &AtomicBool,
-) -> Result<f64, RunError> {
-    Ok(settle(case, model, cache, stop, &mut |_| {}, &mut |_| Ok(()))?.limit)
+/// Longest stable step (s) of a case: that of the preloaded state, which is taken from `cache` if it is
+/// there.
+///
+/// # Errors
+/// A mesh that cannot be made, a preload that is not found, a `stop`.
+pub fn stable_limit(case: &Case, cache: Option<&Path>, stop: &AtomicBool) -> Result<f64, RunError> {
+    let model = Model::build(case)?;
+    Ok(settle(case, &model, cache, stop, &mut |_| {}, &mut |_| Ok(()))?.limit)
 }
 
 /// Preloads the model, or takes the preload from `cache`.

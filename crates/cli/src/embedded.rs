@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use ::sweep::Watched;
 use case::Progress;
-use case::sweep::Watched;
 use friction::OwnLaw;
 use serde_json::Value;
 

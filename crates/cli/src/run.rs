@@ -112,7 +112,7 @@ pub fn command(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
 fn hold_leash(stop: Stop) -> Result<(), Failure> {
     let held = std::thread::Builder::new().spawn(move || {
         for line in std::io::stdin().lines().map_while(Result::ok) {
-            if line == case::sweep::schedule::STOP {
+            if line == ::sweep::schedule::STOP {
                 stop.ask();
             }
         }

@@ -6,8 +6,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use case::sweep::plan::{self, Existing};
-use case::sweep::{Budget, Plan, Sweep, SweepError, collect, schedule};
+use ::sweep::plan::{self, Existing};
+use ::sweep::{Budget, Plan, Sweep, SweepError, collect, schedule};
 use figure::Format;
 use files::output::PLAN;
 use miette::{Report, miette};

@@ -6,8 +6,8 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
 use case::Case;
-use case::sweep::Sweep;
 use friction::{Domain, Expression, FrictionLaw, Place};
+use sweep::Sweep;
 use tempfile::TempDir;
 
 /// A case file, from its text to the resolved case and to the file that a run writes of it.

@@ -4,7 +4,6 @@ mod any_input;
 mod refusals;
 mod remedies;
 mod schema;
-mod sweep;
 
 use std::fs;
 use std::path::Path;

@@ -1,14 +1,18 @@
 //! Sweep files: what they lead to. How they are refused stands in the tests of the command.
 
+#![allow(clippy::unwrap_used)]
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::SHORT;
-use crate::schema::Step;
-use crate::sweep::Sweep;
-use crate::sweep::file::StepRule;
-use crate::{Case, CaseError};
+use crate::Sweep;
+use crate::file::StepRule;
+use case::schema::Step;
+use case::{Case, CaseError};
+
+/// The shortest case.
+const SHORT: &str = "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 2.4e-3\n\
+                     friction.static = 0.5\n";
 
 /// A folder with a base case and a sweep file.
 fn sweep(text: &str) -> (tempfile::TempDir, Result<Sweep, CaseError>) {

@@ -7,9 +7,9 @@ use files::input;
 use output::layout::file;
 use serde_json::{Value, json};
 
-use super::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
-use super::points::Point;
-use super::{ensemble, table};
+use crate::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
+use crate::points::Point;
+use crate::{ensemble, table};
 
 /// Fields of a run's summary that the clock, the memory and the number of threads put in, and sums that
 /// depend on these (files name the time of their making). All
@@ -135,7 +135,7 @@ pub fn state(folder: &Path, run: &Point) -> State {
 fn last_words(folder: &Path) -> Option<String> {
     let log = input::text(&folder.join(file::LOG), input::LOG).ok()?;
     let last = log.lines().next_back()?;
-    last.strip_prefix(crate::log::REFUSED).map(str::to_owned)
+    last.strip_prefix(case::REFUSED).map(str::to_owned)
 }
 
 /// A JSON document that is there and whole.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::plan::SweepError;
+use crate::plan::SweepError;
 
 /// What the table shows of a run besides its parameters and the measures of its checks: heading
 /// and pointer into the run's entry.

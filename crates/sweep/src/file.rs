@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::ensemble;
-use crate::check::{self, raise};
-use crate::error::{CaseError, KeyError};
-use crate::forms::float;
-use crate::key::{Form, Key};
-use crate::keys;
-use crate::layers::{Layers, get, join};
-use crate::name;
+use crate::ensemble;
+use case::check::{self, raise};
+use case::error::{CaseError, KeyError};
+use case::forms::float;
+use case::key::{Form, Key};
+use case::keys;
+use case::layers::{Layers, get, join};
+use case::name;
 
 /// A `log` or `linear` axis with more points than this is a slip of a digit.
 const MOST_POINTS: i64 = 1000;

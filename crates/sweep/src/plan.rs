@@ -19,14 +19,12 @@ use miette::Diagnostic;
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
-use super::file::{StepRule, Sweep};
-use super::points::Point;
-use crate::error::CaseError;
-use crate::folder::FolderError;
-use crate::model::Model;
-use crate::run_error::RunError;
-use crate::schema::Time;
-use crate::start::stable_limit;
+use crate::file::{StepRule, Sweep};
+use crate::points::Point;
+use case::RunError;
+use case::error::CaseError;
+use case::folder::FolderError;
+use case::schema::Time;
 
 /// The plan of a sweep in its folder.
 pub const PLAN: &str = "plan.json";
@@ -158,7 +156,7 @@ fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<
         if folder.join(LOCK).exists() {
             return Ok(());
         }
-        return match crate::folder::check(folder, false) {
+        return match case::folder::check(folder, false) {
             Err(FolderError::Taken { path, .. }) => Err(SweepError::NoSweep { path }),
             other => Ok(other?),
         };
@@ -174,7 +172,7 @@ fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<
 /// The folder is another sweep's: points at the first thing in which the two differ.
 fn other_sweep(folder: &Path, sweep: &Sweep, plan: &Value) -> CaseError {
     let theirs = plan["axes"].as_object().cloned().unwrap_or_default();
-    let differs = |axis: &super::file::Axis| theirs.get(&axis.key) != Some(&json!(axis.values));
+    let differs = |axis: &crate::file::Axis| theirs.get(&axis.key) != Some(&json!(axis.values));
     let (at, what) = match sweep.axes.iter().position(differs) {
         Some(i) => (sweep.axis_place(i), format!("axis {}", sweep.axes[i].key)),
         None => ("base".into(), "base case, mode, [set] or [[derive]]".into()),
@@ -255,7 +253,7 @@ pub fn prepare(
         "mode": sweep.mode.word(),
         "parameters": sweep.axes.iter().map(|axis| &axis.key).collect::<Vec<_>>(),
         "axes": axes,
-        "ensemble": sweep.ensemble.then_some(super::ensemble::AXIS),
+        "ensemble": sweep.ensemble.then_some(crate::ensemble::AXIS),
         "step": { "rule": sweep.step.map(|rule| rule.word()), "step": step },
         "runs": runs.iter().map(described).collect::<Vec<_>>(),
     });
@@ -316,8 +314,7 @@ fn smallest_step(
             continue;
         }
         known.push(basis);
-        let limit = Model::build(case)
-            .and_then(|model| stable_limit(case, &model, Some(&preloads(folder)), stop));
+        let limit = case::stable_limit(case, Some(&preloads(folder)), stop);
         let limit = limit.map_err(|error| match error {
             RunError::Preload(preload) if preload.is_interruption() => SweepError::Interrupted,
             error if error.key().is_some() => sweep.refused(error, &run.indices).into(),

@@ -17,10 +17,10 @@ use std::time::Duration;
 use files::input;
 use serde_json::Value;
 
-use super::collect::{State, collect_with, state};
-use super::plan::{CHECK, Plan, SweepError, arguments, log_file, run_folder};
-use super::points::Point;
-use crate::memory::{BYTES_PER_ELEMENT, free_mb};
+use crate::collect::{State, collect_with, state};
+use crate::plan::{CHECK, Plan, SweepError, arguments, log_file, run_folder};
+use crate::points::Point;
+use case::{BYTES_PER_ELEMENT, free_mb};
 
 /// How often the children are looked after.
 const LOOK: Duration = Duration::from_millis(20);

@@ -6,13 +6,12 @@ use serde_json::{Map, Value as Json, json};
 use sha2::{Digest, Sha256};
 use toml::Value;
 
-use super::file::{Mode, Sweep};
-use crate::error::CaseError;
-use crate::forms::float;
-use crate::model::Model;
-use crate::name;
-use crate::run_error::RunError;
-use crate::schema::{Case, Time};
+use crate::file::{Mode, Sweep};
+use case::RunError;
+use case::error::CaseError;
+use case::forms::float;
+use case::name;
+use case::schema::{Case, Time};
 use output::hexadecimal;
 
 /// More runs than this is a slip of a digit.
@@ -98,8 +97,9 @@ impl Sweep {
             point.elements = match known.get(&key) {
                 Some(elements) => *elements,
                 None => {
-                    let model = Model::build(case).map_err(|e| self.refused(e, &point.indices))?;
-                    *known.entry(key).or_insert(model.mesh.hexes.len())
+                    let elements = case::elements(case);
+                    let elements = elements.map_err(|e| self.refused(e, &point.indices))?;
+                    *known.entry(key).or_insert(elements)
                 }
             };
         }
@@ -137,9 +137,7 @@ impl Sweep {
             (Some(place), _) => {
                 CaseError::Key(Box::new(self.layers.error_at(&place, &message, &remedy)))
             }
-            (None, Some(key)) => {
-                crate::load::error_at_key(&self.base, None, &[], key, &message, &remedy)
-            }
+            (None, Some(key)) => case::error_at_key(&self.base, None, &[], key, &message, &remedy),
             (None, None) => {
                 let remedy = "change the base case or the axes";
                 CaseError::Key(Box::new(self.layers.error_at("base", &message, remedy)))
@@ -162,7 +160,7 @@ fn run_name(n: usize, chosen: &[(&str, &Value)]) -> String {
 
 fn shown(value: &Value) -> String {
     match value {
-        Value::Float(x) => crate::key::number(*x),
+        Value::Float(x) => case::key::number(*x),
         Value::Table(table) => {
             let entries: Vec<_> =
                 table.iter().map(|(key, value)| format!("{key}-{}", shown(value))).collect();

@@ -4,6 +4,8 @@
 //! run, [`plan::prepare`] lays the sweep's folder out, [`schedule::run`] runs what is not yet done
 //! as child processes of this program, and [`collect::collect`] gathers the results.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod collect;
 mod ensemble;
 pub mod file;
@@ -11,6 +13,8 @@ pub mod plan;
 pub mod points;
 pub mod schedule;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub use collect::collect;
 pub use file::Sweep;
