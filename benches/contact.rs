@@ -2,7 +2,7 @@
 //! creepage-benches --bench contact`.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{BodyMaterial, Motion, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use friction::{Exponential, Lagged};
 use mesh::{Bar, Disk, FineZone, Padded, bar, disk, join};
 
@@ -50,8 +50,8 @@ impl Rolling {
         let mesh = join(&parts);
         let steel = BodyMaterial { bulk_modulus: 175e9, density: 7800.0 };
         let settings = PenaltySettings {
-            normal: Stiffness::Scale(0.1),
-            tangential: Stiffness::Scale(0.1),
+            normal: PenaltyStiffness::Scale(0.1),
+            tangential: PenaltyStiffness::Scale(0.1),
             damping: 0.1,
             curvature: true,
         };

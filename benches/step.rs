@@ -2,7 +2,7 @@
 //! are elements.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{BodyMaterial, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use divan::counter::ItemsCount;
 use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, System, Vertical};
 use friction::Coulomb;
@@ -46,8 +46,8 @@ fn rolling(size: f64) -> Simulation {
     let solid = Solid::new(&mesh, &[STEEL; 2], ELEMENT, Viscosity::default(), Level::detect())
         .expect("two bodies of steel");
     let settings = PenaltySettings {
-        normal: Stiffness::Scale(0.1),
-        tangential: Stiffness::Scale(0.1),
+        normal: PenaltyStiffness::Scale(0.1),
+        tangential: PenaltyStiffness::Scale(0.1),
         damping: 0.1,
         curvature: true,
     };

@@ -10,7 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::derived;
-use crate::held::{Held, LOCK, hold};
+use crate::held::{FolderLock, LOCK, hold};
 use crate::schema::Case;
 use output::CHECKPOINTS;
 pub use output::VTKHDF;
@@ -209,7 +209,11 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
 /// and figures that this program made from them are removed, so that anything else beside a run survives;
 /// [`file::CASE`] is the run's to replace. What a run leaves that was killed as it began is no reason to
 /// refuse, and removed too.
-pub fn prepare(folder: &Path, force: bool, held: Option<Held>) -> Result<Held, FolderError> {
+pub fn prepare(
+    folder: &Path,
+    force: bool,
+    held: Option<FolderLock>,
+) -> Result<FolderLock, FolderError> {
     let unwritable =
         |cause: io::Error| FolderError::NotWritable { path: folder.to_path_buf(), cause };
     check(folder, force)?;
@@ -233,7 +237,7 @@ pub fn prepare(folder: &Path, force: bool, held: Option<Held>) -> Result<Held, F
 }
 
 /// Holds `folder`, which is there, and removes what a kill left half-written.
-pub(crate) fn take(folder: &Path) -> Result<Held, FolderError> {
+pub(crate) fn take(folder: &Path) -> Result<FolderLock, FolderError> {
     let held = hold(folder)?;
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());

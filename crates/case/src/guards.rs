@@ -3,7 +3,7 @@
 use crate::hertz::hertz;
 use crate::model::{BAR, Model};
 use crate::schema::Case;
-use dynamics::Limits;
+use dynamics::GuardLimits;
 
 /// Energies below this part of load times approach (Hertz) are those of a contact that only begins.
 const LEAST_ENERGY: f64 = 0.01;
@@ -13,10 +13,10 @@ const LEAST_FORCE: f64 = 1e-3;
 pub(crate) const READING: u64 = 100;
 
 /// What stops the run of a case.
-pub(crate) fn limits(case: &Case, model: &Model) -> Limits {
+pub(crate) fn limits(case: &Case, model: &Model) -> GuardLimits {
     let guards = &case.guards;
     let along = model.mesh.nodes[model.mesh.bodies[BAR].nodes.clone()].iter().map(|x| x[0]);
-    Limits {
+    GuardLimits {
         hourglass: guards.hourglass,
         least_energy: LEAST_ENERGY * case.load.normal * hertz(case).approach,
         penetration: guards.penetration * case.mesh.zone.size,

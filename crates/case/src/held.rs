@@ -3,7 +3,7 @@
 //! Three signs keep a second one out: a lock on the folder itself, which nobody can delete; a lock on
 //! `run.lock`, for systems that cannot lock folders; and, for those that cannot lock at all, the word of
 //! its holder in it. The holder looks whether the file and the word are still its own
-//! ([`Held::prove`]): where no sign kept another out, the first of two then stops.
+//! ([`FolderLock::prove`]): where no sign kept another out, the first of two then stops.
 
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Seek, Write};
@@ -15,12 +15,12 @@ use files::input;
 
 use crate::folder::FolderError;
 
-/// Held locked while a run is written, with the word of its holder; stays behind, empty.
+/// FolderLock locked while a run is written, with the word of its holder; stays behind, empty.
 pub(crate) const LOCK: &str = "run.lock";
 
 /// A folder in which no other process writes a run as long as this lives.
 #[derive(Debug)]
-pub struct Held {
+pub struct FolderLock {
     folder: PathBuf,
     lock: File,
     /// None where a full disk has no room for it.
@@ -30,7 +30,7 @@ pub struct Held {
 
 /// Keeps other processes out of `folder`, which is there. The system lets go of it however this process
 /// ends.
-pub fn hold(folder: &Path) -> Result<Held, FolderError> {
+pub fn hold(folder: &Path) -> Result<FolderLock, FolderError> {
     let busy = || FolderError::Busy { path: folder.to_path_buf() };
     let unwritable = |cause| FolderError::NotWritable { path: folder.to_path_buf(), cause };
     #[expect(clippy::disallowed_methods, reason = "a folder, of which nothing is read")]
@@ -56,10 +56,10 @@ pub fn hold(folder: &Path) -> Result<Held, FolderError> {
     }
     let word = Word::own().to_string();
     let written = write(&mut lock, &word).is_ok();
-    Ok(Held { folder: folder.into(), lock, word: written.then_some(word), _folder: own })
+    Ok(FolderLock { folder: folder.into(), lock, word: written.then_some(word), _folder: own })
 }
 
-impl Held {
+impl FolderLock {
     /// That the folder is still this process's: its `run.lock` is the file that was locked, with the
     /// word that was written.
     ///
@@ -83,7 +83,7 @@ impl Held {
 }
 
 /// The word goes with its holder, where that ends in order.
-impl Drop for Held {
+impl Drop for FolderLock {
     fn drop(&mut self) {
         if self.prove().is_ok() {
             let _ = self.lock.set_len(0);

@@ -68,7 +68,7 @@ impl MeshModeSums {
 }
 
 /// What is looked at.
-pub(crate) struct Watched {
+pub(crate) struct WatchedFaces {
     /// Sides at whose nodes slip is judged: those where the conditions are enforced.
     sides: Vec<usize>,
     /// Faces of the zones, in the nodes of their tables.
@@ -81,7 +81,7 @@ pub(crate) struct Watched {
     interval: f64,
 }
 
-impl Watched {
+impl WatchedFaces {
     pub(crate) fn new(
         case: &Case,
         model: &Model,

@@ -228,10 +228,10 @@ fn material(m: crate::schema::Material) -> Material {
     Material { young: m.young, poisson: m.poisson, density: m.density }
 }
 
-pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::Stiffness {
+pub(crate) fn stiffness(s: crate::schema::Stiffness) -> contact::PenaltyStiffness {
     match s {
-        crate::schema::Stiffness::Factor(v) => contact::Stiffness::Scale(v),
-        crate::schema::Stiffness::Areal(v) => contact::Stiffness::Areal(v),
-        crate::schema::Stiffness::Stability(v) => contact::Stiffness::StabilityFraction(v),
+        crate::schema::Stiffness::Factor(v) => contact::PenaltyStiffness::Scale(v),
+        crate::schema::Stiffness::Areal(v) => contact::PenaltyStiffness::Areal(v),
+        crate::schema::Stiffness::Stability(v) => contact::PenaltyStiffness::StabilityFraction(v),
     }
 }

@@ -4,14 +4,14 @@ use crate::friction_law;
 use crate::hertz::hertz;
 use crate::model::{BAR, DISK, Model};
 use crate::schema::{Case, DriveMode, Enforcement};
-use contact::Stiffness;
+use contact::PenaltyStiffness;
 use friction::{Falling, Interface};
 use serde_json::json;
 use solid::Material;
 
 /// The numbers at Hertz's peak pressure.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Numbers {
+pub(crate) struct DimensionlessNumbers {
     at: Interface,
     /// `N_1 = dt^2 k_t/m*` (dimensionless) of the friction springs of penalty contact.
     n1: Option<f64>,
@@ -24,7 +24,7 @@ pub(crate) struct Numbers {
 }
 
 /// The numbers of a case with the time step `dt` (s).
-pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
+pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> DimensionlessNumbers {
     let [disk, bar] = [&model.materials[DISK], &model.materials[BAR]];
     let depth = case.mesh.zone.size;
     let impedance = |m: &Material| m.density * m.c_s();
@@ -42,7 +42,7 @@ pub(crate) fn numbers(case: &Case, model: &Model, dt: f64) -> Numbers {
     };
     let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
     let memory = case.friction.memory.map(|memory| memory.distance);
-    Numbers {
+    DimensionlessNumbers {
         n1: tangential(case, model, depth).map(|k| friction::spring_number(k, &at)),
         falling: falls.and_then(|law| friction::falling(&law, &at)),
         nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
@@ -58,12 +58,12 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
         return None;
     }
     match crate::model::stiffness(case.contact.penalty.tangential) {
-        Stiffness::Scale(factor) => {
+        PenaltyStiffness::Scale(factor) => {
             Some([DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum())
         }
-        Stiffness::Areal(both) => Some(both),
+        PenaltyStiffness::Areal(both) => Some(both),
         // a fraction of 4 m*/dt^2 less what the bodies need, which is not known here
-        Stiffness::StabilityFraction(_) => None,
+        PenaltyStiffness::StabilityFraction(_) => None,
     }
 }
 
@@ -83,7 +83,7 @@ fn slipping(case: &Case, model: &Model, half_length: f64) -> f64 {
     share.min(1.0)
 }
 
-impl Numbers {
+impl DimensionlessNumbers {
     /// The line of the log; `None` for a law that does not fall.
     pub(crate) fn line(&self) -> Option<String> {
         let f = self.falling?;

@@ -21,7 +21,7 @@ use std::time::Instant;
 
 /// How the preload was found.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) enum Report {
+pub(crate) enum PreloadReport {
     /// By Newton's method.
     Static {
         iterations: usize,
@@ -48,8 +48,8 @@ pub(crate) enum Report {
     },
 }
 
-impl Report {
-    fn of_statics(report: &statics::Report, hub: f64) -> Self {
+impl PreloadReport {
+    fn of_statics(report: &statics::NewtonReport, hub: f64) -> Self {
         Self::Static {
             iterations: report.last.iteration,
             cg_iterations: report.cg_iterations,
@@ -72,7 +72,7 @@ impl Report {
     }
 }
 
-impl Report {
+impl PreloadReport {
     /// Displacement of the hub in z (m).
     pub(crate) fn hub(&self) -> f64 {
         match self {
@@ -138,7 +138,7 @@ pub(crate) struct Preloaded {
     /// Displacements of the bodies (m).
     pub(crate) displacement: Vec<Padded>,
     /// How they were found: not at all with `preload.method = "none"`.
-    pub(crate) report: Option<Report>,
+    pub(crate) report: Option<PreloadReport>,
     /// Normal forces (N) of exact contact on the nodes of both sides.
     pub(crate) loads: [Vec<(u32, f64)>; 2],
 }
@@ -232,7 +232,7 @@ pub(crate) fn preload(
             let height = found.displacement[hub.nodes[0] as usize][2];
             Ok(Preloaded {
                 displacement: found.displacement,
-                report: Some(Report::of_statics(&found.report, height)),
+                report: Some(PreloadReport::of_statics(&found.report, height)),
                 loads: loads_of_slaves(model.slave(), &found.pressed),
             })
         }
@@ -258,7 +258,7 @@ pub(crate) fn preload(
                 look(now.iterations, now.iterations, now.normal_force)
             })
             .map_err(PreloadError::from)?;
-            let report = Some(Report::of_relaxation(&report));
+            let report = Some(PreloadReport::of_relaxation(&report));
             Ok(Preloaded { displacement: u, report, loads: [Vec::new(), Vec::new()] })
         }
         PreloadMethod::None => Ok(Preloaded {

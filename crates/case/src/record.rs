@@ -2,7 +2,7 @@
 
 use crate::hertz::patch_shape;
 use crate::means::Means;
-use crate::mesh_mode::Watched;
+use crate::mesh_mode::WatchedFaces;
 use crate::model::{BAR, DISK, Model};
 use crate::probes::Probes;
 use crate::run_error::RunError;
@@ -58,7 +58,7 @@ pub(crate) struct Recorder {
     speed: f64,
     hertz_pressure: f64,
     evaluate: [f64; 2],
-    mesh_mode: Watched,
+    mesh_mode: WatchedFaces,
     pub(crate) means: Means,
     pub(crate) wall: Duration,
 }
@@ -83,7 +83,7 @@ impl Schedule {
 }
 
 /// What the recorder needs to know beside the case.
-pub(crate) struct Basis<'a> {
+pub(crate) struct RunIdentity<'a> {
     pub(crate) folder: &'a Path,
     pub(crate) provenance: Provenance,
     pub(crate) effective_radius: f64,
@@ -92,7 +92,7 @@ pub(crate) struct Basis<'a> {
     pub(crate) keeps: Option<Results>,
 }
 
-impl Basis<'_> {
+impl RunIdentity<'_> {
     fn grid(
         &self,
         name: &str,
@@ -137,7 +137,7 @@ impl Recorder {
         case: &Case,
         model: &Model,
         simulation: &Simulation,
-        basis: &Basis<'_>,
+        basis: &RunIdentity<'_>,
     ) -> Result<Self, RunError> {
         let contact = simulation.contact().ok_or(RunError::NoContact)?;
         let tables = [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]));
@@ -145,7 +145,8 @@ impl Recorder {
             tables[side].nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>()
         });
         let hertz_pressure = basis.hertz_pressure;
-        let mesh_mode = Watched::new(case, model, &tables, contact.enforced_on(), hertz_pressure)?;
+        let mesh_mode =
+            WatchedFaces::new(case, model, &tables, contact.enforced_on(), hertz_pressure)?;
         let surface =
             ContactSurfaces { tables: &tables, points: &points, faces: mesh_mode.faces() };
         let files = RunFiles {
@@ -515,7 +516,11 @@ fn centreline(points: &[[f64; 3]], size: f64) -> Vec<usize> {
     line
 }
 
-fn create_fields(case: &Case, model: &Model, basis: &Basis<'_>) -> Result<TransientGrid, RunError> {
+fn create_fields(
+    case: &Case,
+    model: &Model,
+    basis: &RunIdentity<'_>,
+) -> Result<TransientGrid, RunError> {
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
     let mut specs = BODIES.each().map(FieldSpec::clone).to_vec();
     specs.retain(|spec| case.output.stress || *spec != BODIES.stress);
@@ -539,7 +544,7 @@ fn create_contact(
     case: &Case,
     &ContactSurfaces { tables, points, faces }: &ContactSurfaces<'_>,
     enforced_on: Option<usize>,
-    basis: &Basis<'_>,
+    basis: &RunIdentity<'_>,
 ) -> Result<TransientGrid, RunError> {
     let mut provenance = basis.provenance.clone();
     if let Some(side) = enforced_on {

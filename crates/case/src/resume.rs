@@ -17,7 +17,7 @@ use serde_json::Value;
 use solid::Level;
 
 /// Where a run goes on.
-pub(crate) enum Origin {
+pub(crate) enum ResumeFrom {
     /// It is complete; its summary.
     Complete(Value),
     /// From its beginning; why.
@@ -36,18 +36,20 @@ pub(crate) struct Point {
 }
 
 /// Where the run of `case` in `folder` goes on.
-pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> {
+pub(crate) fn origin(case: &Case, folder: &Path) -> Result<ResumeFrom, ResumeError> {
     let path = || folder.to_path_buf();
     match content(folder) {
         Content::Run if is_run(folder) => {}
         Content::Beginning => {
-            return Ok(Origin::Beginning("the run was killed as it began".into()));
+            return Ok(ResumeFrom::Beginning("the run was killed as it began".into()));
         }
         _ => return Err(ResumeError::NoRun { folder: path() }),
     }
     if let Some(difference) = difference(case, folder) {
         if has_no_results(folder) {
-            return Ok(Origin::Beginning(format!("the folder holds no results, and {difference}")));
+            return Ok(ResumeFrom::Beginning(format!(
+                "the folder holds no results, and {difference}"
+            )));
         }
         return Err(ResumeError::AnotherCase { folder: path(), difference });
     }
@@ -59,7 +61,7 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
         && summary.get("status") == complete.as_ref()
     {
         as_long_as_written(folder, summary, |_| true).map_err(damage)?;
-        return Ok(Origin::Complete(summary.clone()));
+        return Ok(ResumeFrom::Complete(summary.clone()));
     }
     let mut damaged = Vec::new();
     for name in CHECKPOINTS {
@@ -69,7 +71,7 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
         match usable(case, folder, name) {
             Ok((checkpoint, state, kernels)) => {
                 let point = Point { checkpoint, state, kernels, damaged };
-                return Ok(Origin::Checkpoint(Box::new(point)));
+                return Ok(ResumeFrom::Checkpoint(Box::new(point)));
             }
             Err(reason) => damaged.push((name, reason)),
         }
@@ -77,7 +79,7 @@ pub(crate) fn origin(case: &Case, folder: &Path) -> Result<Origin, ResumeError> 
     if damaged.is_empty() {
         // what the summary of a run that can go on says is of no use
         summary.map_err(damage)?;
-        return Ok(Origin::Beginning("the run has no checkpoint yet".into()));
+        return Ok(ResumeFrom::Beginning("the run has no checkpoint yet".into()));
     }
     let reasons: Vec<_> =
         damaged.iter().map(|(name, reason)| format!("{name}: {reason}")).collect();

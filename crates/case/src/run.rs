@@ -10,12 +10,12 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Instant, SystemTime};
 
 use crate::disk::Disk;
-use crate::held::Held;
+use crate::held::FolderLock;
 use crate::hertz::hertz;
 use crate::log::Log;
 use crate::postmortem;
 use crate::progress::{Progress, Stage};
-use crate::record::{Basis, Recorder};
+use crate::record::{Recorder, RunIdentity};
 use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::{Facts, Start};
@@ -155,8 +155,8 @@ fn basis<'a>(
     options: &'a RunOptions,
     facts: &Facts,
     resumed: Option<&Resumed>,
-) -> Basis<'a> {
-    Basis {
+) -> RunIdentity<'a> {
+    RunIdentity {
         folder: &options.out,
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
@@ -180,7 +180,7 @@ fn conclude(
     simulation: &Simulation,
     facts: &Facts,
     ending: &Ending,
-    held: &Held,
+    held: &FolderLock,
     log: &mut Log,
 ) -> Result<serde_json::Value, RunError> {
     ending.means.mesh_mode.warnings(case).iter().try_for_each(|line| log.warn(line))?;

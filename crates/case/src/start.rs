@@ -3,7 +3,7 @@
 use crate::disturbance::disturb;
 use crate::guards::limits;
 use crate::model::{BAR, DISK, Model};
-use crate::numbers::{Numbers, numbers};
+use crate::numbers::{DimensionlessNumbers, numbers};
 use crate::preload::{self, Preloaded, preload, store};
 use crate::progress::Progress;
 use crate::run_error::RunError;
@@ -53,11 +53,11 @@ pub(crate) struct RollingRadius {
 pub(crate) struct Facts {
     pub(crate) stability: Stability,
     pub(crate) radius: RollingRadius,
-    pub(crate) preload: Option<preload::Report>,
+    pub(crate) preload: Option<preload::PreloadReport>,
     /// Wall time of the preload (s).
     pub(crate) preload_wall: f64,
     /// Dimensionless numbers of contact and friction.
-    pub(crate) numbers: Numbers,
+    pub(crate) numbers: DimensionlessNumbers,
     /// Time steps to take.
     pub(crate) steps: u64,
 }
@@ -75,7 +75,7 @@ impl Facts {
 pub(crate) struct Found {
     pub(crate) stability: Stability,
     pub(crate) radius: RollingRadius,
-    pub(crate) preload: Option<preload::Report>,
+    pub(crate) preload: Option<preload::PreloadReport>,
     /// Wall time of the preload (s).
     pub(crate) preload_wall: f64,
     /// Time steps to take.
@@ -89,7 +89,7 @@ pub(crate) struct Start {
 }
 
 /// The bodies at rest under the load, and what the step must respect.
-struct Settled {
+struct PreloadedState {
     solid: Solid,
     /// The springs of penalty contact, closed where the bodies touch; none of exact contact.
     springs: Option<PenaltyContact>,
@@ -112,18 +112,18 @@ struct Settled {
 /// A mesh that cannot be made, a preload that is not found, a `stop`.
 pub fn stable_limit(case: &Case, cache: Option<&Path>, stop: &AtomicBool) -> Result<f64, RunError> {
     let model = Model::build(case)?;
-    Ok(settle(case, &model, cache, stop, &mut |_| {}, &mut |_| Ok(()))?.limit)
+    Ok(preloaded_state(case, &model, cache, stop, &mut |_| {}, &mut |_| Ok(()))?.limit)
 }
 
 /// Preloads the model, or takes the preload from `cache`.
-fn settle(
+fn preloaded_state(
     case: &Case,
     model: &Model,
     cache: Option<&Path>,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
     say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
-) -> Result<Settled, RunError> {
+) -> Result<PreloadedState, RunError> {
     let mut solid = model.solid(case)?;
     let inverse_mass = inverse_mass(model);
     let omega_elastic = elastic_frequency(model, &mut solid);
@@ -170,7 +170,7 @@ fn settle(
     // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
     let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
     let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
-    Ok(Settled {
+    Ok(PreloadedState {
         solid,
         springs,
         hub,
@@ -193,7 +193,7 @@ pub(crate) fn start(
     observe: &mut (dyn FnMut(&Progress) + Send),
     say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
 ) -> Result<Start, RunError> {
-    let Settled {
+    let PreloadedState {
         mut solid,
         springs,
         hub,
@@ -204,7 +204,7 @@ pub(crate) fn start(
         omega_max,
         contact_bound,
         limit,
-    } = settle(case, model, cache, stop, observe, say)?;
+    } = preloaded_state(case, model, cache, stop, observe, say)?;
     let nominal = case.disk.radius;
     let (element_bound, _) =
         solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
@@ -414,20 +414,20 @@ mod tests {
     use solid::Level;
 
     /// The preloaded bodies of the tests' small case, by element kernels of `level`.
-    fn settled(sets: &[&str], level: Level) -> Settled {
+    fn preloaded_state_of(sets: &[&str], level: Level) -> PreloadedState {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/small.toml");
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
         let case = Case::load(&file, &sets).unwrap();
         let mut model = Model::build(&case).unwrap();
         model.kernels = level;
         let stop = AtomicBool::new(false);
-        settle(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(())).unwrap()
+        preloaded_state(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(())).unwrap()
     }
 
     /// Of the displacement of every node and of the stable step.
-    fn bits(settled: &Settled) -> Vec<u64> {
-        let displacement = &settled.preloaded.displacement;
-        let numbers = displacement.iter().flat_map(|u| u.0).chain([settled.limit]);
+    fn bits(preloaded_state_of: &PreloadedState) -> Vec<u64> {
+        let displacement = &preloaded_state_of.preloaded.displacement;
+        let numbers = displacement.iter().flat_map(|u| u.0).chain([preloaded_state_of.limit]);
         numbers.map(f64::to_bits).collect()
     }
 
@@ -442,10 +442,10 @@ mod tests {
             &["contact.enforcement=exact", "contact.rows=mortar", "element.contact_layers=full"],
         ] {
             let [wide, plain] =
-                [Level::Avx2, Level::Fused].map(|level| bits(&settled(sets, level)));
+                [Level::Avx2, Level::Fused].map(|level| bits(&preloaded_state_of(sets, level)));
             assert_eq!(wide, plain, "{sets:?}");
             // a kernel that rounds in another order shows: the comparison can fail
-            assert_ne!(wide, bits(&settled(sets, Level::Portable)), "{sets:?}");
+            assert_ne!(wide, bits(&preloaded_state_of(sets, Level::Portable)), "{sets:?}");
         }
     }
 }

@@ -6,7 +6,7 @@
 //! cargo run --release -p creepage-contact --example own_law
 //! ```
 
-use contact::{BodyMaterial, Contact, ExactContact, ExactSettings, Motion, Trial};
+use contact::{BodyMaterial, Contact, ExactContact, ExactSettings, FreeMotion, Motion};
 use friction::{NodeFriction, Place};
 use mesh::{Face, Mesh, Padded, Surface};
 use std::error::Error;
@@ -90,9 +90,9 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
             let (v, m) = (velocity[node as usize], inverse_mass[node as usize]);
             [0, 1, 2].map(|i| v[i] + DT * m * force[i])
         };
-        let trial = Trial { velocity: &step, inverse_mass: &inverse_mass };
+        let free_motion = FreeMotion { velocity: &step, inverse_mass: &inverse_mass };
         contact.follow(&motion);
-        contact.apply(&motion, &trial, &mut force);
+        contact.apply(&motion, &free_motion, &mut force);
         let moved: Vec<_> = (0..16).map(|n| step(n, force[n as usize].xyz())).collect();
         for ((v, u), moved) in velocity.iter_mut().zip(&mut displacement).zip(moved) {
             *v = Padded::new(moved);

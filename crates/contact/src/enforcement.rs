@@ -8,7 +8,7 @@ use std::fmt::Debug;
 
 /// The motion that a step would have without contact.
 #[derive(Clone, Copy)]
-pub struct Trial<'a> {
+pub struct FreeMotion<'a> {
     /// Velocity `v^{n+1/2}` (m/s) of a node under a force (N): the step's own update of velocities.
     pub velocity: &'a (dyn Fn(u32, [f64; 3]) -> [f64; 3] + Sync),
     /// Inverse lumped masses (1/kg), zero for nodes that are held.
@@ -32,7 +32,7 @@ pub trait Contact: Send + Debug {
     fn apply(
         &mut self,
         motion: &Motion<'_>,
-        trial: &Trial<'_>,
+        free_motion: &FreeMotion<'_>,
         force: &mut [Padded],
     ) -> ContactSums;
 
@@ -75,7 +75,7 @@ impl Contact for PenaltyContact {
         self.follow(motion);
     }
 
-    fn apply(&mut self, _: &Motion<'_>, _: &Trial<'_>, force: &mut [Padded]) -> ContactSums {
+    fn apply(&mut self, _: &Motion<'_>, _: &FreeMotion<'_>, force: &mut [Padded]) -> ContactSums {
         self.load(force)
     }
 

@@ -14,7 +14,7 @@
 //! fixed, hence the bits are.
 
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
-use crate::enforcement::{Contact, Trial};
+use crate::enforcement::{Contact, FreeMotion};
 use crate::face::Positions;
 use crate::mortar::{Mean, Mortar, check_means};
 use crate::nodal::NodalContact;
@@ -240,15 +240,22 @@ impl ExactContact {
     }
 
     /// Takes the velocity without contact of a node of `side`.
-    fn release(&mut self, side: usize, local: u32, trial: &Trial<'_>, force: &[Padded], dt: f64) {
+    fn release(
+        &mut self,
+        side: usize,
+        local: u32,
+        free_motion: &FreeMotion<'_>,
+        force: &[Padded],
+        dt: f64,
+    ) {
         let i = local as usize;
         if self.stamp[side][i] == self.now {
             return;
         }
         let node = self.sides[side].nodes[i];
         self.stamp[side][i] = self.now;
-        self.velocity[side][i] = (trial.velocity)(node, force[node as usize].xyz());
-        self.pace[side][i] = dt * trial.inverse_mass[node as usize];
+        self.velocity[side][i] = (free_motion.velocity)(node, force[node as usize].xyz());
+        self.pace[side][i] = dt * free_motion.inverse_mass[node as usize];
     }
 
     /// Rates at the velocities that the forces found so far give.
@@ -414,7 +421,7 @@ impl Contact for ExactContact {
     fn apply(
         &mut self,
         motion: &Motion<'_>,
-        trial: &Trial<'_>,
+        free_motion: &FreeMotion<'_>,
         force: &mut [Padded],
     ) -> ContactSums {
         let positions =
@@ -429,11 +436,11 @@ impl Contact for ExactContact {
         // velocities without contact, and what the law is told of the last step
         active.retain(|&i| {
             let constraint = &mut constraints[i as usize];
-            self.release(own, constraint.slave, trial, force, motion.dt);
+            self.release(own, constraint.slave, free_motion, force, motion.dt);
             constraint.enforcement.delassus = self.pace[own][constraint.slave as usize];
             for k in constraint.legs() {
                 let Leg { node, weight, .. } = self.legs[k];
-                self.release(1 - own, node, trial, force, motion.dt);
+                self.release(1 - own, node, free_motion, force, motion.dt);
                 constraint.enforcement.delassus +=
                     weight * weight * self.pace[1 - own][node as usize];
             }

@@ -35,7 +35,7 @@ mod tests;
 mod vector;
 
 pub use constraint::Rows;
-pub use enforcement::{Contact, Trial};
+pub use enforcement::{Contact, FreeMotion};
 pub use error::ContactError;
 pub use exact::{ExactContact, ExactSettings};
 pub use gap::Gap;
@@ -45,5 +45,5 @@ pub use nodal::NodalContact;
 pub use penalty::{PenaltyContact, PenaltySettings};
 pub use point::finer;
 pub use snapshot::{ContactState, StateError};
-pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
+pub use stiffness::{BodyMaterial, PenaltyStiffness, StabilityScale};
 pub use sums::ContactSums;

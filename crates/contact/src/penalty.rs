@@ -7,7 +7,9 @@ use crate::search::{Listed, Search, neighbours};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy, dot, scale};
-use crate::{BodyMaterial, ContactError, ContactSums, Gap, Motion, StabilityScale, Stiffness};
+use crate::{
+    BodyMaterial, ContactError, ContactSums, Gap, Motion, PenaltyStiffness, StabilityScale,
+};
 use friction::{NodeFriction, Slid};
 use mesh::{Mesh, Padded, Surface};
 
@@ -15,9 +17,9 @@ use mesh::{Mesh, Padded, Surface};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenaltySettings {
     /// Normal stiffness `k_n`.
-    pub normal: Stiffness,
+    pub normal: PenaltyStiffness,
     /// Tangential stiffness `k_t`.
-    pub tangential: Stiffness,
+    pub tangential: PenaltyStiffness,
     /// Normal viscous damping as a fraction of the spring's critical damping.
     pub damping: f64,
     /// Corrects gap and normal with the exact surface where the master has one.
@@ -51,7 +53,7 @@ pub struct PenaltyContact {
 impl PenaltyContact {
     /// Contact of two `surfaces` of `mesh`, side 0 and side 1.
     ///
-    /// `stability` is needed for [`Stiffness::StabilityFraction`] only.
+    /// `stability` is needed for [`PenaltyStiffness::StabilityFraction`] only.
     ///
     /// # Errors
     /// Surfaces that are empty, degenerate, outside the mesh or in touch by a common node, and
@@ -349,7 +351,7 @@ fn check(
     check_common(surfaces, law)?;
     let fraction = [settings.normal, settings.tangential]
         .iter()
-        .any(|s| matches!(s, Stiffness::StabilityFraction(_)));
+        .any(|s| matches!(s, PenaltyStiffness::StabilityFraction(_)));
     if fraction {
         let scale = stability.ok_or(ContactError::NoStabilityScale)?;
         positive("the time step", scale.dt)?;

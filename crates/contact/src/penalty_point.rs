@@ -4,7 +4,7 @@ use crate::Motion;
 use crate::face::{Positions, SurfacePoint, shape};
 use crate::point::{ContactPoint, Enforced, State, relative_velocity, sleep};
 use crate::search::Listed;
-use crate::stiffness::{StabilityScale, Stiffness};
+use crate::stiffness::{PenaltyStiffness, StabilityScale};
 use crate::surface::{ContactSurface, MasterFace, NONE};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, Slid};
@@ -91,8 +91,8 @@ impl PenaltyPoint {
 pub(crate) struct Pass<'a> {
     pub slave: &'a ContactSurface,
     pub master: &'a ContactSurface,
-    pub normal: Stiffness,
-    pub tangential: Stiffness,
+    pub normal: PenaltyStiffness,
+    pub tangential: PenaltyStiffness,
     pub stability: Option<StabilityScale>,
     pub damping: f64,
     pub curvature: bool,

@@ -2,7 +2,7 @@
 
 /// How a contact spring's areal stiffness is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stiffness {
+pub enum PenaltyStiffness {
     /// LS-DYNA's segment stiffness `SF K A^2/V` spread over the segment: each pass has the areal
     /// stiffness `SF K A/V` of the master face's element (`K` bulk modulus, `A` face area, `V`
     /// element volume). For a brick of depth `d` that is `SF K/d`.
@@ -15,7 +15,7 @@ pub enum Stiffness {
     StabilityFraction(f64),
 }
 
-impl Stiffness {
+impl PenaltyStiffness {
     /// The number that the variant carries.
     pub fn value(self) -> f64 {
         match self {
@@ -26,7 +26,7 @@ impl Stiffness {
     /// Areal stiffness (N/m^3) of one pass.
     ///
     /// `scaled` is `K A/V` of the master face's element (N/m^3), `reduced_mass` is `m*` (kg/m^2).
-    /// [`Stiffness::StabilityFraction`] without a scale gives zero; the constructors of contact
+    /// [`PenaltyStiffness::StabilityFraction`] without a scale gives zero; the constructors of contact
     /// refuse that combination.
     pub fn per_pass(
         self,
@@ -44,7 +44,7 @@ impl Stiffness {
     }
 }
 
-/// What [`Stiffness::StabilityFraction`] is a fraction of.
+/// What [`PenaltyStiffness::StabilityFraction`] is a fraction of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StabilityScale {
     /// Highest angular frequency of the bodies without contact (rad/s).
@@ -77,9 +77,9 @@ mod tests {
     #[test]
     fn each_form_gives_its_own_areal_stiffness_per_pass() {
         let scale = StabilityScale { omega_elastic: 3.0, dt: 0.4 };
-        assert_eq!(Stiffness::Scale(0.1).per_pass(1.75e14, 2.0, None), 0.1 * 1.75e14);
-        assert_eq!(Stiffness::Areal(3.5e13).per_pass(1.0, 2.0, None), 1.75e13);
-        let fraction = Stiffness::StabilityFraction(0.5).per_pass(1.0, 2.0, Some(scale));
+        assert_eq!(PenaltyStiffness::Scale(0.1).per_pass(1.75e14, 2.0, None), 0.1 * 1.75e14);
+        assert_eq!(PenaltyStiffness::Areal(3.5e13).per_pass(1.0, 2.0, None), 1.75e13);
+        let fraction = PenaltyStiffness::StabilityFraction(0.5).per_pass(1.0, 2.0, Some(scale));
         assert!((fraction - 0.5 * 0.5 * 2.0 * (25.0 - 9.0)).abs() < 1e-12);
     }
 }

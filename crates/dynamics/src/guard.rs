@@ -24,7 +24,7 @@ pub const USUAL_HOURGLASS: f64 = 0.05;
 
 /// What no sound run does. Energy from nowhere and numbers that are none need no limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct GuardLimits {
     /// Hourglass over strain energy (dimensionless), with the usual coefficient 0.05 where that of the
     /// run is smaller: weak hourglass stiffness lets elements hourglass, with little energy.
     pub hourglass: f64,
@@ -42,7 +42,7 @@ pub struct Limits {
     pub track: [f64; 2],
 }
 
-impl Default for Limits {
+impl Default for GuardLimits {
     /// None.
     fn default() -> Self {
         Self {
@@ -59,7 +59,7 @@ impl Default for Limits {
 
 /// What the guards carry from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Watch {
+pub struct LostContact {
     /// Whether there was contact.
     pub touched: bool,
     /// Since when there is none (s), if there was.
@@ -135,7 +135,7 @@ pub enum Cause {
 
 /// Where the trouble is worst.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Location {
     /// The contact node that the cause names, else the node that moves fastest relative to its body's
     /// rigid motion.
     pub node: usize,
@@ -163,7 +163,7 @@ pub struct Diagnosis {
     /// Energy that nothing supplied (J).
     pub imbalance: f64,
     /// Where.
-    pub place: Place,
+    pub place: Location,
 }
 
 /// The energy that nothing supplied, in brackets, where it is one.
@@ -341,7 +341,7 @@ impl Simulation {
     }
 
     /// Sets what no sound run does; nothing but energy and numbers is guarded before.
-    pub fn set_limits(&mut self, limits: Limits) {
+    pub fn set_limits(&mut self, limits: GuardLimits) {
         self.limits = limits;
     }
 
@@ -351,7 +351,7 @@ impl Simulation {
         if report.contact.largest_mu > self.limits.friction || report.contact.largest_mu.is_nan() {
             return Some(self.diagnosis(report, self.friction_cause()));
         }
-        self.watch_contact(report);
+        self.watch_for_lost_contact(report);
         let symptom = match &report.energies {
             Some(now) if violated(&self.ledger, now) => self.energy_cause(now),
             Some(now) => {
@@ -374,12 +374,12 @@ impl Simulation {
             && self.system.solid.most_folded(&self.displacement).1 > 0.0
     }
 
-    fn watch_contact(&mut self, report: &StepReport) {
+    fn watch_for_lost_contact(&mut self, report: &StepReport) {
         if self.system.contact.is_none() {
             return;
         }
         if report.contact.closed > 0 && report.contact.normal_force > self.limits.least_force {
-            self.watch = Watch { touched: true, lost: None };
+            self.watch = LostContact { touched: true, lost: None };
         } else if self.watch.touched {
             self.watch.lost.get_or_insert(report.time);
         }
@@ -498,7 +498,7 @@ impl Simulation {
             time: report.time,
             cause,
             imbalance: report.energies.map_or(0.0, |now| self.ledger.imbalance(&now)),
-            place: Place {
+            place: Location {
                 node,
                 on_disk: self.system.disk.contains(&node),
                 position: self.system.solid.reference()[node].xyz(),

@@ -22,7 +22,9 @@ mod simulation;
 mod state;
 mod system;
 
-pub use guard::{Cause, Diagnosis, Limits, Place, SHAPE_STEPS, USUAL_HOURGLASS, Watch};
+pub use guard::{
+    Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
+};
 pub use hub::{DriveReaction, Hub, HubState, Spin, Vertical, smoothstep};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};

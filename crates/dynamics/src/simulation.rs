@@ -1,6 +1,6 @@
 //! A simulation: the system, its state in time, its balance of energy and its guards.
 
-use crate::guard::{Limits, Watch};
+use crate::guard::{GuardLimits, LostContact};
 use crate::hub::{DriveReaction, Hub};
 use crate::ledger::{Energies, Ledger};
 use crate::nodes::{self, NodeSums};
@@ -67,8 +67,8 @@ pub struct Simulation {
     pub(crate) omega_max: f64,
     pub(crate) step: usize,
     pub(crate) ledger: Ledger,
-    pub(crate) limits: Limits,
-    pub(crate) watch: Watch,
+    pub(crate) limits: GuardLimits,
+    pub(crate) watch: LostContact,
     pub(crate) timers: Timers,
 }
 
@@ -90,8 +90,8 @@ impl Simulation {
             omega_max,
             step: 0,
             ledger: Ledger::default(),
-            limits: Limits::default(),
-            watch: Watch::default(),
+            limits: GuardLimits::default(),
+            watch: LostContact::default(),
             timers: Timers::default(),
         }
     }

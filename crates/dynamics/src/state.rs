@@ -1,6 +1,6 @@
 //! The state between two steps, as plain data: enough to go on with the same bits.
 
-use crate::guard::Watch;
+use crate::guard::LostContact;
 use crate::hub::{DriveReaction, HubState};
 use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
@@ -27,7 +27,7 @@ pub struct SimulationState {
     /// Contact, if there is any.
     pub contact: Option<ContactState>,
     /// What the guards have seen.
-    pub watch: Watch,
+    pub watch: LostContact,
     /// Wall time per stage so far.
     pub timers: Timers,
 }

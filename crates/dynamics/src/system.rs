@@ -7,7 +7,7 @@ use crate::hub::Hub;
 use crate::load::{Fixed, Load};
 use crate::paired;
 use crate::quiet::{QuietEnd, QuietWork};
-use contact::{Contact, ContactSums, Motion, Trial};
+use contact::{Contact, ContactSums, FreeMotion, Motion};
 use mesh::Padded;
 use solid::{ForceSums, Solid};
 use std::time::{Duration, Instant};
@@ -125,11 +125,11 @@ impl System {
         let sums = match &mut self.contact {
             Some(contact) => {
                 let motion = Motion { reference: self.solid.reference(), ..*motion };
-                let trial = Trial {
+                let free_motion = FreeMotion {
                     velocity: &|node, force| free(node, force, dashpots.as_ref()),
                     inverse_mass: motion.inverse_mass,
                 };
-                let sums = contact.apply(&motion, &trial, force);
+                let sums = contact.apply(&motion, &free_motion, force);
                 contact.follow_first(&self.paired);
                 sums
             }

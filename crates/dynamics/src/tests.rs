@@ -266,7 +266,7 @@ fn carried() -> Simulation {
 #[test]
 fn the_end_of_the_bar_stops_a_hub_that_passes_it() {
     let mut simulation = carried();
-    simulation.set_limits(Limits { track: [0.0, 2.1e-3], ..Limits::default() });
+    simulation.set_limits(GuardLimits { track: [0.0, 2.1e-3], ..GuardLimits::default() });
     let found = (0..1000).find_map(|n| {
         let report = simulation.step(n % 10 == 0);
         simulation.check(&report)

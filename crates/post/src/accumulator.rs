@@ -3,7 +3,7 @@
 use crate::conditions::Judged;
 use crate::replay::Allowed;
 use crate::roughness::Roughness;
-use crate::statistics::{Moments, Place, Spread};
+use crate::statistics::{Moments, Occurrence, Spread};
 
 /// The tangential conditions on one view of the interface in one pairing.
 pub(crate) struct Accumulator {
@@ -21,7 +21,7 @@ pub(crate) struct Accumulator {
     law_error_own: Spread,
     /// The law and the direction at nodes that the algorithm lets slip: what it does wrong itself.
     /// The give of a penalty method's springs at nodes that it holds is left out.
-    let_slip: [Spread; 2],
+    slip_state: [Spread; 2],
     direction: Spread,
     /// Weight of slip with shear along it and of all slip.
     wrong: [f64; 2],
@@ -29,7 +29,7 @@ pub(crate) struct Accumulator {
     law_scatter: Spread,
     /// Power of the wrong sign and of both signs (J).
     power: [f64; 2],
-    worst_power: Option<Place>,
+    worst_power: Option<Occurrence>,
     roughness: Option<Roughness>,
     switches: Switches,
     pub records: usize,
@@ -59,7 +59,7 @@ impl Accumulator {
             power_of_records: Moments::default(),
             law_error: Spread::default(),
             law_error_own: Spread::default(),
-            let_slip: Default::default(),
+            slip_state: Default::default(),
             direction: Spread::default(),
             wrong: [0.0; 2],
             adhesion_slip: Spread::default(),
@@ -90,8 +90,8 @@ impl Accumulator {
         }
         if let Some(error) = judged.law_error {
             self.law_error.add(weight, error, row, time);
-            if judged.let_slip {
-                self.let_slip[0].add(weight, error, row, time);
+            if judged.slip_state {
+                self.slip_state[0].add(weight, error, row, time);
             }
         }
         if let Some(error) = judged.law_error_own {
@@ -99,8 +99,8 @@ impl Accumulator {
         }
         if let Some(angle) = judged.direction {
             self.direction.add(weight, angle, row, time);
-            if judged.let_slip {
-                self.let_slip[1].add(weight, angle, row, time);
+            if judged.slip_state {
+                self.slip_state[1].add(weight, angle, row, time);
             }
             self.wrong_record[0] += if angle > 90.0 { weight } else { 0.0 };
             self.wrong_record[1] += weight;
@@ -116,7 +116,7 @@ impl Accumulator {
             self.power_record[0] += weight * (-judged.power).max(0.0);
             self.power_record[1] += weight * judged.power.abs();
             if judged.power < self.worst_power.map_or(0.0, |worst| worst.value) {
-                self.worst_power = Some(Place { node: row, time, value: judged.power });
+                self.worst_power = Some(Occurrence { node: row, time, value: judged.power });
             }
         }
         if let Some(roughness) = &mut self.roughness {
@@ -160,7 +160,7 @@ impl Accumulator {
                 shares.add(span, part / whole);
             }
         }
-        let [law, direction] = &mut self.let_slip;
+        let [law, direction] = &mut self.slip_state;
         for spread in [
             &mut self.law_error,
             &mut self.law_error_own,
@@ -190,16 +190,16 @@ impl Accumulator {
         };
         let spread = |of: &Spread| by(of, of.rms(), of.deviation_of_rms());
         let plain = |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
-        let also = |mut statistic: Statistic, let_slip: &Spread| {
-            statistic.more.push(("rms_where_let_slip", let_slip.rms()));
+        let also = |mut statistic: Statistic, slip_state: &Spread| {
+            statistic.more.push(("rms_where_let_slip", slip_state.rms()));
             statistic
         };
         match name {
-            "law_error" => also(spread(&self.law_error), &self.let_slip[0]),
+            "law_error" => also(spread(&self.law_error), &self.slip_state[0]),
             "law_error_own" => spread(&self.law_error_own),
-            "direction" => also(spread(&self.direction), &self.let_slip[1]),
-            "law_error_let_slip" => spread(&self.let_slip[0]),
-            "direction_let_slip" => spread(&self.let_slip[1]),
+            "direction" => also(spread(&self.direction), &self.slip_state[1]),
+            "law_error_let_slip" => spread(&self.slip_state[0]),
+            "direction_let_slip" => spread(&self.slip_state[1]),
             "wrong_direction" => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));

@@ -38,7 +38,7 @@ pub(crate) struct Judged {
     /// |s| above the threshold.
     pub slips: bool,
     /// Whether the algorithm lets it slip.
-    pub let_slip: bool,
+    pub slip_state: bool,
     /// mu(|s|) of the law; with state the law's coefficient made again.
     pub mu_law: Option<f64>,
     /// p_f/(mu p_n) - 1 with that coefficient where it slips.
@@ -98,7 +98,7 @@ impl Judge {
             relative_speed: speed / self.slip_speed,
             ratio,
             slips,
-            let_slip: node.state == Some(2),
+            slip_state: node.state == Some(2),
             mu_law,
             law_error,
             law_error_own,

@@ -2,7 +2,7 @@
 
 /// Where a value was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Occurrence {
     /// Row of the node in the file.
     pub node: usize,
     /// Time (s).
@@ -18,7 +18,7 @@ pub(crate) struct Spread {
     weight: f64,
     sum: f64,
     squares: f64,
-    pub worst: Option<Place>,
+    pub worst: Option<Occurrence>,
     /// Weight of the values in each bin.
     bins: Vec<f64>,
     /// The smallest size; the largest is that of the worst value.
@@ -89,7 +89,7 @@ impl Spread {
         self.record.squares += weight * value * value;
         self.record.largest = self.record.largest.max(size);
         if self.worst.is_none_or(|worst| size > worst.value.abs()) {
-            self.worst = Some(Place { node, time, value });
+            self.worst = Some(Occurrence { node, time, value });
         }
         if self.bins.is_empty() {
             self.bins = vec![0.0; BINS];

@@ -8,7 +8,7 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh::{Bar, Disk, FineZone};
-use reference::{Stiffness, Symbolic, Unknowns};
+use reference::{StiffnessMatrix, Symbolic, Unknowns};
 use solid::{Element, Material, element_stiffness};
 use statics::Supports;
 use std::time::Instant;
@@ -39,7 +39,7 @@ fn main() {
 
     let clock = Instant::now();
     let unknowns = Unknowns::new(&mesh, &supports, &[]).unwrap();
-    let stiffness = Stiffness::assemble(&mesh, &[steel; 2], &element, &unknowns).unwrap();
+    let stiffness = StiffnessMatrix::assemble(&mesh, &[steel; 2], &element, &unknowns).unwrap();
     let assembled = clock.elapsed().as_secs_f64();
     let symbolic = Symbolic::new(&stiffness).unwrap();
     let analysed = clock.elapsed().as_secs_f64();

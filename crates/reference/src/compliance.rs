@@ -1,6 +1,6 @@
 //! The compliance of a body as its contact surface feels it.
 
-use crate::sparse::{ElementStiffness, NONE, SparseError, Stiffness, Symbolic, Unknowns};
+use crate::sparse::{ElementStiffness, NONE, SparseError, StiffnessMatrix, Symbolic, Unknowns};
 use faer::Mat;
 use mesh::Mesh;
 use solid::Material;
@@ -41,7 +41,7 @@ impl SurfaceCompliance {
         nodes: &[u32],
     ) -> Result<Self, SparseError> {
         let unknowns = Unknowns::new(mesh, supports, nodes)?;
-        let stiffness = Stiffness::assemble(mesh, materials, element, &unknowns)?;
+        let stiffness = StiffnessMatrix::assemble(mesh, materials, element, &unknowns)?;
         let symbolic = Symbolic::new(&stiffness)?;
         let size = FactorSize { unknowns: unknowns.count(), entries: symbolic.entries() };
         let matrix = symbolic.factor(&stiffness, &unknowns)?.inverse_of_last(unknowns.last());

@@ -25,4 +25,4 @@ pub use influence::{Influence, InfluenceError, Point};
 pub use measures::{Ellipsoid, ellipsoid, peak_shear, stick_border, stick_fraction};
 pub use normal::{Press, PressError, Pressed, press};
 pub use rolling::{Adhesion, Rolling, RollingError};
-pub use sparse::{ElementStiffness, Factor, SparseError, Stiffness, Symbolic, Unknowns};
+pub use sparse::{ElementStiffness, Factor, SparseError, StiffnessMatrix, Symbolic, Unknowns};

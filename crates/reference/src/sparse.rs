@@ -16,7 +16,7 @@ use solid::Material;
 use statics::{Axis, Supports};
 use thiserror::Error;
 
-/// Stiffness of one hexahedron with given corners (m) and material, about the undeformed state
+/// StiffnessMatrix of one hexahedron with given corners (m) and material, about the undeformed state
 /// (N/m), by node, then by axis: [`solid::element_stiffness`] with an element's options.
 pub type ElementStiffness<'a> = dyn Fn(&[[f64; 3]; 8], &Material) -> [[f64; 24]; 24] + Sync + 'a;
 
@@ -216,13 +216,13 @@ impl Unknowns {
 }
 
 /// The upper triangle of a stiffness matrix (N/m) in compressed columns.
-pub struct Stiffness {
+pub struct StiffnessMatrix {
     columns: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
 }
 
-impl Stiffness {
+impl StiffnessMatrix {
     /// Assembles the elements of all bodies, one material per body, in the order of the mesh.
     ///
     /// # Errors
@@ -304,7 +304,7 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`SparseError::Memory`].
-    pub fn new(matrix: &Stiffness) -> Result<Self, SparseError> {
+    pub fn new(matrix: &StiffnessMatrix) -> Result<Self, SparseError> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
@@ -326,7 +326,7 @@ impl Symbolic {
     /// [`SparseError::NotPositive`], [`SparseError::Memory`].
     pub fn factor<'a>(
         &'a self,
-        matrix: &Stiffness,
+        matrix: &StiffnessMatrix,
         unknowns: &Unknowns,
     ) -> Result<Factor<'a>, SparseError> {
         let memory = SparseError::Memory { unknowns: unknowns.count };
@@ -391,7 +391,7 @@ impl Factor<'_> {
 
     /// An unknown whose pivot is nothing but the round-off of its stiffness: where a body is free
     /// to move, the sign of the last pivot is chance.
-    fn lost_pivot(&self, matrix: &Stiffness) -> Option<usize> {
+    fn lost_pivot(&self, matrix: &StiffnessMatrix) -> Option<usize> {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return None };
         let factor = SupernodalLltRef::new(symbolic, &self.values);
         (0..symbolic.n_supernodes()).find_map(|s| {

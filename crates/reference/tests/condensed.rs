@@ -3,7 +3,7 @@
 
 use mesh::{Mesh, Padded, graded_block, graded_line};
 use reference::{
-    Block, Influence, InfluenceError, Lateral, Point, Press, SparseError, Stiffness,
+    Block, Influence, InfluenceError, Lateral, Point, Press, SparseError, StiffnessMatrix,
     SurfaceCompliance, Symbolic, Unknowns, press,
 };
 use solid::{Element, Level, Material, Solid, Viscosity, element_stiffness};
@@ -26,7 +26,7 @@ fn clamped(n: usize) -> (Mesh, Supports) {
 fn the_solution_balances_the_load_in_the_kernel_of_the_dynamic_stage() {
     let (mesh, supports) = clamped(9);
     let unknowns = Unknowns::new(&mesh, &supports, &[]).unwrap();
-    let stiffness = Stiffness::assemble(&mesh, &[STEEL], &element, &unknowns).unwrap();
+    let stiffness = StiffnessMatrix::assemble(&mesh, &[STEEL], &element, &unknowns).unwrap();
     let symbolic = Symbolic::new(&stiffness).unwrap();
     let factor = symbolic.factor(&stiffness, &unknowns).unwrap();
     // Loads so small that the kernel, which is not linear, is linear to round-off.
@@ -60,9 +60,9 @@ fn one_analysis_serves_matrices_of_the_same_pattern() {
     let unknowns = Unknowns::new(&mesh, &supports, &[]).unwrap();
     let soft = Material { young: 70e9, ..STEEL };
     let [a, b] =
-        [STEEL, soft].map(|m| Stiffness::assemble(&mesh, &[m], &element, &unknowns).unwrap());
+        [STEEL, soft].map(|m| StiffnessMatrix::assemble(&mesh, &[m], &element, &unknowns).unwrap());
     let symbolic = Symbolic::new(&a).unwrap();
-    let solve = |k: &Stiffness| {
+    let solve = |k: &StiffnessMatrix| {
         let mut x = vec![1.0; unknowns.count()];
         symbolic.factor(k, &unknowns).unwrap().solve(&mut x, 1).unwrap();
         x
@@ -78,7 +78,7 @@ fn the_condensed_compliance_is_the_block_of_the_inverse() {
     let nodes: Vec<u32> = mesh.bodies[0].node_sets["z+"].iter().copied().step_by(3).collect();
     let compliance = SurfaceCompliance::new(&mesh, &[STEEL], &element, &supports, &nodes).unwrap();
     let unknowns = Unknowns::new(&mesh, &supports, &[]).unwrap();
-    let stiffness = Stiffness::assemble(&mesh, &[STEEL], &element, &unknowns).unwrap();
+    let stiffness = StiffnessMatrix::assemble(&mesh, &[STEEL], &element, &unknowns).unwrap();
     let symbolic = Symbolic::new(&stiffness).unwrap();
     let factor = symbolic.factor(&stiffness, &unknowns).unwrap();
     let scale = compliance.block(0, 0)[2][2];
@@ -132,7 +132,7 @@ fn a_body_that_floats_is_named() {
     let both = mesh::join(&[block, other]);
     for last in [vec![], supports.held.clone(), vec![both.nodes.len() as u32 - 1]] {
         let unknowns = Unknowns::new(&both, &supports, &last).unwrap();
-        let stiffness = Stiffness::assemble(&both, &[STEEL; 2], &element, &unknowns).unwrap();
+        let stiffness = StiffnessMatrix::assemble(&both, &[STEEL; 2], &element, &unknowns).unwrap();
         match Symbolic::new(&stiffness).unwrap().factor(&stiffness, &unknowns).err() {
             Some(SparseError::NotPositive { node, .. }) => {
                 assert!(both.bodies[1].nodes.contains(&node), "{node}");

@@ -16,7 +16,7 @@ pub struct Characteristics {
 
 /// A row: parameters, computed values, printed values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct TableRow {
     /// Mass (kg).
     pub mass: f64,
     /// Damping (N s/m).
@@ -37,11 +37,11 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tables {
     /// Implicit, refinement of the time step.
-    pub table2: Vec<Row>,
+    pub table2: Vec<TableRow>,
     /// Implicit, mass and damping.
-    pub table3: Vec<Row>,
+    pub table3: Vec<TableRow>,
     /// Explicit, refinement of the time step.
-    pub table4: Vec<Row>,
+    pub table4: Vec<TableRow>,
 }
 
 /// mass, damping, dt, and the printed x_min, x_max, v_max.
@@ -92,10 +92,10 @@ pub fn tables() -> Result<Tables, BlowUp> {
 fn compute(
     &[mass, damping, dt, x_min, x_max, v_max]: &Printed,
     method: Method,
-) -> Result<Row, BlowUp> {
+) -> Result<TableRow, BlowUp> {
     let p = Parameters { mass, damping, dt, ..Parameters::default() };
     let out = run(&p, method, unobserved)?;
-    Ok(Row {
+    Ok(TableRow {
         mass,
         damping,
         dt,
@@ -109,7 +109,7 @@ fn compute(
 mod tests {
     use super::*;
 
-    fn largest_difference(row: &Row) -> [f64; 2] {
+    fn largest_difference(row: &TableRow) -> [f64; 2] {
         let (a, b) = (row.computed, row.paper);
         [(a.x_min - b.x_min).abs().max((a.x_max - b.x_max).abs()), (a.v_max - b.v_max).abs()]
     }

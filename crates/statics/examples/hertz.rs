@@ -9,7 +9,8 @@
 #![allow(clippy::unwrap_used)]
 
 use contact::{
-    BodyMaterial, ExactSettings, GapFunction, PenaltyContact, PenaltySettings, Rows, Stiffness,
+    BodyMaterial, ExactSettings, GapFunction, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    Rows,
 };
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Padded};
@@ -63,8 +64,8 @@ fn main() {
         let mut solid =
             Solid::new(&mesh, &[steel; 2], element, Viscosity::default(), Level::detect()).unwrap();
         let settings = PenaltySettings {
-            normal: Stiffness::Scale(factor),
-            tangential: Stiffness::Scale(factor),
+            normal: PenaltyStiffness::Scale(factor),
+            tangential: PenaltyStiffness::Scale(factor),
             damping: 0.0,
             curvature: true,
         };

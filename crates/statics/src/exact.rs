@@ -8,7 +8,7 @@
 use crate::error::StaticsError;
 use crate::link::Link;
 use crate::newton::forcing;
-use crate::problem::{Ending, Equilibrium, Iteration, Report};
+use crate::problem::{Ending, Equilibrium, Iteration, NewtonReport};
 use crate::system::{System, moved};
 use contact::{Gap, GapFunction};
 use mesh::Padded;
@@ -81,8 +81,13 @@ pub(crate) fn solve(
         if found || stalled {
             system.is_pressed(&at, &force)?;
             let ending = if found { Ending::Tolerance } else { Ending::RoundOff };
-            let report =
-                Report { last: at, cg_iterations: total, ending, facets: 0.0, internal: energy };
+            let report = NewtonReport {
+                last: at,
+                cg_iterations: total,
+                ending,
+                facets: 0.0,
+                internal: energy,
+            };
             return Ok(Equilibrium { displacement: u, force: r, pressed, report });
         }
         if at.iteration >= system.problem.max_iterations || at.residual.is_nan() {

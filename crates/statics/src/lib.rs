@@ -21,6 +21,6 @@ mod supports;
 mod system;
 
 pub use error::StaticsError;
-pub use problem::{Contact, Ending, Equilibrium, Iteration, Problem, Report, Spin};
+pub use problem::{Contact, Ending, Equilibrium, Iteration, NewtonReport, Problem, Spin};
 pub use solve::solve;
 pub use supports::{Axis, Supports, Tied};

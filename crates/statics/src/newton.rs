@@ -2,7 +2,7 @@
 
 use crate::error::StaticsError;
 use crate::link::Link;
-use crate::problem::{Ending, Equilibrium, Iteration, Report};
+use crate::problem::{Ending, Equilibrium, Iteration, NewtonReport};
 use crate::springs::{Pressed, Springs};
 use crate::system::{System, moved};
 use mesh::Padded;
@@ -72,8 +72,13 @@ pub(crate) fn solve(
             if same {
                 let facets = system.space.norm(&force) / system.scale(&force);
                 let facets = if held { facets } else { 0.0 };
-                let report =
-                    Report { last: at, cg_iterations: total, ending, facets, internal: energy };
+                let report = NewtonReport {
+                    last: at,
+                    cg_iterations: total,
+                    ending,
+                    facets,
+                    internal: energy,
+                };
                 return Ok(Equilibrium { displacement: u, force, pressed: Vec::new(), report });
             }
             before = f64::INFINITY;

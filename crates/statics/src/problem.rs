@@ -80,7 +80,7 @@ pub enum Ending {
 
 /// How the solution went.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Report {
+pub struct NewtonReport {
     /// The last state.
     pub last: Iteration,
     /// Conjugate-gradient iterations in all.
@@ -106,5 +106,5 @@ pub struct Equilibrium {
     /// Slaves under pressure by [`Contact::Multipliers`], ascending by node: gap and normal force (N).
     pub pressed: Vec<(contact::Gap, f64)>,
     /// How it went.
-    pub report: Report,
+    pub report: NewtonReport,
 }

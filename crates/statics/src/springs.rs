@@ -15,13 +15,13 @@ pub(crate) struct Pressed {
 
 /// Springs (N/m) with their projections and normals as they were at the displacements `at`, where the gaps
 /// were `gaps` (m).
-struct Held {
+struct HeldSprings {
     springs: Vec<(Link, f64)>,
     gaps: Vec<f64>,
     at: Vec<Padded>,
 }
 
-impl Held {
+impl HeldSprings {
     /// Each spring, its stiffness (N/m) and its gap (m) at `u`.
     fn at<'a>(&'a self, u: &'a [Padded]) -> impl Iterator<Item = (&'a (Link, f64), f64)> + 'a {
         self.springs.iter().zip(&self.gaps).map(move |(spring, gap)| {
@@ -34,7 +34,7 @@ impl Held {
 pub(crate) struct Springs<'a> {
     contact: Option<&'a mut PenaltyContact>,
     /// Projections and normals that are held.
-    held: Option<Held>,
+    held: Option<HeldSprings>,
 }
 
 impl<'a> Springs<'a> {
@@ -81,7 +81,7 @@ impl<'a> Springs<'a> {
     pub(crate) fn hold(&mut self, u: &[Padded]) {
         let springs = self.contact.iter().flat_map(|c| c.springs());
         let (springs, gaps) = springs.map(|(g, k)| ((Link::new(&g), k), g.gap)).unzip();
-        self.held = Some(Held { springs, gaps, at: u.to_vec() });
+        self.held = Some(HeldSprings { springs, gaps, at: u.to_vec() });
     }
 
     /// Whether projections and normals are held.

@@ -29,7 +29,7 @@ use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use crate::waves::slender;
-use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use dynamics::Simulation;
 use friction::Coulomb;
 use mesh::Padded;
@@ -115,8 +115,8 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
     let mesh = mesh::join(&[left, right]);
     let h = LENGTH / n as f64;
     let settings = PenaltySettings {
-        normal: Stiffness::Scale(1.0),
-        tangential: Stiffness::Scale(1.0),
+        normal: PenaltyStiffness::Scale(1.0),
+        tangential: PenaltyStiffness::Scale(1.0),
         damping: 0.0,
         curvature: false,
     };

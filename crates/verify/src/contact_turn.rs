@@ -12,14 +12,14 @@
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Motion, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{Motion, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use friction::Coulomb;
 use mesh::{Disk, FineZone, Mesh, Padded, Surface};
 use std::f64::consts::TAU;
 
 const SETTINGS: PenaltySettings = PenaltySettings {
-    normal: Stiffness::Scale(1.0),
-    tangential: Stiffness::Scale(1.0),
+    normal: PenaltyStiffness::Scale(1.0),
+    tangential: PenaltyStiffness::Scale(1.0),
     damping: 0.0,
     curvature: true,
 };

@@ -27,7 +27,7 @@ use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Stiffness};
+use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use dynamics::{Fixed, Setup, Simulation};
 use friction::{Exponential, FrictionLaw, Implicit, Lagged, NodeFriction};
 use mesh::Padded;
@@ -207,8 +207,8 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
         }
         Interface::Penalty { k, finer } => {
             let settings = PenaltySettings {
-                normal: Stiffness::Areal(k),
-                tangential: Stiffness::Areal(k),
+                normal: PenaltyStiffness::Areal(k),
+                tangential: PenaltyStiffness::Areal(k),
                 damping: 0.1,
                 curvature: false,
             };

@@ -8,7 +8,7 @@ const SOURCE: &str = "Vollebregt (2017), Tables 2 to 4";
 
 pub(crate) fn run(_: Size) -> Outcome {
     let tables = tables()?;
-    let printed = |row: &tables::Row, limits: [f64; 2], from: &str, table: u8| {
+    let printed = |row: &tables::TableRow, limits: [f64; 2], from: &str, table: u8| {
         let (a, b) = (row.computed, row.paper);
         let what = format!("m {} c {} dt {:e}", row.mass, row.damping, row.dt);
         let named = |name: &str| format!("Table {table}, {what}: {name}");

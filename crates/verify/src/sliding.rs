@@ -35,8 +35,8 @@ use crate::body::{STEEL, at_rest, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
-    BodyMaterial, Contact, ExactContact, ExactSettings, PenaltyContact, PenaltySettings, Rows,
-    Stiffness,
+    BodyMaterial, Contact, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
+    PenaltyStiffness, Rows,
 };
 use dynamics::{Load, Setup, Simulation};
 use friction::Coulomb;
@@ -346,8 +346,8 @@ fn setup(
     mu: f64,
 ) -> Result<(Setup, PenaltyContact), Cause> {
     let settings = PenaltySettings {
-        normal: Stiffness::Areal(SPRING),
-        tangential: Stiffness::Areal(SPRING),
+        normal: PenaltyStiffness::Areal(SPRING),
+        tangential: PenaltyStiffness::Areal(SPRING),
         damping,
         curvature: false,
     };

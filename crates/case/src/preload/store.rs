@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::{Preloaded, Report};
+use super::{PreloadReport, Preloaded};
 use crate::model::Model;
 use crate::run_error::RunError;
 use crate::schema::{Case, PreloadMethod, Stiffness};
@@ -44,7 +44,7 @@ type Say<'a> = dyn FnMut(&str) -> Result<(), RunError> + Send + 'a;
 struct Header {
     hash: String,
     nodes: usize,
-    report: Report,
+    report: PreloadReport,
     loads: [Vec<(u32, f64)>; 2],
 }
 
@@ -95,7 +95,7 @@ pub(crate) fn kept(
     let path = folder.join(format!("{key}.preload"));
     let unwritable = |cause| RunError::Text { path: folder.to_path_buf(), cause };
     fs::create_dir_all(folder).map_err(unwritable)?;
-    // Held to the end of this function; a system without locks costs a second computation at most.
+    // FolderLock to the end of this function; a system without locks costs a second computation at most.
     let _lock = lock(&folder.join(format!("{key}.lock")), stop);
     match read(&path, &key, model.mesh.nodes.len()) {
         Ok(Some(preloaded)) => {

@@ -2,12 +2,12 @@
 
 use super::options::RunOptions;
 use crate::folder::{self, Content};
-use crate::held::Held;
+use crate::held::FolderLock;
 use crate::load::inputs;
 use crate::log::Log;
 use crate::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 use crate::model::Model;
-use crate::resume::{self, Origin, Point};
+use crate::resume::{self, Point, ResumeFrom};
 use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::text_file::write_text;
@@ -16,7 +16,7 @@ use output::layout::file;
 /// A run about to begin, or to go on.
 pub(super) struct Opened {
     /// Its folder.
-    pub(super) held: Held,
+    pub(super) held: FolderLock,
     pub(super) log: Log,
     pub(super) model: Model,
     /// Where it goes on, if it does not begin.
@@ -37,9 +37,9 @@ pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunErro
     let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
     let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
     let (point, why) = match origin(case, options)? {
-        Some(Origin::Complete(summary)) => return Ok(Opening::Complete(summary)),
-        Some(Origin::Checkpoint(point)) => (Some(*point), None),
-        Some(Origin::Beginning(why)) => (None, Some(why)),
+        Some(ResumeFrom::Complete(summary)) => return Ok(Opening::Complete(summary)),
+        Some(ResumeFrom::Checkpoint(point)) => (Some(*point), None),
+        Some(ResumeFrom::Beginning(why)) => (None, Some(why)),
         None => (None, None),
     };
     let replaces = options.force || why.is_some();
@@ -102,13 +102,13 @@ fn tell(
 }
 
 /// Where a run that is to be resumed goes on; none for one that begins.
-fn origin(case: &Case, options: &RunOptions) -> Result<Option<Origin>, RunError> {
+fn origin(case: &Case, options: &RunOptions) -> Result<Option<ResumeFrom>, RunError> {
     if !options.resume {
         return Ok(None);
     }
     match resume::origin(case, &options.out) {
         Ok(origin) => Ok(Some(origin)),
-        Err(error) if options.force => Ok(Some(Origin::Beginning(error.to_string()))),
+        Err(error) if options.force => Ok(Some(ResumeFrom::Beginning(error.to_string()))),
         Err(error) => Err(error.into()),
     }
 }

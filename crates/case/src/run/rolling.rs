@@ -3,10 +3,10 @@
 use super::options::RunOptions;
 use crate::checkpoint::{Clock, State};
 use crate::guards::READING;
-use crate::held::Held;
+use crate::held::FolderLock;
 use crate::means::Means;
 use crate::progress::{Progress, Stage};
-use crate::record::{Basis, Recorder};
+use crate::record::{Recorder, RunIdentity};
 use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::Case;
@@ -23,7 +23,7 @@ const WATCHED: u64 = 64;
 pub(super) struct Rolling<'a> {
     case: &'a Case,
     facts: &'a Facts,
-    held: &'a Held,
+    held: &'a FolderLock,
     simulation: Simulation,
     recorder: Recorder,
     /// The last energies read.
@@ -63,7 +63,7 @@ impl<'a> Rolling<'a> {
     pub(super) fn new(
         case: &'a Case,
         facts: &'a Facts,
-        held: &'a Held,
+        held: &'a FolderLock,
         simulation: Simulation,
         recorder: Recorder,
         wall: Instant,
@@ -91,7 +91,7 @@ impl<'a> Rolling<'a> {
     pub(super) fn roll(
         &mut self,
         options: &RunOptions,
-        basis: &Basis<'_>,
+        basis: &RunIdentity<'_>,
         stop: &AtomicBool,
         observe: &mut (dyn FnMut(&Progress) + Send),
     ) -> Result<Stopped, RunError> {
@@ -128,7 +128,7 @@ impl<'a> Rolling<'a> {
     }
 
     /// Keeps a checkpoint.
-    fn keep(&mut self, basis: &Basis<'_>) -> Result<(), RunError> {
+    fn keep(&mut self, basis: &RunIdentity<'_>) -> Result<(), RunError> {
         let begun = Instant::now();
         self.held.prove()?;
         let state = State {

@@ -267,7 +267,7 @@ fn what_a_kill_leaves_before_the_case_is_written_is_free_for_the_next_run() {
         left[..count].iter().for_each(|name| fs::write(out.join(name), "x").unwrap());
         let case = read(SHORT).unwrap();
         let origin = crate::resume::origin(&case, out);
-        assert!(matches!(origin, Ok(crate::resume::Origin::Beginning(_))), "{count}");
+        assert!(matches!(origin, Ok(crate::resume::ResumeFrom::Beginning(_))), "{count}");
         folder::prepare(out, false, None).unwrap();
         let there = fs::read_dir(out).unwrap().map(|entry| entry.unwrap().file_name());
         assert_eq!(there.collect::<Vec<_>>(), ["run.lock"]);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use slider::tables::{Row, Tables};
+use slider::tables::{TableRow, Tables};
 use slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
 
 /// One run.
@@ -100,7 +100,7 @@ pub fn tables(tables: &Tables) -> String {
     page
 }
 
-fn table_line(page: &mut String, row: &Row) {
+fn table_line(page: &mut String, row: &TableRow) {
     let (a, b) = (row.computed, row.paper);
     let _ = writeln!(
         page,

@@ -1,13 +1,13 @@
 //! What every enforcement keeps. A new one is tested by one line in `enforcements!` below: its name, how it is
 //! built, and over how many steps its forces turn with the bodies.
 
-use crate::enforcement::Trial;
+use crate::enforcement::FreeMotion;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::tests::K;
 use crate::vector::{Vec3, add, axpy, cross, norm, sub};
 use crate::{
     Contact, ContactSums, ExactContact, ExactSettings, Motion, NodalContact, PenaltyContact,
-    PenaltySettings, Rows, Stiffness,
+    PenaltySettings, PenaltyStiffness, Rows,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
@@ -20,8 +20,8 @@ type Build = fn(&Mesh, [&Surface; 2]) -> Box<dyn Contact>;
 
 fn penalty(mesh: &Mesh, [a, b]: [&Surface; 2]) -> Box<dyn Contact> {
     let settings = PenaltySettings {
-        normal: Stiffness::Areal(K),
-        tangential: Stiffness::Areal(0.7 * K),
+        normal: PenaltyStiffness::Areal(K),
+        tangential: PenaltyStiffness::Areal(0.7 * K),
         damping: 0.1,
         curvature: true,
     };
@@ -131,12 +131,12 @@ impl Masses {
             dt: Self::DT,
         };
         let (velocity, rate) = (&self.velocity, &self.inverse_mass);
-        let trial = Trial {
+        let free_motion = FreeMotion {
             velocity: &|n, f| axpy(velocity[n as usize].xyz(), Self::DT * rate[n as usize], f),
             inverse_mass: rate,
         };
         self.contact.follow(&motion);
-        let sums = self.contact.apply(&motion, &trial, &mut self.force);
+        let sums = self.contact.apply(&motion, &free_motion, &mut self.force);
         for i in 0..self.force.len() {
             let kick = Self::DT * self.inverse_mass[i];
             self.velocity[i] = Padded::new(axpy(self.velocity[i].xyz(), kick, self.force[i].xyz()));

@@ -1,4 +1,4 @@
-use crate::enforcement::Trial;
+use crate::enforcement::FreeMotion;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
 use crate::{Contact, ContactSums, ExactContact, ExactSettings, Motion, NodalContact, Rows};
@@ -70,12 +70,12 @@ impl Masses {
             dt: self.dt,
         };
         let (velocity, pace) = (&self.velocity, &self.inverse_mass);
-        let trial = Trial {
+        let free_motion = FreeMotion {
             velocity: &|n, f| axpy(velocity[n as usize].xyz(), self.dt * pace[n as usize], f),
             inverse_mass: pace,
         };
         self.contact.follow(&motion);
-        let sums = self.contact.apply(&motion, &trial, &mut self.force);
+        let sums = self.contact.apply(&motion, &free_motion, &mut self.force);
         for i in 0..self.force.len() {
             let v =
                 axpy(self.velocity[i].xyz(), self.dt * self.inverse_mass[i], self.force[i].xyz());

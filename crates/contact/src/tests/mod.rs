@@ -10,7 +10,7 @@ mod slip;
 
 use crate::plates::{STEEL, plate, together};
 use crate::vector::{Vec3, add, sub};
-use crate::{ContactSums, Motion, PenaltyContact, PenaltySettings, Stiffness};
+use crate::{ContactSums, Motion, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use friction::NodeFriction;
 use mesh::{Mesh, Padded, Surface};
 
@@ -18,8 +18,8 @@ use mesh::{Mesh, Padded, Surface};
 pub(crate) const K: f64 = 2e13;
 
 pub(crate) const SETTINGS: PenaltySettings = PenaltySettings {
-    normal: Stiffness::Areal(K),
-    tangential: Stiffness::Areal(0.7 * K),
+    normal: PenaltyStiffness::Areal(K),
+    tangential: PenaltyStiffness::Areal(0.7 * K),
     damping: 0.0,
     curvature: true,
 };

@@ -13,14 +13,14 @@ pub(crate) struct SweepMeasure {
     /// From SI.
     pub factor: f64,
     /// Where a run's entry holds it, the first that is there.
-    places: &'static [Place],
+    places: &'static [Source],
     /// Whether the table of runs shows it.
     pub in_table: bool,
 }
 
 /// Pointers to a value, to half the width of its confidence interval (the first that is there), and to its deviation
 /// over the window.
-type Place = (&'static str, &'static [&'static str], &'static str);
+type Source = (&'static str, &'static [&'static str], &'static str);
 
 /// A measure of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,12 +49,12 @@ const fn measure(
     unit: &'static str,
     factor: f64,
     in_table: bool,
-    places: &'static [Place],
+    places: &'static [Source],
 ) -> SweepMeasure {
     SweepMeasure { name, unit, factor, places, in_table }
 }
 
-/// Place of a measure of the contact conditions.
+/// Source of a measure of the contact conditions.
 macro_rules! metric {
     ($name:literal) => {
         (
@@ -65,7 +65,7 @@ macro_rules! metric {
     };
 }
 
-/// Place of a patch measure.
+/// Source of a patch measure.
 macro_rules! patch {
     ($name:literal) => {
         (
@@ -94,7 +94,7 @@ macro_rules! mean {
     };
 }
 
-/// Place of a statistic of the slip zone.
+/// Source of a statistic of the slip zone.
 macro_rules! slip_zone {
     ($name:literal) => {
         (
@@ -154,7 +154,7 @@ impl SweepMeasure {
         let number = |pointer: &str| {
             run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
         };
-        let whole = |place: &&Place| run.completed() || place.0.starts_with("/check/metrics/");
+        let whole = |place: &&Source| run.completed() || place.0.starts_with("/check/metrics/");
         self.places.iter().filter(whole).find_map(|(value, halves, deviation)| {
             let scaled = |pointer: &str| number(pointer).map(|number| self.factor * number);
             let half = halves.iter().find_map(|place| scaled(place));
