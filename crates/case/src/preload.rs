@@ -15,7 +15,7 @@ use mesh::Padded;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use solid::Solid;
-use statics::{Axis, Contact, Ending, Problem, Spin, Supports, Tied};
+use statics::{Axis, Contact, Ending, Iteration, Problem, Spin, Supports, Tied};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -143,33 +143,34 @@ pub(crate) struct Preloaded {
     pub(crate) loads: [Vec<(u32, f64)>; 2],
 }
 
+/// What the preload of a case acts on.
+pub(crate) struct Bodies<'a> {
+    pub(crate) case: &'a Case,
+    pub(crate) model: &'a Model,
+    pub(crate) solid: &'a mut Solid,
+    /// What penalty springs that are a fraction of the stability limit are a fraction of.
+    pub(crate) scale: StabilityScale,
+    pub(crate) hub: &'a Hub,
+    /// Nodes that do not move.
+    pub(crate) held: &'a [u32],
+}
+
 /// The preload of a case. Says how Newton's iterations go.
 pub(crate) fn preload(
-    case: &Case,
-    model: &Model,
-    solid: &mut Solid,
-    scale: StabilityScale,
-    hub: &Hub,
-    held: &[u32],
+    mut bodies: Bodies<'_>,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
     say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
 ) -> Result<Preloaded, RunError> {
-    let disk = model.mesh.bodies[DISK].nodes.clone();
-    let lowered = |by: f64| {
-        let mut u = vec![Padded::ZERO; model.mass.len()];
-        u[disk.clone()].iter_mut().for_each(|u| u[2] = -by);
-        u
-    };
+    let Bodies { case, model, .. } = bodies;
     let clock = Instant::now();
-    let most = case.preload_iterations();
     let elements = model.mesh.hexes.len() as f64;
     // `products` are evaluations of all elements.
     let mut look = |step: usize, products: usize, normal_force: f64| {
         observe(&Progress {
             stage: Stage::Preload,
             step: step as u64,
-            steps: most,
+            steps: case.preload_iterations(),
             time: 0.0,
             end_time: case.duration(),
             normal_force,
@@ -179,94 +180,116 @@ pub(crate) fn preload(
         !stop.load(Ordering::Relaxed)
     };
     match case.preload.method {
-        PreloadMethod::Static => {
-            let group = Tied {
-                nodes: hub.nodes.clone(),
-                axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-case.load.normal)],
-            };
-            let supports = Supports { held: held.to_vec(), tied: vec![group] };
-            let problem = Problem {
-                mesh: &model.mesh,
-                supports: &supports,
-                plane_strain: case.mesh.plane_strain,
-                spin: Some(Spin {
-                    centre: hub.centre,
-                    omega: spin(case),
-                    nodes: disk.clone(),
-                    mass: &model.mass,
-                    hub: 0,
-                }),
-                tolerance: case.preload_tolerance(),
-                max_iterations: most as usize,
-            };
-            let start = lowered(start_depth(case));
-            let mut products = 0;
-            let mut said = Ok(());
-            let (mut springs, mut gaps);
-            let contact = match case.contact.enforcement {
-                Enforcement::Penalty => {
-                    springs = model.penalty_contact(case, scale)?;
-                    Contact::Penalty(&mut springs)
-                }
-                Enforcement::Exact => {
-                    gaps = model.gaps(case)?;
-                    Contact::Multipliers(&mut gaps)
-                }
-            };
-            let found = statics::solve(solid, contact, &problem, &start, |now| {
-                products += now.cg_iterations + 1;
-                said = say(&format!(
-                    "preload {:2}: residual {:.1e} of the load, normal force {:.1} N, {} pairs closed, \
-                     {} iterations of conjugate gradients, step {:.2}",
-                    now.iteration,
-                    now.residual,
-                    now.normal_force,
-                    now.closed,
-                    now.cg_iterations,
-                    now.step
-                ));
-                said.is_ok() && look(now.iteration, products, now.normal_force)
-            });
-            said?;
-            let found = found.map_err(PreloadError::from)?;
-            let height = found.displacement[hub.nodes[0] as usize][2];
-            Ok(Preloaded {
-                displacement: found.displacement,
-                report: Some(PreloadReport::of_statics(&found.report, height)),
-                loads: loads_of_slaves(model.slave(), &found.pressed),
-            })
-        }
-        PreloadMethod::Relaxation => {
-            let setup = Relaxation {
-                hub,
-                load: case.load.normal,
-                held,
-                disk: disk.clone(),
-                omega: spin(case),
-                mass: &model.mass,
-                stiffness: &solid::nodal_stiffness_bounds(
-                    &model.mesh,
-                    &model.materials,
-                    model.elements(),
-                ),
-                start: -start_depth(case),
-                tolerance: case.preload_tolerance(),
-                max_iterations: most as usize,
-            };
-            let mut contact = model.penalty_contact(case, scale)?;
-            let (u, report) = dynamics::relax(solid, &mut contact, &setup, |now| {
-                look(now.iterations, now.iterations, now.normal_force)
-            })
-            .map_err(PreloadError::from)?;
-            let report = Some(PreloadReport::of_relaxation(&report));
-            Ok(Preloaded { displacement: u, report, loads: [Vec::new(), Vec::new()] })
-        }
+        PreloadMethod::Static => bodies.equilibrium(&mut look, say),
+        PreloadMethod::Relaxation => bodies.relaxed(&mut look),
         PreloadMethod::None => Ok(Preloaded {
-            displacement: lowered(-case.disk.lift),
+            displacement: bodies.lowered(-case.disk.lift),
             report: None,
             loads: [Vec::new(), Vec::new()],
         }),
     }
+}
+
+/// A look at a step, after so many evaluations of all elements, with the normal force (N); false to stop.
+type Look<'a> = dyn FnMut(usize, usize, f64) -> bool + 'a;
+
+impl Bodies<'_> {
+    /// Displacements (m) of bodies at rest with the disk lowered by `by` (m).
+    fn lowered(&self, by: f64) -> Vec<Padded> {
+        let mut u = vec![Padded::ZERO; self.model.mass.len()];
+        u[self.model.mesh.bodies[DISK].nodes.clone()].iter_mut().for_each(|u| u[2] = -by);
+        u
+    }
+
+    /// By Newton's method.
+    fn equilibrium(
+        &mut self,
+        look: &mut Look<'_>,
+        say: &mut (dyn FnMut(&str) -> Result<(), RunError> + Send),
+    ) -> Result<Preloaded, RunError> {
+        let (case, model, hub) = (self.case, self.model, self.hub);
+        let group = Tied {
+            nodes: hub.nodes.clone(),
+            axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-case.load.normal)],
+        };
+        let supports = Supports { held: self.held.to_vec(), tied: vec![group] };
+        let problem = Problem {
+            mesh: &model.mesh,
+            supports: &supports,
+            plane_strain: case.mesh.plane_strain,
+            spin: Some(Spin {
+                centre: hub.centre,
+                omega: spin(case),
+                nodes: model.mesh.bodies[DISK].nodes.clone(),
+                mass: &model.mass,
+                hub: 0,
+            }),
+            tolerance: case.preload_tolerance(),
+            max_iterations: case.preload_iterations() as usize,
+        };
+        let start = self.lowered(start_depth(case));
+        let (mut springs, mut gaps);
+        let contact = match case.contact.enforcement {
+            Enforcement::Penalty => {
+                springs = model.penalty_contact(case, self.scale)?;
+                Contact::Penalty(&mut springs)
+            }
+            Enforcement::Exact => {
+                gaps = model.gaps(case)?;
+                Contact::Multipliers(&mut gaps)
+            }
+        };
+        let mut products = 0;
+        let mut said = Ok(());
+        let found = statics::solve(self.solid, contact, &problem, &start, |now| {
+            products += now.cg_iterations + 1;
+            said = say(&line(now));
+            said.is_ok() && look(now.iteration, products, now.normal_force)
+        });
+        said?;
+        let found = found.map_err(PreloadError::from)?;
+        let height = found.displacement[hub.nodes[0] as usize][2];
+        Ok(Preloaded {
+            displacement: found.displacement,
+            report: Some(PreloadReport::of_statics(&found.report, height)),
+            loads: loads_of_slaves(model.slave(), &found.pressed),
+        })
+    }
+
+    /// By dynamic relaxation.
+    fn relaxed(&mut self, look: &mut Look<'_>) -> Result<Preloaded, RunError> {
+        let (case, model) = (self.case, self.model);
+        let stiffness =
+            solid::nodal_stiffness_bounds(&model.mesh, &model.materials, model.elements());
+        let setup = Relaxation {
+            hub: self.hub,
+            load: case.load.normal,
+            held: self.held,
+            disk: model.mesh.bodies[DISK].nodes.clone(),
+            omega: spin(case),
+            mass: &model.mass,
+            stiffness: &stiffness,
+            start: -start_depth(case),
+            tolerance: case.preload_tolerance(),
+            max_iterations: case.preload_iterations() as usize,
+        };
+        let mut contact = model.penalty_contact(case, self.scale)?;
+        let (u, report) = dynamics::relax(self.solid, &mut contact, &setup, |now| {
+            look(now.iterations, now.iterations, now.normal_force)
+        })
+        .map_err(PreloadError::from)?;
+        let report = Some(PreloadReport::of_relaxation(&report));
+        Ok(Preloaded { displacement: u, report, loads: [Vec::new(), Vec::new()] })
+    }
+}
+
+/// The line of the log of one of Newton's iterations.
+fn line(now: &Iteration) -> String {
+    format!(
+        "preload {:2}: residual {:.1e} of the load, normal force {:.1} N, {} pairs closed, \
+         {} iterations of conjugate gradients, step {:.2}",
+        now.iteration, now.residual, now.normal_force, now.closed, now.cg_iterations, now.step
+    )
 }
 
 /// Normal forces (N) on the nodes of both sides where the slaves of exact contact bear `pressed`.

@@ -4,7 +4,7 @@ use crate::disturbance::disturb;
 use crate::guards::limits;
 use crate::model::{BAR, DISK, Model};
 use crate::numbers::{DimensionlessNumbers, numbers};
-use crate::preload::{self, Preloaded, preload, store};
+use crate::preload::{self, Bodies, Preloaded, preload, store};
 use crate::progress::Progress;
 use crate::run_error::RunError;
 use crate::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
@@ -135,7 +135,8 @@ fn preloaded_state(
     let mut held = model.clamped.clone();
     held.extend(quiet.nodes());
     let mut preloaded = store::kept(case, model, cache, stop, say, &mut |say| {
-        preload(case, model, &mut solid, scale, &hub, &held, stop, observe, say)
+        let bodies = Bodies { case, model, solid: &mut solid, scale, hub: &hub, held: &held };
+        preload(bodies, stop, observe, say)
     })?;
     disturb(case, model, &mut preloaded.displacement);
     for &[first, second] in &model.paired {

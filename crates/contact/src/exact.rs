@@ -353,6 +353,128 @@ impl ExactContact {
         (scale(-constraint.mu * constraint.normal_force / speed, free), State::Slip)
     }
 
+    /// Takes the velocities without contact of the nodes of a constraint, its own block of the Delassus
+    /// operator, and what the law is told of the last step. Returns whether there is anything to enforce.
+    fn free(
+        &mut self,
+        constraint: &mut Constraint,
+        free_motion: &FreeMotion<'_>,
+        force: &[Padded],
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> bool {
+        let own = self.slave;
+        self.release(own, constraint.slave, free_motion, force, motion.dt);
+        constraint.enforcement.delassus = self.pace[own][constraint.slave as usize];
+        for k in constraint.legs() {
+            let Leg { node, weight, .. } = self.legs[k];
+            self.release(1 - own, node, free_motion, force, motion.dt);
+            constraint.enforcement.delassus += weight * weight * self.pace[1 - own][node as usize];
+        }
+        // both ends held: nothing to enforce
+        if constraint.enforcement.delassus == 0.0 {
+            constraint.open();
+            return false;
+        }
+        let at = self.at(constraint, positions, motion);
+        if constraint.is_closed() {
+            self.slid.push(constraint.slid(at));
+        } else {
+            constraint.memory = self.law.begin(&at);
+        }
+        true
+    }
+
+    /// Advances the law's state of the constraints that were closed.
+    fn remember(&mut self, constraints: &mut [Constraint], active: &[u32], dt: f64) {
+        self.law.advance_all(&mut self.slid, dt);
+        let mut advanced = self.slid.iter();
+        for &i in active {
+            let constraint = &mut constraints[i as usize];
+            // those of `slid`, in the same order
+            if constraint.is_closed()
+                && let Some(slid) = advanced.next()
+            {
+                constraint.memory = slid.state;
+            }
+        }
+    }
+
+    /// Sweeps over the constraints until no force changes; returns how many.
+    fn gauss_seidel(
+        &mut self,
+        constraints: &mut [Constraint],
+        active: &[u32],
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> usize {
+        for sweep in 1..=SWEEPS {
+            let (mut change, mut size) = (0.0_f64, 0.0_f64);
+            for &i in active {
+                let constraint = &mut constraints[i as usize];
+                let [changed, force] = self.gauss_seidel_update(constraint, positions, motion);
+                if sweep > SETTLED {
+                    constraint.enforcement.slipped = constraint.state == State::Slip;
+                }
+                change = change.max(changed);
+                size = size.max(force);
+            }
+            // NaN ends the sweeps too
+            let goes_on = change > TOLERANCE * size;
+            if !goes_on {
+                return sweep;
+            }
+        }
+        SWEEPS
+    }
+
+    /// Adds the forces of a closed constraint to `force`, and what they do to `sums`.
+    fn load(
+        &self,
+        constraint: &mut Constraint,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+        force: &mut [Padded],
+        sums: &mut Accumulator,
+    ) {
+        let own = self.slave;
+        let (opening, slip) = self.rates(constraint);
+        let before = self.rates_of(constraint, motion);
+        // the trapezoidal work of the force, in halves around t^n
+        let work = |(opening, slip): (f64, Vec3)| {
+            0.5 * motion.dt * (constraint.normal_force * opening + dot(constraint.friction, slip))
+        };
+        // round-off of a node that sticks is no friction
+        let slips = constraint.state == State::Slip;
+        let heat = if slips { -motion.dt * dot(constraint.friction, slip) } else { 0.0 };
+        sums.friction_ahead.add(heat);
+        sums.damping_work.add(-work(before));
+        sums.damping_ahead.add(-(work((opening, slip)) + heat));
+
+        let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
+        let node = self.sides[own].nodes[constraint.slave as usize];
+        add_to(&mut force[node as usize], on_slave);
+        sums.push(own, on_slave);
+        let mut on_masters = [0.0; 3];
+        for leg in &self.legs[constraint.legs()] {
+            let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
+            let node = self.sides[1 - own].nodes[leg.node as usize];
+            add_to(&mut force[node as usize], on_leg);
+            on_masters = add(on_masters, on_leg);
+        }
+        sums.push(1 - own, on_masters);
+        constraint.keep_in(constraint.enforcement.frame);
+        constraint.slip_velocity = slip;
+        constraint.slip = axpy(constraint.slip, motion.dt, slip);
+        sums.normal_force.add(constraint.normal_force);
+        sums.meet(constraint.mu);
+        let other = &mut sums.other;
+        other.closed += 1;
+        other.slipping += usize::from(constraint.state == State::Slip);
+        other.max_penetration = other.max_penetration.max(-constraint.gap);
+        other.non_unique += usize::from(self.is_non_unique(constraint, positions, motion));
+    }
+
     /// Whether friction at a constraint has more than one solution.
     fn is_non_unique(
         &self,
@@ -427,48 +549,15 @@ impl Contact for ExactContact {
         let positions =
             Positions { reference: motion.reference, displacement: motion.displacement };
         let mut sums = Accumulator::new(self.searched);
-        let own = self.slave;
-        let mut constraints = std::mem::take(&mut self.constraints[own]);
+        let mut constraints = std::mem::take(&mut self.constraints[self.slave]);
         let mut active = std::mem::take(&mut self.active);
         self.slid.clear();
         self.now += 1;
-
-        // velocities without contact, and what the law is told of the last step
         active.retain(|&i| {
             let constraint = &mut constraints[i as usize];
-            self.release(own, constraint.slave, free_motion, force, motion.dt);
-            constraint.enforcement.delassus = self.pace[own][constraint.slave as usize];
-            for k in constraint.legs() {
-                let Leg { node, weight, .. } = self.legs[k];
-                self.release(1 - own, node, free_motion, force, motion.dt);
-                constraint.enforcement.delassus +=
-                    weight * weight * self.pace[1 - own][node as usize];
-            }
-            // both ends held: nothing to enforce
-            if constraint.enforcement.delassus == 0.0 {
-                constraint.open();
-                return false;
-            }
-            let at = self.at(constraint, &positions, motion);
-            if constraint.is_closed() {
-                self.slid.push(constraint.slid(at));
-            } else {
-                constraint.memory = self.law.begin(&at);
-            }
-            true
+            self.free(constraint, free_motion, force, &positions, motion)
         });
-        self.law.advance_all(&mut self.slid, motion.dt);
-        let mut advanced = self.slid.iter();
-        for &i in &active {
-            let constraint = &mut constraints[i as usize];
-            // those of `slid`, in the same order
-            if constraint.is_closed()
-                && let Some(slid) = advanced.next()
-            {
-                constraint.memory = slid.state;
-            }
-        }
-        sums.other.integrated = self.integrated;
+        self.remember(&mut constraints, &active, motion.dt);
         // Only now: all velocities are free ones.
         for &i in &active {
             let constraint = &constraints[i as usize];
@@ -476,70 +565,17 @@ impl Contact for ExactContact {
                 self.push(constraint, constraint.normal_force, constraint.friction);
             }
         }
-
-        for _ in 0..SWEEPS {
-            sums.other.sweeps += 1;
-            let (mut change, mut size) = (0.0_f64, 0.0_f64);
-            for &i in &active {
-                let constraint = &mut constraints[i as usize];
-                let [changed, force] = self.gauss_seidel_update(constraint, &positions, motion);
-                if sums.other.sweeps > SETTLED {
-                    constraint.enforcement.slipped = constraint.state == State::Slip;
-                }
-                change = change.max(changed);
-                size = size.max(force);
-            }
-            // NaN ends the sweeps too
-            let goes_on = change > TOLERANCE * size;
-            if !goes_on {
-                break;
-            }
-        }
-
+        sums.other.integrated = self.integrated;
+        sums.other.sweeps = self.gauss_seidel(&mut constraints, &active, &positions, motion);
         for &i in &active {
             let constraint = &mut constraints[i as usize];
-            if !constraint.is_closed() {
+            if constraint.is_closed() {
+                self.load(constraint, &positions, motion, force, &mut sums);
+            } else {
                 constraint.open();
-                continue;
             }
-            let (opening, slip) = self.rates(constraint);
-            let before = self.rates_of(constraint, motion);
-            // the trapezoidal work of the force, in halves around t^n
-            let work = |(opening, slip): (f64, Vec3)| {
-                0.5 * motion.dt
-                    * (constraint.normal_force * opening + dot(constraint.friction, slip))
-            };
-            // round-off of a node that sticks is no friction
-            let slips = constraint.state == State::Slip;
-            let heat = if slips { -motion.dt * dot(constraint.friction, slip) } else { 0.0 };
-            sums.friction_ahead.add(heat);
-            sums.damping_work.add(-work(before));
-            sums.damping_ahead.add(-(work((opening, slip)) + heat));
-
-            let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
-            let node = self.sides[own].nodes[constraint.slave as usize];
-            add_to(&mut force[node as usize], on_slave);
-            sums.push(own, on_slave);
-            let mut on_masters = [0.0; 3];
-            for leg in &self.legs[constraint.legs()] {
-                let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
-                let node = self.sides[1 - own].nodes[leg.node as usize];
-                add_to(&mut force[node as usize], on_leg);
-                on_masters = add(on_masters, on_leg);
-            }
-            sums.push(1 - own, on_masters);
-            constraint.keep_in(constraint.enforcement.frame);
-            constraint.slip_velocity = slip;
-            constraint.slip = axpy(constraint.slip, motion.dt, slip);
-            sums.normal_force.add(constraint.normal_force);
-            sums.meet(constraint.mu);
-            let other = &mut sums.other;
-            other.closed += 1;
-            other.slipping += usize::from(constraint.state == State::Slip);
-            other.max_penetration = other.max_penetration.max(-constraint.gap);
-            other.non_unique += usize::from(self.is_non_unique(constraint, &positions, motion));
         }
-        self.constraints[own] = constraints;
+        self.constraints[self.slave] = constraints;
         self.active = active;
         sums.finish()
     }
