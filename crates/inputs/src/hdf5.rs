@@ -154,7 +154,8 @@ mod tests {
     #[test]
     fn the_checksums_of_the_seeds_are_found_and_put_right() {
         let counts: Vec<usize> = sums().iter().map(Vec::len).collect();
-        assert!(counts[..4].iter().all(|&count| count > 5), "{counts:?}");
+        // of the first four files the checkpoint has the fewest: two datasets and their group
+        assert!(counts[..4].iter().all(|&count| count >= 5), "{counts:?}");
         for (number, seed) in SEEDS.iter().enumerate() {
             assert_eq!(apply(&[number as u8]), *seed);
             for sum in &sums()[number] {
