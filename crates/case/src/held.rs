@@ -15,7 +15,7 @@ use files::input;
 
 use crate::folder::FolderError;
 
-/// FolderLock locked while a run is written, with the word of its holder; stays behind, empty.
+/// Held locked while a run is written, with the word of its holder; stays behind, empty.
 pub(crate) const LOCK: &str = "run.lock";
 
 /// A folder in which no other process writes a run as long as this lives.

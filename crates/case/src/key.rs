@@ -93,7 +93,7 @@ pub struct Key {
     pub remedy: &'static str,
     /// The key without which it is not used, and the words that this must be; none where any value does.
     pub only: Option<(&'static str, &'static [&'static str])>,
-    /// The key that it stands for: both are not given, and it takes the other back from the files beneath.
+    /// The key that it stands for: the two are not given together, and it takes the other back from the files beneath.
     pub instead_of: Option<&'static str>,
 }
 

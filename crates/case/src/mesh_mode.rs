@@ -48,8 +48,9 @@ impl MeshModeSums {
         let energy = self.hourglass().filter(|part| *part > HOURGLASS_LIMIT).map(|part| {
             format!(
                 "the hourglass energy of the elements below the contact is {:.0} % of their strain energy: they \
-                 deform by modes of the mesh; use element.contact_layers = \"full\"",
-                100.0 * part
+                 deform by modes of the mesh; {}",
+                100.0 * part,
+                remedy!("use element.contact_layers = \"full\"")
             )
         });
         slip.into_iter().chain(energy).collect()

@@ -1,7 +1,7 @@
 //! Surface nodes recorded at every step, in `probes.h5`.
 
 use crate::model::{BAR, DISK, Model};
-use crate::record::RunIdentity;
+use crate::record::RecordBasis;
 use crate::run_error::RunError;
 use crate::schema::Case;
 use contact::NodalContact;
@@ -25,7 +25,7 @@ impl Probes {
         case: &Case,
         model: &Model,
         simulation: &Simulation,
-        basis: &RunIdentity<'_>,
+        basis: &RecordBasis<'_>,
     ) -> Result<Option<Self>, RunError> {
         let probes = &case.output.probes;
         if probes.bar.is_empty() && probes.disk.is_empty() {

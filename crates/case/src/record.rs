@@ -82,8 +82,8 @@ impl Schedule {
     }
 }
 
-/// What the recorder needs to know beside the case.
-pub(crate) struct RunIdentity<'a> {
+/// What the files of a run rest on besides the case.
+pub(crate) struct RecordBasis<'a> {
     pub(crate) folder: &'a Path,
     pub(crate) provenance: Provenance,
     pub(crate) effective_radius: f64,
@@ -92,7 +92,7 @@ pub(crate) struct RunIdentity<'a> {
     pub(crate) keeps: Option<Results>,
 }
 
-impl RunIdentity<'_> {
+impl RecordBasis<'_> {
     fn grid(
         &self,
         name: &str,
@@ -137,7 +137,7 @@ impl Recorder {
         case: &Case,
         model: &Model,
         simulation: &Simulation,
-        basis: &RunIdentity<'_>,
+        basis: &RecordBasis<'_>,
     ) -> Result<Self, RunError> {
         let contact = simulation.contact().ok_or(RunError::NoContact)?;
         let tables = [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]));
@@ -519,7 +519,7 @@ fn centreline(points: &[[f64; 3]], size: f64) -> Vec<usize> {
 fn create_fields(
     case: &Case,
     model: &Model,
-    basis: &RunIdentity<'_>,
+    basis: &RecordBasis<'_>,
 ) -> Result<TransientGrid, RunError> {
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
     let mut specs = BODIES.each().map(FieldSpec::clone).to_vec();
@@ -544,7 +544,7 @@ fn create_contact(
     case: &Case,
     &ContactSurfaces { tables, points, faces }: &ContactSurfaces<'_>,
     enforced_on: Option<usize>,
-    basis: &RunIdentity<'_>,
+    basis: &RecordBasis<'_>,
 ) -> Result<TransientGrid, RunError> {
     let mut provenance = basis.provenance.clone();
     if let Some(side) = enforced_on {

@@ -1,6 +1,6 @@
 //! What to do about what the rooms below find wrong, in the keys of the case file.
 //!
-//! Those rooms tell what is wrong in the terms of mechanics and know no key. A text in [`remedy!`] that
+//! Those rooms tell what is wrong in the terms of mechanics and know no key. A text in `remedy!` that
 //! names a key or a section which there is not does not compile.
 
 use crate::preload::error::PreloadError;
@@ -109,7 +109,9 @@ impl Remedy for MeshError {
                 remedy!("lower mesh.zone.size, or enlarge the zone ([mesh.zone]) or disk.radius")
             }
             (Parameter::ZoneStart, _) => {
-                remedy!("move the zone (mesh.zone.start) or the bar (bar.start, bar.length)")
+                remedy!(
+                    "move the zone (mesh.zone.start) nearer to the first contact, x = 0, and onto the bar (bar.start, bar.length)"
+                )
             }
             _ => format!("lower {key}, or enlarge the body"),
         }
@@ -282,7 +284,9 @@ impl Remedy for StaticsError {
     fn remedy(&self) -> String {
         match self {
             Self::Slow { .. } | Self::Linear { .. } => {
-                remedy!("raise preload.max_iterations, or try preload.method = \"relaxation\"")
+                remedy!(
+                    "raise preload.max_iterations, or, with penalty contact, try preload.method = \"relaxation\""
+                )
             }
             Self::Inverted { .. } | Self::Flat { .. } => remedy!(
                 "lower load.normal; `creepage mesh` tells what Hertz's contact expects of it"

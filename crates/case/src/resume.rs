@@ -36,7 +36,7 @@ pub(crate) struct Point {
 }
 
 /// Where the run of `case` in `folder` goes on.
-pub(crate) fn origin(case: &Case, folder: &Path) -> Result<ResumeFrom, ResumeError> {
+pub(crate) fn resume_from(case: &Case, folder: &Path) -> Result<ResumeFrom, ResumeError> {
     let path = || folder.to_path_buf();
     match content(folder) {
         Content::Run if is_run(folder) => {}

@@ -15,7 +15,7 @@ use crate::hertz::hertz;
 use crate::log::Log;
 use crate::postmortem;
 use crate::progress::{Progress, Stage};
-use crate::record::{Recorder, RunIdentity};
+use crate::record::{RecordBasis, Recorder};
 use crate::run_error::RunError;
 use crate::schema::Case;
 use crate::start::{Facts, Start};
@@ -78,7 +78,7 @@ fn run_in_pool(
     };
     observe(&stage(case, Stage::Mesh));
     let (start, resumed) = match begin(case, options, &mut opened, wall, stop, observe)? {
-        Begun::Refused(document) => return Ok(document),
+        Begun::NotPreloaded(document) => return Ok(document),
         Begun::Rolling(start, resumed) => (*start, resumed),
     };
     let Start { simulation, facts } = start;
@@ -149,14 +149,14 @@ fn tell(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<(), Run
     facts.numbers.expectation().iter().try_for_each(|line| log.warn(line))
 }
 
-/// What the files of the run rest on.
+/// What the files of the run rest on besides the case.
 fn basis<'a>(
     case: &Case,
     options: &'a RunOptions,
     facts: &Facts,
     resumed: Option<&Resumed>,
-) -> RunIdentity<'a> {
-    RunIdentity {
+) -> RecordBasis<'a> {
+    RecordBasis {
         folder: &options.out,
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),

@@ -168,12 +168,12 @@ section! {
         /// Required with `mode = "creepage"`, refused with `"torque"`.
         creepage: Option<f64>
             => needed(Number(within(-0.5, 0.5)), "-",
-                "give a plain ratio, not per cent or per mille: 2.4e-3 for 2.4 per mille")
+                "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille")
                 .only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
         /// Torque about the hub's axis (N m); positive when driving. Required with
         /// `mode = "torque"`, refused with `"creepage"`.
         torque: Option<f64>
-            => needed(Number(within(-1e7, 1e7)), "N m", "give the torque in N m")
+            => needed(Number(within(-1e7, 1e7)), "N m", "give the torque in N m: `torque = 12.9e3`")
                 .only_with("drive.mode", &["torque"]).instead_of("drive.creepage");
         /// Time over which creepage or torque rises by a smoothstep (s). Default 0.74e-3.
         #[serde(default = "Drive::default_ramp")]

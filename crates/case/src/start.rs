@@ -415,7 +415,7 @@ mod tests {
     use solid::Level;
 
     /// The preloaded bodies of the tests' small case, by element kernels of `level`.
-    fn preloaded_state_of(sets: &[&str], level: Level) -> PreloadedState {
+    fn preloaded(sets: &[&str], level: Level) -> PreloadedState {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/small.toml");
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
         let case = Case::load(&file, &sets).unwrap();
@@ -426,9 +426,9 @@ mod tests {
     }
 
     /// Of the displacement of every node and of the stable step.
-    fn bits(preloaded_state_of: &PreloadedState) -> Vec<u64> {
-        let displacement = &preloaded_state_of.preloaded.displacement;
-        let numbers = displacement.iter().flat_map(|u| u.0).chain([preloaded_state_of.limit]);
+    fn bits(state: &PreloadedState) -> Vec<u64> {
+        let displacement = &state.preloaded.displacement;
+        let numbers = displacement.iter().flat_map(|u| u.0).chain([state.limit]);
         numbers.map(f64::to_bits).collect()
     }
 
@@ -443,10 +443,10 @@ mod tests {
             &["contact.enforcement=exact", "contact.rows=mortar", "element.contact_layers=full"],
         ] {
             let [wide, plain] =
-                [Level::Avx2, Level::Fused].map(|level| bits(&preloaded_state_of(sets, level)));
+                [Level::Avx2, Level::Fused].map(|level| bits(&preloaded(sets, level)));
             assert_eq!(wide, plain, "{sets:?}");
             // a kernel that rounds in another order shows: the comparison can fail
-            assert_ne!(wide, bits(&preloaded_state_of(sets, Level::Portable)), "{sets:?}");
+            assert_ne!(wide, bits(&preloaded(sets, Level::Portable)), "{sets:?}");
         }
     }
 }

@@ -16,8 +16,8 @@ pub(crate) fn remove(path: &Path) -> Result<(), RunError> {
     }
 }
 
-/// Writes a file: under another name first, and brought to the disk: a kill or a power cut leaves the old text or the
-/// new one.
+/// Writes a TOML file under another name first and brings it to the disk: a kill or a power cut
+/// leaves the old text or the new one.
 pub(crate) fn write_text(path: PathBuf, text: &str) -> Result<(), RunError> {
     let partial = path.with_extension("toml.partial");
     let write = || {

@@ -12,7 +12,7 @@ use crate::embedded::{Embedded, Told};
 use crate::report;
 use crate::stop::Stop;
 
-// A comment for documentation would become the program's own in its help.
+// No doc comment here: clap would show it as the help of the whole program.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Print exactly one JSON document on standard output, everything else on standard error

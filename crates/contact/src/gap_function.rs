@@ -65,11 +65,6 @@ impl GapFunction {
         })
     }
 
-    /// Side whose nodes are slaves.
-    pub fn slave(&self) -> usize {
-        self.slave
-    }
-
     /// The gaps at the positions `X + u` of all slaves nearer than the search margin, ascending by
     /// node, written to `gaps`.
     ///

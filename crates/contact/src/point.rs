@@ -35,12 +35,16 @@ pub(crate) struct ContactPoint<E> {
     /// The slave, in its surface.
     pub slave: u32,
     pub state: State,
+    /// Steps in which it need not be looked at.
     pub sleep: u32,
     /// Where the projection is, or was sought last.
     pub face: u32,
+    /// Coordinates of the projection in the face, from -1 to 1 within it.
     pub xi: f64,
     pub eta: f64,
+    /// Negative where the slave has penetrated (m).
     pub gap: f64,
+    /// Unit normal of the master, out of its body.
     pub normal: Vec3,
     /// On the slave along the normal (N).
     pub normal_force: f64,
@@ -48,11 +52,15 @@ pub(crate) struct ContactPoint<E> {
     pub friction: Vec3,
     /// `friction` in the tangential frame that turns with the master.
     pub framed: [f64; 2],
+    /// Coefficient of friction (dimensionless).
     pub mu: f64,
     /// State of the friction law.
     pub memory: [f64; 2],
+    /// Of the slave relative to the master, tangential (m/s).
     pub slip_velocity: Vec3,
+    /// Its integral since contact began (m).
     pub slip: Vec3,
+    /// What the method of enforcement keeps besides.
     pub enforcement: E,
 }
 

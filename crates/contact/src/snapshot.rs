@@ -1,8 +1,8 @@
 //! What contact keeps from step to step: enough to go on with the same bits.
 //!
-//! The points, rows and the search are serde's own data; `serde(skip)` leaves out what a step computes anew before
-//! it reads it. Beside the rows the search keeps where the surfaces were when it last looked: it decides when the
-//! lists are made anew, and so the order in which forces are added.
+//! serde makes the state of the contact points, the means and the search themselves; `serde(skip)` leaves out
+//! what a step computes anew before it reads it. The search keeps where the surfaces were when it last looked:
+//! that decides when the lists are made anew, and so the order in which forces are added.
 
 use crate::constraint::Constraint;
 use crate::mortar::Mean;
@@ -37,7 +37,7 @@ pub enum StateError {
     /// An index out of range, or another number of entries.
     #[error("`{name}` in the state of contact has an entry that this contact cannot have")]
     Range {
-        /// What it belongs to.
+        /// Which index or list.
         name: &'static str,
     },
 }

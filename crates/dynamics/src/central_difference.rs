@@ -36,7 +36,7 @@ impl Simulation {
             &motion,
             |node, force, dashpots| {
                 let i = node as usize;
-                nodes::trial(i, velocity[i].xyz(), force, inverse_mass[i], dt, dashpots)
+                nodes::free_velocity(i, velocity[i].xyz(), force, inverse_mass[i], dt, dashpots)
             },
             &mut self.force,
         );

@@ -121,7 +121,7 @@ fn update_chunk(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
 }
 
 /// v^{n+1/2} of one node under `force`, as [`advance`] gives it up to round-off.
-pub(crate) fn trial(
+pub(crate) fn free_velocity(
     node: usize,
     v: [f64; 3],
     force: [f64; 3],

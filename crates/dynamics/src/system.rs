@@ -58,7 +58,7 @@ impl System {
     }
 
     /// Inverse lumped masses (1/kg), zero for nodes that are held or carried by the hub.
-    pub fn inverse_mass(&self) -> Vec<f64> {
+    pub(crate) fn inverse_mass(&self) -> Vec<f64> {
         let mut inverse: Vec<f64> = self.mass.iter().map(|m| 1.0 / m).collect();
         let carried = self.hub.iter().flat_map(|h| &h.nodes);
         self.held.iter().chain(carried).for_each(|&n| inverse[n as usize] = 0.0);

@@ -110,7 +110,10 @@ impl fmt::Display for Allowed {
             Self::Below(end, what) => write!(f, "below {end}, {what}"),
             Self::Between(low, high, why) => write!(f, "from {low} to {high}, {why}"),
             Self::Falls { fall, most } => {
-                write!(f, "large enough to fall by less than {most} over the width, not by {fall}")
+                write!(
+                    f,
+                    "large enough that the surface falls by less than {most} m over the width; it falls by {fall} m"
+                )
             }
             Self::Ascending => f.write_str("above the plane before it"),
         }
@@ -132,7 +135,7 @@ pub enum MeshError {
     },
     /// The shape would need more than [`MAX_ELEMENTS`] elements.
     #[error(
-        "elements of {size} m in the fine zone are about {estimate:.2e} of the {body}, more than the \
+        "elements of {size} m in the fine zone: the {body} would have about {estimate:.2e}, more than the \
          {MAX_ELEMENTS:.0e} allowed"
     )]
     TooManyElements {

@@ -2,7 +2,7 @@
 //!
 //! `checkpoint.h5` holds what serde makes of the state, and the lengths and sums of the run's result files at that
 //! step, both as postcard: compact, and every bit of a number reads back. It is written under another name, synced and
-//! renamed, and the one before stays as `checkpoint-1.h5`; the root attribute `sha256`, over everything else, proves it
+//! renamed, and the one before stays as `checkpoint-1.h5`; the root attribute `sha256`, over provenance and both datasets, proves it
 //! whole.
 
 use crate::grid::place;
@@ -24,7 +24,7 @@ pub const CHECKPOINTS: [&str; 2] = ["checkpoint.h5", "checkpoint-1.h5"];
 const FORM: &str = "checkpoint_form";
 /// This one: what serde makes of results and state, as postcard.
 const THIS_FORM: &str = "2";
-/// Root attribute with the SHA-256 of everything else, in hexadecimal.
+/// Root attribute with the SHA-256 of provenance, results and state, in hexadecimal.
 const CHECKSUM: &str = "sha256";
 /// Root attribute with the step, for people; the program takes it from [`RESULTS`].
 const STEP: &str = "step";
@@ -133,7 +133,7 @@ impl Checkpoint {
             return Err(refuse("its checksum does not match"));
         }
         let (step, results) = postcard::from_bytes(&results)
-            .map_err(|_| refuse("its lists of lengths and sums do not fit together"))?;
+            .map_err(|_| refuse("what it says of the result files cannot be read"))?;
         Ok(Self { provenance, step, results, state })
     }
 
@@ -148,7 +148,7 @@ fn bytes_of(value: &impl Serialize) -> Result<Vec<u8>, OutputError> {
     postcard::to_allocvec(value).map_err(|cause| OutputError::State { cause })
 }
 
-/// SHA-256 over everything, in an order that does not depend on that of the attributes.
+/// SHA-256 over provenance and datasets, in an order that does not depend on that of the attributes.
 fn checksum(provenance: &Provenance, datasets: [&[u8]; 2]) -> String {
     let mut sum = Sha256::new();
     let Provenance { creepage_version, case_hash, created, attributes } = provenance;

@@ -443,7 +443,7 @@ fn append_reals(
     file.append(name, values)
 }
 
-/// Of all steps 1 for their parts, and zero for where these begin, since the mesh is stored once.
+/// What every step adds: one part, and offsets of zero, since the mesh is stored once.
 fn counts_of_step() -> impl Iterator<Item = (String, i64)> {
     let [_, parts, offsets @ ..] = STEPS.each();
     std::iter::once((parts, 1))

@@ -16,7 +16,7 @@ use solid::Material;
 use statics::{Axis, Supports};
 use thiserror::Error;
 
-/// StiffnessMatrix of one hexahedron with given corners (m) and material, about the undeformed state
+/// Stiffness of one hexahedron with given corners (m) and material, about the undeformed state
 /// (N/m), by node, then by axis: [`solid::element_stiffness`] with an element's options.
 pub type ElementStiffness<'a> = dyn Fn(&[[f64; 3]; 8], &Material) -> [[f64; 24]; 24] + Sync + 'a;
 

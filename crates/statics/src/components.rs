@@ -72,7 +72,7 @@ fn check(mesh: &Mesh, supports: &Supports) -> Result<(), StaticsError> {
     for (&node, held) in supports.held.iter().map(|n| (n, true)).chain(tied.map(|n| (n, false))) {
         match seen.get_mut(node as usize) {
             None => return Err(StaticsError::NoSuchNode { node }),
-            // HeldSprings twice is held.
+            // Held twice is held.
             Some(seen) if *seen && !held => return Err(StaticsError::TwiceSupported { node }),
             Some(seen) => *seen = true,
         }

@@ -61,7 +61,7 @@ pub struct Iteration {
     pub residual: f64,
     /// Sum of the contact's normal forces (N).
     pub normal_force: f64,
-    /// Contact points closed.
+    /// Contact points, pairs of a slave and its projection, closed.
     pub closed: usize,
     /// Conjugate-gradient iterations in the last step.
     pub cg_iterations: usize,

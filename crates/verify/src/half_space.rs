@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use reference::{Block, Influence, Lateral, Press, Pressed, Rigid, Rolling, ellipsoid, press};
 use solid::{Element, Material, element_stiffness};
 
-/// StiffnessMatrix of an element, with the hourglass coefficient of rolling runs.
+/// Stiffness of an element, with the hourglass coefficient of rolling runs.
 pub(crate) fn element(x: &[[f64; 3]; 8], m: &Material) -> [[f64; 24]; 24] {
     element_stiffness(x, m, Element { hourglass: 0.05 })
 }

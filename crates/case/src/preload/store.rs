@@ -95,7 +95,7 @@ pub(crate) fn kept(
     let path = folder.join(format!("{key}.preload"));
     let unwritable = |cause| RunError::Text { path: folder.to_path_buf(), cause };
     fs::create_dir_all(folder).map_err(unwritable)?;
-    // FolderLock to the end of this function; a system without locks costs a second computation at most.
+    // Held to the end of this function; a system without locks costs a second computation at most.
     let _lock = lock(&folder.join(format!("{key}.lock")), stop);
     match read(&path, &key, model.mesh.nodes.len()) {
         Ok(Some(preloaded)) => {

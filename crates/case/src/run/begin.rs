@@ -23,8 +23,8 @@ pub(super) struct Resumed {
 
 /// What came of the beginning.
 pub(super) enum Begun {
-    /// No preload: the summary that says so.
-    Refused(serde_json::Value),
+    /// No preload was found, or a stop was asked for: the summary that says so.
+    NotPreloaded(serde_json::Value),
     /// The disk may roll.
     Rolling(Box<Start>, Option<Box<Resumed>>),
 }
@@ -48,7 +48,7 @@ pub(super) fn begin(
             let summary = without_rolling(case, model, options.threads, wall, &error);
             let document = write_summary(&options.out, &summary)?;
             log.say(&format!("{LOG_END}{:?} before rolling: {error}", summary.status))?;
-            Ok(Begun::Refused(document))
+            Ok(Begun::NotPreloaded(document))
         }
         Err(error) => {
             log.say(&format!("{REFUSED}{error}"))?;

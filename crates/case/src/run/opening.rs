@@ -36,7 +36,7 @@ pub(super) enum Opening {
 pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunError> {
     let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
     let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
-    let (point, why) = match origin(case, options)? {
+    let (point, why) = match resume_from(case, options)? {
         Some(ResumeFrom::Complete(summary)) => return Ok(Opening::Complete(summary)),
         Some(ResumeFrom::Checkpoint(point)) => (Some(*point), None),
         Some(ResumeFrom::Beginning(why)) => (None, Some(why)),
@@ -102,11 +102,11 @@ fn tell(
 }
 
 /// Where a run that is to be resumed goes on; none for one that begins.
-fn origin(case: &Case, options: &RunOptions) -> Result<Option<ResumeFrom>, RunError> {
+fn resume_from(case: &Case, options: &RunOptions) -> Result<Option<ResumeFrom>, RunError> {
     if !options.resume {
         return Ok(None);
     }
-    match resume::origin(case, &options.out) {
+    match resume::resume_from(case, &options.out) {
         Ok(origin) => Ok(Some(origin)),
         Err(error) if options.force => Ok(Some(ResumeFrom::Beginning(error.to_string()))),
         Err(error) => Err(error.into()),

@@ -6,7 +6,7 @@ use crate::guards::READING;
 use crate::held::FolderLock;
 use crate::means::Means;
 use crate::progress::{Progress, Stage};
-use crate::record::{Recorder, RunIdentity};
+use crate::record::{RecordBasis, Recorder};
 use crate::remedy::Remedy;
 use crate::run_error::RunError;
 use crate::schema::Case;
@@ -91,7 +91,7 @@ impl<'a> Rolling<'a> {
     pub(super) fn roll(
         &mut self,
         options: &RunOptions,
-        basis: &RunIdentity<'_>,
+        basis: &RecordBasis<'_>,
         stop: &AtomicBool,
         observe: &mut (dyn FnMut(&Progress) + Send),
     ) -> Result<Stopped, RunError> {
@@ -128,7 +128,7 @@ impl<'a> Rolling<'a> {
     }
 
     /// Keeps a checkpoint.
-    fn keep(&mut self, basis: &RunIdentity<'_>) -> Result<(), RunError> {
+    fn keep(&mut self, basis: &RecordBasis<'_>) -> Result<(), RunError> {
         let begun = Instant::now();
         self.held.prove()?;
         let state = State {

@@ -333,8 +333,8 @@ pub enum Fault {
     },
     /// A node of a contact surface is off the cylinder or crown that the case gives.
     #[error(
-        "node {node} of set `{name}` lies {distance:.2e} m off {role} by its radii, more than \
-         {limit:.2e} m"
+        "node {node} of set `{name}` lies {distance:.2e} m off the surface that the radii of the case give \
+         for {role}, more than {limit:.2e} m"
     )]
     OffSurface {
         /// The node.

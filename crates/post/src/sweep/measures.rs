@@ -13,7 +13,7 @@ pub(crate) struct SweepMeasure {
     /// From SI.
     pub factor: f64,
     /// Where a run's entry holds it, the first that is there.
-    places: &'static [Source],
+    sources: &'static [Source],
     /// Whether the table of runs shows it.
     pub in_table: bool,
 }
@@ -49,9 +49,9 @@ const fn measure(
     unit: &'static str,
     factor: f64,
     in_table: bool,
-    places: &'static [Source],
+    sources: &'static [Source],
 ) -> SweepMeasure {
-    SweepMeasure { name, unit, factor, places, in_table }
+    SweepMeasure { name, unit, factor, sources, in_table }
 }
 
 /// Source of a measure of the contact conditions.
@@ -154,8 +154,8 @@ impl SweepMeasure {
         let number = |pointer: &str| {
             run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
         };
-        let whole = |place: &&Source| run.completed() || place.0.starts_with("/check/metrics/");
-        self.places.iter().filter(whole).find_map(|(value, halves, deviation)| {
+        let whole = |source: &&Source| run.completed() || source.0.starts_with("/check/metrics/");
+        self.sources.iter().filter(whole).find_map(|(value, halves, deviation)| {
             let scaled = |pointer: &str| number(pointer).map(|number| self.factor * number);
             let half = halves.iter().find_map(|place| scaled(place));
             let deviation = (!deviation.is_empty()).then(|| scaled(deviation)).flatten();
