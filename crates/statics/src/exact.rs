@@ -9,7 +9,7 @@ use crate::error::StaticsError;
 use crate::link::Link;
 use crate::newton::forcing;
 use crate::problem::{Ending, Equilibrium, Iteration, NewtonReport};
-use crate::system::{System, moved};
+use crate::system::{StaticSystem, moved};
 use contact::{Gap, GapFunction};
 use mesh::Padded;
 use std::collections::{BTreeSet, HashSet};
@@ -28,7 +28,7 @@ const ROUND_OFF: f64 = 1e-7;
 
 /// Equilibrium with the slaves of `contact` on their masters from `u`.
 pub(crate) fn solve(
-    system: &mut System<'_>,
+    system: &mut StaticSystem<'_>,
     contact: &mut GapFunction,
     mut u: Vec<Padded>,
     observe: &mut dyn FnMut(&Iteration) -> bool,
@@ -95,7 +95,7 @@ pub(crate) fn solve(
         }
         at.iteration += 1;
         if let Some(drift) = drift {
-            let closed = |system: &mut System<'_>, u: &[Padded]| {
+            let closed = |system: &mut StaticSystem<'_>, u: &[Padded]| {
                 contact.at(&system.reference, u, &mut gaps);
                 gaps.iter().filter(|g| g.gap < 0.0).map(Link::new).collect()
             };

@@ -4,7 +4,7 @@ use crate::error::StaticsError;
 use crate::link::Link;
 use crate::problem::{Ending, Equilibrium, Iteration, NewtonReport};
 use crate::springs::{Pressed, Springs};
-use crate::system::{System, moved};
+use crate::system::{StaticSystem, moved};
 use mesh::Padded;
 
 /// Accuracy of the linear steps (Eisenstat and Walker 1996, choice 2): GAMMA times the square of
@@ -39,7 +39,7 @@ pub(crate) fn forcing(residual: f64, before: f64, wanted: f64) -> f64 {
 
 /// Equilibrium with the normal springs of the contact from `u`.
 pub(crate) fn solve(
-    system: &mut System<'_>,
+    system: &mut StaticSystem<'_>,
     springs: &mut Springs<'_>,
     mut u: Vec<Padded>,
     observe: &mut dyn FnMut(&Iteration) -> bool,
@@ -92,7 +92,7 @@ pub(crate) fn solve(
         }
         at.iteration += 1;
         if let Some(drift) = drift {
-            let closed = |system: &mut System<'_>, u: &[Padded]| {
+            let closed = |system: &mut StaticSystem<'_>, u: &[Padded]| {
                 springs.add_force(&system.reference, u, &mut r);
                 springs.closed(u).into_iter().map(|(link, _)| link).collect()
             };
@@ -117,7 +117,7 @@ pub(crate) fn solve(
 /// Lets projections and normals of the springs go; whether those closed at `u` are those closed while held.
 /// Sets `force` to the force at `u` with the present projections and normals.
 fn release(
-    system: &mut System<'_>,
+    system: &mut StaticSystem<'_>,
     springs: &mut Springs<'_>,
     u: &[Padded],
     force: &mut [Padded],
@@ -140,7 +140,7 @@ fn release(
 /// a full step from one state of contact may then overshoot. The root of the slope is sought by
 /// regula falsi in its Illinois form, from forces alone, since energies lose their last digits.
 fn search(
-    system: &mut System<'_>,
+    system: &mut StaticSystem<'_>,
     springs: &mut Springs<'_>,
     u: &[Padded],
     d: &[Padded],

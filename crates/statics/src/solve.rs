@@ -3,7 +3,7 @@
 use crate::error::StaticsError;
 use crate::problem::{Contact, Equilibrium, Iteration, Problem};
 use crate::springs::Springs;
-use crate::{exact, newton, system::System};
+use crate::{exact, newton, system::StaticSystem};
 use mesh::Padded;
 use solid::Solid;
 
@@ -27,7 +27,7 @@ pub fn solve(
     start: &[Padded],
     mut observe: impl FnMut(&Iteration) -> bool,
 ) -> Result<Equilibrium, StaticsError> {
-    let mut system = System::new(solid, problem)?;
+    let mut system = StaticSystem::new(solid, problem)?;
     let start = system.admissible(start)?;
     match contact {
         Contact::None => newton::solve(&mut system, &mut Springs::new(None), start, &mut observe),

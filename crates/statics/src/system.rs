@@ -15,7 +15,7 @@ use solid::Solid;
 const MOST_CG: usize = 20_000;
 
 /// The problem with everything that is set up once.
-pub(crate) struct System<'a> {
+pub(crate) struct StaticSystem<'a> {
     pub(crate) solid: &'a mut Solid,
     pub(crate) problem: &'a Problem<'a>,
     pub(crate) space: Space,
@@ -32,7 +32,7 @@ pub(crate) struct System<'a> {
     largest: f64,
 }
 
-impl<'a> System<'a> {
+impl<'a> StaticSystem<'a> {
     pub(crate) fn new(
         solid: &'a mut Solid,
         problem: &'a Problem<'a>,

@@ -231,7 +231,7 @@ fn the_rooms_below_name_no_key() {
 }
 
 #[test]
-fn the_messages_of_the_case_name_only_keys_that_there_are() {
+fn messages_of_cases_and_sweeps_name_only_keys_that_there_are() {
     let top: Vec<_> = KEYS.iter().filter_map(|key| key.path.split_once('.')).map(|k| k.0).collect();
     let files = ["toml", "h5", "vtkhdf", "inp", "vtu", "log"];
     let of_a_key = |word: &&str| {
@@ -239,7 +239,7 @@ fn the_messages_of_the_case_name_only_keys_that_there_are() {
         !is_file && word.split_once('.').is_some_and(|(head, _)| top.contains(&head))
     };
     let mut seen = 0;
-    for room in ["case", "cli"] {
+    for room in ["case", "sweep", "ls-dyna", "cli"] {
         for (path, text) in sources(&crates().join(room).join("src")) {
             for literal in literals(&text) {
                 for word in dotted(&literal).filter(of_a_key) {
