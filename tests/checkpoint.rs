@@ -5,9 +5,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use case::{Case, RunError, RunOptions, Stage};
+use case::Case;
 use output::{CHECKPOINTS, Checkpoint};
+use run::{RunError, RunOptions};
 use runs::{Results, load, log, options, project, results, run, timeless};
+use scenario::Stage;
 use serde_json::Value;
 
 /// The small case with every kind of output: a window of every step, and probes.
@@ -26,7 +28,7 @@ fn small(more: &[&str]) -> Case {
 /// Runs until at least `step`, then asks the run to stop; returns its summary.
 fn run_until(case: &Case, options: &RunOptions, step: u64) -> Result<Value, RunError> {
     let stop = AtomicBool::new(false);
-    case::run(case, options, &stop, &mut |progress| {
+    run::run(case, options, &stop, &mut |progress| {
         if progress.stage == Stage::Roll && progress.step >= step {
             stop.store(true, Ordering::SeqCst);
         }

@@ -11,8 +11,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use case::{Case, RunOptions};
+use case::Case;
 use output::{GridFile, HistoryFile};
+use run::RunOptions;
 use serde_json::Value;
 
 /// What a run left.
@@ -53,7 +54,7 @@ pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, 
     let out = folder.path().join("run");
     let options =
         RunOptions { preload_cache: cache.map(Path::to_path_buf), ..options(&out, threads) };
-    let returned = case::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    let returned = run::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
     let results = results(&out);
     assert_eq!(results.summary, returned, "summary.json holds what the run returns");
     (results, log(&out))

@@ -28,7 +28,7 @@ section! {
 
 impl Disk {
     /// The shape to mesh.
-    pub(crate) fn shape(&self) -> mesh::Disk {
+    pub fn shape(&self) -> mesh::Disk {
         mesh::Disk {
             radius: self.radius,
             hub_radius: self.hub_radius,
@@ -63,7 +63,7 @@ section! {
 
 impl Bar {
     /// The shape to mesh.
-    pub(crate) fn shape(&self) -> mesh::Bar {
+    pub fn shape(&self) -> mesh::Bar {
         mesh::Bar {
             length: self.length,
             width: self.width,
@@ -117,7 +117,7 @@ impl MaterialOverride {
     }
 
     /// These keys over those of `[material]`.
-    pub(crate) fn over(&self, common: Material) -> Material {
+    pub fn over(&self, common: Material) -> Material {
         Material {
             young: self.young.unwrap_or(common.young),
             poisson: self.poisson.unwrap_or(common.poisson),
@@ -163,7 +163,7 @@ section! {
 
 impl Meshing {
     /// The fine zone and the grading around it.
-    pub(crate) fn fine_zone(&self) -> mesh::FineZone {
+    pub fn fine_zone(&self) -> mesh::FineZone {
         let Zone { size, length, width, depth, start } = self.zone;
         mesh::FineZone {
             size,

@@ -52,13 +52,13 @@ const LAWS: [&str; USES.len()] = {
 };
 
 /// Dotted path of a key of `[friction]`.
-pub(crate) fn path(key: &str) -> String {
+pub fn path(key: &str) -> String {
     format!("friction.{key}")
 }
 
 /// Where a formula must give a coefficient: pressures up to three times Hertz's, which shocks and
 /// coarse meshes may reach, the time of rolling, and the fine zone.
-pub(crate) fn domain(case: &Case) -> Domain {
+pub fn domain(case: &Case) -> Domain {
     let zone = &case.mesh.zone;
     Domain {
         pressure: 3.0 * hertz(case).p0,
@@ -68,10 +68,7 @@ pub(crate) fn domain(case: &Case) -> Domain {
 }
 
 /// The friction law of a case; `own` is what was handed over with the run.
-pub(crate) fn law(
-    case: &Case,
-    own: Option<&Arc<dyn OwnLaw>>,
-) -> Result<Box<dyn NodeFriction>, LawError> {
+pub fn law(case: &Case, own: Option<&Arc<dyn OwnLaw>>) -> Result<Box<dyn NodeFriction>, LawError> {
     let formula = |text: &str| Expression::over(text, &domain(case));
     case.friction.node_friction(formula, own)
 }

@@ -43,7 +43,7 @@ impl Case {
 
     /// The case file with the default `checkpoint` and `guards` and without the place of a mesh file,
     /// whose contents count: everything that results depend on.
-    pub(crate) fn results_toml(&self) -> String {
+    pub fn results_toml(&self) -> String {
         let (checkpoint, guards) = (Checkpoint::default(), Guards::default());
         let mesh = Meshing { file: None, ..self.mesh.clone() };
         Self { checkpoint, guards, mesh, ..self.clone() }.to_toml()

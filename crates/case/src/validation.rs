@@ -620,7 +620,7 @@ fn check_records(case: &Case, found: &mut Findings) {
 
 /// What to say of intervals that are shorter than the time step, now that it is known, and are not the
 /// defaults of a short run.
-pub(crate) fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
+pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
     let default = case.duration() / Case::SNAPSHOTS;
     [
         ("output.fields_interval", Some(case.fields_interval())),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use case::{BlockElement, Level};
+use ::run::{BlockElement, Level};
 
 use crate::args::Args;
 use crate::case_file::placed;
@@ -57,8 +57,8 @@ fn kernels(text: &str) -> Result<Level, String> {
 pub fn command(args: &Args, options: &BenchArgs) -> Result<u8, Failure> {
     let threads = options.threads.unwrap_or_else(all_cores);
     let found = match options.block {
-        Some(n) => case::bench_block(n, options.element, threads, options.kernels)?,
-        None => case::bench(threads, options.kernels, &options.sets)
+        Some(n) => ::run::bench_block(n, options.element, threads, options.kernels)?,
+        None => ::run::bench(threads, options.kernels, &options.sets)
             .map_err(|error| placed(error, args, Path::new("reference.toml"), &options.sets))?,
     };
     if args.json {

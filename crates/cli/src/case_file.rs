@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use case::{Case, RunError};
+use ::run::RunError;
+use case::Case;
 
 use crate::args::Args;
 use crate::failure::Failure;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use ::sweep::Watched;
-use case::Progress;
 use friction::OwnLaw;
+use scenario::Progress;
 use serde_json::Value;
 
 /// What a command tells the program that holds it, instead of writing it to the terminal.

@@ -1,6 +1,6 @@
 //! Commands that fail: what is said, and the exit codes.
 
-use case::RunError;
+use ::run::RunError;
 use miette::{Diagnostic, Report};
 use serde_json::{Value, json};
 

@@ -44,7 +44,7 @@ pub fn command(args: &Args, options: &ImportKArgs) -> Result<u8, Failure> {
     let name = options.file.file_name().unwrap_or_default().to_string_lossy();
     let made = translate(&bytes, options.unit, &name, "mesh.inp").map_err(|error| {
         let place = error.line.map_or(String::new(), |line| format!(":{line}"));
-        let help = case::Remedy::remedy(&error.fault);
+        let help = scenario::Remedy::remedy(&error.fault);
         Failure { report: miette!(help = help, "{file}{place}: {}", error.fault), code: BAD_INPUT }
     })?;
     let folder = options.out.clone().unwrap_or_else(|| options.file.with_extension(""));
@@ -58,7 +58,7 @@ pub fn command(args: &Args, options: &ImportKArgs) -> Result<u8, Failure> {
     write(&folder, &case, &made.case)?;
     // the case is judged as any other, so that what is wrong is told now
     let loaded = Case::load(&case, &[])?;
-    let found = case::mesh_report(&loaded, None)?;
+    let found = ::run::mesh_report(&loaded, None)?;
     let elements = found["elements"].as_u64().unwrap_or_default();
     if args.json {
         args.print_json(&json!({

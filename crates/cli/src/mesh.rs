@@ -36,7 +36,7 @@ pub fn command(args: &Args, options: &MeshArgs) -> Result<u8, Failure> {
     if let Some(out) = &options.out {
         claim_grid("--out", out, &case::inputs(&case, &options.case))?;
     }
-    let found = case::mesh_report(&case, options.out.as_deref())
+    let found = ::run::mesh_report(&case, options.out.as_deref())
         .map_err(|error| placed(error, args, &options.case, &options.sets))?;
     if args.json {
         args.print_json(&found);

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use case::folder::VTKHDF;
+use ::run::folder::VTKHDF;
 use files::output::{Made, OutputRefused, VTU, check};
 use miette::miette;
 
@@ -17,7 +17,7 @@ pub fn claim(option: &str, path: &Path, made: &Made, inputs: &[PathBuf]) -> Resu
 /// The same for a grid; a file of a run is the run's alone.
 pub fn claim_grid(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     let vtu = path.extension().is_some_and(|ending| ending == "vtu");
-    if case::folder::is_of_a_run(path) {
+    if ::run::folder::is_of_a_run(path) {
         return Err(of_the_run(option, path));
     }
     claim(option, path, if vtu { &VTU } else { &VTKHDF }, inputs)

@@ -4,8 +4,8 @@ use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use ::sweep::Watched;
-use case::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use scenario::{Progress, Stage};
 
 const TICKS: u64 = 1000;
 

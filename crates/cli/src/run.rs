@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use case::RunOptions;
+use ::run::RunOptions;
 use miette::miette;
 use serde_json::Value;
 
@@ -62,7 +62,7 @@ impl RunArgs {
 pub fn command(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     let sets = options.sets();
     let case = load(args, &options.case, &sets)?;
-    let out = options.out.clone().unwrap_or_else(|| case::folder::default_folder(&case));
+    let out = options.out.clone().unwrap_or_else(|| ::run::folder::default_folder(&case));
     let run_options = RunOptions {
         out: out.clone(),
         threads: options.threads.unwrap_or_else(all_cores),
@@ -78,8 +78,8 @@ pub fn command(args: &Args, options: &RunArgs) -> Result<u8, Failure> {
     if options.leash {
         hold_leash(args.stop.clone())?;
     }
-    let result = case::run(&case, &run_options, &stop, &mut |progress| {
-        if progress.stage == case::Stage::Roll {
+    let result = ::run::run(&case, &run_options, &stop, &mut |progress| {
+        if progress.stage == scenario::Stage::Roll {
             args.stop.hears();
         }
         watch.show(progress);

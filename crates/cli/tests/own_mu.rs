@@ -2,11 +2,11 @@
 //! solver to round-off, and one that was planted in a copied run.
 #![allow(clippy::unwrap_used)]
 
-use case::RunOptions;
 use friction::OwnLaw;
 use output::{
     Cells, FieldSpec, GridFile, GridSpec, Provenance, StaticField, TransientGrid, Values,
 };
+use run::RunOptions;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -64,7 +64,7 @@ fn roll(out: &Path, law: &[&str], contact: &[&str], more: &[&str]) {
     let case = case::Case::from_text(&text, Path::new("small.toml"), &sets).unwrap();
     let brought: Arc<dyn OwnLaw> = Arc::new(Brought);
     let options = RunOptions { law: Some(brought), ..runs::options(out, 2) };
-    let summary = case::run(&case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    let summary = run::run(&case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
     assert_eq!(summary["status"], "completed", "{law:?} {contact:?}: {summary:#}");
 }
 

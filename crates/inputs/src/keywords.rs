@@ -2,9 +2,10 @@
 
 use std::hint::black_box;
 
-use case::{Case, Remedy};
+use case::Case;
 use ls_dyna::{Units, translate};
 use mesh::import::{SetNames, Unit, bodies, read_abaqus};
+use scenario::Remedy;
 
 use crate::text::{in_a_folder, told, write};
 

@@ -2,9 +2,9 @@
 
 use std::hint::black_box;
 
-use case::Remedy;
 use mesh::import::{Format, SetNames, Shape, Unit, bodies, fit, write_abaqus};
 use mesh::{Bar, Disk, FineZone, quality};
+use scenario::Remedy;
 
 /// A mesh file, from its bytes to the two bodies fitted to a case: the first byte chooses the format.
 pub fn mesh(data: &[u8]) {

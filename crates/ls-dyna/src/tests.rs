@@ -1,10 +1,11 @@
 //! The small model of `meshes/`, and cards that are refused.
 
 use crate::{Translation, Units, translate};
+use case::Case;
 use case::schema::{ContactLayers, Crown, Stiffness};
-use case::{Case, Remedy};
 use friction::Kind;
 use mesh::import::{ImportError, SetNames, Unit, bodies, read_abaqus};
+use scenario::Remedy;
 use std::fs;
 use std::path::Path;
 

@@ -106,3 +106,20 @@ impl OutputError {
         }
     }
 }
+
+/// A text file beside the results cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {cause}{}", path.display(), room_left(path))]
+pub struct NotWritten {
+    /// The file.
+    pub path: PathBuf,
+    /// What the system said.
+    pub cause: std::io::Error,
+}
+
+impl NotWritten {
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        "the run has stopped; check that its folder is still there and that the disk has room"
+    }
+}

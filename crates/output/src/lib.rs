@@ -49,7 +49,7 @@ mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
 pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
-pub use error::OutputError;
+pub use error::{NotWritten, OutputError};
 pub use field::FieldSpec;
 pub use free::{free_space, room_left};
 pub use grid::{Cells, GridSpec, StaticField, TransientGrid, Values};

@@ -1,13 +1,13 @@
 //! Commands held by Python.
 
 use crate::law::PythonLaw;
-use case::{Progress, Stage};
 use cli::{Embedded, Failure, Told};
 use friction::OwnLaw;
 use miette::MietteHandlerOpts;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scenario::{Progress, Stage};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -135,7 +135,7 @@ pub fn state(folder: &Path, run: &Point) -> State {
 fn last_words(folder: &Path) -> Option<String> {
     let log = input::text(&folder.join(file::LOG), input::LOG).ok()?;
     let last = log.lines().next_back()?;
-    last.strip_prefix(case::REFUSED).map(str::to_owned)
+    last.strip_prefix(run::REFUSED).map(str::to_owned)
 }
 
 /// A JSON document that is there and whole.

@@ -21,10 +21,10 @@ use thiserror::Error;
 
 use crate::file::{StepRule, Sweep};
 use crate::points::Point;
-use case::RunError;
 use case::error::CaseError;
-use case::folder::FolderError;
 use case::schema::Time;
+use run::folder::FolderError;
+use scenario::ScenarioError;
 
 /// The plan of a sweep in its folder.
 pub const PLAN: &str = "plan.json";
@@ -87,7 +87,7 @@ pub enum SweepError {
         /// The run.
         run: String,
         /// Why.
-        cause: Box<RunError>,
+        cause: Box<ScenarioError>,
     },
     /// The sweep was asked to stop before its first run.
     #[error("interrupted before the first run began")]
@@ -156,7 +156,7 @@ fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<
         if folder.join(LOCK).exists() {
             return Ok(());
         }
-        return match case::folder::check(folder, false) {
+        return match run::folder::check(folder, false) {
             Err(FolderError::Taken { path, .. }) => Err(SweepError::NoSweep { path }),
             other => Ok(other?),
         };
@@ -314,9 +314,9 @@ fn smallest_step(
             continue;
         }
         known.push(basis);
-        let limit = case::stable_limit(case, Some(&preloads(folder)), stop);
+        let limit = scenario::stable_limit(case, Some(&preloads(folder)), stop);
         let limit = limit.map_err(|error| match error {
-            RunError::Preload(preload) if preload.is_interruption() => SweepError::Interrupted,
+            ScenarioError::Preload(preload) if preload.is_interruption() => SweepError::Interrupted,
             error if error.key().is_some() => sweep.refused(error, &run.indices).into(),
             cause => SweepError::Limit { run: run.name.clone(), cause: Box::new(cause) },
         })?;

@@ -7,12 +7,12 @@ use sha2::{Digest, Sha256};
 use toml::Value;
 
 use crate::file::{Mode, Sweep};
-use case::RunError;
 use case::error::CaseError;
 use case::forms::float;
 use case::name;
 use case::schema::{Case, Time};
 use output::hexadecimal;
+use scenario::{Remedy, ScenarioError};
 
 /// More runs than this is a slip of a digit.
 const MOST_RUNS: usize = 10_000;
@@ -97,7 +97,7 @@ impl Sweep {
             point.elements = match known.get(&key) {
                 Some(elements) => *elements,
                 None => {
-                    let elements = case::elements(case);
+                    let elements = scenario::elements(case);
                     let elements = elements.map_err(|e| self.refused(e, &point.indices))?;
                     *known.entry(key).or_insert(elements)
                 }
@@ -130,7 +130,7 @@ impl Sweep {
     }
 
     /// An error of a run before it began, at the place that caused it.
-    pub(crate) fn refused(&self, error: RunError, indices: &[usize]) -> CaseError {
+    pub(crate) fn refused(&self, error: ScenarioError, indices: &[usize]) -> CaseError {
         let (message, remedy) = (error.to_string(), error.remedy());
         let place = error.key().and_then(|key| self.place_of(key, indices));
         match (place, error.key()) {

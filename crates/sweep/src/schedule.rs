@@ -20,7 +20,7 @@ use serde_json::Value;
 use crate::collect::{State, collect_with, state};
 use crate::plan::{CHECK, Plan, SweepError, arguments, log_file, run_folder};
 use crate::points::Point;
-use case::{BYTES_PER_ELEMENT, free_mb};
+use scenario::memory::{BYTES_PER_ELEMENT, free_mb};
 
 /// How often the children are looked after.
 const LOOK: Duration = Duration::from_millis(20);

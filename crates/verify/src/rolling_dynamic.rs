@@ -17,7 +17,8 @@ use crate::convergence::Convergence;
 use crate::half_space::WHEEL;
 use crate::problem::{Outcome, Size};
 use crate::row::Row;
-use case::{Case, RunOptions};
+use case::Case;
+use run::RunOptions;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -205,7 +206,7 @@ fn rolled(reference: &Reference, h: f64, more: &[String]) -> Result<Rolled, crat
         source: "a-coulomb.toml".into(),
         law: None,
     };
-    let summary = case::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
+    let summary = run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
     let number = |section: &str, key: &'static str| {
         let status = summary["status"].as_str().unwrap_or_default().to_owned();
         summary[section][key].as_f64().ok_or(Missing { status, key })

@@ -1,0 +1,76 @@
+//! The whole state of a run, and when it is kept.
+
+use std::time::{Duration, Instant};
+
+use crate::record::RecorderState;
+use case::schema;
+use dynamics::{Energies, SimulationState};
+use output::{Checkpoint, OutputError, Provenance, Results};
+use scenario::Found;
+use serde::{Deserialize, Serialize};
+
+/// Attribute: the instruction set of the kernels.
+pub(crate) const KERNELS: &str = "kernels";
+
+/// Everything that a run needs to go on with the same bits.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct State {
+    pub(crate) simulation: SimulationState,
+    pub(crate) recorder: RecorderState,
+    /// The last energies read.
+    pub(crate) energies: Energies,
+    pub(crate) found: Found,
+    /// Wall time of everything and of rolling so far.
+    pub(crate) wall: [Duration; 2],
+}
+
+/// When the next checkpoint is due.
+pub(crate) struct Clock {
+    steps: Option<u64>,
+    wall: Option<Duration>,
+    /// Step and instant of the last one, or of the beginning.
+    last: (u64, Instant),
+    /// Whether the first is due at once.
+    first: bool,
+}
+
+impl Clock {
+    pub(crate) fn new(case: &schema::Checkpoint, dt: f64, step: u64) -> Self {
+        let in_time = case.time.map(|time| (time / dt).round().max(1.0) as u64);
+        Self {
+            steps: case.steps.into_iter().chain(in_time).min(),
+            wall: (case.wall_minutes > 0.0)
+                .then(|| Duration::from_secs_f64(60.0 * case.wall_minutes)),
+            last: (step, Instant::now()),
+            first: step == 0,
+        }
+    }
+
+    /// Whether one is due before step `step`; the next interval then begins.
+    pub(crate) fn is_due(&mut self, step: u64) -> bool {
+        let (at, instant) = self.last;
+        // what the preload has found is kept at once
+        let any = self.steps.is_some() || self.wall.is_some();
+        let due = (self.first && any)
+            || self.steps.is_some_and(|interval| step - at >= interval)
+            || self.wall.is_some_and(|interval| instant.elapsed() >= interval);
+        if due {
+            self.first = false;
+            self.last = (step, Instant::now());
+        }
+        due
+    }
+}
+
+impl State {
+    /// The checkpoint that holds it, with what of the result files belongs to it.
+    pub(crate) fn checkpoint(
+        &self,
+        mut provenance: Provenance,
+        kernels: &str,
+        results: Results,
+    ) -> Result<Checkpoint, OutputError> {
+        provenance.attributes = vec![(KERNELS.into(), kernels.into())];
+        Checkpoint::new(provenance, self.simulation.step as u64, results, self)
+    }
+}

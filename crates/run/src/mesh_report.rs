@@ -1,0 +1,114 @@
+//! The mesh of a case alone: counts, quality, stable step, memory and run-time estimate.
+
+use std::path::Path;
+use std::time::{Instant, SystemTime};
+
+use crate::disk::Disk;
+use crate::error::RunError;
+use crate::folder::default_folder;
+use case::schema::Case;
+use mesh::Padded;
+use output::{Cells, GridSpec, Provenance, StaticField, TransientGrid};
+use scenario::Model;
+use scenario::memory::BYTES_PER_ELEMENT;
+use serde_json::json;
+
+/// Builds the mesh of a case, writes it to `out` (`.vtu` or `.vtkhdf`) if given, and reports on
+/// it.
+pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value, RunError> {
+    let model = scenario::model(case)?;
+    let mut solid = model.solid(case)?;
+    let quality = mesh::quality(&model.mesh);
+    let (bound, bound_element) =
+        solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
+    let omega = model.elastic_frequency(&mut solid);
+    let elements = model.mesh.hexes.len();
+    let nodes = model.mesh.nodes.len();
+    let step = case.step().under(2.0 / omega);
+    let steps = (case.duration() / step).ceil();
+    let per_step = step_seconds(&mut solid, nodes);
+    if let Some(path) = out {
+        write(path, case, &model)?;
+    }
+    let bodies: Vec<_> = model
+        .mesh
+        .bodies
+        .iter()
+        .map(|b| {
+            json!({ "name": b.name, "nodes": b.nodes.len(), "elements": b.hexes.len(),
+                         "sets": b.node_sets.iter().map(|(k, v)| (k.clone(), v.len()))
+                                  .collect::<std::collections::BTreeMap<_, _>>() })
+        })
+        .collect();
+    Ok(json!({
+        "name": case.name,
+        "elements": elements,
+        "fully_integrated": model.fully_integrated(),
+        "nodes": nodes,
+        "bodies": bodies,
+        "notes": model.notes,
+        "quality": {
+            "min_scaled_jacobian": quality.min_scaled_jacobian,
+            "mean_scaled_jacobian": quality.mean_scaled_jacobian,
+            "max_aspect": quality.max_aspect,
+            "min_edge": quality.min_edge,
+            "worst_element": quality.worst_element,
+        },
+        "stable_dt": {
+            "bound": 2.0 / bound,
+            "bound_element": bound_element,
+            "bound_element_centre": solid.centre(bound_element),
+            "power_iteration": 2.0 / omega,
+            "step": step,
+        },
+        "estimate": {
+            "memory_mb": elements as f64 * BYTES_PER_ELEMENT / 1e6,
+            "steps": steps,
+            "run_time_s": steps * per_step,
+            "disk": Disk::of(case, &model, steps).json(&default_folder(case)),
+        },
+    }))
+}
+
+/// Wall time of an internal force and a sweep over the nodes (s), the best of a few.
+fn step_seconds(solid: &mut solid::Solid, nodes: usize) -> f64 {
+    let mut u = vec![Padded::ZERO; nodes];
+    let mut force = u.clone();
+    (0..5)
+        .map(|_| {
+            let clock = Instant::now();
+            solid.subtract_internal_force(&u, &force.clone(), &mut force, false);
+            u.iter_mut().zip(&mut force).for_each(|(u, f)| {
+                u.0[0] += 1e-30 * f.0[0];
+                *f = Padded::ZERO;
+            });
+            clock.elapsed().as_secs_f64()
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn write(path: &Path, case: &Case, model: &Model) -> Result<(), RunError> {
+    let body: Vec<u8> = model
+        .mesh
+        .bodies
+        .iter()
+        .enumerate()
+        .flat_map(|(k, b)| std::iter::repeat_n(k as u8, b.hexes.len()))
+        .collect();
+    let constant = [StaticField::body(&body)];
+    let grid = GridSpec {
+        points: &model.mesh.nodes,
+        cells: Cells::Hexahedra(&model.mesh.hexes),
+        constant: &constant,
+    };
+    if path.extension().is_some_and(|e| e == "vtu") {
+        return Ok(output::write_vtu(path, &grid)?);
+    }
+    let provenance = Provenance {
+        creepage_version: env!("CARGO_PKG_VERSION").into(),
+        case_hash: case.hash(),
+        created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        attributes: Vec::new(),
+    };
+    Ok(TransientGrid::create(path, &grid, &[], &provenance)?.append(0.0, &[])?)
+}

@@ -1,0 +1,226 @@
+//! From a resolved case to a finished run.
+
+mod begin;
+mod opening;
+mod options;
+mod rolling;
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::{Instant, SystemTime};
+
+use crate::disk::Disk;
+use crate::error::RunError;
+use crate::held::FolderLock;
+use crate::log::Log;
+use crate::postmortem;
+use crate::record::{RecordBasis, Recorder};
+use crate::summary::{Ending, summary, write as write_summary};
+use crate::text_file::remove;
+use begin::{Begun, Resumed, begin};
+use case::hertz::hertz;
+use case::schema::Case;
+use case::validation;
+use dynamics::Simulation;
+use friction::Kind;
+use opening::{Opened, Opening, open};
+pub use options::RunOptions;
+use output::NotWritten;
+use output::layout::file;
+use output::summary::Status;
+use output::{CHECKPOINTS, LOG_END, Provenance};
+use rolling::{Rolled, Rolling, Stopped};
+use scenario::progress::{Progress, Stage};
+use scenario::{Facts, Start};
+
+/// Runs a case to its end, to a stop request or to a guard, and returns its summary.
+///
+/// A run that a guard stopped has the status `failed` and a `diagnosis`; one that was interrupted
+/// has the status `interrupted`. In both cases the results so far are readable.
+pub fn run(
+    case: &Case,
+    options: &RunOptions,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+) -> Result<serde_json::Value, RunError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    // The whole run inside the pool: entering it costs microseconds, a step of a small case few more.
+    let mut result = pool.install(|| run_in_pool(case, options, stop, observe));
+    if let Err(RunError::Output(error)) = &result
+        && (options.resume && options.force)
+        && error.damaged().is_some()
+    {
+        // found only when the files were opened to be extended
+        tracing::warn!("{error}; the run begins at its start");
+        let anew = RunOptions { resume: false, ..options.clone() };
+        result = pool.install(|| run_in_pool(case, &anew, stop, observe));
+    }
+    if let Err(error @ (RunError::Output(_) | RunError::Text(_))) = &result {
+        // as far as that is possible where files could not be written
+        let _ = Log::append(options.out.join(file::LOG))
+            .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));
+    }
+    result
+}
+
+fn run_in_pool(
+    case: &Case,
+    options: &RunOptions,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+) -> Result<serde_json::Value, RunError> {
+    let wall = Instant::now();
+    if case.friction.law == Kind::Python && options.law.is_none() {
+        return Err(RunError::NoLaw);
+    }
+    let mut opened = match open(case, options)? {
+        Opening::Complete(summary) => return Ok(complete(&options.out, summary)),
+        Opening::Run(opened) => *opened,
+    };
+    observe(&stage(case, Stage::Mesh));
+    let (start, resumed) = match begin(case, options, &mut opened, wall, stop, observe)? {
+        Begun::NotPreloaded(document) => return Ok(document),
+        Begun::Rolling(start, resumed) => (*start, resumed),
+    };
+    let Start { simulation, facts } = start;
+    let Opened { held, mut log, model, .. } = opened;
+    tell(&simulation, &facts, &mut log)?;
+    if resumed.is_none() {
+        let below = validation::below_the_step(case, simulation.dt());
+        below.iter().try_for_each(|line| log.warn(line))?;
+        let disk = Disk::of(case, &model, facts.steps as f64);
+        disk.shortage(&options.out).iter().try_for_each(|line| log.warn(line))?;
+    }
+    let basis = basis(case, options, &facts, resumed.as_deref());
+    // another process may have come during the preload
+    held.prove()?;
+    if resumed.is_some() {
+        // the word of an interruption or a stop holds no longer once the files change
+        [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
+    }
+    let recorder = Recorder::new(case, &model, &simulation, &basis)?;
+    let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
+    drop(model); // the time loop has what it needs
+
+    let mut rolling = Rolling::new(case, &facts, &held, simulation, recorder, wall);
+    if let Some(resumed) = resumed {
+        rolling.resume(resumed.state);
+    }
+    let Stopped { status, diagnosis, found } = rolling.roll(options, &basis, stop, observe)?;
+    let mut rolled = rolling.end()?;
+    if let Some(line) = &diagnosis {
+        log.say(line)?;
+    }
+    if let Some(found) = &found {
+        postmortem::write(&options.out, &mut rolled.simulation, found, &basis.provenance)?;
+        log.say(&format!("{} holds both bodies as they are", file::POSTMORTEM))?;
+    }
+    let Rolled { simulation, energies, means, before, rolling, output, keeping } = rolled;
+    let ending = Ending {
+        status,
+        diagnosis,
+        postmortem: found.is_some(),
+        energies,
+        means,
+        elements,
+        nodes,
+        threads: options.threads,
+        wall: before + wall.elapsed(),
+        rolling,
+        output,
+        keeping,
+    };
+    conclude(case, options, &simulation, &facts, &ending, &held, &mut log)
+}
+
+/// Says in the log what is known before the disk rolls.
+fn tell(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<(), NotWritten> {
+    let stability = &facts.stability;
+    log.say(&format!(
+        "step: {:.4e} s, {:.3} of the limit 2/omega_max (omega_max {:.4e} rad/s with contact, \
+         {:.4e} without); {} steps; kernels: {}",
+        simulation.dt(),
+        stability.factor,
+        stability.omega_max,
+        stability.omega_elastic,
+        facts.steps,
+        simulation.solid().level().name()
+    ))?;
+    facts.numbers.line().iter().try_for_each(|line| log.say(line))?;
+    facts.numbers.expectation().iter().try_for_each(|line| log.warn(line))
+}
+
+/// What the files of the run rest on besides the case.
+fn basis<'a>(
+    case: &Case,
+    options: &'a RunOptions,
+    facts: &Facts,
+    resumed: Option<&Resumed>,
+) -> RecordBasis<'a> {
+    RecordBasis {
+        folder: &options.out,
+        provenance: Provenance {
+            creepage_version: env!("CARGO_PKG_VERSION").into(),
+            case_hash: case.hash(),
+            created: match resumed {
+                Some(resumed) => resumed.checkpoint.provenance.created.clone(),
+                None => humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            },
+            attributes: Vec::new(),
+        },
+        effective_radius: facts.radius.effective,
+        hertz_pressure: hertz(case).p0,
+        keeps: resumed.map(|resumed| resumed.checkpoint.results.clone()),
+    }
+}
+
+/// Writes the summary; a run that is complete needs its checkpoints no longer.
+fn conclude(
+    case: &Case,
+    options: &RunOptions,
+    simulation: &Simulation,
+    facts: &Facts,
+    ending: &Ending,
+    held: &FolderLock,
+    log: &mut Log,
+) -> Result<serde_json::Value, RunError> {
+    ending.means.mesh_mode.warnings(case).iter().try_for_each(|line| log.warn(line))?;
+    let mut summary = summary(case, simulation, facts, &hertz(case), ending);
+    let own = options.law.as_deref().filter(|_| case.friction.law == Kind::Python);
+    if let Some(points) = own.and_then(friction::sampled) {
+        summary.extra.insert(output::SAMPLED_LAW.into(), serde_json::json!(points));
+    }
+    held.prove()?;
+    let document = write_summary(&options.out, &summary)?;
+    if ending.status == Status::Completed {
+        remove_checkpoints(&options.out)?;
+    }
+    let (status, steps, wall) = (ending.status, summary.steps, summary.wall_s);
+    log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;
+    Ok(document)
+}
+
+/// A run with nothing left to do.
+fn complete(folder: &Path, summary: serde_json::Value) -> serde_json::Value {
+    tracing::warn!("the run in {} is complete: nothing to resume", folder.display());
+    // It may have been killed just before it took them away itself.
+    let _ = remove_checkpoints(folder);
+    summary
+}
+
+fn remove_checkpoints(folder: &Path) -> Result<(), NotWritten> {
+    CHECKPOINTS.iter().try_for_each(|name| remove(&folder.join(name)))
+}
+
+fn stage(case: &Case, stage: Stage) -> Progress {
+    Progress {
+        stage,
+        step: 0,
+        steps: 1,
+        time: 0.0,
+        end_time: case.duration(),
+        normal_force: 0.0,
+        tangential_force: 0.0,
+        element_steps_per_s: 0.0,
+    }
+}

@@ -1,0 +1,115 @@
+//! The folder of a run, taken; its model, made; and where the run goes on.
+
+use super::options::RunOptions;
+use crate::error::RunError;
+use crate::folder::{self, Content};
+use crate::held::FolderLock;
+use crate::log::Log;
+use crate::resume::{self, Point, ResumeFrom};
+use crate::text_file::write_text;
+use case::load::inputs;
+use case::schema::Case;
+use output::NotWritten;
+use output::layout::file;
+use scenario::Model;
+use scenario::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
+
+/// A run about to begin, or to go on.
+pub(super) struct Opened {
+    /// Its folder.
+    pub(super) held: FolderLock,
+    pub(super) log: Log,
+    pub(super) model: Model,
+    /// Where it goes on, if it does not begin.
+    pub(super) point: Option<Point>,
+}
+
+/// What there is to do in a folder.
+pub(super) enum Opening {
+    /// Nothing: the run is complete. Its summary.
+    Complete(serde_json::Value),
+    /// A run.
+    Run(Box<Opened>),
+}
+
+/// Takes the folder of a run and makes its model; results of an earlier run are replaced only once the
+/// mesh is found good.
+pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunError> {
+    let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
+    let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
+    let (point, why) = match resume_from(case, options)? {
+        Some(ResumeFrom::Complete(summary)) => return Ok(Opening::Complete(summary)),
+        Some(ResumeFrom::Checkpoint(point)) => (Some(*point), None),
+        Some(ResumeFrom::Beginning(why)) => (None, Some(why)),
+        None => (None, None),
+    };
+    let replaces = options.force || why.is_some();
+    if point.is_none() {
+        // The same case begun anew from its own folder reads what it then writes.
+        if options.force && !(options.resume && resume::is_of(case, &options.out)) {
+            folder::spare(&options.out, &inputs(case, &options.source))?;
+        }
+        // A mesh that is refused must cost no earlier run its results.
+        folder::check(&options.out, replaces)?;
+    }
+    let model = model(case, options, point.as_ref())?;
+    let log_file = options.out.join(file::LOG);
+    let (held, mut log) = match (&point, held) {
+        (Some(_), Some(held)) => (held, Log::append(log_file)?),
+        (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
+    };
+    write_text(options.out.join(file::CASE), &case.to_toml())?;
+    tell(case, options, &model, why, &mut log)?;
+    Ok(Opening::Run(Box::new(Opened { held, log, model, point })))
+}
+
+/// The model of a case that this machine has the memory for.
+fn model(case: &Case, options: &RunOptions, point: Option<&Point>) -> Result<Model, RunError> {
+    enough_for_zones(case, BYTES_PER_ELEMENT)?;
+    let mut model = scenario::model(case)?;
+    model.law = options.law.clone();
+    if let Some(point) = point {
+        model.kernels = point.kernels;
+    }
+    enough_memory(model.mesh.hexes.len())?;
+    Ok(model)
+}
+
+/// The first lines of the log; `why` a run that was to be resumed begins at its start.
+fn tell(
+    case: &Case,
+    options: &RunOptions,
+    model: &Model,
+    why: Option<String>,
+    log: &mut Log,
+) -> Result<(), NotWritten> {
+    log.say(&format!(
+        "creepage {}: {} from {}",
+        env!("CARGO_PKG_VERSION"),
+        case.name,
+        options.source.display()
+    ))?;
+    if let Some(why) = why {
+        log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
+    }
+    case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
+    model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
+    let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
+    log.say(&format!("mesh: {elements} elements, {nodes} nodes"))?;
+    match model.fully_integrated() {
+        0 => Ok(()),
+        full => log.say(&format!("fully integrated: {full} elements")),
+    }
+}
+
+/// Where a run that is to be resumed goes on; none for one that begins.
+fn resume_from(case: &Case, options: &RunOptions) -> Result<Option<ResumeFrom>, RunError> {
+    if !options.resume {
+        return Ok(None);
+    }
+    match resume::resume_from(case, &options.out) {
+        Ok(origin) => Ok(Some(origin)),
+        Err(error) if options.force => Ok(Some(ResumeFrom::Beginning(error.to_string()))),
+        Err(error) => Err(error.into()),
+    }
+}

@@ -1,0 +1,113 @@
+//! The meshes of a disk and a bar, with their sets and masses.
+
+use super::mesh_file;
+use crate::error::ScenarioError;
+use crate::memory::enough_for_mesh;
+use crate::model::{BAR, DISK, Model};
+use case::schema::{Case, ContactLayers, Ends};
+use case::validation::LAYERS;
+use mesh::Mesh;
+use solid::{Element, Level, Material, Volumetric};
+
+/// Builds the meshes of a case.
+///
+/// # Errors
+/// A mesh that cannot be made, or that this machine has no memory for.
+pub fn model(case: &Case) -> Result<Model, ScenarioError> {
+    enough_for_mesh(case)?;
+    let (mut mesh, notes) = match mesh_file::import(case)? {
+        Some(imported) => imported,
+        None => (generated(case)?, Vec::new()),
+    };
+    let materials = [material(case.disk_material()), material(case.bar_material())];
+    let paired = if case.mesh.plane_strain { align(&mut mesh)? } else { Vec::new() };
+    let mut mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
+    for pair in &paired {
+        let [a, b] = pair.map(|n| n as usize);
+        mass[a] = 0.5 * (mass[a] + mass[b]);
+        mass[b] = mass[a];
+    }
+    let surface =
+        |body: usize, name: &str| mesh.bodies[body].surfaces.get(name).cloned().unwrap_or_default();
+    let set = |body: usize, name: &str| {
+        mesh.bodies[body].node_sets.get(name).cloned().unwrap_or_default()
+    };
+    let quiet = match case.bar.ends {
+        Ends::Quiet => vec![surface(BAR, "rear"), surface(BAR, "front")],
+        Ends::Free => Vec::new(),
+    };
+    Ok(Model {
+        materials,
+        element: Element { hourglass: case.element.hourglass },
+        full: fully_integrated(case, &mesh),
+        volumetric: match case.element.volumetric.unwrap_or_default() {
+            case::schema::Volumetric::Mean => Volumetric::Mean,
+            case::schema::Volumetric::Full => Volumetric::Full,
+        },
+        kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
+        law: None,
+        paired,
+        mass,
+        surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
+        zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
+        hub: set(DISK, "hub"),
+        clamped: set(BAR, "bottom"),
+        quiet,
+        mesh,
+        notes,
+    })
+}
+
+/// Elements of the mesh of a case.
+///
+/// # Errors
+/// A mesh that cannot be made.
+pub fn elements(case: &Case) -> Result<usize, ScenarioError> {
+    Ok(model(case)?.mesh.hexes.len())
+}
+
+/// The meshes of the shapes that a case gives.
+fn generated(case: &Case) -> Result<Mesh, ScenarioError> {
+    let (mut disk, mut bar) = (case.disk.shape(), case.bar.shape());
+    let mut zone = case.mesh.fine_zone();
+    let stretch = zone.width / zone.size;
+    if case.mesh.plane_strain {
+        // a slice is made one cube wide and stretched to its width
+        (disk.width, bar.width, zone.width) = (zone.size, zone.size, zone.size);
+    }
+    let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+    if case.mesh.plane_strain {
+        mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
+    }
+    Ok(mesh)
+}
+
+/// The pairs of nodes across a slice, whose second nodes are put exactly across from the first.
+fn align(mesh: &mut Mesh) -> Result<Vec<[u32; 2]>, mesh::NoSlice> {
+    let pairs = mesh::across(mesh)?;
+    for &[first, second] in &pairs {
+        let [x, _, z] = mesh.nodes[first as usize];
+        let [ox, _, oz] = &mut mesh.nodes[second as usize];
+        (*ox, *oz) = (x, z);
+    }
+    Ok(pairs)
+}
+
+/// The elements in the contact layers of the fine zones, if they are to be fully integrated.
+fn fully_integrated(case: &Case, mesh: &Mesh) -> Vec<bool> {
+    if case.element.contact_layers == ContactLayers::OnePoint {
+        return Vec::new();
+    }
+    let layers = case.element.layers.unwrap_or(LAYERS) as usize;
+    let mut full = vec![false; mesh.hexes.len()];
+    for body in &mesh.bodies {
+        let faces = body.surfaces.get("zone").map_or(&[][..], |zone| &zone.faces);
+        let below = mesh::layers_below(mesh, body, faces, layers);
+        below.into_iter().for_each(|e| full[e as usize] = true);
+    }
+    full
+}
+
+fn material(m: case::schema::Material) -> Material {
+    Material { young: m.young, poisson: m.poisson, density: m.density }
+}

@@ -1,0 +1,376 @@
+//! From a model to a simulation at t = 0: stable step, preload, rolling velocity.
+
+use super::bodies;
+use super::disturbance::disturb;
+use super::guards::limits;
+use super::preload::{Bodies, Preloaded, preload};
+use super::store;
+use crate::error::ScenarioError;
+use crate::model::{BAR, DISK, LANCZOS, MARGIN, Model};
+use crate::numbers::numbers;
+use crate::progress::Progress;
+use crate::start::{Facts, Found, RollingRadius, Stability, Start};
+use case::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
+use contact::{Contact, PenaltyContact, StabilityScale};
+use dynamics::{
+    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System, Vertical,
+};
+use mesh::Padded;
+use output::NotWritten;
+use solid::Solid;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// The bodies at rest under the load, and what the step must respect.
+struct PreloadedState {
+    solid: Solid,
+    /// The springs of penalty contact, closed where the bodies touch; none of exact contact.
+    springs: Option<PenaltyContact>,
+    hub: Hub,
+    quiet: QuietEnd,
+    preloaded: Preloaded,
+    preload_wall: f64,
+    omega_elastic: f64,
+    omega_max: f64,
+    /// What contact adds to the rigorous bound of the squared frequency (1/s^2).
+    contact_bound: f64,
+    /// Longest stable step (s).
+    limit: f64,
+}
+
+/// Longest stable step (s) of a case: that of the preloaded state, which is taken from `cache` if it is
+/// there.
+///
+/// # Errors
+/// A mesh that cannot be made, a preload that is not found, a `stop`.
+pub fn stable_limit(
+    case: &Case,
+    cache: Option<&Path>,
+    stop: &AtomicBool,
+) -> Result<f64, ScenarioError> {
+    let model = bodies::model(case)?;
+    Ok(preloaded_state(case, &model, cache, stop, &mut |_| {}, &mut |_| Ok(()))?.limit)
+}
+
+/// Preloads the model, or takes the preload from `cache`.
+fn preloaded_state(
+    case: &Case,
+    model: &Model,
+    cache: Option<&Path>,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+    say: &mut (dyn FnMut(&str) -> Result<(), NotWritten> + Send),
+) -> Result<PreloadedState, ScenarioError> {
+    let mut solid = model.solid(case)?;
+    let inverse_mass = model.inverse_mass();
+    let omega_elastic = model.elastic_frequency(&mut solid);
+    let scale = scale(case, omega_elastic);
+    let hub = hub(case, model, &solid);
+    let quiet = quiet(model);
+
+    let clock = Instant::now();
+    let mut held = model.clamped.clone();
+    held.extend(quiet.nodes());
+    let mut preloaded = store::kept(case, model, cache, stop, say, &mut |say| {
+        let bodies = Bodies { case, model, solid: &mut solid, scale, hub: &hub, held: &held };
+        preload(bodies, stop, observe, say)
+    })?;
+    disturb(case, model, &mut preloaded.displacement);
+    for &[first, second] in &model.paired {
+        // alike to the preload's tolerance until now
+        preloaded.displacement[second as usize] = preloaded.displacement[first as usize];
+    }
+    // Contact starts from the displacements alone, so that a preload from the cache and one just
+    // found lead to the same bits.
+    let springs = match case.contact.enforcement {
+        Enforcement::Penalty => {
+            let mut springs = model.penalty_contact(case, scale)?;
+            // closes those that touch, for the stable step
+            let mut unused = vec![Padded::ZERO; preloaded.displacement.len()];
+            springs.apply_frictionless(solid.reference(), &preloaded.displacement, &mut unused);
+            Some(springs)
+        }
+        Enforcement::Exact => None,
+    };
+    let preload_wall = clock.elapsed().as_secs_f64();
+
+    let (omega_max, contact_bound) = match &springs {
+        Some(springs) => {
+            let with_springs = |x: &[Padded], y: &mut [Padded]| {
+                solid.add_stiffness_product(x, y);
+                springs.stiffness_product(x, y);
+            };
+            let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
+            (MARGIN * omega, springs.rigorous_omega_squared(&inverse_mass))
+        }
+        None => (omega_elastic, 0.0),
+    };
+    // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
+    let xi = 0.5 * case.damping.kelvin_voigt * omega_max;
+    let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
+    Ok(PreloadedState {
+        solid,
+        springs,
+        hub,
+        quiet,
+        preloaded,
+        preload_wall,
+        omega_elastic,
+        omega_max,
+        contact_bound,
+        limit,
+    })
+}
+
+/// Preloads the model, or takes the preload from `cache`, and sets it rolling.
+pub fn start(
+    case: &Case,
+    model: &Model,
+    cache: Option<&Path>,
+    stop: &AtomicBool,
+    observe: &mut (dyn FnMut(&Progress) + Send),
+    say: &mut (dyn FnMut(&str) -> Result<(), NotWritten> + Send),
+) -> Result<Start, ScenarioError> {
+    let PreloadedState {
+        mut solid,
+        springs,
+        hub,
+        quiet,
+        preloaded: Preloaded { displacement, report: preload, loads: pressed },
+        preload_wall,
+        omega_elastic,
+        omega_max,
+        contact_bound,
+        limit,
+    } = preloaded_state(case, model, cache, stop, observe, say)?;
+    let nominal = case.disk.radius;
+    let (element_bound, _) =
+        solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
+    if let Step::Absolute(step) = case.step()
+        && step > limit
+    {
+        return Err(ScenarioError::Step { step, limit });
+    }
+    let steps = (case.duration() / case.step().under(limit)).ceil().max(1.0);
+    let dt = case.duration() / steps;
+    let stability = Stability {
+        omega_elastic,
+        omega_max,
+        omega_bound: (element_bound * element_bound + contact_bound).sqrt(),
+        dt_limit: limit,
+        factor: dt / limit,
+    };
+
+    let field = RollingField {
+        disk: DISK,
+        centre: hub.centre,
+        speed: case.drive.speed,
+        omega: case.drive.speed / nominal,
+        dt,
+    };
+    let effective = match preload {
+        Some(_) => {
+            let loads = springs.as_ref().map_or(pressed, loads);
+            effective_radius(model, &loads, &displacement, &field)
+        }
+        None => nominal,
+    };
+    let free = case.drive.speed / effective;
+    let velocity =
+        dynamics::rolling_field(&model.mesh, &displacement, &RollingField { omega: free, ..field });
+
+    let mut hub = hub;
+    hub.state.z = preload.map_or(case.disk.lift, |p| p.hub());
+    hub.state.vx = case.drive.speed;
+    hub.state.omega = free;
+    let mut quiet = quiet;
+    if preload.is_some() {
+        let mut force = vec![Padded::ZERO; model.mass.len()];
+        solid.subtract_elastic_force(&displacement, &mut force, false);
+        quiet.keep_reactions(&force);
+    }
+    let contact: Box<dyn Contact> = match springs {
+        Some(springs) => Box::new(springs),
+        None => Box::new(model.exact_contact(case)?),
+    };
+    let radius = RollingRadius { nominal, effective };
+    let found = Found { stability, radius, preload, preload_wall, steps: steps as u64 };
+    Ok(assemble(case, model, found, Parts { solid, contact, hub, quiet, displacement, velocity }))
+}
+
+/// The simulation of which `state` was taken, with what was `found` when it began.
+pub fn restart(
+    case: &Case,
+    model: &Model,
+    found: Found,
+    state: &SimulationState,
+) -> Result<Start, ScenarioError> {
+    let solid = model.solid(case)?;
+    let contact: Box<dyn Contact> = match case.contact.enforcement {
+        Enforcement::Exact => Box::new(model.exact_contact(case)?),
+        Enforcement::Penalty => {
+            let scale = scale(case, found.stability.omega_elastic);
+            Box::new(model.penalty_contact(case, scale)?)
+        }
+    };
+    let (hub, quiet) = (hub(case, model, &solid), quiet(model));
+    let rest = vec![Padded::ZERO; model.mass.len()];
+    let (displacement, velocity) = (rest.clone(), rest);
+    let parts = Parts { solid, contact, hub, quiet, displacement, velocity };
+    let mut start = assemble(case, model, found, parts);
+    start.simulation.restore(state)?;
+    Ok(start)
+}
+
+/// What a simulation is made of.
+struct Parts {
+    solid: Solid,
+    contact: Box<dyn Contact>,
+    hub: Hub,
+    quiet: QuietEnd,
+    displacement: Vec<Padded>,
+    velocity: Vec<Padded>,
+}
+
+/// Everything that rolls, set up for the time loop.
+fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
+    let Parts { solid, contact, mut hub, quiet, displacement, velocity } = parts;
+    let Found { stability, radius, preload, preload_wall, steps } = found;
+    let dt = case.duration() / steps as f64;
+    hub.spin = spin(case, case.drive.speed / radius.effective);
+    hub.vertical = match case.load.mode {
+        LoadMode::Load => Vertical::Load(case.load.normal),
+        LoadMode::Height => Vertical::Held,
+    };
+    let system = System {
+        contact: Some(contact),
+        hub: Some(hub),
+        quiet,
+        held: model.clamped.clone(),
+        fixed: if case.mesh.plane_strain { plane_strain(model) } else { Vec::new() },
+        paired: model.paired.clone(),
+        disk: model.mesh.bodies[DISK].nodes.clone(),
+        mass_damping: case.damping.mass,
+        ..System::free(solid, model.mass.clone())
+    };
+    let omega_max = 2.0 / stability.dt_limit;
+    let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
+    simulation.set_limits(limits(case, model));
+    let numbers = numbers(case, model, dt);
+    Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }
+}
+
+/// What penalty springs that are a fraction of the stability limit are a fraction of.
+fn scale(case: &Case, omega_elastic: f64) -> StabilityScale {
+    StabilityScale { omega_elastic, dt: case.step().under(2.0 / omega_elastic) }
+}
+
+fn quiet(model: &Model) -> QuietEnd {
+    let ends: Vec<_> = model.quiet.iter().collect();
+    QuietEnd::new(&model.mesh, &ends, &model.materials[BAR], &model.clamped)
+}
+
+/// No node moves in y.
+fn plane_strain(model: &Model) -> Vec<Fixed> {
+    let nodes = 0..model.mass.len() as u32;
+    nodes.map(|node| Fixed { node, axes: [false, true, false] }).collect()
+}
+
+fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
+    Hub::new(
+        [0.0, 0.0, case.disk.radius],
+        &model.hub,
+        solid.reference(),
+        &model.mass,
+        case.load.hub_mass,
+        spin(case, case.drive.speed / case.disk.radius),
+        Vertical::Load(case.load.normal),
+    )
+}
+
+fn spin(case: &Case, free: f64) -> Spin {
+    let ramp = case.drive.ramp;
+    match case.drive.mode {
+        DriveMode::Creepage => {
+            Spin::Creepage { free, creepage: case.drive.creepage.unwrap_or(0.0), ramp }
+        }
+        DriveMode::Torque => Spin::Torque { torque: case.drive.torque.unwrap_or(0.0), ramp },
+    }
+}
+
+/// Effective rolling radius of the preloaded state: with the disk turning at `field.omega`, the
+/// mean forward velocities of both surfaces, weighted with the pressure, are V - omega R_d on the
+/// disk and -V e on the bar; they agree at V/omega = R_d/(1 + e).
+fn effective_radius(
+    model: &Model,
+    loads: &[Vec<(u32, f64)>; 2],
+    displacement: &[Padded],
+    field: &RollingField,
+) -> f64 {
+    let velocity =
+        dynamics::rolling_field(&model.mesh, displacement, &RollingField { dt: 0.0, ..*field });
+    let mean = |side: usize| {
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for &(n, load) in &loads[side] {
+            sum += load * velocity[n as usize].0[0];
+            weight += load;
+        }
+        sum / weight
+    };
+    let disk = (field.speed - mean(DISK)) / field.omega;
+    disk / (1.0 - mean(BAR) / field.speed)
+}
+
+/// Normal forces (N) on the nodes of both sides.
+fn loads(contact: &PenaltyContact) -> [Vec<(u32, f64)>; 2] {
+    [DISK, BAR].map(|side| {
+        let mut table = contact.nodal_table(side);
+        contact.nodal(&mut table);
+        let force = table.pressure.iter().zip(&table.area).map(|(p, a)| p * a);
+        table.nodes.iter().copied().zip(force).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use solid::Level;
+
+    /// The preloaded bodies of the tests' small case, by element kernels of `level`.
+    fn preloaded(sets: &[&str], level: Level) -> PreloadedState {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/small.toml");
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let case = Case::load(&file, &sets).unwrap();
+        let mut model = bodies::model(&case).unwrap();
+        model.kernels = level;
+        let stop = AtomicBool::new(false);
+        preloaded_state(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(())).unwrap()
+    }
+
+    /// Of the displacement of every node and of the stable step.
+    fn bits(state: &PreloadedState) -> Vec<u64> {
+        let displacement = &state.preloaded.displacement;
+        let numbers = displacement.iter().flat_map(|u| u.0).chain([state.limit]);
+        numbers.map(f64::to_bits).collect()
+    }
+
+    #[test]
+    fn the_static_preload_has_the_same_bits_by_every_kernel_of_the_pinned_arithmetic() {
+        if !Level::Avx2.available() {
+            eprintln!("warning: no AVX2; there is no second kernel to compare with");
+            return;
+        }
+        for sets in [
+            &["element.contact_layers=one-point"][..],
+            &["contact.enforcement=exact", "contact.rows=mortar", "element.contact_layers=full"],
+        ] {
+            let [wide, plain] =
+                [Level::Avx2, Level::Fused].map(|level| bits(&preloaded(sets, level)));
+            assert_eq!(wide, plain, "{sets:?}");
+            // a kernel that rounds in another order shows: the comparison can fail
+            assert_ne!(wide, bits(&preloaded(sets, Level::Portable)), "{sets:?}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Why a scenario cannot be set up.
+
+use case::key;
+use std::path::{Path, PathBuf};
+
+use crate::remedy::{Remedy, key_of_mesh};
+
+/// Why a scenario cannot be set up.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum ScenarioError {
+    /// The mesh cannot be built.
+    #[error("{}", named(.0))]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Mesh(#[from] mesh::MeshError),
+    /// The mesh file cannot be used.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy))]
+    MeshFile(#[from] MeshFileError),
+    /// The mesh of a case in plane strain is more than a slice.
+    #[error("mesh.plane_strain = true: {0}")]
+    #[diagnostic(help(
+        "give a mesh one element wide, extruded along y, or mesh.plane_strain = false"
+    ))]
+    Slice(#[from] mesh::NoSlice),
+    /// The elements cannot be set up.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Solid(#[from] solid::SolidError),
+    /// The contact cannot be set up.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Contact(#[from] contact::ContactError),
+    /// There is no friction law.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Friction(#[from] friction::LawError),
+    /// The machine has too little memory for the mesh.
+    #[error(
+        "the run of {elements} elements needs about {} GB of memory, more than the {} GB that are free: \
+         enlarge mesh.zone.size or shrink the zone", gigabytes(*needed_gb), gigabytes(*free_gb)
+    )]
+    #[diagnostic(help("`creepage mesh` tells what a mesh needs; `ulimit -v` limits what is free"))]
+    Memory {
+        /// Elements of both bodies.
+        elements: usize,
+        /// Estimate of what the run needs (GB).
+        needed_gb: f64,
+        /// What the system has free (GB).
+        free_gb: f64,
+    },
+    /// The time step asked for is not stable.
+    #[error(
+        "time.step = {step:.4e} s is above the stability limit of {limit:.4e} s, which the closed \
+         contact springs lower"
+    )]
+    #[diagnostic(help("lower time.step, or give time.factor, a fraction of the limit"))]
+    Step {
+        /// The step asked for (s).
+        step: f64,
+        /// The stability limit (s).
+        limit: f64,
+    },
+    /// The preload was not found.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Preload(#[from] crate::preload::PreloadError),
+    /// The state of a checkpoint is not of this model.
+    #[error("the checkpoint cannot be used: {0}")]
+    #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
+    Restore(#[from] dynamics::RestoreError),
+    /// A file beside the results cannot be written.
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.remedy()))]
+    Text(#[from] output::NotWritten),
+}
+
+impl ScenarioError {
+    /// The key of the case that the error is about, where it is about one.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::Mesh(error) => key_of_mesh(error),
+            Self::Memory { .. } => Some(key!("mesh.zone.size")),
+            Self::Slice(_) => Some(key!("mesh.plane_strain")),
+            Self::Step { .. } => Some(key!("time.step")),
+            _ => None,
+        }
+    }
+
+    /// Exit code of the process: 3 where no preload was found or a file cannot be written, 130 when
+    /// interrupted, 2 for the rest, which is bad input.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Preload(error) if error.is_interruption() => 130,
+            Self::Preload(_) | Self::Text(_) => 3,
+            _ => 2,
+        }
+    }
+}
+
+impl Remedy for ScenarioError {
+    fn remedy(&self) -> String {
+        miette::Diagnostic::help(self).map_or("change this key".into(), |help| help.to_string())
+    }
+}
+
+/// What is wrong with a mesh, after the key that it is refused by.
+fn named(error: &mesh::MeshError) -> String {
+    key_of_mesh(error).map_or(error.to_string(), |key| format!("{key}: {error}"))
+}
+
+fn gigabytes(gb: f64) -> String {
+    if gb < 0.1 { format!("{gb:.3}") } else { format!("{gb:.1}") }
+}
+
+/// A mesh file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {problem}", place(path, *line))]
+pub struct MeshFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// Line, counted from 1.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub problem: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+fn place(path: &Path, line: Option<usize>) -> String {
+    let path = path.display();
+    line.map_or(path.to_string(), |line| format!("{path}:{line}"))
+}

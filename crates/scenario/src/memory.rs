@@ -1,0 +1,118 @@
+//! Memory: what a run needs, what the machine has, what was used.
+
+use std::path::Path;
+
+use files::input;
+
+use crate::error::ScenarioError;
+use case::schema::Case;
+
+/// Bytes per element of a whole run; the static preload takes the most.
+pub const BYTES_PER_ELEMENT: f64 = 950.0;
+
+/// Bytes per element of its mesh alone, with the elements set up.
+const BYTES_PER_MESH_ELEMENT: f64 = 400.0;
+
+/// Refuses a case before its mesh is made where the fine zones alone, which are known without it, are more
+/// than the machine can hold at so many bytes per element.
+pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), ScenarioError> {
+    // a mesh that is read has the elements of its file
+    if case.mesh.file.is_some() {
+        return Ok(());
+    }
+    let zone = &case.mesh.zone;
+    let across = if case.mesh.plane_strain { 1.0 } else { zone.width / zone.size };
+    let elements = 2.0 * zone.length * zone.depth / zone.size.powi(2) * across;
+    fits(elements as usize, bytes_per_element, free_mb())
+}
+
+/// The same for the mesh alone.
+pub fn enough_for_mesh(case: &Case) -> Result<(), ScenarioError> {
+    enough_for_zones(case, BYTES_PER_MESH_ELEMENT)
+}
+
+/// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
+pub fn enough_memory(elements: usize) -> Result<(), ScenarioError> {
+    fits(elements, BYTES_PER_ELEMENT, free_mb())
+}
+
+fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), ScenarioError> {
+    let free_gb = free_mb / 1e3;
+    let needed_gb = elements as f64 * bytes_per_element / 1e9;
+    if needed_gb > free_gb {
+        return Err(ScenarioError::Memory { elements, needed_gb, free_gb });
+    }
+    Ok(())
+}
+
+/// Memory that the machine has free for this process (MB); infinite where the system does not tell.
+pub fn free_mb() -> f64 {
+    let free = entry("/proc/meminfo", "MemAvailable:").unwrap_or(f64::INFINITY);
+    free.min(address_space_mb())
+}
+
+/// Address space that the threads reserve and the mesh takes before its size is known (MB): where it is
+/// short, the system's refusal would abort the program.
+#[cfg(unix)]
+const RESERVED_MB: f64 = 200.0;
+
+/// What the limit of this process's address space (`ulimit -v`) leaves (MB).
+#[cfg(unix)]
+fn address_space_mb() -> f64 {
+    let limit = rustix::process::getrlimit(rustix::process::Resource::As).current;
+    let taken = entry("/proc/self/status", "VmSize:").unwrap_or(0.0) + RESERVED_MB;
+    limit.map_or(f64::INFINITY, |bytes| (bytes as f64 / 1e6 - taken).max(0.0))
+}
+
+#[cfg(not(unix))]
+fn address_space_mb() -> f64 {
+    f64::INFINITY
+}
+
+/// Largest resident memory of this process so far (MB); zero where the system does not tell.
+pub fn peak_rss_mb() -> f64 {
+    entry("/proc/self/status", "VmHWM:").unwrap_or(0.0)
+}
+
+/// An entry in kibibytes of a table of the system, in MB.
+fn entry(table: &str, name: &str) -> Option<f64> {
+    let table = input::text(Path::new(table), input::LOG).ok()?;
+    let line = table.lines().find_map(|l| l.strip_prefix(name))?;
+    let kib = line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()?;
+    Some(kib * 1024.0 / 1e6)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn what_the_machine_cannot_hold_is_refused_with_both_numbers_and_the_rest_is_not() {
+        assert!(fits(2_000_000, 950.0, 1901.0).is_ok());
+        let error = fits(2_000_000, 950.0, 500.0).unwrap_err();
+        let said = error.to_string();
+        for words in ["2000000 elements", "1.9 GB", "0.5 GB that are free", "mesh.zone.size"] {
+            assert!(said.contains(words), "{words} is not in {said}");
+        }
+        assert_eq!((error.exit_code(), error.key()), (2, Some("mesh.zone.size")));
+        // a system that does not tell
+        assert!(fits(usize::MAX, 950.0, f64::INFINITY).is_ok());
+    }
+
+    #[test]
+    fn fine_zones_are_counted_before_their_mesh_is_made() {
+        let path = std::path::Path::new("a.toml");
+        let text =
+            "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 0\nfriction.static = 0.5\n";
+        let mut case = Case::from_text(text, path, &[]).unwrap();
+        assert!(enough_for_zones(&case, BYTES_PER_ELEMENT).is_ok());
+        // so many elements that no machine holds them
+        case.mesh.zone.size = 1e-6;
+        let begun = std::time::Instant::now();
+        let error = crate::disk_on_bar::model(&case).err().unwrap();
+        assert!(matches!(error, ScenarioError::Memory { .. }), "{error}");
+        assert!(begun.elapsed().as_secs() < 5);
+    }
+}

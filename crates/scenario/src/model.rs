@@ -1,0 +1,157 @@
+//! The discretised bodies of a scenario: mesh, masses, sets, elements and contact; all that follows from geometry
+//! and material alone.
+
+use crate::error::ScenarioError;
+use case::friction_law;
+use case::schema::Case;
+use contact::{
+    BodyMaterial, ExactContact, ExactSettings, GapFunction, PenaltyContact, PenaltySettings,
+    StabilityScale,
+};
+use friction::OwnLaw;
+use mesh::{Face, Mesh, Surface};
+use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
+use std::sync::Arc;
+
+/// Lanczos steps for the largest frequency, and the margin on what they find.
+pub(crate) const LANCZOS: usize = 40;
+pub(crate) const MARGIN: f64 = 1.01;
+
+/// Index of the disk among bodies and contact sides.
+pub const DISK: usize = 0;
+/// Index of the bar among bodies and contact sides.
+pub const BAR: usize = 1;
+
+/// The discretised bodies.
+pub struct Model {
+    /// Both bodies, the disk first.
+    pub mesh: Mesh,
+    /// What is to be said of a mesh file, a sentence each.
+    pub notes: Vec<String>,
+    /// Of the disk and of the bar.
+    pub materials: [Material; 2],
+    pub(crate) element: Element,
+    /// Which elements are fully integrated, one entry per element; empty where none is.
+    pub(crate) full: Vec<bool>,
+    pub(crate) volumetric: Volumetric,
+    /// Instruction set of the element kernels.
+    pub kernels: Level,
+    /// The friction law that was handed over with the run.
+    pub law: Option<Arc<dyn OwnLaw>>,
+    /// Nodes that face each other across a slice in plane strain and move as one; empty in space.
+    pub paired: Vec<[u32; 2]>,
+    /// Lumped masses (kg).
+    pub mass: Vec<f64>,
+    /// The whole contact surfaces.
+    pub surfaces: [Surface; 2],
+    /// Their faces in the fine zone, which contact output records.
+    pub zones: [Vec<Face>; 2],
+    /// Nodes of the rigid hub.
+    pub hub: Vec<u32>,
+    /// Clamped nodes: the bar's bottom.
+    pub clamped: Vec<u32>,
+    /// End faces of the bar if they are quiet.
+    pub quiet: Vec<Surface>,
+}
+
+impl Model {
+    /// How the elements are integrated.
+    pub fn elements(&self) -> Elements<'_> {
+        Elements::mixed(self.element, &self.full, self.volumetric)
+    }
+
+    /// Number of fully integrated elements.
+    pub fn fully_integrated(&self) -> usize {
+        self.full.iter().filter(|full| **full).count()
+    }
+
+    /// The elements.
+    pub fn solid(&self, case: &Case) -> Result<Solid, ScenarioError> {
+        let viscosity = Viscosity {
+            bulk_linear: case.damping.bulk_linear,
+            bulk_quadratic: case.damping.bulk_quadratic,
+            kelvin_voigt: case.damping.kelvin_voigt,
+        };
+        Ok(Solid::new(&self.mesh, &self.materials, self.elements(), viscosity, self.kernels)?)
+    }
+
+    /// Inverse masses (1/kg) with held and carried nodes at zero.
+    pub(crate) fn inverse_mass(&self) -> Vec<f64> {
+        let mut inverse: Vec<f64> = self.mass.iter().map(|m| 1.0 / m).collect();
+        self.clamped.iter().chain(&self.hub).for_each(|&n| inverse[n as usize] = 0.0);
+        inverse
+    }
+
+    /// Largest frequency of the bodies without contact, with its margin (rad/s).
+    pub fn elastic_frequency(&self, solid: &mut Solid) -> f64 {
+        MARGIN
+            * solid::largest_frequency(
+                &self.inverse_mass(),
+                |x, y| solid.add_stiffness_product(x, y),
+                LANCZOS,
+            )
+    }
+
+    /// Penalty contact of disk and bar.
+    pub fn penalty_contact(
+        &self,
+        case: &Case,
+        scale: StabilityScale,
+    ) -> Result<PenaltyContact, ScenarioError> {
+        let settings = PenaltySettings {
+            normal: stiffness(case.contact.penalty.normal),
+            tangential: stiffness(case.contact.penalty.tangential),
+            damping: case.contact.penalty.damping,
+            curvature: case.contact.curvature,
+        };
+        let law = friction_law::law(case, self.law.as_ref())?;
+        Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
+    }
+
+    /// Exact contact of disk and bar.
+    pub fn exact_contact(&self, case: &Case) -> Result<ExactContact, ScenarioError> {
+        let law = friction_law::law(case, self.law.as_ref())?;
+        Ok(ExactContact::new(&self.mesh, self.sides(), &self.exact_settings(case), law)?)
+    }
+
+    /// The gaps that exact contact closes.
+    pub fn gaps(&self, case: &Case) -> Result<GapFunction, ScenarioError> {
+        Ok(GapFunction::new(&self.mesh, self.sides(), &self.exact_settings(case))?)
+    }
+
+    fn exact_settings(&self, case: &Case) -> ExactSettings {
+        ExactSettings {
+            slave: Some(self.slave()),
+            curvature: case.contact.curvature,
+            rows: match case.contact.rows.unwrap_or_default() {
+                case::schema::Rows::NodeToFace => contact::Rows::NodeToFace,
+                case::schema::Rows::Mortar => contact::Rows::Mortar,
+            },
+        }
+    }
+
+    /// The side whose nodes are slaves of exact contact: that of the finer zone, the disk's where both
+    /// are alike.
+    pub fn slave(&self) -> usize {
+        contact::finer([DISK, BAR].map(|side| {
+            let area = |f: &Face| {
+                let corners = f.nodes.map(|n| self.mesh.nodes[n as usize]);
+                mesh::quad_corner_areas(&corners).iter().sum::<f64>()
+            };
+            self.zones[side].iter().map(area).sum::<f64>() / self.zones[side].len() as f64
+        }))
+    }
+
+    fn sides(&self) -> [(&Surface, BodyMaterial); 2] {
+        let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
+        [DISK, BAR].map(|side| (&self.surfaces[side], body(self.materials[side])))
+    }
+}
+
+pub(crate) fn stiffness(s: case::schema::Stiffness) -> contact::PenaltyStiffness {
+    match s {
+        case::schema::Stiffness::Factor(v) => contact::PenaltyStiffness::Scale(v),
+        case::schema::Stiffness::Areal(v) => contact::PenaltyStiffness::Areal(v),
+        case::schema::Stiffness::Stability(v) => contact::PenaltyStiffness::StabilityFraction(v),
+    }
+}

@@ -1,0 +1,128 @@
+//! How a preload was found, or why none was.
+
+pub mod error;
+
+use dynamics::RelaxationReport;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use statics::Ending;
+
+pub use error::PreloadError;
+
+/// How the preload was found.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum PreloadReport {
+    /// By Newton's method.
+    Static {
+        /// Newton's iterations.
+        iterations: usize,
+        /// Conjugate-gradient iterations in all.
+        cg_iterations: usize,
+        /// Sum of the contact's normal forces (N).
+        normal_force: f64,
+        /// Contact points that are closed.
+        closed_pairs: usize,
+        /// Residual over the load, with the normals of the smooth surfaces.
+        residual: f64,
+        /// The same once the normals follow the facets.
+        facets: f64,
+        /// Whether the residual ended at round-off, above the tolerance.
+        round_off: bool,
+        /// Displacement of the hub in z (m).
+        hub: f64,
+    },
+    /// By dynamic relaxation.
+    Relaxation {
+        /// Iterations.
+        iterations: usize,
+        /// Sum of the contact's normal forces (N).
+        normal_force: f64,
+        /// Kinetic (fictitious) over internal energy at the end.
+        kinetic_ratio: f64,
+        /// Displacement of the hub in z (m).
+        hub: f64,
+    },
+}
+
+impl PreloadReport {
+    pub(crate) fn of_statics(report: &statics::NewtonReport, hub: f64) -> Self {
+        Self::Static {
+            iterations: report.last.iteration,
+            cg_iterations: report.cg_iterations,
+            normal_force: report.last.normal_force,
+            closed_pairs: report.last.closed,
+            residual: report.last.residual,
+            facets: report.facets,
+            round_off: report.ending == Ending::RoundOff,
+            hub,
+        }
+    }
+
+    pub(crate) fn of_relaxation(report: &RelaxationReport) -> Self {
+        Self::Relaxation {
+            iterations: report.iterations,
+            normal_force: report.normal_force,
+            kinetic_ratio: report.kinetic_ratio,
+            hub: report.hub,
+        }
+    }
+
+    /// Displacement of the hub in z (m).
+    pub fn hub(&self) -> f64 {
+        match self {
+            Self::Static { hub, .. } | Self::Relaxation { hub, .. } => *hub,
+        }
+    }
+
+    /// The line of the log.
+    pub fn line(&self) -> String {
+        let found =
+            |normal: f64, hub: f64| format!("normal force {normal:.3} N, hub {:.3} um", hub * 1e6);
+        match self {
+            Self::Static {
+                iterations,
+                cg_iterations,
+                normal_force,
+                closed_pairs,
+                residual,
+                round_off,
+                hub,
+                ..
+            } => format!(
+                "preload: static, {iterations} Newton iterations with {cg_iterations} of conjugate \
+                 gradients, {}, {closed_pairs} pairs closed, residual {residual:.1e} of the load{}",
+                found(*normal_force, *hub),
+                if *round_off { ", which is round-off" } else { "" }
+            ),
+            Self::Relaxation { iterations, normal_force, kinetic_ratio, hub } => format!(
+                "preload: relaxation, {iterations} iterations, {}, kinetic/internal \
+                 {kinetic_ratio:.1e}",
+                found(*normal_force, *hub),
+            ),
+        }
+    }
+
+    /// The section of the summary.
+    pub fn json(&self) -> serde_json::Value {
+        match self {
+            Self::Static {
+                iterations,
+                cg_iterations,
+                normal_force,
+                closed_pairs,
+                residual,
+                facets,
+                hub,
+                ..
+            } => json!({
+                "method": "static", "iterations": iterations, "cg_iterations": cg_iterations,
+                "normal_force": normal_force, "closed_pairs": closed_pairs, "residual": residual,
+                "facet_residual": facets, "hub_displacement": hub
+            }),
+            Self::Relaxation { iterations, normal_force, kinetic_ratio, hub } => json!({
+                "method": "relaxation", "iterations": iterations, "normal_force": normal_force,
+                "kinetic_ratio": kinetic_ratio, "hub_displacement": hub
+            }),
+        }
+    }
+}
