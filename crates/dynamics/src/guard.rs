@@ -33,7 +33,7 @@ pub struct GuardLimits {
     /// Penetration (m).
     pub penetration: f64,
     /// Time without contact, once there was contact (s).
-    pub parted: f64,
+    pub without_contact: f64,
     /// Normal force below which there is no contact (N).
     pub least_force: f64,
     /// Coefficient of friction.
@@ -49,7 +49,7 @@ impl Default for GuardLimits {
             hourglass: f64::INFINITY,
             least_energy: 0.0,
             penetration: f64::INFINITY,
-            parted: f64::INFINITY,
+            without_contact: f64::INFINITY,
             least_force: 0.0,
             friction: f64::INFINITY,
             track: [f64::NEG_INFINITY, f64::INFINITY],
@@ -422,9 +422,9 @@ impl Simulation {
             });
         }
         if let Some(since) = self.watch.lost
-            && report.time - since > limits.parted
+            && report.time - since > limits.without_contact
         {
-            return Some(Cause::ContactLost { since, limit: limits.parted });
+            return Some(Cause::ContactLost { since, limit: limits.without_contact });
         }
         if let Some(hub) = &self.system.hub {
             let x = hub.centre[0] + hub.state.x;

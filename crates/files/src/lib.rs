@@ -6,8 +6,8 @@
 
 pub mod input;
 pub mod output;
-mod shown;
+mod printable;
 
 pub use input::{InputError, Kind};
 pub use output::{Made, OutputRefused};
-pub use shown::{Line, line_of, printable};
+pub use printable::{Line, line_of, printable};

@@ -2,7 +2,7 @@
 
 use crate::OutputError;
 use crate::field::FieldSpec;
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, fix_headers, undo};
 use crate::layout::{CONSTANT, MESH, STEP_COUNT, STEPS, STEPS_GROUP, data_path, step_path};
 use crate::provenance::Provenance;
 use crate::sums::{Kept, Sums};
@@ -146,7 +146,9 @@ impl TransientGrid {
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
-        file.close_settled(|path| settle(path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, 0))?;
+        file.close_with_headers_fixed(|path| {
+            fix_headers(path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, 0)
+        })?;
         writer.sums = Sums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }

@@ -5,9 +5,9 @@
 //! opening fail. Closing without `fsync`: the pages survive the death of the process.
 
 use crate::OutputError;
-use crate::caught::caught;
 use crate::free::free_space;
 use crate::layout::{MESH, attribute, mesh_path};
+use crate::panics::catch_panic;
 use crate::provenance::Provenance;
 use crate::room::{Room, end_of_file};
 use files::input;
@@ -179,17 +179,17 @@ impl Creator {
         self.check(write())
     }
 
-    /// Closes the file and gives it its name once `settle` has had it. The first closings of a file to
+    /// Closes the file and gives it its name once `fix_headers` has had it. The first closings of a file to
     /// which something was appended move headers and link tables about, and a kill between two of
     /// their writes would leave neither the old file nor the new one: they must be over before anybody
     /// looks for the file.
-    pub fn close_settled(
+    pub fn close_with_headers_fixed(
         self,
-        settle: impl FnOnce(&Path) -> Result<(), OutputError>,
+        fix_headers: impl FnOnce(&Path) -> Result<(), OutputError>,
     ) -> Result<(), OutputError> {
         let (path, partial) = (self.path.clone(), self.partial.clone());
         self.close_by(|_| Ok(()))?;
-        settle(&partial)?;
+        fix_headers(&partial)?;
         std::fs::rename(&partial, &path).map_err(|error| create_error(&path, error.into()))
     }
 
@@ -226,18 +226,18 @@ pub(crate) enum Kind {
 
 /// Closings after which the closings of a file leave headers where they are. Measured: 4 for a grid of
 /// ten fields, 2 for a history.
-const SETTLED: usize = 6;
+const CLOSINGS: usize = 6;
 
 /// Appends a row to every dataset of a file with so many snapshots and takes it away again, until closings move
 /// nothing.
-pub(crate) fn settle(
+pub(crate) fn fix_headers(
     path: &Path,
     datasets: &[Growing],
     group: &[&str],
     count: &str,
     snapshots: usize,
 ) -> Result<(), OutputError> {
-    for _ in 0..SETTLED {
+    for _ in 0..CLOSINGS {
         let mut file = Appender::open(path)?;
         for dataset in datasets {
             match dataset.kind {
@@ -281,11 +281,11 @@ pub(crate) fn cut_to_go_on(
     regular(path).map_err(of_file)?;
     let copy = partial(path);
     let copied = std::fs::copy(path, &copy).map_err(|error| append_error(path, error.into()));
-    let cut_and_settled = || {
+    let cut_and_fixed = || {
         cut(&copy, datasets, group, count, snapshots)?;
-        settle(&copy, datasets, group, count, snapshots)
+        fix_headers(&copy, datasets, group, count, snapshots)
     };
-    let made = copied.and_then(|_| match cut_and_settled() {
+    let made = copied.and_then(|_| match cut_and_fixed() {
         Err(OutputError::Append { reason, .. }) if no_room(path) => Err(of_file(reason)),
         Err(OutputError::Append { reason, .. }) => {
             Err(OutputError::Damaged { path: path.to_owned(), reason })
@@ -347,7 +347,7 @@ pub(crate) struct Appender {
 impl Appender {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
         regular(path).map_err(|reason| OutputError::Append { path: path.to_owned(), reason })?;
-        let file = caught(|| H5File::options().no_locking().open_rw(path))
+        let file = catch_panic(|| H5File::options().no_locking().open_rw(path))
             .map_err(|error| append_error(path, error))?;
         Ok(Self { path: path.to_owned(), file: Some(file), room: None })
     }
@@ -358,7 +358,7 @@ impl Appender {
         let rows = || -> H5Result<usize> {
             Ok(open(&self.file)?.dataset_writer(name)?.shape().first().copied().unwrap_or(0))
         };
-        let found = caught(rows).map_err(|error| append_error(&self.path, error))?;
+        let found = catch_panic(rows).map_err(|error| append_error(&self.path, error))?;
         if found == left {
             return Ok(());
         }
@@ -378,7 +378,7 @@ impl Appender {
     }
 
     pub fn append<T: H5Type>(&mut self, name: &str, data: &[T]) -> Result<(), OutputError> {
-        caught(|| open(&self.file)?.dataset_writer(name)?.append(data))
+        catch_panic(|| open(&self.file)?.dataset_writer(name)?.append(data))
             .and_then(|()| self.room.take().map_or(Ok(()), |room| Ok(room.announce()?)))
             .map_err(|error| append_error(&self.path, error))
     }
@@ -395,7 +395,7 @@ impl Appender {
             }
             if found > rows { dataset.set_extent(&shape) } else { Ok(()) }
         };
-        caught(write).map_err(|error| append_error(&self.path, error))?;
+        catch_panic(write).map_err(|error| append_error(&self.path, error))?;
         if found < rows {
             let reason = format!("`{name}` has {found} rows, fewer than the {rows} that it must");
             return Err(read_error(&self.path, reason));
@@ -414,7 +414,7 @@ impl Appender {
             set_count(open(&self.file)?, group, name, value)?;
             self.file.take().map_or(Ok(()), H5File::close_no_sync)
         };
-        caught(close).map_err(|error| append_error(&self.path, error))
+        catch_panic(close).map_err(|error| append_error(&self.path, error))
     }
 }
 
@@ -426,7 +426,7 @@ fn open(file: &Option<H5File>) -> H5Result<&H5File> {
 impl Drop for Appender {
     fn drop(&mut self) {
         if let Some(file) = self.file.take() {
-            let _ = caught(|| file.close_no_sync());
+            let _ = catch_panic(|| file.close_no_sync());
         }
     }
 }
@@ -469,7 +469,7 @@ pub(crate) struct Source {
 impl Source {
     pub fn open(path: &Path) -> Result<Self, OutputError> {
         regular(path).map_err(|reason| read_error(path, reason))?;
-        let file = caught(|| H5File::options().no_locking().open(path))
+        let file = catch_panic(|| H5File::options().no_locking().open(path))
             .map_err(|error| read_error(path, error.to_string()))?;
         let length = whole(path)?;
         Ok(Self { path: path.to_owned(), file, length })
@@ -525,7 +525,7 @@ impl Source {
     }
 
     fn read<T>(&self, read: impl FnOnce() -> H5Result<T>) -> Result<T, OutputError> {
-        caught(read).map_err(|error| read_error(&self.path, error.to_string()))
+        catch_panic(read).map_err(|error| read_error(&self.path, error.to_string()))
     }
 
     pub fn root_text(&self, name: &str) -> Result<String, OutputError> {

@@ -2,7 +2,7 @@
 
 use crate::OutputError;
 use crate::field::FieldSpec;
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, settle, undo};
+use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, fix_headers, undo};
 use crate::layout::ROW_COUNT;
 use crate::provenance::Provenance;
 use crate::sums::{Kept, Sums};
@@ -62,7 +62,9 @@ impl History {
             })?;
         }
         file.count(&[], ROW_COUNT, 0)?;
-        file.close_settled(|path| settle(path, &growing(columns), &[], ROW_COUNT, 0))?;
+        file.close_with_headers_fixed(|path| {
+            fix_headers(path, &growing(columns), &[], ROW_COUNT, 0)
+        })?;
         let sums = Sums::of_new(&path, names(columns))?;
         Ok(Self { path, columns: columns.to_vec(), rows: 0, sums, scratch: Vec::new() })
     }

@@ -27,7 +27,6 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod background;
-mod caught;
 mod checkpoint;
 pub mod confidence;
 mod error;
@@ -40,6 +39,7 @@ mod integrity;
 mod json;
 pub mod layout;
 mod made;
+mod panics;
 mod provenance;
 mod reader;
 mod room;

@@ -73,9 +73,9 @@ pub fn check(
     options: &CheckOptions<'_>,
 ) -> Result<Checked, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
-    let window = Window::settle(options.window, basis, &history)?;
+    let window = Window::resolve(options.window, basis, &history)?;
     let records = window.records.clone();
-    let scales = Scales::settle(basis, &history, &records)?;
+    let scales = Scales::resolve(basis, &history, &records)?;
     let mut pass = Pass::new(&history, basis, scales);
     pass.lead_in(records.start)?;
     let mut map = options

@@ -63,7 +63,7 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
         .iter()
         .map(|run| ContactHistory::open(&run.paths.contact))
         .collect::<Result<_, _>>()?;
-    let asked = window.map(|window| window.settle(&first.basis, &histories[0])).transpose()?;
+    let asked = window.map(|window| window.resolve(&first.basis, &histories[0])).transpose()?;
     let window = asked.or_else(|| first.basis.recorded_window()).or(first.basis.window);
     let window = window.unwrap_or_else(|| {
         let ends = |h: &ContactHistory| [h.times[0], h.times[h.times.len() - 1]];

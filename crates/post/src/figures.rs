@@ -42,9 +42,9 @@ pub fn figures(
     window: Option<Span>,
 ) -> Result<Vec<Named>, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
-    let window = Window::settle(window, basis, &history)?;
+    let window = Window::resolve(window, basis, &history)?;
     let records = window.records.clone();
-    let scales = Scales::settle(basis, &history, &records)?;
+    let scales = Scales::resolve(basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
     let sources = Sources::of(paths, basis, &window)?;
     let means = FigureMeans {
@@ -52,7 +52,7 @@ pub fn figures(
         creepage: sources.mean("creepage"),
         traction_coefficient: sources.mean("traction_coefficient"),
     };
-    let window = window.shown(&history.times);
+    let window = window.ends(&history.times);
     let instants = Vec::new();
     let mut scene =
         Scene { history: &history, basis, scales, body, records, window, means, instants };

@@ -283,7 +283,7 @@ impl Rule<'_> {
 
         let begun = self.begin(&at);
         // of a pair that has just closed the first slip counts for the coefficient, and then again
-        let mut shown = None;
+        let mut new_contact = None;
         node.states = match between {
             // with the pressure of the preload, which has no dampers yet
             Between::Start if self.method == Method::Passes => [0.0, 2.0, 1.0, 1.0].map(|part| {
@@ -292,12 +292,12 @@ impl Rule<'_> {
             }),
             Between::Start => [begun; 4],
             Between::Step if before => {
-                let told = self.told(&at, old.pressure);
-                old.states.map(|state| self.law.advance(state, old.slip, &told, self.dt))
+                let inputs = self.state_inputs(&at, old.pressure);
+                old.states.map(|state| self.law.advance(state, old.slip, &inputs, self.dt))
             }
             Between::Step => {
                 if self.method == Method::Passes {
-                    shown = Some([self.law.advance(begun, slip, &at, self.dt); 4]);
+                    new_contact = Some([self.law.advance(begun, slip, &at, self.dt); 4]);
                 }
                 [begun; 4]
             }
@@ -319,7 +319,7 @@ impl Rule<'_> {
                 [new, worn, new, worn]
             }
         };
-        self.allowed(shown.as_ref().unwrap_or(&node.states), slip, &at)
+        self.allowed(new_contact.as_ref().unwrap_or(&node.states), slip, &at)
     }
 
     /// The state with which contact begins.
@@ -330,8 +330,8 @@ impl Rule<'_> {
         }
     }
 
-    /// What a step to `at` is told, after one with the pressure `before`.
-    fn told(&self, at: &Place, before: f64) -> Place {
+    /// What the state of a step to `at` is updated with, after one with the pressure `before`.
+    fn state_inputs(&self, at: &Place, before: f64) -> Place {
         match self.method {
             Method::Exact { .. } => Place { pressure: before, ..*at },
             Method::Passes => *at,

@@ -15,5 +15,5 @@ pub(crate) use trend::RULE;
 pub use trend::{Sample, Trend, Verdict, trend};
 pub use verdict::{SweepVerdict, sweep_verdicts};
 
-pub(crate) use document::{Sweep, shown};
+pub(crate) use document::{Sweep, value_text};
 pub(crate) use measures::{MEASURES, SweepMeasure};

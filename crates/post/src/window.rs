@@ -20,7 +20,7 @@ impl Span {
     ///
     /// # Errors
     /// Transits of a contact whose length or speed is not known, or more of them than there are records of.
-    pub(crate) fn settle(
+    pub(crate) fn resolve(
         self,
         basis: &Basis,
         history: &ContactHistory,
@@ -73,14 +73,14 @@ impl Window {
     ///
     /// # Errors
     /// A window that was asked for and holds no record.
-    pub fn settle(
+    pub fn resolve(
         asked: Option<Span>,
         basis: &Basis,
         history: &ContactHistory,
     ) -> Result<Self, PostError> {
         let all = [f64::NEG_INFINITY, f64::INFINITY];
         let own = basis.window.unwrap_or(all);
-        let span = asked.map_or(Ok(own), |asked| asked.settle(basis, history))?;
+        let span = asked.map_or(Ok(own), |asked| asked.resolve(basis, history))?;
         match history.window(span) {
             Err(_) if asked.is_none() => {
                 Ok(Self { span: all, records: 0..history.times.len(), of_summary: false })
@@ -97,7 +97,7 @@ impl Window {
     }
 
     /// From and to (s) as documents show them: an end that nothing bounds is that of the records.
-    pub fn shown(&self, times: &[f64]) -> [f64; 2] {
+    pub fn ends(&self, times: &[f64]) -> [f64; 2] {
         let ends = [times[self.records.start], times[self.records.end - 1]];
         [0, 1].map(|i| if self.span[i].is_finite() { self.span[i] } else { ends[i] })
     }

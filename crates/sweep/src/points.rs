@@ -151,19 +151,19 @@ fn run_name(n: usize, chosen: &[(&str, &Value)]) -> String {
     let mut name = String::new();
     for (key, value) in chosen {
         let short = key.rsplit('.').next().unwrap_or(key);
-        name += &format!("-{short}-{}", shown(value));
+        name += &format!("-{short}-{}", folder_text(value));
     }
     let fit = |c: &char| name::may_hold(*c) && *c != ' ' && c.is_ascii();
     let name: String = name.chars().filter(fit).take(LONGEST_NAME).collect();
     format!("{n:03}{name}")
 }
 
-fn shown(value: &Value) -> String {
+fn folder_text(value: &Value) -> String {
     match value {
         Value::Float(x) => case::key::number(*x),
         Value::Table(table) => {
             let entries: Vec<_> =
-                table.iter().map(|(key, value)| format!("{key}-{}", shown(value))).collect();
+                table.iter().map(|(key, value)| format!("{key}-{}", folder_text(value))).collect();
             entries.join("-")
         }
         other => other.to_string(),

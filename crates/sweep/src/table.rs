@@ -96,7 +96,7 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
         let values = values.chain(parameters.iter().map(|name| &run["parameters"][*name]));
         let values = values.chain([&run["status"]]);
         let values = values
-            .chain(COLUMNS.iter().map(|(_, at)| shown(run, at)))
+            .chain(COLUMNS.iter().map(|(_, at)| value_at(run, at)))
             .chain(measures.iter().map(|name| &run["check"]["metrics"][*name]["value"]))
             .chain([&run["reason"]]);
         line(&mut text, values.map(cell).chain(halves(run)));
@@ -106,7 +106,7 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
         let parameters = parameters.iter().map(|name| cell(&point["parameters"][*name]));
         let of_means = |(heading, at): &(&str, &'static str)| {
             // deviations over a window are of a run
-            if heading.ends_with(DEVIATION) { String::new() } else { cell(shown(point, at)) }
+            if heading.ends_with(DEVIATION) { String::new() } else { cell(value_at(point, at)) }
         };
         let metrics = measures.iter().map(|name| cell(&point["check"]["metrics"][*name]["value"]));
         let values = [name].into_iter().chain(parameters).chain(["ensemble".to_owned()]);
@@ -144,12 +144,13 @@ fn intervals(measures: &[&str]) -> Vec<(String, [String; 2])> {
 
 /// The first of the places that an entry has.
 fn first<'a>(entry: &'a Value, places: &[String; 2]) -> &'a Value {
-    let there = places.iter().map(|at| if at.is_empty() { &Value::Null } else { shown(entry, at) });
+    let there =
+        places.iter().map(|at| if at.is_empty() { &Value::Null } else { value_at(entry, at) });
     there.into_iter().find(|value| !value.is_null()).unwrap_or(&Value::Null)
 }
 
 /// A value of a run; means over the evaluation window only where the run came to its end.
-fn shown<'a>(run: &'a Value, at: &str) -> &'a Value {
+fn value_at<'a>(run: &'a Value, at: &str) -> &'a Value {
     let mean = ["/summary/contact/", "/summary/window/", "/check/patch/", "/check/slip_zone/"]
         .iter()
         .any(|section| at.starts_with(section));

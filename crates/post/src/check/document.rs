@@ -65,7 +65,7 @@ impl Pass<'_> {
         });
         let document = json!({
             "name": basis.name,
-            "window": window.shown(times),
+            "window": window.ends(times),
             "recorded": [times[window.records.start], times[window.records.end - 1]],
             "steps": window.records.len(),
             "nodes": self.history.surface.points.len(),

@@ -20,7 +20,7 @@ pub(crate) struct Scales {
 
 impl Scales {
     /// What the basis knows, completed from the records where that can be done.
-    pub fn settle(
+    pub fn resolve(
         basis: &mut Basis,
         history: &ContactHistory,
         records: &std::ops::Range<usize>,

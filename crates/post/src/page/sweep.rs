@@ -3,7 +3,9 @@
 use super::{escape, head};
 use crate::PostError;
 use crate::digits::digits;
-use crate::sweep::{MEASURES, RULE, Sweep, SweepVerdict, shown, sweep_figures, sweep_verdicts};
+use crate::sweep::{
+    MEASURES, RULE, Sweep, SweepVerdict, sweep_figures, sweep_verdicts, value_text,
+};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -109,7 +111,7 @@ fn table(out: &mut String, sweep: &Sweep<'_>) {
     for run in &sweep.runs {
         out.push_str("<tr>");
         for axis in &sweep.axes {
-            let value = shown(&run.parameter(axis));
+            let value = value_text(&run.parameter(axis));
             let _ = write!(out, "<td class=\"n\">{}</td>", escape(&value));
         }
         let reason = run.entry["reason"].as_str().map(|reason| format!(": {reason}"));

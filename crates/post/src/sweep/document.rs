@@ -86,8 +86,9 @@ impl<'a> Sweep<'a> {
                 continue;
             };
             let others = self.axes.iter().filter(|other| **other != axis);
-            let label: Vec<String> =
-                others.map(|other| format!("{other} = {}", shown(&run.parameter(other)))).collect();
+            let label: Vec<String> = others
+                .map(|other| format!("{other} = {}", value_text(&run.parameter(other))))
+                .collect();
             let label = label.join(", ");
             all.members.push((value, run));
             match groups.iter_mut().find(|group| group.label == label) {
@@ -133,7 +134,7 @@ impl<'a> Run<'a> {
 }
 
 /// A parameter's value as text.
-pub(crate) fn shown(value: &Value) -> String {
+pub(crate) fn value_text(value: &Value) -> String {
     match value {
         Value::Number(n) => n.as_f64().map_or(String::new(), short),
         Value::String(text) => text.clone(),

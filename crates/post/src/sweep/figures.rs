@@ -1,6 +1,6 @@
 //! The figures of a sweep.
 
-use super::document::{Group, Sweep, shown};
+use super::document::{Group, Sweep, value_text};
 use super::measures::{MEASURES, Point};
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
@@ -167,7 +167,7 @@ fn profiles(
         known.entry(folder.clone()).or_insert_with(|| profile(&folder).ok());
         // the lightest yellow does not show on paper
         let colour = viridis(0.9 * k as f64 / (count - 1).max(1) as f64);
-        lines.push((shown(&Value::from(*x)), colour, folder));
+        lines.push((value_text(&Value::from(*x)), colour, folder));
     }
     lines.retain(|(.., folder)| known[folder].is_some());
     if lines.is_empty() {

@@ -24,9 +24,9 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
     let paths = RunPaths::of(run)?;
     let mut basis = Basis::read(&paths)?;
     let history = ContactHistory::open(&paths.contact)?;
-    let window = Window::settle(None, &basis, &history)?;
+    let window = Window::resolve(None, &basis, &history)?;
     let records = window.records.clone();
-    let scales = Scales::settle(&mut basis, &history, &records)?;
+    let scales = Scales::resolve(&mut basis, &history, &records)?;
     let body = history.surface.bodies().last().copied().unwrap_or(0);
     let scene = Scene {
         history: &history,
@@ -34,7 +34,7 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
         scales,
         body,
         records: records.clone(),
-        window: window.shown(&history.times),
+        window: window.ends(&history.times),
         means: FigureMeans::default(),
         instants: Vec::new(),
     };

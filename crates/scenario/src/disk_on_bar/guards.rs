@@ -18,7 +18,7 @@ pub fn limits(case: &Case, model: &Model) -> GuardLimits {
         hourglass: guards.hourglass,
         least_energy: LEAST_ENERGY * case.load.normal * hertz(case).approach,
         penetration: guards.penetration * case.mesh.zone.size,
-        parted: case.longest_parted().unwrap_or(f64::INFINITY),
+        without_contact: case.longest_parted().unwrap_or(f64::INFINITY),
         least_force: LEAST_FORCE * case.load.normal,
         friction: case.largest_friction().unwrap_or(f64::INFINITY),
         track: along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]),

@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use std::sync::Once;
 
 thread_local! {
-    /// Whether this thread is within [`caught`].
+    /// Whether this thread is within [`catch_panic`].
     static WITHIN: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -19,7 +19,7 @@ thread_local! {
 ///
 /// Asserted to be safe on unwinding: what the library shares between calls are cells, which unwinding
 /// releases, and caches behind locks, which it no longer uses once they are poisoned.
-pub(crate) fn caught<T>(call: impl FnOnce() -> Result<T, Hdf5Error>) -> Result<T, Hdf5Error> {
+pub(crate) fn catch_panic<T>(call: impl FnOnce() -> Result<T, Hdf5Error>) -> Result<T, Hdf5Error> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let before = take_hook();
@@ -45,15 +45,15 @@ fn text(panic: &(dyn Any + Send)) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::caught;
+    use super::catch_panic;
 
     #[test]
     fn a_panic_becomes_an_error_with_its_text() {
         let bitmap: Vec<u8> = Vec::new();
-        let error = caught(|| Ok(bitmap[std::hint::black_box(0)])).map_err(|e| e.to_string());
+        let error = catch_panic(|| Ok(bitmap[std::hint::black_box(0)])).map_err(|e| e.to_string());
         assert!(error.is_err_and(|text| text.contains("the len is 0 but the index is 0")));
-        let error = caught::<()>(|| panic!("page {}", 7)).map_err(|e| e.to_string());
+        let error = catch_panic::<()>(|| panic!("page {}", 7)).map_err(|e| e.to_string());
         assert!(error.is_err_and(|text| text.contains("broke off (page 7)")));
-        assert_eq!(caught(|| Ok(3)).ok(), Some(3));
+        assert_eq!(catch_panic(|| Ok(3)).ok(), Some(3));
     }
 }
