@@ -1,5 +1,7 @@
 //! The case against itself: sizes that fit, choices that agree, a path that stays in the fine zone.
 
+mod geometry;
+
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
 use crate::friction_law;
@@ -9,7 +11,7 @@ use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
 use crate::schema::{
-    Case, Crown, Enforcement, LoadMode, Material, PreloadMethod, Stiffness, Time, Window,
+    Case, Enforcement, LoadMode, Material, PreloadMethod, Stiffness, Time, Window,
 };
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
@@ -17,9 +19,6 @@ use toml::{Table, Value};
 
 /// Fully integrated layers where a case with them does not say how many.
 pub const LAYERS: u64 = 2;
-
-/// More elements than this in the fine zones is a slip of a digit.
-const MOST_ELEMENTS: f64 = 2e8;
 
 /// More steps than this is a slip of a digit; many deserve a warning.
 const MOST_STEPS: f64 = 1e9;
@@ -87,7 +86,7 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
     let mut found = Findings { layers, errors: Vec::new() };
     check_name(case, &mut found);
     check_choices(case, &mut found);
-    check_geometry(case, &mut found);
+    geometry::check(case, &mut found);
     check_output(case, &mut found);
     // The path is judged only for a case whose shape makes sense.
     if found.errors.is_empty() {
@@ -286,139 +285,6 @@ fn check_formula(case: &Case, found: &mut Findings) {
         },
         "write a formula that is a coefficient of friction everywhere: max(p, 1e3) keeps clear of a \
          division by zero, max(0.1, ...) of a negative value",
-    );
-}
-
-fn check_geometry(case: &Case, found: &mut Findings) {
-    let (disk, bar, zone) = (&case.disk, &case.bar, &case.mesh.zone);
-    let mut at_most = |key: &str, value: f64, limit_key: &str, limit: f64, remedy: &str| {
-        found.require(
-            value <= limit,
-            &[key, limit_key],
-            || {
-                format!(
-                    "{key} = {} m must be at most {limit_key} = {} m",
-                    number(value),
-                    number(limit)
-                )
-            },
-            remedy,
-        );
-    };
-    const NOT_INSIDE: &str = "the fine zone must lie inside both bodies: make it smaller";
-    at_most("mesh.zone.width", zone.width, "bar.width", bar.width, NOT_INSIDE);
-    at_most("mesh.zone.width", zone.width, "disk.width", disk.width, NOT_INSIDE);
-    at_most("mesh.zone.length", zone.length, "bar.length", bar.length, NOT_INSIDE);
-    // `zone.depth` and `coarsest` are without meaning beside a mesh that is read.
-    let generated = case.mesh.file.is_none();
-    if generated {
-        at_most("mesh.zone.depth", zone.depth, "bar.height", bar.height, NOT_INSIDE);
-    }
-    const COARSE: &str = "the element size must not exceed the fine zone: make mesh.zone.size \
-                          smaller, for example 1e-3";
-    at_most("mesh.zone.size", zone.size, "mesh.zone.length", zone.length, COARSE);
-    at_most("mesh.zone.size", zone.size, "mesh.zone.width", zone.width, COARSE);
-    if generated {
-        at_most("mesh.zone.size", zone.size, "mesh.zone.depth", zone.depth, COARSE);
-        at_most(
-            "mesh.zone.size",
-            zone.size,
-            "mesh.coarsest",
-            case.mesh.coarsest,
-            "elements grow from zone.size to coarsest: make coarsest larger",
-        );
-    }
-    let mut require = |fine: bool, keys: &[&str], problem: String, remedy: &str| {
-        found.require(fine, keys, || problem, remedy);
-    };
-    require(
-        disk.hub_radius < disk.radius,
-        &["disk.hub_radius", "disk.radius"],
-        format!(
-            "disk.hub_radius = {} m must be less than disk.radius = {} m",
-            number(disk.hub_radius),
-            number(disk.radius)
-        ),
-        "the hub is the rigid core of the disk: make it smaller",
-    );
-    let rim = disk.radius - disk.hub_radius;
-    require(
-        !generated || rim <= 0.0 || zone.depth <= rim,
-        &["mesh.zone.depth", "disk.hub_radius", "disk.radius"],
-        format!(
-            "mesh.zone.depth = {} m must be at most disk.radius - disk.hub_radius = {} m",
-            number(zone.depth),
-            number(round(rim))
-        ),
-        NOT_INSIDE,
-    );
-    for (key, crown, width) in [
-        ("disk.crown_radius", disk.crown_radius, disk.width),
-        ("bar.crown_radius", bar.crown_radius, bar.width),
-    ] {
-        if let Crown::Radius(radius) = crown {
-            require(
-                radius >= width,
-                &[key],
-                format!("{key} = {} m must be at least the width, {} m", number(radius), width),
-                "a crown rounder than its body's width is no running surface",
-            );
-        }
-    }
-    let flat = disk.crown_radius == Crown::Flat && bar.crown_radius == Crown::Flat;
-    let alike = |width: f64| (width - zone.width).abs() <= 1e-9 * zone.width;
-    require(
-        !case.mesh.plane_strain || flat,
-        &["mesh.plane_strain", "disk.crown_radius", "bar.crown_radius"],
-        "mesh.plane_strain = true must go with crown_radius = \"flat\" of disk and bar".into(),
-        "plane strain is the contact of two cylinders: set bar.crown_radius = \"flat\"",
-    );
-    require(
-        !case.mesh.plane_strain || (alike(disk.width) && alike(bar.width)),
-        &["mesh.plane_strain", "mesh.zone.width", "disk.width", "bar.width"],
-        format!(
-            "mesh.plane_strain = true must go with one width of all, but mesh.zone.width = {} m, disk.width = {} \
-             m, bar.width = {} m",
-            number(zone.width),
-            number(disk.width),
-            number(bar.width)
-        ),
-        "make a slice: give all three the same width",
-    );
-    let (bar_end, zone_end) = (bar.start + bar.length, zone.start + zone.length);
-    let rounding = 1e-12;
-    require(
-        zone.start >= bar.start - rounding && zone_end <= bar_end + rounding,
-        &["mesh.zone.start", "mesh.zone.length", "bar.start", "bar.length"],
-        format!(
-            "the fine zone from x = {} to {} m must lie inside the bar, x = {} to {} m",
-            number(round(zone.start)),
-            number(round(zone_end)),
-            number(round(bar.start)),
-            number(round(bar_end))
-        ),
-        "move or shorten the fine zone (mesh.zone.start, mesh.zone.length), or lengthen the bar",
-    );
-    require(
-        zone.length <= 0.5 * disk.radius * std::f64::consts::PI,
-        &["mesh.zone.length", "disk.radius"],
-        format!(
-            "mesh.zone.length = {} m must be at most a quarter of the disk's circumference, {} m",
-            number(zone.length),
-            number(round(0.5 * disk.radius * std::f64::consts::PI))
-        ),
-        "shorten the fine zone or enlarge the disk",
-    );
-    let elements = 2.0 * zone.length * zone.width * zone.depth / zone.size.powi(3);
-    require(
-        !generated || elements <= MOST_ELEMENTS,
-        &["mesh.zone.size"],
-        format!(
-            "mesh.zone.size = {} m makes about {elements:.1e} elements in the fine zones, more \
-             than {MOST_ELEMENTS:.0e}",
-            number(zone.size)
-        ),
-        "give the element size in metres: 1e-3 for 1 mm",
     );
 }
 

@@ -6,11 +6,14 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod cards;
+mod case_file;
 mod deck;
 mod model;
+mod shape;
 #[cfg(test)]
 mod tests;
+mod translate;
 mod units;
 
-pub use model::{Translation, translate};
+pub use translate::{Translation, translate};
 pub use units::Units;

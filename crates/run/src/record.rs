@@ -1,5 +1,8 @@
 //! What a run writes while it rolls, and when.
 
+mod row;
+
+use self::row::{PatchMeasures, Resultants, row};
 use crate::error::RunError;
 use crate::means::Means;
 use crate::mesh_mode::WatchedFaces;
@@ -11,8 +14,8 @@ use contact::patch::{self, PatchShape};
 use dynamics::{Hub, Simulation, StepReport};
 use mesh::Padded;
 use output::layout::{
-    BODIES, BODY_NAMES, BodyFields, CONTACT, ContactFields, HISTORY, HistoryRow, MORTAR,
-    NODE_TO_FACE, Pairing, attribute, file,
+    BODIES, BODY_NAMES, BodyFields, CONTACT, ContactFields, HISTORY, MORTAR, NODE_TO_FACE, Pairing,
+    attribute, file,
 };
 use output::{
     BackgroundWriter, Cells, Checkpoint, FieldSpec, GridSpec, History, Kept, OutputError,
@@ -34,6 +37,15 @@ struct Zones {
     pairing: Pairing,
     displacement: Vec<[f64; 3]>,
     velocity: Vec<[f64; 3]>,
+}
+
+impl Zones {
+    fn copy_velocity(&mut self, simulation: &Simulation) {
+        let nodes = self.tables.iter().flat_map(|t| &t.nodes);
+        for (v, &node) in self.velocity.iter_mut().zip(nodes) {
+            *v = simulation.velocity()[node as usize].xyz();
+        }
+    }
 }
 
 /// Writes fields, contact surfaces and history, and gathers the means of the window.
@@ -246,11 +258,11 @@ impl Recorder {
         }
         if self.records_contact(n) {
             let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
-            for (row, &node) in nodes.enumerate() {
-                self.zones.displacement[row] = simulation.displacement()[node as usize].xyz();
-                if self.zones.pairing == Pairing::Before {
-                    self.zones.velocity[row] = simulation.velocity()[node as usize].xyz();
-                }
+            for (u, &node) in self.zones.displacement.iter_mut().zip(nodes) {
+                *u = simulation.displacement()[node as usize].xyz();
+            }
+            if self.zones.pairing == Pairing::Before {
+                self.zones.copy_velocity(simulation);
             }
         }
         self.wall += clock.elapsed();
@@ -265,28 +277,9 @@ impl Recorder {
     ) -> Result<(), RunError> {
         let clock = Instant::now();
         let n = report.step as u64;
-        let [tangential, lateral, normal] = report.contact.force[DISK];
-        let creepage = report.omega * self.effective_radius / self.speed - 1.0;
-        let other = report.contact.force[BAR];
-        let mismatch =
-            (0..3).map(|i| (report.contact.force[DISK][i] + other[i]).powi(2)).sum::<f64>().sqrt()
-                / report.contact.normal_force.max(f64::MIN_POSITIVE);
-        if report.contact.closed > 0 {
-            self.means.worst_mismatch = self.means.worst_mismatch.max(mismatch);
-        }
-        self.means.most_sweeps = self.means.most_sweeps.max(report.contact.sweeps);
-        self.means.integrated += report.contact.integrated as u64;
-        self.means.non_unique += report.contact.non_unique as u64;
+        let resultants = Resultants::of(report, self.effective_radius, self.speed);
         let inside = (self.evaluate[0]..=self.evaluate[1]).contains(&report.time);
-        if inside {
-            for (mean, f) in self.means.force.iter_mut().zip([tangential, lateral, normal]) {
-                mean.add(f);
-            }
-            self.means.traction.add(tangential / normal);
-            self.means.creepage.add(creepage);
-            self.means.torque.add(report.drive.torque);
-            self.means.penetration.add(report.contact.max_penetration);
-        }
+        self.means.add_step(report, &resultants, inside);
         if let (Some(probes), Some(contact)) = (&mut self.probes, simulation.contact()) {
             probes.record(contact, report)?;
         }
@@ -298,10 +291,7 @@ impl Recorder {
         }
         if records {
             if self.zones.pairing == Pairing::After {
-                let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
-                for (v, &node) in self.zones.velocity.iter_mut().zip(nodes) {
-                    *v = simulation.velocity()[node as usize].xyz();
-                }
+                self.zones.copy_velocity(simulation);
             }
             self.write_contact(report.time)?;
         }
@@ -314,76 +304,32 @@ impl Recorder {
             self.mesh_mode.energy(step, solid, displacement, &mut self.means.mesh_mode);
         }
         if reads {
-            let e = report.energies.unwrap_or_default();
-            let bar = &self.zones.tables[BAR];
+            let energies = report.energies.unwrap_or_default();
             let hub = simulation.hub().map(|h| h.state).unwrap_or_default();
-            let fit = patch::fit(self.shape, &self.points[BAR], &bar.pressure);
-            let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
-            let shear = bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max);
-            let cone = self.cone_excess();
-            let (a, b, p0, xc) =
-                fit.map_or([f64::NAN; 4].into(), |f| (f.a, f.b, f.p0, f.xc - hub.x));
-            let border = self.stick_border(hub.x + xc);
-            self.means.worst_cone = self.means.worst_cone.max(cone);
-            if inside {
-                let m = &mut self.means;
-                m.half_length.add(a);
-                m.half_width.add(b);
-                m.peak_pressure.add(p0);
-                m.peak_shear.add(shear);
-                m.area.add(areas.contact);
-                m.stick.add(areas.stick_fraction);
-                m.slip.add(areas.slip_fraction);
-                m.stick_border.add(border);
-                m.hourglass_share.add(e.hourglass / e.internal);
-            }
-            let row = HistoryRow {
-                time: report.time,
-                step: n as f64,
-                kinetic: e.kinetic,
-                internal: e.internal,
-                hourglass: e.hourglass,
-                contact_stored: e.contact_stored,
-                friction_dissipated: e.friction_dissipated,
-                damping_dissipated: e.damping_dissipated,
-                external_work: e.external_work,
-                imbalance: simulation.ledger().imbalance(&e),
-                normal_force: normal,
-                tangential_force: tangential,
-                lateral_force: lateral,
-                traction_coefficient: tangential / normal,
-                creepage,
-                omega: report.omega,
-                torque: report.drive.torque,
-                drive_force: report.drive.force_x,
-                hub_x: hub.x,
-                hub_z: hub.z,
-                patch_half_length: a,
-                patch_half_width: b,
-                patch_x: xc,
-                peak_pressure: p0,
-                peak_pressure_raw: areas.peak_pressure,
-                peak_shear: shear,
-                patch_area: areas.contact,
-                stick_fraction: areas.stick_fraction,
-                slip_fraction: areas.slip_fraction,
-                stick_border: border,
-                closed_pairs: report.contact.closed as f64,
-                slipping_pairs: report.contact.slipping as f64,
-                max_penetration: report.contact.max_penetration,
-                cone_excess: cone,
-                contact_damping: e.contact_damping,
-                sweeps: report.contact.sweeps as f64,
-                manifold: report.contact.non_unique as f64,
-                resultant_mismatch: mismatch,
-            };
-            self.rows.extend(row.each());
+            let patch = self.patch(hub.x);
+            self.means.add_patch(&patch, &energies, inside);
+            let imbalance = simulation.ledger().imbalance(&energies);
+            self.rows.extend(row(report, &resultants, &patch, &hub, imbalance).each());
             if self.rows.len() >= HISTORY_BATCH * HISTORY.each().len() {
                 self.flush_history()?;
             }
         }
         self.wall += clock.elapsed();
         Ok(())
+    }
+
+    /// The patch on the bar as the tables have it, with the hub at `hub_x` (m).
+    fn patch(&mut self, hub_x: f64) -> PatchMeasures {
+        let bar = &self.zones.tables[BAR];
+        let fit = patch::fit(self.shape, &self.points[BAR], &bar.pressure);
+        let fit = fit.map_or([f64::NAN; 4], |f| [f.a, f.b, f.p0, f.xc - hub_x]);
+        PatchMeasures {
+            fit,
+            areas: patch::areas(&bar.pressure, &bar.area, &bar.state),
+            peak_shear: bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max),
+            cone_excess: self.cone_excess(),
+            stick_border: self.stick_border(hub_x + fit[3]),
+        }
     }
 
     /// Writes what is still held back, the final state, and closes the files.

@@ -1,0 +1,179 @@
+//! Sizes of the bodies and of the fine zone that fit one another.
+
+use super::{Findings, round};
+use crate::key::number;
+use crate::schema::{Case, Crown};
+
+/// More elements than this in the fine zones is a slip of a digit.
+const MOST_ELEMENTS: f64 = 2e8;
+
+const NOT_INSIDE: &str = "the fine zone must lie inside both bodies: make it smaller";
+
+/// Checks the sizes of the bodies and of the fine zone.
+pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
+    check_zone_size(case, found);
+    check_disk(case, found);
+    check_crowns(case, found);
+    check_slice(case, found);
+    check_zone_place(case, found);
+    check_element_count(case, found);
+}
+
+/// The fine zone is no larger than the bodies, and its elements no larger than it.
+fn check_zone_size(case: &Case, found: &mut Findings<'_>) {
+    let (disk, bar, zone) = (&case.disk, &case.bar, &case.mesh.zone);
+    const COARSE: &str = "the element size must not exceed the fine zone: make mesh.zone.size \
+                          smaller, for example 1e-3";
+    const GROWS: &str = "elements grow from zone.size to coarsest: make coarsest larger";
+    let (width, depth, size) = ("mesh.zone.width", "mesh.zone.depth", "mesh.zone.size");
+    let length = "mesh.zone.length";
+    let coarsest = case.mesh.coarsest;
+    // `zone.depth` and `coarsest` are without meaning beside a mesh that is read
+    let generated = case.mesh.file.is_none();
+    for (key, value, limit_key, limit, remedy, applies) in [
+        (width, zone.width, "bar.width", bar.width, NOT_INSIDE, true),
+        (width, zone.width, "disk.width", disk.width, NOT_INSIDE, true),
+        (length, zone.length, "bar.length", bar.length, NOT_INSIDE, true),
+        (depth, zone.depth, "bar.height", bar.height, NOT_INSIDE, generated),
+        (size, zone.size, length, zone.length, COARSE, true),
+        (size, zone.size, width, zone.width, COARSE, true),
+        (size, zone.size, depth, zone.depth, COARSE, generated),
+        (size, zone.size, "mesh.coarsest", coarsest, GROWS, generated),
+    ] {
+        let (asked, limit_text) = (number(value), number(limit));
+        found.require(
+            !applies || value <= limit,
+            &[key, limit_key],
+            || format!("{key} = {asked} m must be at most {limit_key} = {limit_text} m"),
+            remedy,
+        );
+    }
+}
+
+/// The disk has a rim around its hub, which holds the fine zone.
+fn check_disk(case: &Case, found: &mut Findings<'_>) {
+    let (disk, zone) = (&case.disk, &case.mesh.zone);
+    found.require(
+        disk.hub_radius < disk.radius,
+        &["disk.hub_radius", "disk.radius"],
+        || {
+            format!(
+                "disk.hub_radius = {} m must be less than disk.radius = {} m",
+                number(disk.hub_radius),
+                number(disk.radius)
+            )
+        },
+        "the hub is the rigid core of the disk: make it smaller",
+    );
+    let rim = disk.radius - disk.hub_radius;
+    found.require(
+        case.mesh.file.is_some() || rim <= 0.0 || zone.depth <= rim,
+        &["mesh.zone.depth", "disk.hub_radius", "disk.radius"],
+        || {
+            format!(
+                "mesh.zone.depth = {} m must be at most disk.radius - disk.hub_radius = {} m",
+                number(zone.depth),
+                number(round(rim))
+            )
+        },
+        NOT_INSIDE,
+    );
+}
+
+fn check_crowns(case: &Case, found: &mut Findings<'_>) {
+    let (disk, bar) = (&case.disk, &case.bar);
+    for (key, crown, width) in [
+        ("disk.crown_radius", disk.crown_radius, disk.width),
+        ("bar.crown_radius", bar.crown_radius, bar.width),
+    ] {
+        if let Crown::Radius(radius) = crown {
+            found.require(
+                radius >= width,
+                &[key],
+                || format!("{key} = {} m must be at least the width, {width} m", number(radius)),
+                "a crown rounder than its body's width is no running surface",
+            );
+        }
+    }
+}
+
+/// Plane strain is a slice of two cylinders of one width.
+fn check_slice(case: &Case, found: &mut Findings<'_>) {
+    if !case.mesh.plane_strain {
+        return;
+    }
+    let (disk, bar, zone) = (&case.disk, &case.bar, &case.mesh.zone);
+    found.require(
+        disk.crown_radius == Crown::Flat && bar.crown_radius == Crown::Flat,
+        &["mesh.plane_strain", "disk.crown_radius", "bar.crown_radius"],
+        || "mesh.plane_strain = true must go with crown_radius = \"flat\" of disk and bar".into(),
+        "plane strain is the contact of two cylinders: set bar.crown_radius = \"flat\"",
+    );
+    let alike = |width: f64| (width - zone.width).abs() <= 1e-9 * zone.width;
+    found.require(
+        alike(disk.width) && alike(bar.width),
+        &["mesh.plane_strain", "mesh.zone.width", "disk.width", "bar.width"],
+        || {
+            format!(
+                "mesh.plane_strain = true must go with one width of all, but mesh.zone.width = {} m, disk.width \
+                 = {} m, bar.width = {} m",
+                number(zone.width),
+                number(disk.width),
+                number(bar.width)
+            )
+        },
+        "make a slice: give all three the same width",
+    );
+}
+
+/// The fine zone lies on the bar.
+fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
+    let (bar, zone) = (&case.bar, &case.mesh.zone);
+    let (bar_end, zone_end) = (bar.start + bar.length, zone.start + zone.length);
+    let rounding = 1e-12;
+    found.require(
+        zone.start >= bar.start - rounding && zone_end <= bar_end + rounding,
+        &["mesh.zone.start", "mesh.zone.length", "bar.start", "bar.length"],
+        || {
+            format!(
+                "the fine zone from x = {} to {} m must lie inside the bar, x = {} to {} m",
+                number(round(zone.start)),
+                number(round(zone_end)),
+                number(round(bar.start)),
+                number(round(bar_end))
+            )
+        },
+        "move or shorten the fine zone (mesh.zone.start, mesh.zone.length), or lengthen the bar",
+    );
+    let quarter = 0.5 * case.disk.radius * std::f64::consts::PI;
+    found.require(
+        zone.length <= quarter,
+        &["mesh.zone.length", "disk.radius"],
+        || {
+            format!(
+                "mesh.zone.length = {} m must be at most a quarter of the disk's circumference, {} m",
+                number(zone.length),
+                number(round(quarter))
+            )
+        },
+        "shorten the fine zone or enlarge the disk",
+    );
+}
+
+/// The fine zones do not have more elements than any machine holds.
+fn check_element_count(case: &Case, found: &mut Findings<'_>) {
+    let zone = &case.mesh.zone;
+    let elements = 2.0 * zone.length * zone.width * zone.depth / zone.size.powi(3);
+    found.require(
+        case.mesh.file.is_some() || elements <= MOST_ELEMENTS,
+        &["mesh.zone.size"],
+        || {
+            format!(
+                "mesh.zone.size = {} m makes about {elements:.1e} elements in the fine zones, more \
+                 than {MOST_ELEMENTS:.0e}",
+                number(zone.size)
+            )
+        },
+        "give the element size in metres: 1e-3 for 1 mm",
+    );
+}

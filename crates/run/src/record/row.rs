@@ -1,0 +1,145 @@
+//! What a step contributes to the history and to the means of the evaluation window.
+
+use contact::patch;
+use dynamics::{Energies, HubState, StepReport};
+use output::layout::HistoryRow;
+use scenario::{BAR, DISK};
+
+use crate::means::Means;
+
+/// Resultants of the contact on the disk, and the creepage.
+#[derive(Clone, Copy)]
+pub(super) struct Resultants {
+    /// Forces on the disk (N).
+    tangential: f64,
+    lateral: f64,
+    normal: f64,
+    /// omega R_eff / V - 1 (dimensionless).
+    creepage: f64,
+    /// Resultant on both bodies over the normal force, zero by action and reaction.
+    mismatch: f64,
+}
+
+impl Resultants {
+    /// Those of a step, with the effective rolling radius (m) and the speed (m/s).
+    pub(super) fn of(report: &StepReport, effective_radius: f64, speed: f64) -> Self {
+        let [tangential, lateral, normal] = report.contact.force[DISK];
+        let other = report.contact.force[BAR];
+        let sum = (0..3).map(|i| (report.contact.force[DISK][i] + other[i]).powi(2)).sum::<f64>();
+        Self {
+            tangential,
+            lateral,
+            normal,
+            creepage: report.omega * effective_radius / speed - 1.0,
+            mismatch: sum.sqrt() / report.contact.normal_force.max(f64::MIN_POSITIVE),
+        }
+    }
+}
+
+/// The patch on the bar as it was recorded.
+pub(super) struct PatchMeasures {
+    /// Half axes (m), peak pressure (Pa) and centre (m, relative to the hub) by the fit; not a number where
+    /// nothing fits.
+    pub(super) fit: [f64; 4],
+    pub(super) areas: patch::PatchAreas,
+    /// Largest shear traction (Pa).
+    pub(super) peak_shear: f64,
+    /// Largest (|shear| - mu p) over the Hertz peak pressure.
+    pub(super) cone_excess: f64,
+    /// Rear end of the zone of stick on the centre line, relative to the patch's centre (m).
+    pub(super) stick_border: f64,
+}
+
+impl Means {
+    /// Takes in what every step tells; `inside` the evaluation window also what it averages.
+    pub(super) fn add_step(&mut self, report: &StepReport, resultants: &Resultants, inside: bool) {
+        let contact = &report.contact;
+        if contact.closed > 0 {
+            self.worst_mismatch = self.worst_mismatch.max(resultants.mismatch);
+        }
+        self.most_sweeps = self.most_sweeps.max(contact.sweeps);
+        self.integrated += contact.integrated as u64;
+        self.non_unique += contact.non_unique as u64;
+        if inside {
+            let Resultants { tangential, lateral, normal, .. } = *resultants;
+            for (mean, f) in self.force.iter_mut().zip([tangential, lateral, normal]) {
+                mean.add(f);
+            }
+            self.traction.add(tangential / normal);
+            self.creepage.add(resultants.creepage);
+            self.torque.add(report.drive.torque);
+            self.penetration.add(contact.max_penetration);
+        }
+    }
+
+    /// Takes in the patch and the energies of a row of the history.
+    pub(super) fn add_patch(&mut self, patch: &PatchMeasures, energies: &Energies, inside: bool) {
+        self.worst_cone = self.worst_cone.max(patch.cone_excess);
+        if inside {
+            let [a, b, p0, _] = patch.fit;
+            self.half_length.add(a);
+            self.half_width.add(b);
+            self.peak_pressure.add(p0);
+            self.peak_shear.add(patch.peak_shear);
+            self.area.add(patch.areas.contact);
+            self.stick.add(patch.areas.stick_fraction);
+            self.slip.add(patch.areas.slip_fraction);
+            self.stick_border.add(patch.stick_border);
+            self.hourglass_share.add(energies.hourglass / energies.internal);
+        }
+    }
+}
+
+/// The row of the history of a step; `imbalance` is that of the energies.
+pub(super) fn row(
+    report: &StepReport,
+    resultants: &Resultants,
+    patch: &PatchMeasures,
+    hub: &HubState,
+    imbalance: f64,
+) -> HistoryRow<f64> {
+    let e = report.energies.unwrap_or_default();
+    let Resultants { tangential, lateral, normal, creepage, mismatch } = *resultants;
+    let [a, b, p0, xc] = patch.fit;
+    let areas = &patch.areas;
+    HistoryRow {
+        time: report.time,
+        step: report.step as f64,
+        kinetic: e.kinetic,
+        internal: e.internal,
+        hourglass: e.hourglass,
+        contact_stored: e.contact_stored,
+        friction_dissipated: e.friction_dissipated,
+        damping_dissipated: e.damping_dissipated,
+        external_work: e.external_work,
+        imbalance,
+        normal_force: normal,
+        tangential_force: tangential,
+        lateral_force: lateral,
+        traction_coefficient: tangential / normal,
+        creepage,
+        omega: report.omega,
+        torque: report.drive.torque,
+        drive_force: report.drive.force_x,
+        hub_x: hub.x,
+        hub_z: hub.z,
+        patch_half_length: a,
+        patch_half_width: b,
+        patch_x: xc,
+        peak_pressure: p0,
+        peak_pressure_raw: areas.peak_pressure,
+        peak_shear: patch.peak_shear,
+        patch_area: areas.contact,
+        stick_fraction: areas.stick_fraction,
+        slip_fraction: areas.slip_fraction,
+        stick_border: patch.stick_border,
+        closed_pairs: report.contact.closed as f64,
+        slipping_pairs: report.contact.slipping as f64,
+        max_penetration: report.contact.max_penetration,
+        cone_excess: patch.cone_excess,
+        contact_damping: e.contact_damping,
+        sweeps: report.contact.sweeps as f64,
+        manifold: report.contact.non_unique as f64,
+        resultant_mismatch: mismatch,
+    }
+}
