@@ -24,7 +24,7 @@ use clap::Parser;
 
 use crate::book::chapters;
 use crate::chores::Args;
-use crate::markdown::{Block, code_spans, parse};
+use crate::markdown::{Block, parse};
 use crate::shell::commands;
 
 /// Programs that the documents are about.
@@ -121,15 +121,13 @@ fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>
                 Err(problem) => faults.push(format!("{at}: {problem}")),
             }
         }
-        for (line, text) in &document.prose {
-            for span in code_spans(text).filter(|span| is_whole_command(span)) {
-                // a command's name, perhaps with an option, tells of the command
-                let of_it = span.starts_with("creepage ")
-                    && span.split(' ').skip(2).all(|word| word.starts_with("--"));
-                let text = format!("{span}{}", if of_it { " --help" } else { "" });
-                let at = format!("{name}:{line}");
-                scripts.push(Script { at, kind: Kind::Elsewhere, text });
-            }
+        for (line, span) in document.code.iter().filter(|(_, span)| is_whole_command(span)) {
+            // a command's name, perhaps with an option, tells of the command
+            let of_it = span.starts_with("creepage ")
+                && span.split(' ').skip(2).all(|word| word.starts_with("--"));
+            let text = format!("{span}{}", if of_it { " --help" } else { "" });
+            let at = format!("{name}:{line}");
+            scripts.push(Script { at, kind: Kind::Elsewhere, text });
         }
     }
     Ok(scripts)

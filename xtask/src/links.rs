@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::markdown::{self, anchors, parse};
+use crate::markdown::{Document, parse};
 
 /// Links of the Markdown files below `root` that lead nowhere, as `file:line: link`.
 pub fn broken(root: &Path) -> io::Result<Vec<String>> {
@@ -22,7 +22,7 @@ pub fn broken(root: &Path) -> io::Result<Vec<String>> {
         let folder = file.parent().unwrap_or(root);
         let name = file.strip_prefix(root).unwrap_or(file).display().to_string();
         for (line, link) in links(document) {
-            let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
+            let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
             // A link from the root of the host is about the repository.
             let from = if path.starts_with('/') { root } else { folder };
             let target = match path {
@@ -31,7 +31,7 @@ pub fn broken(root: &Path) -> io::Result<Vec<String>> {
             };
             let leads = target.is_ok_and(|target| {
                 // Anchors of other files than documents are their viewers' business.
-                let known = documents.get(&target).map(|(_, document)| anchors(document));
+                let known = documents.get(&target).map(|(_, document)| &document.anchors);
                 anchor.is_empty() || known.is_none_or(|known| known.iter().any(|a| a == anchor))
             });
             if !leads {
@@ -58,23 +58,10 @@ fn find(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
     Ok(())
 }
 
-/// Relative links of a document with their lines, with anchors, without titles.
-pub fn links(document: &markdown::Document) -> Vec<(usize, String)> {
-    let mut found = Vec::new();
-    for (number, line) in &document.prose {
-        let prose = markdown::without_code(line);
-        for opening in ["](", "src=\"", "href=\""] {
-            let closing = if opening == "](" { ')' } else { '"' };
-            for rest in prose.split(opening).skip(1) {
-                let target = rest.split(closing).next().unwrap_or_default();
-                let target = target.split_whitespace().next().unwrap_or_default();
-                if !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:") {
-                    found.push((*number, target.to_owned()));
-                }
-            }
-        }
-    }
-    found
+/// Relative links of a document with their lines, with anchors.
+pub fn links(document: &Document) -> impl Iterator<Item = &(usize, String)> {
+    let relative = |link: &str| !link.contains("://") && !link.starts_with("mailto:");
+    document.links.iter().filter(move |(_, link)| !link.is_empty() && relative(link))
 }
 
 #[cfg(test)]
@@ -89,7 +76,9 @@ mod tests {
                     [here](#below) `[code](none.md)`\n```\n[fenced](none.md)\n```\n\
                     <img src=\"q.png\">\n";
         let wanted = [(1, "docs/a.md#part"), (1, "p.png"), (2, "#below"), (6, "q.png")];
-        assert_eq!(links(&parse(text)), wanted.map(|(line, link)| (line, link.to_owned())));
+        let document = parse(text);
+        let found: Vec<_> = links(&document).map(|(line, link)| (*line, link.as_str())).collect();
+        assert_eq!(found, wanted);
     }
 
     #[test]

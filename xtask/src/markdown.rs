@@ -1,4 +1,8 @@
-//! What the chores need to know of Markdown: fenced and indented blocks, prose, headings.
+//! What the chores need to know of Markdown: blocks of code, prose, inline code, links, anchors.
+
+use std::ops::Range;
+
+use pulldown_cmark::{CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd};
 
 /// A block of code of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,104 +17,90 @@ pub struct Block {
     pub text: String,
 }
 
-/// A document cut into prose and code.
+/// What a document holds; lines are counted from 1.
 #[derive(Debug, Default)]
 pub struct Document {
-    /// Lines of prose with their numbers, from 1.
+    /// Lines outside of blocks of code.
     pub prose: Vec<(usize, String)>,
     /// Blocks of code in order.
     pub blocks: Vec<Block>,
+    /// Inline code, with its line.
+    pub code: Vec<(usize, String)>,
+    /// Targets of links and pictures, with their lines.
+    pub links: Vec<(usize, String)>,
+    /// Anchors of the headings, as Git hosts and mdBook both make them.
+    pub anchors: Vec<String>,
 }
 
-/// Cuts a document into prose and blocks. Lists of the project's documents are not indented by four, so
-/// that four spaces after an empty line always begin code.
+/// Cuts a document into its parts.
 pub fn parse(text: &str) -> Document {
     let mut document = Document::default();
-    let mut open: Option<Block> = None;
-    let mut after_empty = true;
-    for (i, line) in text.lines().enumerate() {
-        let trimmed = line.trim_start();
-        if let Some(block) = &mut open {
-            let closes = if block.fenced {
-                trimmed.starts_with("```")
-            } else {
-                !trimmed.is_empty() && !line.starts_with("    ")
-            };
-            if !closes {
-                block.text.push_str(if block.fenced {
-                    line
-                } else {
-                    line.trim_start_matches("    ")
-                });
-                block.text.push('\n');
-                continue;
+    let mut block: Option<Block> = None;
+    let mut heading: Option<String> = None;
+    let mut code_lines: Vec<Range<usize>> = Vec::new();
+    let line_of = |byte: usize| text[..byte].matches('\n').count() + 1;
+    for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
+        let line = line_of(range.start);
+        match event {
+            Event::Start(Tag::CodeBlock(kind)) => {
+                let end = line_of(range.start + text[range].trim_end().len());
+                code_lines.push(line..end + 1);
+                block = Some(opened(&kind, line));
             }
-            let fenced = block.fenced;
-            document.blocks.extend(open.take());
-            if fenced {
-                after_empty = true;
-                continue;
+            Event::End(TagEnd::CodeBlock) => document.blocks.extend(block.take()),
+            Event::Text(code) if block.is_some() => {
+                block.iter_mut().for_each(|block| block.text.push_str(&code));
             }
+            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+            Event::End(TagEnd::Heading(_)) => {
+                let slug = slug(&heading.take().unwrap_or_default());
+                let as_before = |anchor: &&String| {
+                    let rest = anchor.strip_prefix(&slug).map(|rest| rest.trim_start_matches('-'));
+                    rest.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))
+                };
+                let before = document.anchors.iter().filter(as_before).count();
+                let anchor = if before == 0 { slug } else { format!("{slug}-{before}") };
+                document.anchors.push(anchor);
+            }
+            Event::Text(words) => heading.iter_mut().for_each(|heading| heading.push_str(&words)),
+            Event::Code(code) => {
+                heading.iter_mut().for_each(|heading| heading.push_str(&code));
+                document.code.push((line, code.to_string()));
+            }
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                document.links.push((line, dest_url.to_string()));
+            }
+            Event::Html(html) | Event::InlineHtml(html) => {
+                document.links.extend(sources(&html).map(|target| (line, target)));
+            }
+            _ => {}
         }
-        if let Some(info) = trimmed.strip_prefix("```") {
-            let info = info.split_whitespace().map(str::to_owned).collect();
-            open = Some(Block { line: i + 2, info, fenced: true, text: String::new() });
-        } else if after_empty && line.starts_with("    ") && !trimmed.is_empty() {
-            let text = format!("{}\n", line.trim_start_matches("    "));
-            open = Some(Block { line: i + 1, info: Vec::new(), fenced: false, text });
-        } else {
-            document.prose.push((i + 1, line.to_owned()));
-        }
-        after_empty = trimmed.is_empty();
     }
-    document.blocks.extend(open);
+    let is_code = |line: &usize| code_lines.iter().any(|lines| lines.contains(line));
+    let prose = text.lines().enumerate().map(|(i, text)| (i + 1, text.to_owned()));
+    document.prose = prose.filter(|(line, _)| !is_code(line)).collect();
     document
 }
 
-/// Spans of inline code in a line of prose.
-pub fn code_spans(line: &str) -> impl Iterator<Item = &str> {
-    // Between backticks stands code: every second piece, if the last one is closed.
-    let closed = line.matches('`').count() / 2;
-    line.split('`').skip(1).step_by(2).take(closed)
+fn opened(kind: &CodeBlockKind<'_>, line: usize) -> Block {
+    let (fenced, info) = match kind {
+        CodeBlockKind::Fenced(info) => (true, info.clone()),
+        CodeBlockKind::Indented => (false, CowStr::Borrowed("")),
+    };
+    let info = info.split_whitespace().map(str::to_owned).collect();
+    Block { line: line + usize::from(fenced), info, fenced, text: String::new() }
 }
 
-/// A line of prose without its inline code.
-pub fn without_code(line: &str) -> String {
-    line.split('`').step_by(2).collect::<Vec<_>>().join("`")
-}
-
-/// Anchors of a document's headings, as Git hosts and mdBook both make them.
-pub fn anchors(document: &Document) -> Vec<String> {
-    let mut found: Vec<String> = Vec::new();
-    for (_, line) in &document.prose {
-        let level = line.bytes().take_while(|&byte| byte == b'#').count();
-        if !(1..=6).contains(&level) || line.as_bytes().get(level) != Some(&b' ') {
-            continue;
-        }
-        let slug = slug(&line[level..]);
-        let before = found.iter().filter(|other| **other == slug).count();
-        found.push(if before == 0 { slug } else { format!("{slug}-{before}") });
-    }
-    found
+/// What HTML refers to.
+fn sources(html: &str) -> impl Iterator<Item = String> {
+    let openings = ["src=\"", "href=\""].into_iter();
+    let rests = openings.flat_map(move |opening| html.split(opening).skip(1));
+    rests.filter_map(|rest| rest.split('"').next().map(str::to_owned))
 }
 
 /// Lower case; letters, digits, `_` and `-` stay, spaces become `-`, all else goes.
 fn slug(heading: &str) -> String {
-    // of a link only the text shows
-    let mut shown = String::new();
-    let mut rest = heading.trim();
-    while let Some((before, link)) = rest.split_once('[') {
-        let Some((text, (_, after))) =
-            link.split_once("](").and_then(|(text, link)| Some((text, link.split_once(')')?)))
-        else {
-            break;
-        };
-        shown.push_str(before);
-        shown.push_str(text);
-        rest = after;
-    }
-    shown.push_str(rest);
-    let kept = shown.chars().filter_map(|c| match c {
+    let kept = heading.chars().filter_map(|c| match c {
         ' ' => Some('-'),
         c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
         _ => None,
@@ -138,12 +128,12 @@ mod tests {
         let text =
             "## Exact contact (`contact.enforcement = \"exact\"`)\n# A [b c](d.md)\n# A b c\n#no\n";
         let wanted = ["exact-contact-contactenforcement--exact", "a-b-c", "a-b-c-1"];
-        assert_eq!(anchors(&parse(text)), wanted);
+        assert_eq!(parse(text).anchors, wanted);
     }
 
     #[test]
     fn inline_code_is_what_stands_between_two_backticks() {
-        let line = "a `b c` d `e` f `g";
-        assert_eq!(code_spans(line).collect::<Vec<_>>(), ["b c", "e"]);
+        let document = parse("a `b c` d\n`e` f `g");
+        assert_eq!(document.code, [(1, "b c".to_owned()), (2, "e".to_owned())]);
     }
 }

@@ -1,6 +1,8 @@
 //! The cards of a keyword file: keywords, and data in columns or between commas.
 //!
 //! Source: LS-DYNA Keyword User's Manual, vol. I, "Getting started: description of keyword input".
+//!
+//! No library reads this format.
 
 use mesh::import::{Fault, ImportError};
 

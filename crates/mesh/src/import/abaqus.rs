@@ -3,6 +3,8 @@
 //! Source: Abaqus Keywords Reference Guide: `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*SURFACE`. The
 //! file must be flat, without parts and instances. Keywords that say nothing of the mesh are passed
 //! over; those that would make or move nodes are refused.
+//!
+//! No library reads this format.
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;

@@ -3,6 +3,8 @@
 //! Source: Gmsh reference manual, "MSH file format" and "MSH file format version 2 (legacy)".
 //! Physical groups are the sets: volumes of hexahedra, surfaces of quadrangles, and points, whose
 //! nodes count.
+//!
+//! The library `mshio` reads neither version 2.2 nor the names of physical groups.
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;

@@ -4,6 +4,9 @@
 //! inline or appended, with zlib or without. A set is an array of zeros and ones: over the points it
 //! names nodes; over the cells, hexahedra and quadrangles. An array `body` over the cells names
 //! disk (0) and bar (1), as Creepage's own files have it.
+//!
+//! The XML, base64 and zlib are libraries' (`roxmltree`, `base64`, `miniz_oxide`). `vtkio`, which reads the whole
+//! format, has had no release but a candidate since 2021 and does not read what meshio writes (its issue 21).
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
