@@ -61,7 +61,7 @@ pub fn book(root: &Path, target: &Path) -> Result<PathBuf, Problem> {
 /// Chapters in the order of the table of contents, as paths below `docs/`.
 pub fn chapters(root: &Path) -> io::Result<Vec<String>> {
     let summary = parse(&fs::read_to_string(root.join("docs/SUMMARY.md"))?);
-    Ok(links(&summary).into_iter().map(|(_, link)| link.trim_start_matches("./").into()).collect())
+    Ok(links(&summary).map(|(_, link)| link.trim_start_matches("./").into()).collect())
 }
 
 /// Documents that the table of contents does not list.

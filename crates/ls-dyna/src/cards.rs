@@ -2,7 +2,7 @@
 //!
 //! Source: LS-DYNA Keyword User's Manual, vol. I, "Getting started: description of keyword input".
 //!
-//! No library reads this format.
+//! No library for this format was found.
 
 use mesh::import::{Fault, ImportError};
 

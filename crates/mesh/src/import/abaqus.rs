@@ -4,7 +4,7 @@
 //! file must be flat, without parts and instances. Keywords that say nothing of the mesh are passed
 //! over; those that would make or move nodes are refused.
 //!
-//! No library reads this format.
+//! No library for this format was found.
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
