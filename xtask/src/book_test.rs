@@ -12,7 +12,10 @@
 //! the runs of earlier ones. `creepage`, also as `cargo run --release --`, is the program just built;
 //! other calls of cargo work in the checkout itself, which spares a second compilation. A command is
 //! checked by having the program read its options, its case and its sweep, and by looking for the files,
-//! packages and chores that it names. Inline code that is a whole command is checked as well.
+//! packages and chores that it names. Inline code that is a whole command is checked as well. Runs that the
+//! tables of the documents just made are taken from there.
+
+mod made;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -26,6 +29,7 @@ use crate::book::chapters;
 use crate::chores::Args;
 use crate::markdown::{Block, parse};
 use crate::shell::commands;
+use made::Made;
 
 /// Programs that the documents are about.
 const PROGRAMS: [&str; 4] = ["cargo", "creepage", "pip", "python"];
@@ -78,6 +82,7 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, all: bool) -> Vec<
     if let Err(error) = lay_out(root, scratch) {
         return vec![format!("{}: {error}", scratch.display())];
     }
+    let made = Made::of(root, &programs.release.join("creepage"));
     let mut number = 0;
     for script in &scripts {
         let exit = match script.kind {
@@ -85,6 +90,14 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, all: bool) -> Vec<
             Kind::Long { exit } if all => exit,
             _ => continue,
         };
+        match made.take(&script.text, scratch) {
+            Ok(true) => {
+                eprintln!("   made  {}, for a table", script.at);
+                continue;
+            }
+            Ok(false) => {}
+            Err(error) => return vec![format!("{}: {error}", script.at)],
+        }
         let start = Instant::now();
         match execute(root, scratch, programs, &script.text) {
             Ok((code, _)) if code == exit => {

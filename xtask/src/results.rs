@@ -96,6 +96,12 @@ pub fn compare_long(root: &Path) -> (Outcome, String) {
     )
 }
 
+/// The commands of all short tables.
+pub fn short_commands(root: &Path) -> Vec<String> {
+    let short = manifest::all(root, &mut Vec::new()).into_values().filter(|table| !table.long);
+    short.flat_map(|table| table.steps).map(|step| step.command).collect()
+}
+
 /// The step of `validate`: documents say what results say, short tables come out again, and ages are told.
 pub fn step(root: &Path) -> Outcome {
     let options = Options {
