@@ -2,7 +2,9 @@
 //! the shear stays below the coefficient that the law gave.
 #![allow(clippy::unwrap_used)]
 
-use runs::{Results, small};
+use std::path::Path;
+
+use runs::{Results, load, project, run_with, small};
 
 const LAWS: [&[&str]; 7] = [
     &["friction.law=slip_weakening", "friction.dynamic=0.2", "friction.distance=2e-6"],
@@ -14,9 +16,11 @@ const LAWS: [&[&str]; 7] = [
     &["friction.law=expression", "friction.expression=\"0.3 + 0.05*sin(2000*x)\""],
 ];
 
-fn rolled(law: &[&str], enforcement: &str) -> Results {
+/// Rolls with a law; the preload, on which no law acts, is kept in `preloads`.
+fn rolled(law: &[&str], enforcement: &str, preloads: &Path) -> Results {
     let enforcement = format!("contact.enforcement={enforcement}");
-    let run = small(&[&[enforcement.as_str(), "time.roll=0.004"], law].concat());
+    let sets = [&[enforcement.as_str(), "time.roll=0.004"], law].concat();
+    let (run, _) = run_with(&load(&project("tests/small.toml"), &sets), 2, Some(preloads));
     assert_eq!(run.summary["status"], "completed", "{law:?} {enforcement}: {:#}", run.summary);
     println!(
         "{law:?} {enforcement}: balance {:.2e}, dissipated {:.3e} J, T/N {:.4}",
@@ -29,9 +33,10 @@ fn rolled(law: &[&str], enforcement: &str) -> Results {
 
 #[test]
 fn every_law_rolls_and_its_energy_balances() {
+    let preloads = tempfile::tempdir().unwrap();
     for law in LAWS {
         for enforcement in ["penalty", "exact"] {
-            let run = rolled(law, enforcement);
+            let run = rolled(law, enforcement, preloads.path());
             assert!(run.number("/energy/balance_error") < 1e-4, "{law:?} {enforcement}");
             assert!(run.number("/energy/friction_dissipated") >= 0.0, "{law:?} {enforcement}");
             let worked = run.history("friction_dissipated");
@@ -44,11 +49,12 @@ fn every_law_rolls_and_its_energy_balances() {
 
 #[test]
 fn a_formula_that_writes_a_known_law_rolls_as_that_law() {
+    let preloads = tempfile::tempdir().unwrap();
     // R < 1: where rounding does not grow
     let law = ["friction.law=exponential", "friction.dynamic=0.2", "friction.decay=0.05"];
     let same = ["friction.law=expression", "friction.expression=\"0.2 + 0.1*exp(-0.05*s)\""];
     for enforcement in ["penalty", "exact"] {
-        let (a, b) = (rolled(&law, enforcement), rolled(&same, enforcement));
+        let [a, b] = [&law[..], &same].map(|law| rolled(law, enforcement, preloads.path()));
         let [a, b] = [a, b].map(|run| run.number("/contact/traction_coefficient"));
         assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
     }

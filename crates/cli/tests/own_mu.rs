@@ -49,7 +49,8 @@ impl OwnLaw for Brought {
     }
 }
 
-/// Rolls the small case a little way with records at every step.
+/// Rolls the small case a little way with records at every step. The preload, on which no law acts, is kept beside
+/// the run.
 fn roll(out: &Path, law: &[&str], contact: &[&str], more: &[&str]) {
     let friction = |set: &&str| format!("friction.{set}");
     let short = ["time.roll=0.0013", "evaluate.last=0.001", "output.fields_interval=1"];
@@ -63,7 +64,8 @@ fn roll(out: &Path, law: &[&str], contact: &[&str], more: &[&str]) {
     let text = if has_static { text } else { text.replace("static = 0.3", "") };
     let case = case::Case::from_text(&text, Path::new("small.toml"), &sets).unwrap();
     let brought: Arc<dyn OwnLaw> = Arc::new(Brought);
-    let options = RunOptions { law: Some(brought), ..runs::options(out, 2) };
+    let preload_cache = out.parent().map(|folder| folder.join("preloads"));
+    let options = RunOptions { law: Some(brought), preload_cache, ..runs::options(out, 2) };
     let summary = run::run(&case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
     assert_eq!(summary["status"], "completed", "{law:?} {contact:?}: {summary:#}");
 }
@@ -164,12 +166,12 @@ fn rewrite(from: &Path, to: &Path, change: impl Fn(&str, &mut Vec<f64>)) {
 /// Follows those of the `laws` that can be enforced by `contact`; `limit` is what its coefficients may be off.
 fn laws_are_followed(laws: &[&[&str]], contact: &[&str], limit: f64) {
     let exact = contact[0].contains("exact");
-    for law in laws {
+    let folder = tempfile::tempdir().unwrap();
+    for (number, law) in laws.iter().enumerate() {
         if !exact && law.iter().any(|set| set.contains("mode='exact'")) {
             continue;
         }
-        let folder = tempfile::tempdir().unwrap();
-        let run = folder.path().join("run");
+        let run = folder.path().join(format!("run-{number}"));
         roll(&run, law, contact, &[EVERY]);
         let (_, found) = check(&run, &[]);
         let metric = &found["metrics"]["mu_error"];
@@ -185,7 +187,7 @@ fn laws_are_followed(laws: &[&[&str]], contact: &[&str], limit: f64) {
         // the coefficient alone, and shear that believes it
         let plants = [&["mu", "shear"][..], &["mu"]];
         for fields in &plants[..if contact.len() > 1 { 1 } else { 2 }] {
-            let copy = folder.path().join(fields.join("-"));
+            let copy = folder.path().join(format!("copy-{number}-{}", fields.join("-")));
             plant(&run, &copy, fields, 0.99);
             let (code, found) = check(&copy, &[]);
             let metric = &found["metrics"]["mu_error"];
