@@ -197,112 +197,131 @@ impl Reader {
     }
 
     fn data(&mut self, block: &Block, line: &str, at: usize) -> Result<(), ImportError> {
-        let words = || line.split(',').map(str::trim).filter(|word| !word.is_empty());
-        let bare = |fault: Fault| fault.at(at);
         match block {
-            Block::Passed => {}
+            Block::Passed => Ok(()),
             Block::Outside => {
                 let what = "a keyword that starts with * is expected".into();
-                return Err(Fault::Syntax { what }.at(at));
-            }
-            Block::Node { set } => {
-                let mut words = line.split(',').map(str::trim);
-                let first = words.next().unwrap_or_default();
-                let id = number(first, "the number of a node").map_err(bare)?;
-                let mut point = [0.0; 3];
-                for x in &mut point {
-                    match words.next().unwrap_or_default() {
-                        "" => {}
-                        word => *x = number(word, "a coordinate").map_err(bare)?,
-                    }
-                }
-                let place = self.foreign.points.len() as u32;
-                if self.nodes.insert(id, place).is_some() {
-                    return Err(Fault::Repeated { what: "node", id }.at(at));
-                }
-                self.foreign.points.push(point);
-                self.foreign.nodes.push(id, at);
-                if let Some(set) = set {
-                    self.node_set(set).insert(place);
-                }
+                Err(Fault::Syntax { what }.at(at))
             }
             Block::Refused { kind } => {
-                let first = words().next().unwrap_or_default();
-                let element = number(first, "the number of an element").map_err(bare)?;
-                return Err(Fault::Cell { element, kind: format!("of the type {kind}") }.at(at));
+                let first = words(line).next().unwrap_or_default();
+                let element =
+                    number(first, "the number of an element").map_err(|fault| fault.at(at))?;
+                Err(Fault::Cell { element, kind: format!("of the type {kind}") }.at(at))
             }
-            Block::Element { shape, set } => {
-                if self.pending.is_empty() {
-                    self.began = at;
-                }
-                for word in words() {
-                    let n = number(word, "the number of an element or node").map_err(bare)?;
-                    self.pending.push(n);
-                }
-                let size = 1 + shape.nodes();
-                if self.pending.len() > size {
-                    let what = format!("an element of {} nodes has too many", shape.nodes());
-                    return Err(Fault::Syntax { what }.at(at));
-                }
-                if self.pending.len() == size {
-                    self.element(*shape, set.as_deref())?;
-                    self.pending.clear();
-                }
+            Block::Node { set } => self.node(set.as_deref(), line, at),
+            Block::Element { shape, set } => self.part_of_element(*shape, set.as_deref(), line, at),
+            Block::NodeSet { name, generate: true } => {
+                let steps = self.generated(line, at)?;
+                let nodes = within(&steps, &self.nodes);
+                self.node_set(name).extend(nodes.into_iter().map(|(_, place)| place));
+                Ok(())
             }
-            Block::NodeSet { name, generate } => {
-                if *generate {
-                    let steps = self.generated(line, at)?;
-                    let nodes = within(&steps, &self.nodes);
-                    self.node_set(name).extend(nodes.into_iter().map(|(_, place)| place));
-                } else {
-                    for word in words() {
-                        let members = self.named_nodes(word);
-                        let members = self.found(members, "nodes", name, at);
-                        self.node_set(name).extend(members);
-                    }
+            Block::NodeSet { name, generate: false } => {
+                for word in words(line) {
+                    let members = self.named_nodes(word);
+                    let members = self.found(members, "nodes", name, at);
+                    self.node_set(name).extend(members);
                 }
+                Ok(())
             }
-            Block::ElementSet { name, generate } => {
-                if *generate {
-                    let steps = self.generated(line, at)?;
-                    let ids: Vec<u64> =
-                        within(&steps, &self.cells).into_iter().map(|c| c.0).collect();
-                    self.element_set(name).extend(ids);
-                } else {
-                    for word in words() {
-                        let members = self.named_elements(word);
-                        let members = self.found(members, "elements", name, at);
-                        self.element_set(name).extend(members);
-                    }
+            Block::ElementSet { name, generate: true } => {
+                let steps = self.generated(line, at)?;
+                let ids: Vec<u64> = within(&steps, &self.cells).into_iter().map(|c| c.0).collect();
+                self.element_set(name).extend(ids);
+                Ok(())
+            }
+            Block::ElementSet { name, generate: false } => {
+                for word in words(line) {
+                    let members = self.named_elements(word);
+                    let members = self.found(members, "elements", name, at);
+                    self.element_set(name).extend(members);
                 }
+                Ok(())
             }
-            Block::ElementSurface { name } => {
-                let mut words = line.split(',').map(str::trim);
-                let word = words.next().unwrap_or_default();
-                let members =
-                    self.named_elements(word).ok_or_else(|| unknown("element", word, name, at))?;
-                let side = words.next().unwrap_or_default().to_uppercase();
-                let mut sides = Vec::new();
-                for id in members {
-                    let number = side.strip_prefix('S').and_then(|s| s.parse().ok());
-                    match (self.cells.get(&id), number) {
-                        (Some(Cell::Hex(_)), Some(side @ 1..=6)) => sides.push((id, side)),
-                        (Some(Cell::Hex(_)), _) => {
-                            let what = "a face S1 to S6 of the elements is expected".into();
-                            return Err(Fault::Syntax { what }.at(at));
-                        }
-                        _ => sides.push((id, 0)),
-                    }
-                }
-                self.surface(name).sides.extend(sides);
-            }
+            Block::ElementSurface { name } => self.sides(name, line, at),
             Block::NodeSurface { name } => {
                 let word = line.split(',').next().unwrap_or_default().trim();
                 let nodes =
                     self.named_nodes(word).ok_or_else(|| unknown("node", word, name, at))?;
                 self.surface(name).nodes.extend(nodes);
+                Ok(())
             }
         }
+    }
+
+    /// A node: its number and coordinates, of which those left out are zero.
+    fn node(&mut self, set: Option<&str>, line: &str, at: usize) -> Result<(), ImportError> {
+        let bare = |fault: Fault| fault.at(at);
+        let mut words = line.split(',').map(str::trim);
+        let first = words.next().unwrap_or_default();
+        let id = number(first, "the number of a node").map_err(bare)?;
+        let mut point = [0.0; 3];
+        for x in &mut point {
+            match words.next().unwrap_or_default() {
+                "" => {}
+                word => *x = number(word, "a coordinate").map_err(bare)?,
+            }
+        }
+        let place = self.foreign.points.len() as u32;
+        if self.nodes.insert(id, place).is_some() {
+            return Err(Fault::Repeated { what: "node", id }.at(at));
+        }
+        self.foreign.points.push(point);
+        self.foreign.nodes.push(id, at);
+        if let Some(set) = set {
+            self.node_set(set).insert(place);
+        }
+        Ok(())
+    }
+
+    /// A line of an element, whose nodes may stand on several.
+    fn part_of_element(
+        &mut self,
+        shape: Shape,
+        set: Option<&str>,
+        line: &str,
+        at: usize,
+    ) -> Result<(), ImportError> {
+        if self.pending.is_empty() {
+            self.began = at;
+        }
+        for word in words(line) {
+            let n = number(word, "the number of an element or node");
+            self.pending.push(n.map_err(|fault| fault.at(at))?);
+        }
+        let size = 1 + shape.nodes();
+        if self.pending.len() > size {
+            let what = format!("an element of {} nodes has too many", shape.nodes());
+            return Err(Fault::Syntax { what }.at(at));
+        }
+        if self.pending.len() == size {
+            self.element(shape, set)?;
+            self.pending.clear();
+        }
+        Ok(())
+    }
+
+    /// Faces of a surface: an element or a set of them, and the face S1 to S6.
+    fn sides(&mut self, name: &str, line: &str, at: usize) -> Result<(), ImportError> {
+        let mut words = line.split(',').map(str::trim);
+        let word = words.next().unwrap_or_default();
+        let members =
+            self.named_elements(word).ok_or_else(|| unknown("element", word, name, at))?;
+        let side = words.next().unwrap_or_default().to_uppercase();
+        let mut sides = Vec::new();
+        for id in members {
+            let number = side.strip_prefix('S').and_then(|s| s.parse().ok());
+            match (self.cells.get(&id), number) {
+                (Some(Cell::Hex(_)), Some(side @ 1..=6)) => sides.push((id, side)),
+                (Some(Cell::Hex(_)), _) => {
+                    let what = "a face S1 to S6 of the elements is expected".into();
+                    return Err(Fault::Syntax { what }.at(at));
+                }
+                _ => sides.push((id, 0)),
+            }
+        }
+        self.surface(name).sides.extend(sides);
         Ok(())
     }
 
@@ -485,6 +504,11 @@ fn shape_of(kind: &str) -> Option<Shape> {
     } else {
         ["T3D2", "B31", "R3D2"].into_iter().any(is).then_some(Shape::Line)
     }
+}
+
+/// The words between the commas of a line.
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    line.split(',').map(str::trim).filter(|word| !word.is_empty())
 }
 
 fn unknown(what: &str, word: &str, surface: &str, at: usize) -> ImportError {
