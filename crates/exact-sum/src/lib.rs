@@ -1,9 +1,9 @@
 //! Sums that do not depend on the order of their addends.
 //!
-//! Every f64 is an integer multiple of 2^-1074. [`ExactSum`] holds the sum of such multiples as one long
-//! integer, to which addends are added without rounding (Neal 2015, "Fast exact summation using small and
-//! large superaccumulators", arXiv:1505.05571); only [`ExactSum::value`] rounds. Parts of a sum may so
-//! arrive in any order, from any number of threads or processes, and give the same bits.
+//! Every finite f64 is an integer multiple of 2^-1074. [`ExactSum`] holds the sum of such multiples as one
+//! long integer, to which addends are added without rounding (Neal 2015, "Fast exact summation using small
+//! and large superaccumulators", arXiv:1505.05571); only [`ExactSum::value`] rounds. The parts of a sum may
+//! therefore arrive in any order, from any number of threads or processes: the bits are the same.
 //!
 //! ```
 //! use exact_sum::ExactSum;
@@ -19,36 +19,37 @@
 /// Bits of a digit.
 const BITS: u32 = 32;
 
-/// Digits: the largest f64 reaches into the 66th, the rest is for carries.
+/// Number of digits: the largest f64 reaches into the 66th, the rest is for carries.
 const DIGITS: usize = 68;
 
-/// Addends after which the digits are carried: each adds less than 2^53 to an i64.
+/// Addends between two carries: each changes a digit by less than 2^53, so that an i64 holds so many.
 const ADDENDS: u32 = 1 << 9;
 
-/// Exponent of the unit of the lowest digit.
+/// The unit of the lowest digit is 2 to this power.
 const LEAST: i32 = -1074;
 
+/// The bits of one digit.
 const MASK: i64 = (1 << BITS) - 1;
 
 /// The exact sum of f64 numbers. It allocates nothing.
 ///
-/// A sum of infinities or NaN is infinite or NaN as IEEE arithmetic has it.
+/// Addends that are infinite or NaN give what IEEE 754 arithmetic gives: an infinity, or NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactSum {
     /// The sum is that of `digits[i] 2^(32 i - 1074)`.
     digits: [i64; DIGITS],
     /// The lowest and the highest digit that may differ from zero.
     used: [usize; 2],
-    /// Addends that the digits take until they must be carried.
-    room: u32,
-    /// Sum of the addends that are not finite; zero without.
+    /// Addends that the digits can still take before they must be carried.
+    addends_left: u32,
+    /// Sum of the addends that are not finite; zero if there are none.
     special: f64,
 }
 
 impl ExactSum {
     /// The sum of nothing.
     pub const ZERO: Self =
-        Self { digits: [0; DIGITS], used: [DIGITS - 1, 0], room: ADDENDS, special: 0.0 };
+        Self { digits: [0; DIGITS], used: [DIGITS - 1, 0], addends_left: ADDENDS, special: 0.0 };
 
     /// Adds one number.
     #[inline]
@@ -62,10 +63,10 @@ impl ExactSum {
         if bits << 1 == 0 {
             return;
         }
-        if self.room == 0 {
+        if self.addends_left == 0 {
             self.carry();
         }
-        self.room -= 1;
+        self.addends_left -= 1;
         let normal = u64::from(exponent > 0);
         let mantissa = fraction | normal << 52;
         let shift = exponent - normal;
@@ -86,11 +87,12 @@ impl ExactSum {
             *digit += by;
         }
         self.used = [self.used[0].min(other.used[0]), self.used[1].max(other.used[1])];
-        self.room -= 1;
+        self.addends_left -= 1;
         self.special += other.special;
     }
 
-    /// The sum to the nearest f64.
+    /// The sum rounded to the nearest f64, ties to even. An empty sum and one that cancels are +0; one beyond
+    /// the largest f64 is infinite.
     pub fn value(&self) -> f64 {
         if self.special != 0.0 {
             // the payload of a NaN may depend on the order
@@ -116,9 +118,9 @@ impl ExactSum {
         if negative { -magnitude } else { magnitude }
     }
 
-    /// Brings every digit but the highest in use, which has the sign, to 0..2^32.
+    /// Brings every digit into 0..2^32, except the highest in use, which carries the sign.
     fn carry(&mut self) {
-        self.room = ADDENDS;
+        self.addends_left = ADDENDS;
         let [lowest, highest] = self.used;
         let mut carried = 0;
         for i in lowest..=highest.min(DIGITS - 2) {
@@ -134,7 +136,7 @@ impl ExactSum {
     }
 }
 
-/// x 2^e, where x is at least 1 or the result is exact.
+/// `x 2^e`, rounded once: `x` is at least 1, or the result is exact.
 fn scaled(x: f64, e: i32) -> f64 {
     let power = |e: i32| f64::from_bits(((1023 + e) as u64) << 52);
     let first = e.clamp(-1000, 1000);
@@ -155,7 +157,7 @@ impl FromIterator<f64> for ExactSum {
     }
 }
 
-/// The sum of `addends`, whatever their order, to the nearest f64.
+/// The sum of `addends` as [`ExactSum::value`] rounds it; their order does not matter.
 pub fn sum(addends: impl IntoIterator<Item = f64>) -> f64 {
     addends.into_iter().collect::<ExactSum>().value()
 }

@@ -8,9 +8,10 @@ use std::ops::Range;
 pub struct Axis {
     /// Label, for example `t (s)`.
     pub label: String,
-    /// Ends; `None` takes them from the data.
+    /// Ends in the unit of the axis, the lower first, both positive on a logarithmic axis; `None` takes them from
+    /// the data.
     pub range: Option<[f64; 2]>,
-    /// Scale.
+    /// Linear or logarithmic.
     pub scale: Scale,
 }
 
@@ -34,12 +35,12 @@ impl Axis {
         Self { label: label.into(), range: None, scale: Scale::Log }
     }
 
-    /// The axis from `low` to `high`.
+    /// The same axis from `low` to `high`, see [`range`](Self::range).
     pub fn over(self, low: f64, high: f64) -> Self {
         Self { range: Some([low, high]), ..self }
     }
 
-    /// The axis as drawn over these values.
+    /// The axis with its ticks; `values` give the range where it has none.
     pub(crate) fn ticked(&self, values: impl Iterator<Item = f64>) -> Ticked {
         let log = self.scale == Scale::Log;
         let [low, high] = self.range.unwrap_or_else(|| {
@@ -52,15 +53,15 @@ impl Axis {
     }
 }
 
-/// The ends of data with room around them; some range where there are no data.
+/// The ends of the data with a margin around them; a default range where there are no data.
 fn padded([low, high]: [f64; 2], log: bool) -> [f64; 2] {
     match (low <= high, log) {
         (false, true) => [1.0, 10.0],
         (false, false) => [0.0, 1.0],
         (true, true) => [low / 1.2, high * 1.2],
         (true, false) => {
-            let room = if high > low { 0.04 * (high - low) } else { 0.5 * low.abs().max(1.0) };
-            [low - room, high + room]
+            let margin = if high > low { 0.04 * (high - low) } else { 0.5 * low.abs().max(1.0) };
+            [low - margin, high + margin]
         }
     }
 }
@@ -103,7 +104,7 @@ impl Ticked {
         self.range.end
     }
 
-    /// A value in drawing coordinates; `None` if it cannot be drawn.
+    /// A value in drawing coordinates; `None` if it is not finite there.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = if self.log { libm::log10(value) } else { value };
         place.is_finite().then_some(place)

@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 
-/// An edge of a grid: its lower left node, and whether it runs along x.
+/// An edge of a grid: its node of lower indices (i, j), and whether it runs along x.
 type Edge = (usize, usize, bool);
 
-/// The lines on which values at the nodes of the grid `x` times `y` (x fastest) equal `level`, linear along the
-/// edges of the grid (marching squares). Lines are separated by a point that is not finite, as
-/// [`Series`](crate::Series) draws them. Cells with a corner that is not finite have none. At a saddle
-/// the lines part the higher corners.
+/// The lines on which `values` equals `level`, by marching squares: values are linear along the edges of the grid.
 ///
-/// Empty where `values` has fewer entries than the grid has nodes.
+/// The value at the node (`x[i]`, `y[j]`) is `values[i + x.len() * j]`; `x` and `y` ascend. Returns points (x, y)
+/// in the units of the grid; a point of NaN ends each line, as [`Series`](crate::Series) draws them. A cell with a
+/// corner that is not finite has no line. At a saddle the lines separate the two higher corners.
+///
+/// Empty if `values` has fewer entries than the grid has nodes.
 pub fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<[f64; 2]> {
     if values.len() < x.len() * y.len() {
         return Vec::new();
@@ -49,7 +50,7 @@ pub fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<[f64; 2]
     points
 }
 
-/// Takes a segment from `at` off the graph and returns its other end.
+/// Removes a segment that begins at `at` from the graph and returns its other end.
 fn step(neighbours: &mut BTreeMap<Edge, Vec<Edge>>, at: Edge) -> Option<Edge> {
     let next = neighbours.get_mut(&at)?.pop()?;
     if let Some(back) = neighbours.get_mut(&next) {
@@ -79,7 +80,7 @@ fn crossings(
     let mut cut = (0..4).filter(|&k| above[k] != above[(k + 1) % 4]).map(|k| edges[k]);
     match [cut.next(), cut.next(), cut.next(), cut.next()] {
         [Some(a), Some(b), None, None] => [Some([a, b]), None],
-        // round each of the corners above
+        // a saddle: each segment cuts off one of the two corners above the level
         [Some(a), Some(b), Some(c), Some(d)] if above[0] => [Some([d, a]), Some([b, c])],
         [Some(a), Some(b), Some(c), Some(d)] => [Some([a, b]), Some([c, d])],
         _ => [None; 2],

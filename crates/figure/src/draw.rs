@@ -9,21 +9,21 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 type Area<DB> = DrawingArea<DB, Shift>;
 type Failure<DB> = DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>;
 
-/// Sizes in points.
+// Sizes in points of 1/96 inch.
 const TEXT: f64 = 11.0;
 const TITLE: f64 = 12.5;
 const LINE: f64 = 16.0;
 const SAMPLE: f64 = 20.0;
 const MARGIN: f64 = 20.0;
-/// Length of the colours of a map in the legend.
+/// Length of the colour bar of a map, in the legend.
 const COLOURS: f64 = 110.0;
 
-/// How joints of lines are drawn.
+/// How the joints of the segments of a line are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Joints {
-    /// By the viewer of the file.
+    /// The line is one path; the viewer of the file draws them.
     Viewer,
-    /// Not at all, each segment by itself: the bitmap backend draws spikes at sharp turns.
+    /// Each segment is drawn by itself: the bitmap backend would draw spikes at sharp turns.
     Open,
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn figure<DB: DrawingBackend>(
     Ok(())
 }
 
-/// Draws the caption at the projection of `area`; returns what is left above it.
+/// Draws the caption at the bottom of `area`; returns what is left above it.
 fn caption<DB: DrawingBackend>(
     figure: &Figure,
     area: &Area<DB>,
@@ -170,7 +170,7 @@ fn draw_panel<DB: DrawingBackend>(
     Ok(())
 }
 
-/// The points in drawing coordinates, in runs without a gap.
+/// The points in drawing coordinates, cut at those that cannot be drawn.
 fn runs(points: &[[f64; 2]], x: &Ticked, y: &Ticked) -> Vec<Vec<(f64, f64)>> {
     let mut runs = vec![Vec::new()];
     for &[a, b] in points {
@@ -183,7 +183,7 @@ fn runs(points: &[[f64; 2]], x: &Ticked, y: &Ticked) -> Vec<Vec<(f64, f64)>> {
     runs
 }
 
-/// Draws what the colours of a map mean from `top` on; returns where that ends.
+/// Draws what the colours of a map mean, from the height `top` (pixels) downwards; returns where that ends.
 fn key<DB: DrawingBackend>(
     key: &Key,
     area: &Area<DB>,
@@ -226,14 +226,15 @@ fn key<DB: DrawingBackend>(
     Ok(top + px(LINE))
 }
 
-/// An end of a range, in few characters.
+/// An end of a range for the legend; with an exponent where it would be long.
 fn short(value: f64) -> String {
     let plain = value == 0.0 || (1e-3..1e5).contains(&value.abs());
     let text = if plain { format!("{value}") } else { format!("{value:e}") };
     text.replace('-', "\u{2212}")
 }
 
-/// Draws the legend from `top` on, in as many lines as it needs; returns where it ends.
+/// Draws the legend from the height `top` (pixels) downwards, in as many lines as it needs; returns where it
+/// ends.
 fn legend<DB: DrawingBackend>(
     panel: &Panel,
     area: &Area<DB>,

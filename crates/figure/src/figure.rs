@@ -7,15 +7,15 @@ use crate::{Axis, Fill};
 pub struct Figure {
     /// Width and height (points of 1/96 inch, as in SVG).
     pub size: [u32; 2],
-    /// Panels in a row.
+    /// Number of panels in a row; zero counts as one.
     pub columns: usize,
     /// The panels, row by row.
     pub panels: Vec<Panel>,
-    /// Text below the panels, broken into lines as it needs; may be empty.
+    /// Text below the panels, wrapped at the width of the figure; may be empty.
     pub caption: String,
 }
 
-/// A plot.
+/// One plot of a figure.
 #[derive(Clone, Debug)]
 pub struct Panel {
     /// Title above it; may be empty.
@@ -26,9 +26,9 @@ pub struct Panel {
     pub y: Axis,
     /// Coloured cells under the series.
     pub fill: Option<Fill>,
-    /// What is drawn, later ones on top.
+    /// The series, later ones on top.
     pub series: Vec<Series>,
-    /// Vertical lines.
+    /// Vertical lines, under the series.
     pub marks: Vec<Mark>,
 }
 
@@ -37,30 +37,30 @@ pub struct Panel {
 pub struct Series {
     /// Name in the legend; none if empty.
     pub label: String,
-    /// The points in data units; those that are not finite interrupt the line.
+    /// Points (x, y) in the units of the axes; one that is not finite interrupts the line.
     pub points: Vec<[f64; 2]>,
     /// How they are drawn.
     pub draw: Draw,
 }
 
-/// How points are drawn.
+/// How points are drawn. Colours are red, green and blue, 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Draw {
-    /// A line of a colour.
+    /// A continuous line of this colour.
     Line([u8; 3]),
-    /// A dashed line of a colour.
+    /// A dashed line of this colour.
     Dashed([u8; 3]),
-    /// Dots of a colour and a radius (points).
+    /// Dots of this colour and radius (points of 1/96 inch).
     Dots([u8; 3], f64),
 }
 
-/// A vertical dashed line at a place of note.
+/// A vertical dashed line at one x.
 #[derive(Clone, Debug)]
 pub struct Mark {
-    /// Where (data units).
+    /// Where it stands, in the unit of the horizontal axis.
     pub x: f64,
     /// Name in the legend; none if empty.
     pub label: String,
-    /// Colour.
+    /// Its colour: red, green, blue.
     pub colour: [u8; 3],
 }

@@ -2,14 +2,14 @@
 
 use crate::Scale;
 
-/// A rectangle of one colour.
+/// A rectangle of one colour, with sides along the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// Lower left corner (data units).
+    /// Lower left corner (x, y) in the units of the axes.
     pub low: [f64; 2],
-    /// Upper right corner.
+    /// Upper right corner (x, y).
     pub high: [f64; 2],
-    /// Its colour.
+    /// Its colour: red, green, blue, 0 to 255.
     pub colour: [u8; 3],
 }
 
@@ -18,20 +18,20 @@ pub struct Cell {
 pub struct Fill {
     /// The cells, later ones on top.
     pub cells: Vec<Cell>,
-    /// The legend.
+    /// What their colours mean, shown above the plot.
     pub key: Key,
 }
 
 /// What colours mean.
 #[derive(Clone, Debug)]
 pub enum Key {
-    /// A range of values in the colours of [`viridis`].
+    /// A range of values, coloured by [`viridis`].
     Values {
-        /// Name with unit.
+        /// Name of the quantity with its unit.
         label: String,
-        /// Ends of the colours.
+        /// Values of the first and of the last colour; both positive on a logarithmic scale.
         range: [f64; 2],
-        /// Linear or logarithmic.
+        /// Whether the colours follow the value or its logarithm.
         scale: Scale,
     },
     /// A few classes, each with its name and colour.
@@ -39,8 +39,8 @@ pub enum Key {
 }
 
 impl Key {
-    /// The colour of a value; values beyond the ends have the colour of the end. Classes have
-    /// colours of their own: black.
+    /// The colour of a value. Beyond an end of the range it is that of the end; of NaN, that of the lower end.
+    /// Black for [`Key::Classes`], which have no colour by value.
     pub fn colour(&self, value: f64) -> [u8; 3] {
         match self {
             Self::Values { range: [low, high], scale: Scale::Linear, .. } => {
@@ -54,8 +54,9 @@ impl Key {
     }
 }
 
-/// The colour map viridis (van der Walt and Smith 2015) from 0 to 1: its lightness rises evenly, so
-/// that it survives colour blindness and print in grey.
+/// The colour map viridis (van der Walt and Smith 2015) at `share`, 0 to 1 and clamped to it; NaN counts as 0.
+/// Its lightness rises evenly, so that it remains legible with colour blindness and in grey print. Linear
+/// between nine of its colours.
 pub fn viridis(share: f64) -> [u8; 3] {
     const STOPS: [[u8; 3]; 9] = [
         [68, 1, 84],

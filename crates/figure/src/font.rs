@@ -25,10 +25,11 @@ pub(crate) fn style_sheet() -> String {
     )
 }
 
-/// Cells that meet without a seam.
+/// The CSS rule by which neighbouring cells meet without a seam.
 pub(crate) const CRISP: &str = "rect{shape-rendering:crispEdges}";
 
-/// The font-face rule alone, for a page that holds many figures.
+/// The CSS rules of the figures without a `<style>` tag: their font and how cells meet. A page that holds
+/// figures of [`Figure::svg_element`](crate::Figure::svg_element) needs them once.
 pub fn font_face() -> String {
     style_sheet().replacen("<style>", "", 1).replacen("</style>", "", 1)
 }

@@ -24,7 +24,7 @@ pub use font::font_face;
 pub use thin::thin;
 pub use write::{FigureError, Format};
 
-/// Colours that stay apart for the colour-blind and in greyscale (Okabe and Ito 2008).
+/// Colours (red, green, blue; 0 to 255) that stay apart for the colour-blind (Okabe and Ito 2008).
 pub mod colour {
     /// Black.
     pub const BLACK: [u8; 3] = [0, 0, 0];

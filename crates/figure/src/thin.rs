@@ -1,7 +1,10 @@
 //! Fewer points that draw the same line.
 
-/// At most about `4 columns` points that draw the same line at `columns` pixels: of the points that
-/// fall into one column (by order, equal counts) the first, the lowest, the highest and the last.
+/// Fewer points that draw the same line, `columns` pixels wide: at most four per column.
+///
+/// `points` (x, y) ascend in x. They are cut in order into at most `columns` parts of equal count; of each part
+/// the first, the lowest, the highest and the last point remain. The points must be finite: a gap may be lost,
+/// and a NaN that begins a part hides the extremes of the part.
 pub fn thin(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     let each = points.len().div_ceil(columns.max(1));
     if each <= 4 {

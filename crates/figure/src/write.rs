@@ -1,4 +1,4 @@
-//! Files.
+//! Writing a figure as SVG and PNG.
 
 use crate::draw::{self, Joints};
 use crate::{Figure, font};
@@ -16,10 +16,10 @@ pub enum FigureError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         cause: std::io::Error,
     },
-    /// What is there is not ours to replace.
+    /// Another file, which this program did not write, is in the way.
     #[error("cannot write the figure {}; {}", .0, .0.remedy())]
     Refused(#[from] OutputRefused),
     /// The drawing library failed.
@@ -27,19 +27,19 @@ pub enum FigureError {
     Draw {
         /// The file.
         path: PathBuf,
-        /// What it says.
+        /// Its message.
         cause: String,
     },
 }
 
-/// A figure is made of no file.
+/// A figure is not made from files, so that it cannot overwrite its input.
 const NO_INPUT: &[PathBuf] = &[];
 
 /// Pixels per point: fine enough that rounding to pixels does not show in print.
 const SVG_UNIT: u32 = 4;
 const PNG_UNIT: u32 = 2;
 
-/// A kind of file.
+/// A file format of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Lines and text, for print and the web.
@@ -49,7 +49,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// How its files are known.
+    /// How such files of this program are recognised.
     fn made(self) -> &'static Made {
         match self {
             Self::Svg => &output::SVG,
@@ -57,7 +57,7 @@ impl Format {
         }
     }
 
-    /// The ending of its files.
+    /// The extension of its files, without the dot.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Svg => "svg",
@@ -67,20 +67,21 @@ impl Format {
 }
 
 impl Figure {
-    /// Writes `stem.svg` and `stem.png` into `folder`, which is made if it is missing; returns
-    /// their paths.
+    /// Writes `stem.svg` and `stem.png` into `folder`, which is created if it is missing; returns
+    /// their paths in this order.
     ///
     /// # Errors
-    /// A folder or file that cannot be written.
+    /// As [`write_as`](Self::write_as).
     pub fn write(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], FigureError> {
         let write = |format| self.write_as(folder, stem, format);
         Ok([write(Format::Svg)?, write(Format::Png)?])
     }
 
-    /// Writes one file into `folder`, which is made if it is missing; returns its path.
+    /// Writes one file into `folder`, which is created if it is missing; returns its path.
     ///
     /// # Errors
-    /// A folder or file that cannot be written.
+    /// [`FigureError::Write`] for a folder or file that cannot be written, [`FigureError::Refused`] for a file there
+    /// that this program did not write, [`FigureError::Draw`] if drawing fails.
     pub fn write_as(
         &self,
         folder: &Path,
@@ -96,13 +97,13 @@ impl Figure {
                 std::fs::write(&path, self.svg(&path)?).map_err(|cause| failed(&path, cause))?;
             }
             Format::Png => {
-                // the encoder names no cause when the file cannot be made
+                // the encoder does not say why a file cannot be created
                 std::fs::write(&path, []).map_err(|cause| failed(&path, cause))?;
-                let bare = folder.join(format!(".{stem}.partial.png"));
-                let backend = BitMapBackend::new(&bare, self.pixels(PNG_UNIT));
+                let unmarked = folder.join(format!(".{stem}.partial.png"));
+                let backend = BitMapBackend::new(&unmarked, self.pixels(PNG_UNIT));
                 let drawn = draw_on(self, backend, PNG_UNIT, Joints::Open, &path)
-                    .map(|()| input::bytes(&bare, input::RESULTS));
-                let _ = std::fs::remove_file(&bare);
+                    .map(|()| input::bytes(&unmarked, input::RESULTS));
+                let _ = std::fs::remove_file(&unmarked);
                 let image = drawn?.map_err(|error| failed(&path, std::io::Error::other(error)))?;
                 std::fs::write(&path, marked(&image)).map_err(|cause| failed(&path, cause))?;
             }
@@ -114,7 +115,7 @@ impl Figure {
     /// scales with the page.
     ///
     /// # Errors
-    /// The drawing library's.
+    /// [`FigureError::Draw`].
     pub fn svg_element(&self) -> Result<String, FigureError> {
         let (text, ..) = self.plain_svg(Path::new("page"))?;
         let (width, height) = self.pixels(SVG_UNIT);
@@ -136,7 +137,7 @@ impl Figure {
         Ok(format!("{head}\n{XML_MARK}\n{}{rest}", font::style_sheet()))
     }
 
-    /// As the backend writes it, with its size in pixels.
+    /// The SVG text as the drawing library writes it, and its width and height (pixels).
     fn plain_svg(&self, path: &Path) -> Result<(String, u32, u32), FigureError> {
         let mut text = String::new();
         let (width, height) = self.pixels(SVG_UNIT);
@@ -150,7 +151,7 @@ impl Figure {
     }
 }
 
-/// A PNG with the mark of this program in a chunk `tEXt`, behind the first, which has 13 bytes.
+/// A PNG with the mark of this program in a chunk `tEXt` after the first chunk, `IHDR`, whose data have 13 bytes.
 fn marked(image: &[u8]) -> Vec<u8> {
     const HEAD: usize = 8 + 12 + 13;
     let (head, rest) = image.split_at(HEAD.min(image.len()));

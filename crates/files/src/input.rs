@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// A kind of input, and the most bytes that a file of it may have.
+/// A kind of input file, and its largest size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kind {
-    /// What it is, with its article.
+    /// Name in messages, with its article.
     pub what: &'static str,
-    /// Most bytes.
+    /// Largest size (bytes).
     pub most: u64,
 }
 
@@ -19,32 +19,32 @@ const KIB: u64 = 1 << 10;
 const MIB: u64 = 1 << 20;
 const GIB: u64 = 1 << 30;
 
-/// A case file, a sweep file, or parameters of the slider: larger ones are something else.
+/// A case file, a sweep file, or parameters of the slider. A larger file is no such file.
 pub const CASE: Kind = Kind { what: "a case file", most: 4 * MIB };
-/// A friction table: its points are written out in the resolved case, in up to eight times their
-/// bytes, and must be readable there.
+/// A friction table. The resolved case repeats its points in up to eight times as many bytes, and must still
+/// be readable as a [`CASE`].
 pub const TABLE: Kind = Kind { what: "a friction table", most: 512 * KIB };
-/// A mesh or a keyword file: read whole, about 100 bytes a node and element, so that the largest
-/// meshes of one machine have a tenth of it.
+/// A mesh or a keyword file. It is read whole; at about 100 bytes per node and element, the largest meshes
+/// that one machine can run need a tenth of this size.
 pub const MESH: Kind = Kind { what: "a mesh file", most: 4 * GIB };
-/// A table of another code's contact history: read row by row.
+/// A table of another code's contact history, read row by row.
 pub const CONTACT_TABLE: Kind = Kind { what: "a table of a contact history", most: 64 * GIB };
-/// A document that this program wrote: of a sweep, some kilobytes for each of its runs.
+/// A JSON document that this program wrote; that of a sweep has some kilobytes per run.
 pub const DOCUMENT: Kind = Kind { what: "a document of results", most: 256 * MIB };
-/// A log that this program wrote.
+/// A log that this program wrote, or a text of the operating system.
 pub const LOG: Kind = Kind { what: "a log", most: 256 * MIB };
-/// A preload kept for other runs: 24 bytes a node.
+/// A preload kept for other runs: 24 bytes per node.
 pub const PRELOAD: Kind = Kind { what: "a kept preload", most: 16 * GIB };
-/// A result file: read in parts.
+/// A result file, read in parts and so of any size.
 pub const RESULTS: Kind = Kind { what: "a result file", most: u64::MAX };
 
-/// Why a file is not read.
+/// Why a file was not read.
 #[derive(Debug, Error)]
 #[error("{}: {}", path.display(), self.problem())]
 pub struct InputError {
     /// The file.
     pub path: PathBuf,
-    /// What it was taken for.
+    /// The kind of file expected.
     pub kind: Kind,
     /// What is wrong.
     pub fault: Fault,
@@ -53,25 +53,25 @@ pub struct InputError {
 /// What is wrong with an input.
 #[derive(Debug)]
 pub enum Fault {
-    /// It is not there.
+    /// There is no file at the path.
     Missing,
-    /// It is a folder, a pipe, a device or the like, with its article.
+    /// It is no regular file; what it is instead, with its article: `"a folder"`, `"a pipe"` and so on.
     NotAFile(&'static str),
-    /// It has more bytes than its kind may have.
+    /// It is larger than [`Kind::most`].
     TooLarge,
-    /// The system refuses.
+    /// The operating system refuses to open or read it.
     Unreadable(io::Error),
-    /// It is no UTF-8 text from this place on.
+    /// It is not UTF-8 text; where the first invalid byte is.
     NotText {
         /// Line, counted from 1.
         line: usize,
-        /// Bytes before it.
+        /// Offset in the file (bytes), counted from 0.
         byte: usize,
     },
 }
 
 impl InputError {
-    /// What is wrong, without the name of the file.
+    /// What is wrong, as a phrase for a message, without the name of the file.
     pub fn problem(&self) -> String {
         let what = self.kind.what;
         match &self.fault {
@@ -87,7 +87,7 @@ impl InputError {
         }
     }
 
-    /// What to do about it.
+    /// What the user can do about it, as a phrase for a message.
     pub fn remedy(&self) -> String {
         let what = self.kind.what;
         match &self.fault {
@@ -116,7 +116,7 @@ fn size(bytes: u64) -> String {
     }
 }
 
-/// What a path leads to where it is no regular file, with its article.
+/// What `found` is, with its article, unless it is a regular file.
 pub(crate) fn not_a_file(found: &Metadata) -> Option<&'static str> {
     let kind = found.file_type();
     if kind.is_file() {
@@ -141,42 +141,44 @@ pub(crate) fn not_a_file(found: &Metadata) -> Option<&'static str> {
     Some("no regular file")
 }
 
-/// Refuses what is no regular file within the size of its kind, without opening it: to open a pipe is
-/// to wait for its writer.
+/// Refuses whatever is not a regular file of at most [`Kind::most`] bytes, without opening it: opening a pipe
+/// would wait for its writer.
 ///
 /// # Errors
-/// A path that leads to no such file.
+/// [`Fault::Missing`], [`Fault::NotAFile`], [`Fault::TooLarge`], or [`Fault::Unreadable`] where the system does
+/// not say what is there.
 pub fn regular(path: &Path, kind: Kind) -> Result<(), InputError> {
     let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
-    let found = fs::metadata(path).map_err(|cause| refuse(unreadable(cause)))?;
-    judged(&found, kind).map_err(refuse)
+    let found = fs::metadata(path).map_err(|cause| refuse(fault_of(cause)))?;
+    check_metadata(&found, kind).map_err(refuse)
 }
 
-/// Opens a regular file within the size of its kind.
+/// Opens a regular file of at most [`Kind::most`] bytes for reading.
 ///
 /// # Errors
-/// A path that leads to no such file, or one that may not be read.
+/// As [`regular`]; also [`Fault::Unreadable`] for a file that may not be read.
 pub fn open(path: &Path, kind: Kind) -> Result<File, InputError> {
     let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
     regular(path, kind)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // Another file may have come to the place since; and some that the system calls regular wait.
+    // The path may lead to another file since `regular` looked, and some files that the system calls regular
+    // block when they are opened.
     #[cfg(unix)]
     {
         use std::os::unix::fs::OpenOptionsExt;
         options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
     }
-    let file = options.open(path).map_err(|cause| refuse(unreadable(cause)))?;
-    let found = file.metadata().map_err(|cause| refuse(unreadable(cause)))?;
-    judged(&found, kind).map_err(refuse)?;
+    let file = options.open(path).map_err(|cause| refuse(fault_of(cause)))?;
+    let found = file.metadata().map_err(|cause| refuse(fault_of(cause)))?;
+    check_metadata(&found, kind).map_err(refuse)?;
     Ok(file)
 }
 
 /// All bytes of a file.
 ///
 /// # Errors
-/// As [`open`]; also a file that grows beyond the size of its kind while it is read.
+/// As [`open`]; also [`Fault::TooLarge`] for a file that grows beyond [`Kind::most`] while it is read.
 pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, InputError> {
     let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
     let mut bytes = Vec::new();
@@ -186,10 +188,10 @@ pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, InputError> {
     if read as u64 > kind.most { Err(refuse(Fault::TooLarge)) } else { Ok(bytes) }
 }
 
-/// A file as UTF-8 text.
+/// A whole file as UTF-8 text.
 ///
 /// # Errors
-/// As [`bytes`]; also bytes that are no text.
+/// As [`bytes`]; also [`Fault::NotText`].
 pub fn text(path: &Path, kind: Kind) -> Result<String, InputError> {
     String::from_utf8(bytes(path, kind)?).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
@@ -198,29 +200,31 @@ pub fn text(path: &Path, kind: Kind) -> Result<String, InputError> {
     })
 }
 
-/// The most bytes of a line that [`by_line`] lets through.
+/// Longest line that [`by_line`] lets through (bytes).
 const LONGEST_LINE: usize = 1 << 20;
 
-/// A file that is read line by line; a line without end, which would take all memory, is an error.
+/// A reader for use line by line: a line without end, which would fill the memory, is an error.
+///
+/// Reading fails with [`io::ErrorKind::InvalidData`] once more than 1 MiB came without a line end.
 pub fn by_line(file: impl Read) -> impl Read {
-    ByLine { file, open: 0 }
+    ByLine { file, since_line_end: 0 }
 }
 
 struct ByLine<R> {
     file: R,
     /// Bytes since the last line end.
-    open: usize,
+    since_line_end: usize,
 }
 
 impl<R: Read> Read for ByLine<R> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let read = self.file.read(bytes)?;
         let found = &bytes[..read];
-        self.open = match found.iter().rposition(|&byte| byte == b'\n') {
+        self.since_line_end = match found.iter().rposition(|&byte| byte == b'\n') {
             Some(end) => read - end - 1,
-            None => self.open + read,
+            None => self.since_line_end + read,
         };
-        if self.open > LONGEST_LINE {
+        if self.since_line_end > LONGEST_LINE {
             let problem = format!("a line is longer than {}", size(LONGEST_LINE as u64));
             return Err(io::Error::new(io::ErrorKind::InvalidData, problem));
         }
@@ -228,7 +232,7 @@ impl<R: Read> Read for ByLine<R> {
     }
 }
 
-fn judged(found: &Metadata, kind: Kind) -> Result<(), Fault> {
+fn check_metadata(found: &Metadata, kind: Kind) -> Result<(), Fault> {
     match not_a_file(found) {
         Some(what) => Err(Fault::NotAFile(what)),
         None if found.len() > kind.most => Err(Fault::TooLarge),
@@ -236,9 +240,9 @@ fn judged(found: &Metadata, kind: Kind) -> Result<(), Fault> {
     }
 }
 
-fn unreadable(cause: io::Error) -> Fault {
+fn fault_of(cause: io::Error) -> Fault {
     match cause.kind() {
-        // a path through a file leads to no file
+        // `case.toml/x`, where `case.toml` is a file, names no file either
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Fault::Missing,
         _ => Fault::Unreadable(cause),
     }

@@ -8,33 +8,34 @@ use thiserror::Error;
 
 use crate::input::{self, not_a_file};
 
-/// What a command writes, and how a file shows that it is one.
+/// A kind of file that a command writes, and how such a file is recognised.
 #[derive(Clone, Copy, Debug)]
 pub struct Made {
-    /// What it is.
+    /// Name in messages, without an article.
     pub what: &'static str,
-    /// The endings that its name may have; none where any will do.
+    /// Extensions that its name may have, without the dot and in lower case; empty where any will do.
     pub endings: &'static [&'static str],
-    /// What it begins with; empty where that says nothing.
+    /// The bytes with which it begins; empty where they say nothing.
     pub start: &'static [u8],
-    /// Of these, one stands in its first 64 KiB.
+    /// One of these stands in its first 64 KiB; empty for a format without such a mark.
     pub marks: &'static [&'static str],
-    /// What it must show besides, for a format with an index of its own.
+    /// A further test, for a format whose mark has no fixed place, such as an attribute in an HDF5 file.
     pub proof: Option<fn(&Path) -> bool>,
 }
 
-/// What a page says of itself in its head.
+/// The mark of this program in the head of an HTML page.
 pub const PAGE_MARK: &str =
     concat!("<meta name=\"generator\" content=\"Creepage ", env!("CARGO_PKG_VERSION"), "\">");
-/// What a file of XML says of itself in a comment near its beginning.
+/// The mark of this program in an XML file: a comment near its beginning.
 pub const XML_MARK: &str = concat!("<!-- Creepage ", env!("CARGO_PKG_VERSION"), " -->");
-/// What a figure of pixels says of itself in a chunk `tEXt`.
+/// The mark of this program in a PNG file: the content of a chunk `tEXt`.
 pub const PNG_MARK: &[u8] = concat!("Software\0Creepage ", env!("CARGO_PKG_VERSION")).as_bytes();
 
-/// The rule of the font in pages and figures; those of older versions have no other mark.
+/// The CSS rule of the font in pages and figures: the one mark of those that versions without
+/// [`PAGE_MARK`] and [`XML_MARK`] wrote.
 const FONT: &str = "@font-face{font-family:\"DejaVu Sans\";src:url(data:font/ttf;base64,";
 
-/// A page.
+/// An HTML page.
 pub const PAGE: Made = Made {
     what: "page",
     endings: &["html", "htm"],
@@ -42,7 +43,7 @@ pub const PAGE: Made = Made {
     marks: &["<meta name=\"generator\" content=\"Creepage", FONT],
     proof: None,
 };
-/// A figure of lines and text.
+/// A figure as SVG.
 pub const SVG: Made = Made {
     what: "figure",
     endings: &["svg"],
@@ -50,7 +51,7 @@ pub const SVG: Made = Made {
     marks: &["<!-- Creepage", FONT],
     proof: None,
 };
-/// A figure of pixels.
+/// A figure as PNG.
 pub const PNG: Made = Made {
     what: "figure",
     endings: &["png"],
@@ -58,7 +59,7 @@ pub const PNG: Made = Made {
     marks: &["Software\0Creepage"],
     proof: None,
 };
-/// A grid as a file of VTK's XML.
+/// A mesh as a VTK XML unstructured grid.
 pub const VTU: Made = Made {
     what: "mesh",
     endings: &["vtu"],
@@ -66,7 +67,7 @@ pub const VTU: Made = Made {
     marks: &["<!-- Creepage"],
     proof: None,
 };
-/// The steps of the slider; begins with its heading.
+/// The table of the slider's steps (CSV), which begins with [`SLIDER_HEADING`].
 pub const SLIDER: Made = Made {
     what: "table of the slider",
     endings: &[],
@@ -74,48 +75,48 @@ pub const SLIDER: Made = Made {
     marks: &[],
     proof: None,
 };
-/// The heading of the slider's table.
+/// The first line of the slider's table: each column's name and unit.
 pub const SLIDER_HEADING: &[u8] = b"t_s,x_m,v_m_s,s_m_s,mu,friction_N,spring_N\n";
-/// The runs of a sweep as commands.
+/// The runs of a sweep as shell commands, one per line.
 pub const PLAN: Made =
     Made { what: "plan of a sweep", endings: &[], start: PLAN_START, marks: &[], proof: None };
 /// How each line of a plan begins.
 pub const PLAN_START: &[u8] = b"${CREEPAGE:-creepage} run ";
 
-/// Bytes at the beginning of a file among which its mark stands.
+/// Bytes at the beginning of a file that are searched for its mark.
 const HEAD: u64 = 64 << 10;
 
-/// Why a file is not written.
+/// Why a file was not written.
 #[derive(Debug, Error)]
 #[error("{}: {}", path.display(), self.problem())]
 pub struct OutputRefused {
     /// The file.
     pub path: PathBuf,
-    /// What was to be written.
+    /// What was to be written: [`Made::what`].
     pub what: &'static str,
     /// Why not.
     pub fault: Fault,
 }
 
-/// What stands against writing a file.
+/// The reason not to write a file.
 #[derive(Debug)]
 pub enum Fault {
-    /// The name does not end as those of its kind do.
+    /// The name has none of these extensions.
     Ending(&'static [&'static str]),
-    /// There is no such folder.
+    /// The folder that should hold the file does not exist.
     NoFolder(PathBuf),
-    /// A folder, a pipe, a device or the like is there, with its article.
+    /// The path leads to no regular file; what it leads to, with its article.
     NotAFile(&'static str),
-    /// It is what the command reads.
+    /// The file is one that the command reads.
     Input,
-    /// This program did not write what is there.
+    /// The file exists, and this program did not write it.
     Foreign,
-    /// What is there cannot be looked at.
+    /// The file exists, but cannot be read to tell whether this program wrote it.
     Unreadable(std::io::Error),
 }
 
 impl OutputRefused {
-    /// What stands against it, without the name of the file.
+    /// The reason, as a phrase for a message, without the name of the file.
     pub fn problem(&self) -> String {
         let what = self.what;
         match &self.fault {
@@ -134,7 +135,7 @@ impl OutputRefused {
         }
     }
 
-    /// What to do about it.
+    /// What the user can do about it, as a phrase for a message.
     pub fn remedy(&self) -> &'static str {
         match self.fault {
             Fault::Foreign => "choose another name, or move that file away",
@@ -144,11 +145,11 @@ impl OutputRefused {
     }
 }
 
-/// Refuses a path where writing would replace an input or what this program did not write. An empty
-/// file holds nothing to be lost.
+/// Refuses a path where writing would replace one of `inputs`, or a file that this program did not write. An
+/// empty file may be replaced.
 ///
 /// # Errors
-/// What stands against writing.
+/// Any [`Fault`].
 pub fn check<P: AsRef<Path>>(path: &Path, made: &Made, inputs: &[P]) -> Result<(), OutputRefused> {
     let refuse = |fault| Err(OutputRefused { path: path.to_path_buf(), what: made.what, fault });
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -179,10 +180,10 @@ pub fn check<P: AsRef<Path>>(path: &Path, made: &Made, inputs: &[P]) -> Result<(
     }
 }
 
-/// Whether a file is empty, or shows that this program wrote it.
+/// Whether a file is empty, or bears the marks of `made`.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// A path that leads to no regular file, or a file that cannot be read.
 pub fn wrote(path: &Path, made: &Made) -> std::io::Result<bool> {
     let file = input::open(path, input::RESULTS).map_err(|error| match error.fault {
         input::Fault::Unreadable(cause) => cause,
@@ -196,7 +197,7 @@ pub fn wrote(path: &Path, made: &Made) -> std::io::Result<bool> {
     Ok(head.is_empty() || begins && made.proof.is_none_or(|proof| proof(path)))
 }
 
-/// Whether two paths lead to one file.
+/// Whether `path`, whose metadata is `found`, and `other` lead to one file.
 fn same(path: &Path, found: &Metadata, other: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -211,7 +212,7 @@ fn same(path: &Path, found: &Metadata, other: &Path) -> bool {
     }
 }
 
-/// The first of `inputs` that is one of the files at `paths`.
+/// The first of `inputs` that is the same file as one of `paths`, also by another name or a link.
 pub fn among<'a, P: AsRef<Path>>(inputs: &'a [P], paths: &[PathBuf]) -> Option<&'a Path> {
     let is_input = |input: &&P| {
         let at = |path: &PathBuf| {

@@ -1,11 +1,12 @@
-//! What a message shows of a file: one line of it at most, and nothing that a terminal would obey.
+//! What a message quotes of a file: at most one line, and no control sequence of a terminal.
 
 use std::ops::Range;
 
-/// A line longer than this, in characters as they are shown, is not shown.
+/// Longest line that is quoted, in characters after escaping.
 const LONGEST_LINE: usize = 300;
 
-/// A text with control characters, line ends and invisible marks of direction written out.
+/// `text` with control characters, line ends and invisible characters (such as marks of writing direction)
+/// escaped as in Rust; quotes and backslashes stay.
 pub fn printable(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
@@ -17,19 +18,20 @@ pub fn printable(text: &str) -> String {
     shown
 }
 
-/// A line of a text as it is shown, with a place in it.
+/// A line of a text as a message quotes it, with a part of it to be pointed at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
     /// Its number, counted from 1.
     pub number: usize,
-    /// The line, printable.
+    /// The line as [`printable`] escapes it, with four spaces for each tab.
     pub text: String,
-    /// Bytes of it that are pointed at.
+    /// The part to point at (byte range in `text`).
     pub span: Range<usize>,
 }
 
-/// The line of a text in which `span` begins, pointing at what the span has in that line. None where the
-/// line is too long to be read.
+/// The line of `text` in which the byte range `span` begins, pointing at the part of the span in that line. A
+/// span beyond the end or within a character is moved to the character before. `None` if the line is longer
+/// than 300 characters as quoted.
 pub fn line_of(text: &str, span: Range<usize>) -> Option<Line> {
     let boundary = |at: usize| (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
     let start = boundary(span.start.min(text.len()));
