@@ -6,7 +6,7 @@ use crate::grid::{Grid, nodes_of};
 use crate::zone::{check_crown, sag};
 use crate::{Allowed, FineZone, Mesh, MeshError, Parameter, SmoothSurface, Surface};
 
-/// A straight bar along `x` with its top's apex at `z = 0`.
+/// The shape of a straight bar along `x`; the apex of its top is at `z = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
     /// Extent along `x` (m).
@@ -22,14 +22,15 @@ pub struct Bar {
 }
 
 /// The mesh of a bar: body `"bar"`, node sets `"top"`, `"bottom"`, `"ends"` and `"zone"` (the nodes
-/// of the surface of that name), surfaces `"top"`, `"zone"` (the part of the top that has the fine
-/// size), `"rear"` and `"front"`.
+/// of the surface of that name), surfaces `"top"`, `"zone"` (the part of the top with elements of the fine
+/// size), `"rear"` (the end at the smaller `x`) and `"front"`.
 ///
-/// A crown lowers the nodes by `c - sqrt(c^2 - y^2)` at the top, fading linearly to nothing at the
-/// bottom, which stays flat.
+/// A crown of radius `c` lowers the nodes of the top by `c - sqrt(c^2 - y^2)`; this falls linearly to zero at
+/// the bottom, which stays flat.
 ///
 /// # Errors
-/// [`MeshError::OutOfRange`] and [`MeshError::TooManyElements`].
+/// [`MeshError::OutOfRange`] for a size that is not positive and finite, a crown too sharp for the width, or a
+/// zone that does not fit into the bar; [`MeshError::TooManyElements`].
 pub fn bar(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     check(shape, zone)?;
     let Bar { length, width, height, crown, start } = *shape;

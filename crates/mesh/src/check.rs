@@ -1,16 +1,17 @@
-//! Faults that would make a mesh unfit for the solver.
+//! Checks that a mesh is fit for the solver.
 
 use crate::hex::{area, dot, norm, sub};
 use crate::near::{COINCIDENT, duplicates, hanging};
 use crate::quality::scaled_jacobian;
 use crate::{Body, Face, HEX_FACES, Mesh, MeshError};
 
-/// Checks a mesh: ranges and indices, finite coordinates, positive Jacobians at all corners, and
-/// within each body every node used, no two nodes at one place, every inner face shared by exactly
-/// two elements on opposite sides, no node hanging on a face or edge.
+/// Checks a mesh: ranges and indices, finite coordinates, positive Jacobians at all corners. Within each body,
+/// every node belongs to an element, no two nodes coincide, every inner face is shared by exactly two elements on
+/// opposite sides, and no node hangs on a face or edge.
 ///
 /// # Errors
-/// The first fault found.
+/// The first fault found: any [`MeshError`] but those of generators, [`MeshError::OutOfRange`] and
+/// [`MeshError::TooManyElements`].
 pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
     let (mut nodes, mut hexes) = (0, 0);
     for body in &mesh.bodies {
@@ -98,7 +99,7 @@ fn check_shapes(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
     }
     for element in body.hexes.clone() {
         let (corner, value) = scaled_jacobian(&mesh.hexes[element].map(|n| mesh.nodes[n as usize]));
-        // Corner angles below 1e-10 rad are round-off; NaN stands for an edge without length.
+        // A scaled Jacobian below 1e-10 is round-off of a flat corner; NaN comes from an edge without length.
         if value.is_nan() || value <= 1e-10 {
             return Err(MeshError::NegativeJacobian { element, corner, value });
         }
@@ -106,7 +107,10 @@ fn check_shapes(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// The faces of a body that belong to one element only, in the order of the elements.
+/// The boundary faces of a body, which belong to one element only, in the order of the elements.
+///
+/// # Errors
+/// [`MeshError::FaceShared`].
 pub(crate) fn boundary(mesh: &Mesh, body: &Body) -> Result<Vec<Face>, MeshError> {
     let face = |e: usize, side: usize| HEX_FACES[side].map(|c| mesh.hexes[e][c]);
     let least = |f: [u32; 4]| f[0].min(f[1]).min(f[2]).min(f[3]) as usize - body.nodes.start;
@@ -155,7 +159,7 @@ pub(crate) fn boundary(mesh: &Mesh, body: &Body) -> Result<Vec<Face>, MeshError>
     Ok(outside)
 }
 
-/// Whether `point` lies on the quadrilateral `corners`, within `tolerance` (m), corners apart.
+/// Whether `point` lies on the quadrilateral `corners`, within `tolerance` (m).
 pub(crate) fn lies_on(point: [f64; 3], corners: [[f64; 3]; 4], tolerance: f64) -> bool {
     let normal = area(corners);
     let size = norm(normal);

@@ -1,4 +1,4 @@
-//! The disk: a plane mesh of a ring, coarsened towards the hub, drawn out along `y`.
+//! The disk: a plane mesh of a ring, coarsened towards the hub, extruded along `y`.
 
 use crate::error::{MAX_ELEMENTS, positive, within};
 use crate::grading::{Axis, LEAST_GAP, cells, outward, whole};
@@ -13,10 +13,11 @@ use std::ops::Range;
 /// Largest angle of an element of the tread (rad).
 const WIDEST_ELEMENT: f64 = 0.25;
 
-/// Height of the first row under the fine zone, over the size: high enough to coarsen.
+/// Height of the first row under the fine zone, over the zone's element size: high enough for a row that coarsens.
 const FIRST_ROW: f64 = 3.0;
 
-/// A disk (annulus about a rigid hub) that touches the origin from above: centre `(0, 0, radius)`.
+/// The shape of a disk, an annulus about a rigid hub. It touches the origin from above: its centre is
+/// `(0, 0, radius)`, its axis along `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disk {
     /// Rolling radius at the apex of the tread (m).
@@ -30,16 +31,17 @@ pub struct Disk {
 }
 
 /// The mesh of a disk: body `"disk"`, node sets `"hub"`, `"tread"` and `"zone"` (the nodes of the
-/// surface of that name), surfaces `"tread"` and `"zone"` (the part of the tread that has the fine
+/// surface of that name), surfaces `"tread"` and `"zone"` (the part of the tread with elements of the fine
 /// size).
 ///
 /// The point of the tread at the arc length `s` from the first contact lies at
 /// `(R sin(s/R), y, R - R cos(s/R))`: in rolling it meets the bar at `x = s`. Columns of elements
-/// are counted from the point opposite to the zone. A crown lowers the tread by
-/// `c - sqrt(c^2 - y^2)`, fading linearly to nothing at the hub.
+/// are counted from the point opposite to the zone. A crown of radius `c` lowers the tread by
+/// `c - sqrt(c^2 - y^2)`; this falls linearly to zero at the hub.
 ///
 /// # Errors
-/// [`MeshError::OutOfRange`] and [`MeshError::TooManyElements`].
+/// [`MeshError::OutOfRange`] for a size that is not positive and finite, a hub as large as the disk, a crown too
+/// sharp for the width, or a zone that does not fit; [`MeshError::TooManyElements`].
 pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
     check(shape, zone)?;
     let Disk { radius, hub_radius, width, crown } = *shape;

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh or with the shape asked for.
+//! Errors of generators, and faults of meshes.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ pub const MAX_ELEMENTS: f64 = 5e7;
 /// A parameter of a generator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// Radius of the disk (m).
+    /// Rolling radius of the disk (m).
     DiskRadius,
     /// Radius of the disk's rigid hub (m).
     HubRadius,
@@ -78,24 +78,24 @@ pub enum Allowed {
     Positive,
     /// Finite.
     Finite,
-    /// A ratio by which sizes grow.
+    /// A ratio of successive sizes: above 1 and at most 3.
     Growth,
-    /// This or more: so large is what is named.
+    /// At least this value, the size of the second.
     AtLeast(f64, &'static str),
-    /// This or less: so large is what is named.
+    /// At most this value, the size of the second.
     AtMost(f64, &'static str),
-    /// Less than this: so large is what is named.
+    /// Below this value, the size of the second.
     Below(f64, &'static str),
-    /// From the first to the second, for the reason named.
+    /// From the first value to the second; the third is the reason.
     Between(f64, f64, &'static str),
-    /// A crown that falls over the width by less than `most`, not by `fall`.
+    /// A radius of a crown whose sagitta at half the width, `fall`, is at most `most`.
     Falls {
-        /// How far it falls (m).
+        /// Its sagitta (m).
         fall: f64,
-        /// How far it may fall (m).
+        /// The largest sagitta allowed (m).
         most: f64,
     },
-    /// More than the plane before it.
+    /// Above the plane before it.
     Ascending,
 }
 
@@ -120,7 +120,8 @@ impl fmt::Display for Allowed {
     }
 }
 
-/// A refused shape, or a fault found by [`check`](crate::check()).
+/// A shape that a generator refuses, or a fault found by [`check`](crate::check()). Nodes and elements are
+/// named by their indices in the mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// A parameter of a generator lies outside its range.
@@ -130,7 +131,7 @@ pub enum MeshError {
         parameter: Parameter,
         /// The value given (m, or dimensionless).
         value: f64,
-        /// What it may be.
+        /// The values allowed.
         allowed: Allowed,
     },
     /// The shape would need more than [`MAX_ELEMENTS`] elements.
@@ -139,20 +140,20 @@ pub enum MeshError {
          {MAX_ELEMENTS:.0e} allowed"
     )]
     TooManyElements {
-        /// Body that is too large.
+        /// Name of the body.
         body: &'static str,
-        /// Element size asked for (m).
+        /// Element size in the fine zone (m).
         size: f64,
-        /// Estimated number of elements.
+        /// Number of elements, or an estimate of it.
         estimate: f64,
     },
-    /// The ranges of the bodies do not tile the nodes or elements.
+    /// The ranges of the bodies do not follow one another, or do not cover all nodes and elements.
     #[error("the ranges of body `{body}` do not continue those before it or exceed the mesh")]
     BodyRange {
         /// Name of the body.
         body: String,
     },
-    /// A node index points outside its body.
+    /// A node or element index lies outside its body.
     #[error("{what} of body `{body}` names node or element {index}, outside the body")]
     BadIndex {
         /// Element, set or surface that holds the index.
@@ -178,16 +179,16 @@ pub enum MeshError {
         /// Its coordinates (m).
         point: [f64; 3],
     },
-    /// An element is inverted or flat at a corner.
+    /// An element is inverted or flat at a corner, or has an edge without length.
     #[error(
         "element {element} is inverted or flat at its corner {corner}: scaled Jacobian {value:.3e}"
     )]
     NegativeJacobian {
         /// The element.
         element: usize,
-        /// Corner in `VTK_HEXAHEDRON` order.
+        /// Corner, 0 to 7 in `VTK_HEXAHEDRON` order.
         corner: usize,
-        /// Scaled Jacobian there.
+        /// Scaled Jacobian there (dimensionless); NaN for an edge without length.
         value: f64,
     },
     /// Two nodes of one body coincide.
@@ -197,7 +198,7 @@ pub enum MeshError {
         first: usize,
         /// The other node.
         second: usize,
-        /// Where (m).
+        /// Their coordinates (m).
         point: [f64; 3],
     },
     /// A face belongs to more than two elements, or to two on the same side.
@@ -218,7 +219,7 @@ pub enum MeshError {
         /// Element of the face.
         element: usize,
     },
-    /// A surface names a face that its element does not have.
+    /// A surface names a face that its element does not have, or from the inside.
     #[error("surface `{surface}` of body `{body}`: {nodes:?} is no outward face of element {hex}")]
     NotAFace {
         /// Name of the surface.
@@ -238,14 +239,14 @@ pub enum MeshError {
     },
 }
 
-/// Refuses a value that is not `allowed`.
+/// Refuses `value` unless the condition `holds`.
 pub(crate) fn within(
-    fine: bool,
+    holds: bool,
     parameter: Parameter,
     value: f64,
     allowed: Allowed,
 ) -> Result<(), MeshError> {
-    if fine { Ok(()) } else { Err(MeshError::OutOfRange { parameter, value, allowed }) }
+    if holds { Ok(()) } else { Err(MeshError::OutOfRange { parameter, value, allowed }) }
 }
 
 /// Refuses a value that is not a positive, finite number.
@@ -258,7 +259,7 @@ pub(crate) fn finite(parameter: Parameter, value: f64) -> Result<(), MeshError> 
     within(value.is_finite(), parameter, value, Allowed::Finite)
 }
 
-/// Refuses a ratio by which element sizes cannot grow, and a largest size below the `size` of the zone.
+/// Refuses a growth outside (1, 3], and a largest size below the `size` of the zone's elements.
 pub(crate) fn graded(size: f64, growth: f64, coarsest: f64) -> Result<(), MeshError> {
     within(growth > 1.0 && growth <= 3.0, Parameter::Growth, growth, Allowed::Growth)?;
     let allowed = Allowed::AtLeast(size, "the element size of the fine zone");

@@ -7,7 +7,7 @@ use std::ops::Range;
 /// A gap next to the zone that is shorter than this many elements joins the zone.
 pub(crate) const LEAST_GAP: f64 = 0.75;
 
-/// Smallest ratio of successive sizes accepted to fit a length exactly.
+/// Smallest ratio of successive sizes that is accepted so that the sizes fit a length exactly.
 const LEAST_RATIO: f64 = 0.88;
 
 /// A line divided into cells, uniform in one stretch and graded away from it.
@@ -23,9 +23,9 @@ impl Axis {
     /// Divides `span` with cells of about `size` over `fine`, growing by about `growth` outside,
     /// up to `coarsest`.
     ///
-    /// The sizes are adjusted so that they fit exactly: outside by a ratio slightly below `growth`,
-    /// within the stretch where it reaches an end of the span (or all but reaches it: a gap of
-    /// less than [`LEAST_GAP`] elements joins the stretch) and is no whole number of cells long.
+    /// The sizes are adjusted so that they fit exactly. Outside the stretch, the ratio becomes slightly smaller
+    /// than `growth`. Within it, the size changes only where the stretch reaches an end of the span and is no
+    /// whole number of cells long; a gap of less than [`LEAST_GAP`] elements at an end joins the stretch.
     pub fn new(span: [f64; 2], fine: [f64; 2], size: f64, growth: f64, coarsest: f64) -> Self {
         let from = if fine[0] - span[0] < LEAST_GAP * size { span[0] } else { fine[0] };
         let to = if span[1] - fine[1] < LEAST_GAP * size { span[1] } else { fine[1] };
@@ -49,7 +49,8 @@ impl Axis {
         self.points.len() - 1
     }
 
-    /// Estimate of the number of cells that [`new`](Self::new) would make, without making them.
+    /// Estimate of the number of cells that [`new`](Self::new) would make for a line of length `span` with a uniform
+    /// stretch of length `fine` (m).
     pub fn estimate(span: f64, fine: f64, size: f64, growth: f64, coarsest: f64) -> f64 {
         let gap = (span - fine).max(0.0);
         let graded = 2.0 * libm::log(coarsest / size) / libm::log(growth);
@@ -57,12 +58,15 @@ impl Axis {
     }
 }
 
-/// Planes (m, ascending) that divide `span` with cells of `size` over the stretch `fine`, growing by
-/// about `growth` outside it up to `coarsest`; sizes are adjusted so that they fit exactly.
+/// Divides a line into cells. Returns the coordinates of their ends (m, ascending), those of `span` included.
+///
+/// Cells are about `size` (m) long over the stretch `fine`, and grow outside it by about the factor `growth` from
+/// cell to cell, up to `coarsest` (m). Sizes are adjusted so that they fit exactly. `span` and `fine` are
+/// coordinates of ends (m).
 ///
 /// # Errors
-/// [`MeshError::OutOfRange`] for sizes that are not positive, a growth outside (1, 3] or a stretch
-/// that does not lie in the span.
+/// [`MeshError::OutOfRange`] for sizes that are not positive, a growth outside (1, 3], a `coarsest` below `size`,
+/// or a stretch that does not lie in the span; [`MeshError::TooManyElements`] for too many cells.
 pub fn graded_line(
     span: [f64; 2],
     fine: [f64; 2],
@@ -84,12 +88,12 @@ pub fn graded_line(
     Ok(Axis::new(span, fine, size, growth, coarsest).points)
 }
 
-/// `length` rounded up to whole cells of `size`, but for round-off.
+/// `length` rounded up to a multiple of `size`; an excess of round-off is not rounded up.
 pub(crate) fn whole(length: f64, size: f64) -> f64 {
     (length / size - 1e-9).ceil().max(1.0) * size
 }
 
-/// Whole number of cells of about `size` in `length`, at least one.
+/// Number of cells of about `size` in `length`, at least one.
 pub(crate) fn cells(length: f64, size: f64) -> usize {
     (length / size).round().max(1.0) as usize
 }

@@ -5,8 +5,8 @@ use crate::{Allowed, Body, Face, HEX_FACES, Mesh, MeshError, Parameter, Surface}
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Cell and node counts of a grid; `x` runs slowest, then `z`, then `y`, so that contiguous ranges
-/// of elements are slabs across `x`.
+/// The numbering of a grid: `x` runs slowest, then `z`, then `y`, so that contiguous ranges of elements are
+/// slabs across `x`.
 #[derive(Clone, Copy)]
 pub(crate) struct Grid {
     /// Cells along `x`, `y`, `z`.
@@ -14,11 +14,13 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
+    /// Index of the node `i`, `j`, `k` along `x`, `y`, `z`.
     pub fn node(&self, i: usize, j: usize, k: usize) -> u32 {
         let [_, ny, nz] = self.cells;
         ((i * (nz + 1) + k) * (ny + 1) + j) as u32
     }
 
+    /// Index of the cell `i`, `j`, `k` along `x`, `y`, `z`.
     pub fn hex(&self, i: usize, j: usize, k: usize) -> u32 {
         let [_, ny, nz] = self.cells;
         ((i * nz + k) * ny + j) as u32
@@ -97,10 +99,10 @@ pub(crate) fn nodes_of(faces: &[Face]) -> Vec<u32> {
     nodes
 }
 
-/// A box of cells between the planes `x = divisions[0][i]` and so on (m, ascending).
+/// A box of cells between the planes `x = divisions[0][i]`, `y = divisions[1][j]`, `z = divisions[2][k]` (m).
 ///
 /// Body `"block"`; surfaces and node sets `"x-"`, `"x+"`, `"y-"`, `"y+"`, `"z-"`, `"z+"`. Divisions
-/// come from [`graded_line`](crate::graded_line) or are any ascending numbers.
+/// come from [`graded_line`](crate::graded_line) or are any finite, ascending numbers.
 ///
 /// # Errors
 /// [`MeshError::OutOfRange`] for a division with fewer than two planes or not ascending, and
@@ -129,7 +131,7 @@ pub fn graded_block(divisions: [&[f64]; 3]) -> Result<Mesh, MeshError> {
 /// A box of `n` equal cells along each axis and edge lengths `size` (m), one corner at the origin.
 ///
 /// Body `"block"`; surfaces and node sets `"x-"`, `"x+"`, `"y-"`, `"y+"`, `"z-"`, `"z+"`. Counts of
-/// zero are raised to one.
+/// zero are raised to one; edge lengths must be positive and are not checked.
 pub fn block(n: [usize; 3], size: [f64; 3]) -> Mesh {
     let cells = n.map(|n| n.max(1));
     let [xs, ys, zs] = [0, 1, 2]

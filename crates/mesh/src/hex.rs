@@ -1,11 +1,11 @@
 //! The hexahedron: its corners, edges, faces and volume.
 
 /// Corners of the six faces in the order x-, x+, y-, y+, z-, z+ of the reference cube, each
-/// counter-clockwise seen from outside (`VTK_HEXAHEDRON` corner order).
+/// counter-clockwise seen from outside. Corners are indices in `VTK_HEXAHEDRON` order ([`HEX_CORNERS`]).
 pub const HEX_FACES: [[usize; 4]; 6] =
     [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
-/// Ends of the twelve edges.
+/// Corners at the ends of the twelve edges, as indices in `VTK_HEXAHEDRON` order.
 pub const HEX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [1, 2],
@@ -25,7 +25,7 @@ pub const HEX_EDGES: [[usize; 2]; 12] = [
 pub(crate) const NEIGHBOURS: [[usize; 3]; 8] =
     [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
-/// Local coordinates (xi, eta, zeta) of the corners in `VTK_HEXAHEDRON` order.
+/// Reference coordinates (xi, eta, zeta) of the corners in `VTK_HEXAHEDRON` order.
 pub const HEX_CORNERS: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
@@ -59,7 +59,8 @@ pub(crate) fn area(p: [[f64; 3]; 4]) -> [f64; 3] {
     [0.5 * a[0], 0.5 * a[1], 0.5 * a[2]]
 }
 
-/// Volume of the trilinear hexahedron (m^3): 2x2x2 Gauss points integrate its Jacobian exactly.
+/// Volume (m^3) of the trilinear hexahedron with corners `p` (m) in `VTK_HEXAHEDRON` order, negative if it is inside
+/// out: 2x2x2 Gauss points integrate its Jacobian exactly.
 pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
     let g = 1.0 / 3f64.sqrt();
     let mut volume = 0.0;
@@ -87,8 +88,9 @@ pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
     volume
 }
 
-/// Integral of each corner's shape function over a bilinear face (m^2), by 2x2 Gauss points: exact
-/// for a plane face.
+/// Integral of each corner's shape function over the bilinear face with corners `x` (m), in order around it (m^2).
+///
+/// By 2x2 Gauss points: exact for a plane, convex face.
 pub fn quad_corner_areas(x: &[[f64; 3]; 4]) -> [f64; 4] {
     const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let g = 1.0 / 3f64.sqrt();

@@ -1,8 +1,9 @@
-//! Several meshes as one.
+//! Several meshes joined into one.
 
 use crate::{Body, Face, Mesh, Surface};
 
-/// Puts the parts one after the other into one mesh; nothing is merged.
+/// One mesh of all bodies of `parts`, in order, with their indices shifted. No nodes are merged, and bodies of
+/// equal name stay apart.
 pub fn join(parts: &[Mesh]) -> Mesh {
     let mut whole = Mesh {
         nodes: Vec::with_capacity(parts.iter().map(|p| p.nodes.len()).sum()),

@@ -3,10 +3,13 @@
 use crate::{Body, Face, HEX_FACES, Mesh};
 use std::collections::HashSet;
 
-/// The elements of `body` within `layers` layers of `faces`, ascending: those that own the faces,
-/// then those behind the opposite face of each, and so on until the body ends.
+/// The elements of `body` within `layers` layers below `faces`, as ascending indices in `mesh`. The first layer is
+/// the elements that own the faces; the next is those behind the opposite faces, and so on until the body ends.
 ///
 /// Layers follow the columns of the mesh; they do not widen at the border of the faces.
+///
+/// # Panics
+/// If a node of a face lies outside `body`, or `body` is not one of `mesh`.
 pub fn layers_below(mesh: &Mesh, body: &Body, faces: &[Face], layers: usize) -> Vec<u32> {
     let sorted = |mut nodes: [u32; 4]| {
         nodes.sort_unstable();

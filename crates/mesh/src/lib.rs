@@ -1,7 +1,8 @@
-//! Hexahedral meshes of a disk and a bar: generators, node and face sets, surfaces, quality.
+//! Hexahedral meshes of a disk and a bar: generators, import, node sets, surfaces, quality.
 //!
 //! SI units; `x` is the rolling direction, `y` lateral, `z` up. The apex of the bar's top is
-//! `z = 0`; the undeformed disk touches it at the origin with its centre at `(0, 0, R)`.
+//! `z = 0`; the undeformed disk touches it at the origin with its centre at `(0, 0, R)`. Nodes and elements
+//! are counted from 0; corners of hexahedra are in `VTK_HEXAHEDRON` order ([`HEX_CORNERS`]).
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

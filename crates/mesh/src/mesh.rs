@@ -1,4 +1,4 @@
-//! A mesh: nodes, elements, and the bodies that they make up with their sets and surfaces.
+//! A mesh: nodes, elements, and bodies with their node sets and surfaces.
 
 use crate::SmoothSurface;
 use std::collections::BTreeMap;
@@ -11,14 +11,14 @@ pub struct Mesh {
     pub nodes: Vec<[f64; 3]>,
     /// Node indices of each hexahedron in `VTK_HEXAHEDRON` order.
     pub hexes: Vec<[u32; 8]>,
-    /// The bodies; their ranges tile `nodes` and `hexes` in order.
+    /// The bodies; their ranges cover `nodes` and `hexes` in order, without gaps or overlaps.
     pub bodies: Vec<Body>,
 }
 
-/// One body of a [`Mesh`]: ranges and named sets, all in global indices.
+/// One body of a [`Mesh`]: ranges and named sets, all in indices of the whole mesh.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// `"disk"` or `"bar"` for the generated meshes.
+    /// Name: `"disk"` or `"bar"` for the bodies of a case.
     pub name: String,
     /// Nodes of this body in [`Mesh::nodes`].
     pub nodes: Range<usize>,
@@ -30,12 +30,12 @@ pub struct Body {
     pub surfaces: BTreeMap<String, Surface>,
 }
 
-/// A set of element faces with, where the geometry is generated, its exact shape.
+/// A set of element faces, with its exact shape where that is known.
 #[derive(Clone, Debug, Default)]
 pub struct Surface {
-    /// Faces, in the order of the generator.
+    /// Faces, in the order of the generator; of an imported mesh, in that of the elements.
     pub faces: Vec<Face>,
-    /// The exact undeformed surface on which the face nodes lie.
+    /// The exact undeformed surface on which the nodes of the faces lie; `None` where there is only the mesh.
     pub smooth: Option<SmoothSurface>,
 }
 
@@ -44,6 +44,6 @@ pub struct Surface {
 pub struct Face {
     /// Corner nodes, counter-clockwise seen from outside the body.
     pub nodes: [u32; 4],
-    /// The element that the face belongs to.
+    /// The element that the face belongs to, as an index in [`Mesh::hexes`].
     pub hex: u32,
 }

@@ -1,4 +1,4 @@
-//! Geometric faults: nodes at one place, nodes on foreign faces.
+//! Geometric faults: coinciding nodes, and nodes on faces of which they are no corner.
 
 use crate::check::lies_on;
 use crate::hex::{norm, sub};
@@ -11,7 +11,7 @@ pub(crate) const COINCIDENT: f64 = 1e-6;
 /// edge or in the plane of a face up to round-off or the sag of a curved side.
 const ON_FACE: f64 = 1e-3;
 
-/// Two nodes of the body nearer to each other than a fraction of its shortest edge, if any.
+/// Two nodes of the body that are closer than `fraction` of its shortest edge, if any.
 pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usize, usize)> {
     let mut shortest = f64::INFINITY;
     for hex in &mesh.hexes[body.hexes.clone()] {
@@ -21,8 +21,8 @@ pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usi
         }
     }
     let near = fraction * shortest;
-    // An odd fraction of the edge: regular meshes then rarely have nodes on borders of cells.
-    // Where an edge is next to nothing, cells stay so large that their numbers can be held.
+    // A cell of no simple fraction of the edge: regular meshes then rarely have nodes on borders of cells.
+    // Where an edge is close to zero, cells stay so large that their numbers fit an i64.
     let points = &mesh.nodes[body.nodes.clone()];
     let reach = points.iter().flatten().fold(0f64, |reach, x| reach.max(x.abs()));
     let cell = (0.3137 * shortest).max(1e-12 * reach);
@@ -53,7 +53,7 @@ pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usi
     None
 }
 
-/// A node of the boundary that lies on a boundary face which it is no corner of, if any.
+/// A node of `boundary` that lies on one of its faces without being a corner of it, if any; and that face.
 pub(crate) fn hanging(mesh: &Mesh, boundary: &[Face]) -> Option<(u32, Face)> {
     let mut nodes = crate::grid::nodes_of(boundary);
     // Strips across x, each sorted by z: a face then meets few nodes that are far from it.

@@ -1,10 +1,11 @@
-//! The nodal vector of the kernels.
+//! The vector type of nodal arrays.
 
 use std::ops::{Index, IndexMut};
 
 /// A vector `[x, y, z, 0]` on a 32-byte boundary: one aligned load per node in the kernels.
 ///
-/// The fourth entry is padding. It is zero unless the owner of an array says otherwise.
+/// The fourth entry is padding: zero, unless the documentation of an array says otherwise. Indices 0, 1 and 2 are
+/// x, y and z.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(32))]
 pub struct Padded(pub [f64; 4]);

@@ -1,9 +1,9 @@
-//! The seven-element patch.
+//! The mesh of the patch test.
 
 use crate::{Body, HEX_CORNERS, Mesh};
 
-/// The unit cube with a skewed hexahedron inside, seven elements in all, for patch tests: nodes 0
-/// to 7 are the corners of the cube (m), 8 to 15 those of the inner element, which is element 0.
+/// The unit cube (1 m) with a skewed hexahedron inside, seven elements in all, for patch tests. Nodes 0 to 7 are
+/// the corners of the cube, 8 to 15 those of the inner element, which is element 0. One body, `"patch"`.
 ///
 /// Source: MacNeal and Harder (1985), "A proposed standard set of problems to test finite element
 /// accuracy", Finite Elem. Anal. Des. 1: 3–20, Fig. 2.

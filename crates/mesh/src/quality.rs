@@ -11,11 +11,11 @@ use crate::{HEX_FACES, hex};
 /// edges that leave the corner: 1 for a brick, 0 for a flat corner, negative for an inverted one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
-    /// Least scaled Jacobian.
+    /// Least scaled Jacobian (dimensionless).
     pub min_scaled_jacobian: f64,
-    /// Mean over the elements of the scaled Jacobian.
+    /// Mean of the scaled Jacobian over the elements.
     pub mean_scaled_jacobian: f64,
-    /// Largest ratio of the longest to the shortest edge of an element.
+    /// Largest ratio of an element's longest edge to its shortest.
     pub max_aspect: f64,
     /// Element with the least scaled Jacobian.
     pub worst_element: usize,
@@ -32,8 +32,10 @@ pub struct Quality {
     pub volume: f64,
 }
 
-/// Measures the elements of a mesh. An empty mesh has no shortest edge: the least values are
-/// infinite and the mean is NaN.
+/// Measures the elements of a mesh. Of an empty mesh the least values are infinite and the mean is NaN.
+///
+/// # Panics
+/// If an element names a node that the mesh does not have.
 pub fn quality(mesh: &Mesh) -> Quality {
     let mut q = Quality {
         min_scaled_jacobian: f64::INFINITY,

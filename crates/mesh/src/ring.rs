@@ -1,7 +1,7 @@
 //! The plane mesh of a ring, coarsened towards its inside without hanging nodes.
 //!
-//! Columns of the fine zone taper towards the hub, where they would dictate the time step. In a
-//! *transition* three columns `T0..T3` of the row above go on as one, `B0 B1`:
+//! Columns of the fine zone taper towards the hub, where they would limit the time step. In a
+//! *transition* the three columns between `T0` and `T3` of the row above continue as one, `B0 B1`:
 //!
 //! ```text
 //!   T0 ---- T1 ---- T2 ---- T3
@@ -12,13 +12,13 @@
 //!   B0 -------------------- B1        B1 T3 T2 I2
 //! ```
 //!
-//! Its left and right sides are single edges, so transitions and plain quads stand side by side
-//! in one row, and each row may coarsen where it likes.
+//! Its left and right sides are single edges. Transitions and plain quads can therefore stand side by side
+//! in one row, and each row may coarsen at any column.
 
-/// A row coarsens three columns where its height is at least this many times their widths.
+/// A row coarsens three columns where its height is at least this many times their largest width.
 const HEIGHT_TO_WIDTH: f64 = 2.4;
 
-/// Largest ratio of the widths of three columns that become one.
+/// Largest ratio of the widest to the narrowest of three columns that become one.
 const WIDTH_RATIO: f64 = 3.0;
 
 /// Largest angle of a column made by coarsening (rad): 24 columns around the hub or more.
@@ -43,7 +43,7 @@ pub(crate) struct Ring {
     pub outer: Vec<u32>,
     /// Nodes on the inner circle, by column.
     pub inner: Vec<u32>,
-    /// Quad under each column of the outer circle.
+    /// The quad at each column of the outer circle.
     pub rim: Vec<u32>,
 }
 
@@ -73,7 +73,8 @@ impl Ring {
     }
 }
 
-/// Nodes and quads with their places in the order around the ring.
+/// Nodes and quads in the order in which they are made, each with a number by which it is sorted around the ring:
+/// a node's column, and the sum of a quad's two columns.
 struct Draft<'a> {
     angles: &'a [f64],
     nodes: Vec<(usize, [f64; 2])>,
@@ -98,10 +99,10 @@ impl Draft<'_> {
         columns.iter().map(|&c| self.node(c, self.angles[c], radius)).collect()
     }
 
-    /// Positions in `columns` of the triples that this row turns into one, ascending.
+    /// Positions in `columns` of the first of each three that this row merges, ascending.
     ///
-    /// The narrowest triples go first: narrow columns that are left over between wide ones would
-    /// find no equals further in. Equal triples go in order.
+    /// The narrowest triples are merged first: narrow columns left over between wide ones would find no
+    /// neighbours of similar width further in. Equal triples go in order.
     fn transitions(&self, columns: &[usize], r: &[f64]) -> Vec<usize> {
         let height = r[0] - r[1];
         let widths: Vec<f64> = (0..columns.len())
@@ -119,7 +120,7 @@ impl Draft<'_> {
                 && widest <= WIDTH_RATIO * narrowest
                 && height >= HEIGHT_TO_WIDTH * widest * r[0]
             {
-                // In steps far above round-off, so that equal columns compare equal.
+                // Rounded far above round-off, so that equal columns compare equal.
                 candidates.push(((angle / WIDEST_COLUMN * 1e9).round() as u64, i));
             }
         }
@@ -181,7 +182,7 @@ impl Draft<'_> {
         self.quads.push((c[0] + c[3], [b[0], b[1], i2, i1]));
         self.quads.push((c[1] + c[2], [i1, i2, t[2], t[1]]));
         self.quads.push((c[0] + c[1], [b[0], i1, t[1], t[0]]));
-        // Rotated so that the third and fourth corners are the outer ones here too.
+        // Begins with I2, so that the third and fourth corners are the outer ones here too.
         self.quads.push((c[2] + c[3], [i2, b[1], t[3], t[2]]));
     }
 

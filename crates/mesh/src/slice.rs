@@ -1,13 +1,13 @@
-//! Slices: meshes one element wide in y, whose nodes face each other across it.
+//! Slices: meshes one element wide along y, whose nodes lie opposite each other.
 
 use crate::{HEX_EDGES, Mesh};
 use thiserror::Error;
 
-/// Part of the distance between two nodes across by which they may differ along the slice: the last
-/// printed digit of a mesh file.
+/// Largest distance in the plane (x, z) between two opposite nodes, over their distance along y: the round-off of
+/// coordinates printed in a mesh file.
 const SLACK: f64 = 1e-6;
 
-/// An element with which a mesh is no slice.
+/// The element because of which a mesh is no slice.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error(
     "element {element} at ({:.6}, {:.6}, {:.6}) m does not reach across the mesh with two like faces, as \
@@ -20,11 +20,11 @@ pub struct NoSlice {
     pub centre: [f64; 3],
 }
 
-/// The pairs of nodes that face each other across a slice one element wide, ascending by the first of
-/// each, which lies at the smaller y.
+/// The pairs of nodes that lie opposite each other across a slice one element wide along y. The first node of each
+/// pair has the smaller y; pairs ascend by it.
 ///
 /// # Errors
-/// The first element that has other than four nodes on either side, or whose nodes do not face each other.
+/// The first element that does not have four edges across the slice, or one of whose edges is not along y.
 pub fn across(mesh: &Mesh) -> Result<Vec<[u32; 2]>, NoSlice> {
     const NONE: u32 = u32::MAX;
     let mut partner = vec![NONE; mesh.nodes.len()];

@@ -1,6 +1,6 @@
-//! The exact surfaces that generated face nodes lie on.
+//! The exact surfaces on which the nodes of generated faces lie.
 
-/// An exact undeformed surface, for the analytic curvature correction of faceted contact.
+/// An exact surface in the undeformed state, by which contact on facets is corrected for curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SmoothSurface {
     /// Outside of a disk that turns about the line through `centre` parallel to `y`.
@@ -22,8 +22,7 @@ pub enum SmoothSurface {
 }
 
 impl SmoothSurface {
-    /// Distance (m) from a point near the surface to it, along the outward normal: positive when
-    /// the point lies inside the body.
+    /// Signed distance (m) from `p` (m), a point near the surface, to the surface: positive inside the body.
     pub fn offset(&self, p: [f64; 3]) -> f64 {
         match *self {
             Self::Tread { centre, radius, crown } => {
@@ -40,8 +39,8 @@ impl SmoothSurface {
         }
     }
 
-    /// Outward unit normal at the projection of a point near the surface, the negative gradient of
-    /// [`offset`](Self::offset).
+    /// Outward unit normal at the closest-point projection of `p` (m), a point near the surface: the negative
+    /// gradient of [`offset`](Self::offset). NaN on the axis of a tread.
     pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
         match *self {
             Self::Tread { centre, radius, crown } => {

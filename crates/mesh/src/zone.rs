@@ -1,11 +1,11 @@
-//! The fine zone: where contact passes.
+//! The fine zone: the part of both bodies that the contact patch passes over.
 
 use crate::error::{finite, graded, positive, within};
 use crate::{Allowed, MeshError, Parameter};
 
-/// The region of uniformly fine elements that contact passes over, and the grading around it.
+/// The region of uniformly fine elements that the contact patch passes over, and the grading around it.
 ///
-/// It lies under the contacting surface of either body, centred laterally on `y = 0`. On the bar
+/// It lies under the contact surface of either body, centred laterally on `y = 0`. On the bar
 /// it spans `start <= x <= start + length`; on the disk the arc of the same coordinates, so that
 /// in rolling the two zones meet point by point. Its extents are rounded up to whole elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,14 +20,14 @@ pub struct FineZone {
     pub depth: f64,
     /// `x` of the rear end, relative to the first contact (m).
     pub start: f64,
-    /// Ratio of successive element sizes outside the zone.
+    /// Ratio of successive element sizes outside the zone, above 1 and at most 3.
     pub growth: f64,
     /// Largest element size far from the zone (m).
     pub coarsest: f64,
 }
 
 impl FineZone {
-    /// Refuses what no body could satisfy.
+    /// Refuses a zone that fits no body.
     pub(crate) fn check(&self) -> Result<(), MeshError> {
         positive(Parameter::ZoneSize, self.size)?;
         positive(Parameter::ZoneLength, self.length)?;
@@ -41,20 +41,20 @@ impl FineZone {
         within(self.size <= least, Parameter::ZoneSize, self.size, allowed)
     }
 
-    /// Refuses a zone that is larger than `room` in one direction.
+    /// Refuses a zone whose size `value` in one direction is above `most`, that of `what`.
     pub(crate) fn fits(
         parameter: Parameter,
         value: f64,
-        room: f64,
+        most: f64,
         what: &'static str,
     ) -> Result<(), MeshError> {
-        within(value <= room * (1.0 + 1e-12), parameter, value, Allowed::AtMost(room, what))
+        within(value <= most * (1.0 + 1e-12), parameter, value, Allowed::AtMost(most, what))
     }
 }
 
-/// Sagitta of a circle of radius `crown` at the distance `y` from its apex (m).
+/// Sagitta (m) of a circle of radius `crown` at the distance `y` from its apex; zero without a crown.
 ///
-/// Written as `y^2/(c + sqrt(c^2 - y^2))`, which keeps its digits where `c` is large.
+/// Written as `y^2/(c + sqrt(c^2 - y^2))`, which loses no digits where `c` is large.
 pub(crate) fn sag(crown: Option<f64>, y: f64) -> f64 {
     match crown {
         None => 0.0,
@@ -62,7 +62,7 @@ pub(crate) fn sag(crown: Option<f64>, y: f64) -> f64 {
     }
 }
 
-/// Refuses a crown that does not reach across `width`, or that eats half of `thickness`.
+/// Refuses a crown whose radius is below half the `width`, or that falls by more than half the `thickness`.
 pub(crate) fn check_crown(
     parameter: Parameter,
     crown: Option<f64>,

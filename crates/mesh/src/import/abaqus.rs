@@ -1,10 +1,10 @@
 //! Abaqus input files.
 //!
 //! Source: Abaqus Keywords Reference Guide: `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*SURFACE`. The
-//! file must be flat, without parts and instances. Keywords that say nothing of the mesh are passed
-//! over; those that would make or move nodes are refused.
+//! file must be flat, without parts and instances. Keywords that do not concern the mesh are ignored; those that
+//! would make or move nodes are refused.
 //!
-//! No library for this format was found.
+//! No Rust library for this format was found.
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
@@ -12,11 +12,12 @@ use super::text::{Text, number};
 use crate::HEX_FACES;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Reads an Abaqus input file.
+/// Reads an Abaqus input file. Elements of the C3D8 family are hexahedra; quadrangles in an element set or a
+/// surface are its faces, lines in an element set give it their nodes.
 ///
 /// # Errors
-/// What does not follow the format, elements other than those of the C3D8 family (quadrangles apart,
-/// which are faces), and keywords that make or move nodes in a way that is not read.
+/// [`Fault::Syntax`], [`Fault::Repeated`] or [`Fault::Unknown`] for a file that does not follow the format,
+/// [`Fault::Cell`] for other elements, and [`Fault::Unsupported`] for keywords that make or move nodes.
 pub fn read_abaqus(bytes: &[u8]) -> Result<Foreign, ImportError> {
     let mut reader = Reader::default();
     let mut text = Text::new(bytes)?;
@@ -27,17 +28,17 @@ pub fn read_abaqus(bytes: &[u8]) -> Result<Foreign, ImportError> {
     Ok(reader.finish())
 }
 
-/// What the data lines of a keyword are.
+/// What the data lines after a keyword hold.
 #[derive(Clone, Debug, Default, PartialEq)]
 enum Block {
     #[default]
     Outside,
-    Passed,
+    Ignored,
     Node {
         set: Option<String>,
     },
     Element {
-        shape: Shape,
+        shape: CellType,
         set: Option<String>,
     },
     Refused {
@@ -59,15 +60,15 @@ enum Block {
     },
 }
 
-/// Shape of an element.
+/// Type of an element, by its shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shape {
+enum CellType {
     Hex,
     Quad,
     Line,
 }
 
-/// An element of the file by its place.
+/// An element of the file: a hexahedron by its index, others by the indices of their nodes.
 #[derive(Clone, Copy)]
 enum Cell {
     Hex(u32),
@@ -75,9 +76,10 @@ enum Cell {
     Line([u32; 2]),
 }
 
-/// A surface: sides 1 to 6 of elements, and nodes.
+/// Members of a surface.
 #[derive(Default)]
-struct Surface {
+struct SurfaceMembers {
+    /// Numbers of elements with a side of each: 1 to 6 of a hexahedron, 0 for a quadrangle or line itself.
     sides: BTreeSet<(u64, usize)>,
     nodes: BTreeSet<u32>,
 }
@@ -86,20 +88,21 @@ struct Surface {
 struct Reader {
     foreign: Foreign,
     block: Block,
-    /// Numbers of a node or element that goes on over several lines, and the line it began on.
+    /// Numbers read so far of an element that continues over several lines, and the line on which it began.
     pending: Vec<u64>,
     began: usize,
+    /// Indices of nodes by their numbers.
     nodes: HashMap<u64, u32>,
     cells: HashMap<u64, Cell>,
-    /// Sets by their names in capitals, in which Abaqus compares them, with the spelling of the first.
+    /// Sets by their names in capitals, since Abaqus ignores letter case; `spelling` has the name as first written.
     node_sets: BTreeMap<String, BTreeSet<u32>>,
     element_sets: BTreeMap<String, BTreeSet<u64>>,
-    surfaces: BTreeMap<String, Surface>,
+    surfaces: BTreeMap<String, SurfaceMembers>,
     spelling: BTreeMap<String, String>,
-    /// Keywords passed over.
-    passed: BTreeSet<String>,
-    /// Sets that name what is not there.
-    short: BTreeSet<String>,
+    /// Keywords that were ignored.
+    ignored: BTreeSet<String>,
+    /// Sets that name nodes or elements which the file does not have.
+    incomplete: BTreeSet<String>,
 }
 
 /// Keywords that would make, move or copy nodes and elements.
@@ -133,7 +136,7 @@ impl Reader {
             self.block = self.keyword(keyword, at)?;
             return Ok(());
         }
-        // The block is put back below: data lines do not change it.
+        // Taken out for the borrow checker; data lines do not change it.
         let block = std::mem::take(&mut self.block);
         let done = self.data(&block, line, at);
         self.block = block;
@@ -173,7 +176,7 @@ impl Reader {
             }
             "ELEMENT" => {
                 let kind = need("TYPE")?;
-                match shape_of(&kind) {
+                match cell_type_of(&kind) {
                     Some(shape) => Block::Element { shape, set: parameters.get("ELSET").cloned() },
                     None => Block::Refused { kind },
                 }
@@ -185,20 +188,20 @@ impl Reader {
                 match kind.as_str() {
                     "ELEMENT" => Block::ElementSurface { name: need("NAME")? },
                     "NODE" => Block::NodeSurface { name: need("NAME")? },
-                    _ => Block::Passed,
+                    _ => Block::Ignored,
                 }
             }
-            "HEADING" => Block::Passed,
+            "HEADING" => Block::Ignored,
             _ => {
-                self.passed.insert(format!("*{name}"));
-                Block::Passed
+                self.ignored.insert(format!("*{name}"));
+                Block::Ignored
             }
         })
     }
 
     fn data(&mut self, block: &Block, line: &str, at: usize) -> Result<(), ImportError> {
         match block {
-            Block::Passed => Ok(()),
+            Block::Ignored => Ok(()),
             Block::Outside => {
                 let what = "a keyword that starts with * is expected".into();
                 Err(Fault::Syntax { what }.at(at))
@@ -214,7 +217,7 @@ impl Reader {
             Block::NodeSet { name, generate: true } => {
                 let steps = self.generated(line, at)?;
                 let nodes = within(&steps, &self.nodes);
-                self.node_set(name).extend(nodes.into_iter().map(|(_, place)| place));
+                self.node_set(name).extend(nodes.into_iter().map(|(_, index)| index));
                 Ok(())
             }
             Block::NodeSet { name, generate: false } => {
@@ -263,14 +266,14 @@ impl Reader {
                 word => *x = number(word, "a coordinate").map_err(bare)?,
             }
         }
-        let place = self.foreign.points.len() as u32;
-        if self.nodes.insert(id, place).is_some() {
+        let index = self.foreign.points.len() as u32;
+        if self.nodes.insert(id, index).is_some() {
             return Err(Fault::Repeated { what: "node", id }.at(at));
         }
         self.foreign.points.push(point);
         self.foreign.nodes.push(id, at);
         if let Some(set) = set {
-            self.node_set(set).insert(place);
+            self.node_set(set).insert(index);
         }
         Ok(())
     }
@@ -278,7 +281,7 @@ impl Reader {
     /// A line of an element, whose nodes may stand on several.
     fn part_of_element(
         &mut self,
-        shape: Shape,
+        shape: CellType,
         set: Option<&str>,
         line: &str,
         at: usize,
@@ -325,7 +328,7 @@ impl Reader {
         Ok(())
     }
 
-    /// A keyword's data ends: an element must be whole.
+    /// Ends the data of a keyword: an element must not be incomplete.
     fn end_block(&mut self, at: usize) -> Result<(), ImportError> {
         match self.pending.first() {
             None => Ok(()),
@@ -336,7 +339,7 @@ impl Reader {
         }
     }
 
-    fn element(&mut self, shape: Shape, set: Option<&str>) -> Result<(), ImportError> {
+    fn element(&mut self, shape: CellType, set: Option<&str>) -> Result<(), ImportError> {
         let id = self.pending[0];
         let mut nodes = [0u32; 8];
         for (node, name) in nodes.iter_mut().zip(&self.pending[1..]) {
@@ -347,14 +350,14 @@ impl Reader {
         }
         let [a, b, c, d, ..] = nodes;
         let cell = match shape {
-            Shape::Hex => Cell::Hex(self.foreign.hexes.len() as u32),
-            Shape::Quad => Cell::Quad([a, b, c, d]),
-            Shape::Line => Cell::Line([a, b]),
+            CellType::Hex => Cell::Hex(self.foreign.hexes.len() as u32),
+            CellType::Quad => Cell::Quad([a, b, c, d]),
+            CellType::Line => Cell::Line([a, b]),
         };
         if self.cells.insert(id, cell).is_some() {
             return Err(Fault::Repeated { what: "element", id }.at(self.began));
         }
-        if shape == Shape::Hex {
+        if shape == CellType::Hex {
             self.foreign.hexes.push(nodes);
             self.foreign.elements.push(id, self.began);
         }
@@ -365,21 +368,22 @@ impl Reader {
     }
 
     fn node_set(&mut self, name: &str) -> &mut BTreeSet<u32> {
-        let key = self.spelt(name);
+        let key = self.key(name);
         self.node_sets.entry(key).or_default()
     }
 
     fn element_set(&mut self, name: &str) -> &mut BTreeSet<u64> {
-        let key = self.spelt(name);
+        let key = self.key(name);
         self.element_sets.entry(key).or_default()
     }
 
-    fn surface(&mut self, name: &str) -> &mut Surface {
-        let key = self.spelt(name);
+    fn surface(&mut self, name: &str) -> &mut SurfaceMembers {
+        let key = self.key(name);
         self.surfaces.entry(key).or_default()
     }
 
-    fn spelt(&mut self, name: &str) -> String {
+    /// The key of a name in the maps of sets; keeps its spelling.
+    fn key(&mut self, name: &str) -> String {
         let key = name.to_uppercase();
         self.spelling.entry(key.clone()).or_insert_with(|| name.to_owned());
         key
@@ -388,7 +392,7 @@ impl Reader {
     /// A node by its number, or the nodes of a set.
     fn named_nodes(&self, word: &str) -> Option<Vec<u32>> {
         match word.parse::<u64>() {
-            Ok(id) => self.nodes.get(&id).map(|&place| vec![place]),
+            Ok(id) => self.nodes.get(&id).map(|&index| vec![index]),
             Err(_) => self.node_sets.get(&word.to_uppercase()).map(|s| s.iter().copied().collect()),
         }
     }
@@ -403,16 +407,16 @@ impl Reader {
         }
     }
 
-    /// What a word of a set names; a set may name what the file leaves out.
+    /// The members that a word of a set names. A set may name some that the file does not have: a note says so.
     fn found<T>(&mut self, named: Option<Vec<T>>, what: &str, set: &str, at: usize) -> Vec<T> {
-        if named.is_none() && self.short.insert(set.to_uppercase()) {
+        if named.is_none() && self.incomplete.insert(set.to_uppercase()) {
             let note = format!("set `{set}` names {what} that are not there (line {at}); left out");
             self.foreign.notes.push(note);
         }
         named.unwrap_or_default()
     }
 
-    /// First, last and increment of a GENERATE line.
+    /// First number, last number and increment of a data line with `GENERATE`.
     fn generated(&self, line: &str, at: usize) -> Result<[u64; 3], ImportError> {
         let mut steps = [0, 0, 1];
         let mut words = line.split(',').map(str::trim).filter(|word| !word.is_empty());
@@ -431,10 +435,10 @@ impl Reader {
         Ok(steps)
     }
 
-    /// Sets and surfaces under their names. Where several kinds have one name they are one set.
+    /// Puts sets and surfaces under their names; node set, element set and surface of one name become one set.
     fn finish(self) -> Foreign {
         let Self {
-            mut foreign, node_sets, element_sets, surfaces, spelling, cells, passed, ..
+            mut foreign, node_sets, element_sets, surfaces, spelling, cells, ignored, ..
         } = self;
         let name = |key: &String| spelling.get(key).unwrap_or(key).clone();
         for (key, nodes) in &node_sets {
@@ -467,8 +471,8 @@ impl Reader {
             set.nodes.extend(surface.nodes);
             set.faces.extend(faces);
         }
-        if !passed.is_empty() {
-            let words: Vec<_> = passed.into_iter().take(20).collect();
+        if !ignored.is_empty() {
+            let words: Vec<_> = ignored.into_iter().take(20).collect();
             let words = words.join(", ");
             foreign.notes.push(format!("passed over, for the case says it: {words}"));
         }
@@ -476,7 +480,7 @@ impl Reader {
     }
 }
 
-impl Shape {
+impl CellType {
     fn nodes(self) -> usize {
         match self {
             Self::Hex => 8,
@@ -486,23 +490,23 @@ impl Shape {
     }
 }
 
-/// The shape of an element type that is read: any linear hexahedron, quadrangle or line, for the
-/// formulation is the case's.
-fn shape_of(kind: &str) -> Option<Shape> {
+/// The shape of an element type, if it is a linear hexahedron, quadrangle or line. Its integration does not matter:
+/// the case chooses that.
+fn cell_type_of(kind: &str) -> Option<CellType> {
     const QUADS: [&str; 9] =
         ["S4", "M3D4", "R3D4", "SFM3D4", "CPS4", "CPE4", "CPEG4", "CAX4", "DS4"];
     let kind = kind.to_uppercase();
-    // what follows are letters: hybrid, reduced, incompatible modes
+    // letters may follow: hybrid, reduced integration, incompatible modes
     let is = |name: &str| {
         let rest = kind.strip_prefix(name);
         rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_alphabetic()))
     };
     if is("C3D8") {
-        Some(Shape::Hex)
+        Some(CellType::Hex)
     } else if QUADS.into_iter().any(is) {
-        Some(Shape::Quad)
+        Some(CellType::Quad)
     } else {
-        ["T3D2", "B31", "R3D2"].into_iter().any(is).then_some(Shape::Line)
+        ["T3D2", "B31", "R3D2"].into_iter().any(is).then_some(CellType::Line)
     }
 }
 
@@ -517,7 +521,7 @@ fn unknown(what: &str, word: &str, surface: &str, at: usize) -> ImportError {
     Fault::Unknown { from, what: format!("{what} or set `{word}`") }.at(at)
 }
 
-/// The entries of `all` whose numbers are first, first + increment, ... up to last, in order.
+/// The entries of `all` whose numbers are first, first + increment, and so on up to last, in order.
 fn within<T: Copy>([first, last, step]: &[u64; 3], all: &HashMap<u64, T>) -> Vec<(u64, T)> {
     let step = (*step).max(1);
     let mut found: Vec<(u64, T)> = all
@@ -529,11 +533,13 @@ fn within<T: Copy>([first, last, step]: &[u64; 3], all: &HashMap<u64, T>) -> Vec
     found
 }
 
-/// A foreign mesh as an Abaqus input file, to the last bit of its coordinates: hexahedra C3D8R,
-/// faces of sets as elements S4, numbers as in its labels.
+/// A foreign mesh as the text of an Abaqus input file. Reading it again gives the same coordinates to the last bit.
+///
+/// Hexahedra become C3D8R, faces of sets S4 elements. Nodes and hexahedra keep the numbers of their labels; without
+/// labels they are counted from 1.
 pub fn write_abaqus(mesh: &Foreign) -> String {
     let Foreign { points, hexes, sets, nodes, elements, .. } = mesh;
-    // places from 0 become numbers from 1
+    // indices from 0 become numbers from 1
     let node = |n: usize| if nodes.ids.is_empty() { n as u64 + 1 } else { nodes.id(n) };
     let hex = |e: usize| if elements.ids.is_empty() { e as u64 + 1 } else { elements.id(e) };
     let row =
@@ -559,8 +565,8 @@ pub fn write_abaqus(mesh: &Foreign) -> String {
                 text += &row(&[last, a, b, c, d]);
             }
         }
-        let numbers = |places: &[u32], of: &dyn Fn(usize) -> u64| -> Vec<u64> {
-            places.iter().map(|&place| of(place as usize)).collect()
+        let numbers = |indices: &[u32], of: &dyn Fn(usize) -> u64| -> Vec<u64> {
+            indices.iter().map(|&index| of(index as usize)).collect()
         };
         let kinds = [("NSET", numbers(&set.nodes, &node)), ("ELSET", numbers(&set.hexes, &hex))];
         for (kind, numbers) in kinds.iter().filter(|(_, numbers)| !numbers.is_empty()) {

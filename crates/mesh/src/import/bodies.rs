@@ -1,4 +1,4 @@
-//! From named sets to the two bodies.
+//! From a foreign mesh with named sets to the two bodies.
 
 use super::contact_surface::{Sheet, check};
 use super::error::{Fault, ImportError, SetRole};
@@ -14,14 +14,15 @@ use crate::quality::scaled_jacobian;
 use crate::{Body, Face, Mesh, MeshError, Surface};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Distance below which two nodes of a foreign mesh coincide, over the shortest edge of the body:
-/// coordinates of few digits.
+/// Distance below which two nodes of a foreign mesh coincide, over the shortest edge of the body. Larger than for
+/// generated meshes: files print coordinates with few digits.
 const COINCIDENT: f64 = 1e-4;
 
-/// Least scaled Jacobian: corner angles below are round-off.
+/// Least scaled Jacobian of a corner that is not flat: smaller ones are round-off.
 const FLAT: f64 = 1e-10;
 
-/// The names of the sets in the file.
+/// The names of the sets in the file, by what they stand for. Letter case matters only where two names differ by
+/// nothing else.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SetNames {
     /// Elements of the disk.
@@ -53,7 +54,7 @@ pub struct Imported {
     /// `"hub"`, `"tread"`, and `"bottom"` (the clamped nodes), `"top"`; surfaces `"tread"` and
     /// `"top"`. Coordinates in metres.
     pub mesh: Mesh,
-    /// What was passed over or mended, a sentence each.
+    /// What was left out or corrected, a sentence each.
     pub notes: Vec<String>,
     /// Names of the sets in the file.
     pub(super) names: SetNames,
@@ -63,27 +64,27 @@ pub struct Imported {
     pub(super) elements: Labels,
 }
 
-/// What messages call the two bodies.
+/// Names of the two bodies, also in messages.
 const BODIES: [&str; 2] = ["disk", "bar"];
 
-/// Checks a foreign mesh, mends what can be mended without a guess, and makes the two bodies of it.
-/// `unit` is the length of the file's unit in metres, as `1e-3`.
+/// Checks a foreign mesh, corrects what can be corrected without a guess, and makes the two bodies of it.
+/// `unit` is the unit of its coordinates.
 ///
-/// Mended, with a note: hexahedra that are numbered inside out as a whole are turned; nodes without
-/// elements are left out.
+/// Corrected, with a note: hexahedra whose corners are numbered inside out as a whole are renumbered; nodes
+/// without elements are left out.
 ///
 /// # Errors
-/// The first fault found, by the file's own numbers.
+/// The first [`Fault`] found, in the file's own numbers of nodes and elements.
 pub fn bodies(foreign: &Foreign, names: &SetNames, unit: Unit) -> Result<Imported, ImportError> {
     check_arrays(foreign)?;
     let owner = owners(foreign, names)?;
-    let (mut imported, place) = numbered_anew(foreign, names, unit, &owner)?;
+    let (mut imported, new_index) = renumbered(foreign, names, unit, &owner)?;
     turn_inside_out(&mut imported)?;
     let mut outside = [Vec::new(), Vec::new()];
     for body in 0..2 {
         outside[body] = check_body(&imported, body)?;
     }
-    let find = Finder { foreign, place: &place };
+    let find = Finder { foreign, new_index: &new_index };
     for (body, role, name, ours) in
         [(0, SetRole::Hub, &names.hub, "hub"), (1, SetRole::Clamp, &names.clamp, "bottom")]
     {
@@ -102,13 +103,13 @@ pub fn bodies(foreign: &Foreign, names: &SetNames, unit: Unit) -> Result<Importe
         body.node_sets.insert(ours.into(), nodes_of(&faces));
         body.surfaces.insert(ours.into(), Surface { faces, smooth: None });
     }
-    apart(&imported, 0, ("hub", &names.hub), ("tread", &names.tread))?;
-    apart(&imported, 1, ("bottom", &names.clamp), ("top", &names.top))?;
+    disjoint(&imported, 0, ("hub", &names.hub), ("tread", &names.tread))?;
+    disjoint(&imported, 1, ("bottom", &names.clamp), ("top", &names.top))?;
     crate::check(&imported.mesh).map_err(|fault| Fault::Mesh(fault).nowhere())?;
     Ok(imported)
 }
 
-/// Indices, numbers and coordinates.
+/// Checks indices, counts and coordinates.
 fn check_arrays(foreign: &Foreign) -> Result<(), ImportError> {
     let Foreign { points, hexes, sets, nodes, elements, .. } = foreign;
     if hexes.is_empty() {
@@ -147,7 +148,7 @@ fn check_arrays(foreign: &Foreign) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// A set by its name; letter case counts only where it must.
+/// A set by its name; letter case matters only where two names differ by nothing else.
 fn set<'a>(foreign: &'a Foreign, role: SetRole, name: &str) -> Result<&'a Set, ImportError> {
     let sets = &foreign.sets;
     let alike: Vec<&Set> =
@@ -167,7 +168,7 @@ fn set<'a>(foreign: &'a Foreign, role: SetRole, name: &str) -> Result<&'a Set, I
     }
 }
 
-/// The body of each hexahedron.
+/// The body of each hexahedron: its index in [`BODIES`].
 fn owners(foreign: &Foreign, names: &SetNames) -> Result<Vec<u8>, ImportError> {
     const NEITHER: u8 = 2;
     let mut owner = vec![NEITHER; foreign.hexes.len()];
@@ -203,9 +204,9 @@ fn owners(foreign: &Foreign, names: &SetNames) -> Result<Vec<u8>, ImportError> {
     }
 }
 
-/// The two bodies in metres with nodes and elements numbered along a curve through space, and the
-/// place there of each of the file's nodes.
-fn numbered_anew(
+/// The two bodies in metres with nodes and elements numbered along a space-filling curve, and the new index of
+/// each of the file's nodes.
+fn renumbered(
     foreign: &Foreign,
     names: &SetNames,
     unit: Unit,
@@ -228,23 +229,24 @@ fn numbered_anew(
         nodes: Labels::default(),
         elements: Labels::default(),
     };
-    let mut place = vec![None; foreign.points.len()];
+    let mut new_index = vec![None; foreign.points.len()];
     for body in [0u8, 1] {
         let (first_node, first_hex) = (mesh.nodes.len(), mesh.hexes.len());
         let ours: Vec<usize> = (0..body_of.len()).filter(|&n| body_of[n] == Some(body)).collect();
         let points: Vec<_> =
             ours.iter().map(|&n| foreign.points[n].map(|x| unit.metres(x))).collect();
         for k in along_curve(&points) {
-            place[ours[k as usize]] = Some(mesh.nodes.len() as u32);
+            new_index[ours[k as usize]] = Some(mesh.nodes.len() as u32);
             mesh.nodes.push(points[k as usize]);
             imported.nodes.copy(&foreign.nodes, ours[k as usize]);
         }
         let ours: Vec<usize> = (0..owner.len()).filter(|&e| owner[e] == body).collect();
-        let corners = |e: usize| foreign.hexes[e].map(|n| place[n as usize].unwrap_or_default());
+        let corners =
+            |e: usize| foreign.hexes[e].map(|n| new_index[n as usize].unwrap_or_default());
         let middles: Vec<[f64; 3]> = ours
             .iter()
             .map(|&e| {
-                // the same sum however the element is numbered
+                // sorted, so that the sum does not depend on the element's numbering
                 let mut corners = corners(e);
                 corners.sort_unstable();
                 let add = |a: usize| corners.iter().map(|&n| mesh.nodes[n as usize][a]).sum();
@@ -263,19 +265,19 @@ fn numbered_anew(
             surfaces: BTreeMap::new(),
         });
     }
-    let loose = place.iter().filter(|p| p.is_none()).count();
-    if let Some(first) = place.iter().position(Option::is_none) {
+    let loose = new_index.iter().filter(|p| p.is_none()).count();
+    if let Some(first) = new_index.iter().position(Option::is_none) {
         imported.notes.push(format!(
             "{loose} nodes belong to no hexahedron and are left out (the first: node {})",
             foreign.nodes.id(first)
         ));
     }
     imported.mesh = mesh;
-    Ok((imported, place))
+    Ok((imported, new_index))
 }
 
-/// Turns the hexahedra that are numbered inside out as a whole: mirrored coordinates, or bottom and
-/// top taken for one another.
+/// Renumbers the hexahedra whose corners are numbered inside out as a whole: their coordinates are mirrored, or
+/// their bottom and top are exchanged.
 fn turn_inside_out(imported: &mut Imported) -> Result<(), ImportError> {
     let Imported { mesh, elements, notes, .. } = imported;
     let (mut turned, mut first) = (0, None);
@@ -305,12 +307,12 @@ fn turn_inside_out(imported: &mut Imported) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Checks that a body hangs together and that its elements match, and returns its outside.
+/// Checks that a body is connected and that its elements match; returns its boundary faces.
 fn check_body(imported: &Imported, index: usize) -> Result<Vec<Face>, ImportError> {
     let Imported { mesh, nodes, elements, .. } = imported;
     let (body, name) = (&mesh.bodies[index], BODIES[index]);
     if let Some((a, b)) = duplicates(mesh, body, COINCIDENT) {
-        // the first that the file has
+        // in the order of the file's numbers
         let (a, b) = if nodes.id(a) <= nodes.id(b) { (a, b) } else { (b, a) };
         let (first, second) = (nodes.id(a), nodes.id(b));
         let fault = Fault::Coincident { first, second, body: name, point: mesh.nodes[b] };
@@ -341,15 +343,15 @@ fn check_body(imported: &Imported, index: usize) -> Result<Vec<Face>, ImportErro
     Ok(outside)
 }
 
-/// Finds the members of sets in the new numbering.
+/// Finds the members of sets in the new numbering of nodes.
 struct Finder<'a> {
     foreign: &'a Foreign,
-    /// New place of each of the file's nodes.
-    place: &'a [Option<u32>],
+    /// New index of each of the file's nodes; `None` for those left out.
+    new_index: &'a [Option<u32>],
 }
 
 impl Finder<'_> {
-    /// The node of the body, unless it belongs to the other one.
+    /// The new index of a node of the body, `None` if it was left out; an error if it belongs to the other body.
     fn on(
         &self,
         imported: &Imported,
@@ -357,9 +359,9 @@ impl Finder<'_> {
         (role, name): (SetRole, &str),
         node: u32,
     ) -> Result<Option<u32>, ImportError> {
-        let Some(place) = self.place[node as usize] else { return Ok(None) };
-        if imported.mesh.bodies[body].nodes.contains(&(place as usize)) {
-            return Ok(Some(place));
+        let Some(index) = self.new_index[node as usize] else { return Ok(None) };
+        if imported.mesh.bodies[body].nodes.contains(&(index as usize)) {
+            return Ok(Some(index));
         }
         let nodes = &self.foreign.nodes;
         let fault = Fault::BothBodies {
@@ -372,7 +374,7 @@ impl Finder<'_> {
         Err(nodes.fault(node as usize, fault))
     }
 
-    /// All nodes of a set, sorted: those of its nodes, faces and elements.
+    /// All nodes of a set, sorted: its nodes, and the corners of its faces and elements.
     fn nodes(
         &self,
         imported: &Imported,
@@ -393,8 +395,8 @@ impl Finder<'_> {
         Ok(found.into_iter().collect())
     }
 
-    /// Which faces of the outside belong to a set: those that it lists, or else those whose corners
-    /// it all lists.
+    /// Which boundary faces belong to a set: those that it lists, or, if it lists none, those whose corners are
+    /// all among its nodes.
     fn faces(
         &self,
         imported: &Imported,
@@ -448,8 +450,8 @@ impl Finder<'_> {
     }
 }
 
-/// Refuses two sets of a body that have a node in common: (name in the mesh, name in the file) each.
-fn apart(
+/// Refuses two sets of a body that have a node in common; each by its names in the mesh and in the file.
+fn disjoint(
     imported: &Imported,
     body: usize,
     first: (&str, &str),

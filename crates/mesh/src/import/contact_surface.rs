@@ -1,4 +1,4 @@
-//! What the set of a contact surface must be: one sheet without holes.
+//! Checks of an imported contact surface: its faces must form one connected sheet without holes.
 
 use super::bodies::Imported;
 use super::error::{Fault, ImportError, SetRole};
@@ -7,16 +7,16 @@ use crate::Face;
 use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
 
-/// A sheet that faces make, and what its borders must be.
+/// The form that a contact surface must have, by its borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sheet {
-    /// A band around the disk: two borders, each once about the disk's axis.
+    /// A band around the disk: two borders, each of which encircles the disk's axis once.
     Band,
     /// A patch with one border.
     Patch,
 }
 
-/// Checks that the faces `chosen` of `boundary` make one sheet without holes.
+/// Checks that the faces `chosen` of `boundary` form one connected sheet without holes.
 pub(super) fn check(
     imported: &Imported,
     (role, name): (SetRole, &str),
@@ -82,7 +82,7 @@ pub(super) fn check(
     let open = sheet == Sheet::Band && rims.len() < 2;
     let smallest = holes.iter().min_by_key(|l| l.len());
     match smallest {
-        // a band that does not close has its one border about nothing
+        // a band that does not close round the disk has one border, which does not encircle the axis
         Some(hole) if !open || holes.len() > 1 => {
             let face = beyond(hole[0]).unwrap_or(*inside[0]);
             let at = imported.mesh.nodes[hole[0][0] as usize];
@@ -103,7 +103,7 @@ fn edges_of(face: &Face) -> [[u32; 2]; 4] {
     [[a, b], [b, c], [c, d], [d, a]]
 }
 
-/// The edges of a border, each in the sense of its face, by the loops that they make.
+/// The edges of a border, each in the sense of its face, grouped by the closed loops that they form.
 fn loops(border: &BTreeMap<[u32; 2], [u32; 2]>) -> Vec<Vec<[u32; 2]>> {
     let mut places: BTreeMap<u32, u32> = BTreeMap::new();
     for node in border.values().flatten() {
@@ -119,10 +119,10 @@ fn loops(border: &BTreeMap<[u32; 2], [u32; 2]>) -> Vec<Vec<[u32; 2]>> {
     found.into_values().collect()
 }
 
-/// Axes by their places among the coordinates.
+/// Index of the y coordinate.
 const Y: usize = 1;
 
-/// The axis, other than y, that a band goes round with two borders.
+/// The axis, other than y, that both borders of a band encircle; `None` if they encircle y.
 fn another_axis(imported: &Imported, loops: &[Vec<[u32; 2]>]) -> Option<char> {
     let rims = |axis| loops.iter().filter(|l| winding(imported, l, axis) != 0).count();
     let others = [(0, 'x'), (2, 'z')].into_iter();
@@ -130,7 +130,7 @@ fn another_axis(imported: &Imported, loops: &[Vec<[u32; 2]>]) -> Option<char> {
     others.next().map(|(_, name)| name)
 }
 
-/// How often a border goes about the disk's middle, seen along an axis.
+/// How often a border encircles the line along an axis through the middle of the disk.
 fn winding(imported: &Imported, border: &[[u32; 2]], axis: usize) -> i64 {
     let mesh = &imported.mesh;
     let plane = [(axis + 2) % 3, (axis + 1) % 3];

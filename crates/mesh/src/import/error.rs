@@ -4,7 +4,7 @@ use super::unit::Unit;
 use crate::Parameter;
 use std::fmt;
 
-/// What a set of a mesh file is of.
+/// What a set of a mesh file stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SetRole {
     /// The elements of the disk.
@@ -17,7 +17,7 @@ pub enum SetRole {
     Tread,
     /// The bar's running surface.
     Top,
-    /// Where the bar is clamped.
+    /// The nodes by which the bar is clamped.
     Clamp,
 }
 
@@ -34,30 +34,30 @@ impl fmt::Display for SetRole {
     }
 }
 
-/// Why a foreign mesh is refused, and the line of a text file where that stands.
+/// Why a foreign mesh is refused, and the line of the file where the cause stands.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
 pub struct ImportError {
-    /// Line of the file, counted from 1; `None` for binary files, arrays, and what no line shows.
+    /// Line of the file, counted from 1; `None` for arrays, and for faults that belong to no line.
     pub line: Option<usize>,
     /// What is wrong.
     pub fault: Fault,
 }
 
-/// What is wrong with a foreign mesh. Nodes and elements are named by their numbers in the file;
-/// in a VTU file and in arrays these are their places, counted from 0.
+/// What is wrong with a foreign mesh. Nodes and elements are named by their numbers in the file; in a VTU file
+/// and in arrays these are their indices, counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// The file does not follow its format.
     #[error("{what}")]
     Syntax {
-        /// What was expected and what was found.
+        /// What was expected, and mostly what was found.
         what: String,
     },
     /// A part of the format that is not read.
     #[error("{what} is not read")]
     Unsupported {
-        /// The part.
+        /// What it is.
         what: String,
         /// What to do instead.
         remedy: &'static str,
@@ -81,12 +81,12 @@ pub enum Fault {
         /// Its number.
         id: u64,
     },
-    /// Something names what is not there.
+    /// A node, element or set that is named does not exist.
     #[error("{from} names {what}, which is not there")]
     Unknown {
         /// What names it.
         from: String,
-        /// What is not there.
+        /// What does not exist.
         what: String,
     },
     /// A coordinate is NaN or infinite.
@@ -115,10 +115,10 @@ pub enum Fault {
         element: u64,
         /// Corner, counted from 1 in the order of the file.
         corner: usize,
-        /// Scaled Jacobian there.
+        /// Scaled Jacobian there (dimensionless).
         value: f64,
     },
-    /// Two nodes of one body at one place.
+    /// Two nodes of one body coincide.
     #[error(
         "nodes {first} and {second} of the {body} coincide at {point:?} m: they are not merged"
     )]
@@ -132,7 +132,7 @@ pub enum Fault {
         /// Where (m).
         point: [f64; 3],
     },
-    /// A face inside a body that is shared in no proper way.
+    /// A face belongs to more than two elements, or to two on the same side.
     #[error(
         "a face of element {element} is shared by more than two elements, or by two on the same \
          side of it"
@@ -170,21 +170,21 @@ pub enum Fault {
     /// A set is not in the file.
     #[error("there is no set `{name}` for {role}; the file has {there}")]
     MissingSet {
-        /// What the set is of.
+        /// What the set stands for.
         role: SetRole,
         /// The name looked for.
         name: String,
-        /// The sets that there are.
+        /// The names of the sets in the file.
         there: String,
     },
     /// A set holds nothing of the kind that is needed.
     #[error("set `{name}` of {role} holds no {what}")]
     EmptySet {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
-        /// What it should hold.
+        /// What it should hold, in the plural.
         what: &'static str,
     },
     /// A set names nodes or faces of the wrong body.
@@ -192,7 +192,7 @@ pub enum Fault {
         "set `{name}` of {role} names both bodies: node {node} is of the {other}, not of the {body}"
     )]
     BothBodies {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
@@ -208,7 +208,7 @@ pub enum Fault {
         "set `{name}` of {role}: the face with the nodes {nodes:?} is none of the {body}'s outside"
     )]
     NotOutside {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
@@ -217,7 +217,7 @@ pub enum Fault {
         /// The body.
         body: &'static str,
     },
-    /// Two sets that must keep apart have a node in common.
+    /// Two sets that must be disjoint have a node in common.
     #[error("sets `{first}` and `{second}` share node {node}")]
     SetsMeet {
         /// One set.
@@ -227,12 +227,12 @@ pub enum Fault {
         /// The node.
         node: u64,
     },
-    /// A body of several parts that do not hang together.
+    /// The elements of a body are not all connected.
     #[error("element {element} does not hang together with the rest of the {body}")]
     Loose {
         /// The body.
         body: &'static str,
-        /// An element of a smaller part.
+        /// An element that is not connected with the largest part.
         element: u64,
     },
     /// A contact surface has a hole.
@@ -241,13 +241,13 @@ pub enum Fault {
          {element} is left out of it"
     )]
     Hole {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
-        /// Edges around the hole.
+        /// Number of edges around the hole.
         edges: usize,
-        /// A node on its border (m).
+        /// Coordinates of a node on its border (m).
         at: [f64; 3],
         /// Element of the face beyond the border.
         element: u64,
@@ -257,7 +257,7 @@ pub enum Fault {
         "set `{name}` of {role} does not go round the disk: it ends at a face of element {element}"
     )]
     Open {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
@@ -269,7 +269,7 @@ pub enum Fault {
         "set `{name}` of {role} goes round an axis along {axis}: the axis of the disk must be along y"
     )]
     Axis {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
@@ -279,26 +279,26 @@ pub enum Fault {
     /// A contact surface is in several pieces.
     #[error("set `{name}` of {role} is in several pieces: a face of element {element} is apart")]
     Pieces {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
         /// Element of a face of a smaller piece.
         element: u64,
     },
-    /// A contact surface that more than two faces meet in at an edge.
+    /// More than two faces of a contact surface meet in one edge.
     #[error(
         "set `{name}` of {role}: more than two of its faces meet in the edge of nodes {edge:?}"
     )]
     Fold {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
-        /// Ends of the edge.
+        /// Nodes at the ends of the edge.
         edge: [u64; 2],
     },
-    /// A size of the mesh is not what the case says.
+    /// A size of the mesh differs from that of the case.
     #[error("{parameter} is {found} m in the mesh, not {expected} m")]
     Size {
         /// What was measured.
@@ -308,7 +308,7 @@ pub enum Fault {
         /// What it must be (m).
         expected: f64,
     },
-    /// All sizes are off by the ratio of two units.
+    /// The radius of the disk differs from that of the case by the ratio of two units of length.
     #[error(
         "the disk of the mesh has a radius of {found} m, not {expected} m: its coordinates are in {}",
         unit.symbol()
@@ -318,10 +318,10 @@ pub enum Fault {
         found: f64,
         /// What it must be (m).
         expected: f64,
-        /// The unit it must have been written in.
+        /// The unit in which the file must have been written.
         unit: Unit,
     },
-    /// The mesh is not where the case's frame wants it.
+    /// The mesh does not lie in the frame of the case.
     #[error("the {what} of the mesh lies at {found} m, not at {expected} m")]
     Place {
         /// What was measured.
@@ -343,17 +343,17 @@ pub enum Fault {
         name: String,
         /// Distance (m).
         distance: f64,
-        /// The surface that it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Largest distance allowed (m).
         limit: f64,
     },
-    /// No face, or too few, in the zone.
+    /// Too few faces, or none, lie in the fine zone.
     #[error(
         "set `{name}` of {role} covers {covered:.0} % of the fine zone: {faces} faces lie there"
     )]
     Uncovered {
-        /// What it is the set of.
+        /// What the set stands for.
         role: SetRole,
         /// Its name.
         name: String,
@@ -362,7 +362,7 @@ pub enum Fault {
         /// Faces in the zone.
         faces: usize,
     },
-    /// The faces of the zone have another size than the case says.
+    /// The faces in the fine zone differ in size from the case.
     #[error(
         "in the zone the faces of the mesh have edges of {disk:.3e} m (disk) and {bar:.3e} m (bar), \
          not {size} m"
@@ -383,13 +383,13 @@ pub enum Fault {
         /// Where it was looked for (m).
         at: f64,
     },
-    /// A fault that none of the others describes.
+    /// A fault that [`check`](crate::check()) finds and none of the others describes.
     #[error(transparent)]
     Mesh(#[from] crate::MeshError),
 }
 
 impl Fault {
-    /// The fault without a line.
+    /// The fault at no line.
     pub(crate) fn nowhere(self) -> ImportError {
         ImportError { line: None, fault: self }
     }

@@ -1,4 +1,4 @@
-//! The format of a file, by its name.
+//! The format of a mesh file.
 
 use super::error::ImportError;
 use super::foreign::Foreign;
@@ -17,7 +17,8 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format of a file by the ending of its name, if it is one that is read.
+    /// The format by the extension of a file's name, in either letter case: `.msh`, `.inp` or `.vtu`; `None` for
+    /// any other.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -31,7 +32,7 @@ impl Format {
     /// Reads the bytes of a file of this format.
     ///
     /// # Errors
-    /// What the reader of the format refuses.
+    /// As [`read_gmsh`], [`read_abaqus`] and [`read_vtu`].
     pub fn read(self, bytes: &[u8]) -> Result<Foreign, ImportError> {
         match self {
             Self::Gmsh => read_gmsh(bytes),

@@ -1,4 +1,4 @@
-//! The imported bodies against the shapes that the case gives.
+//! Comparison of the imported bodies with the shapes of the case.
 
 use super::bodies::Imported;
 use super::error::{Fault, ImportError, SetRole};
@@ -9,42 +9,43 @@ use crate::{
     Bar, Disk, Face, FineZone, Mesh, Parameter, SmoothSurface, Surface, quad_corner_areas,
 };
 
-/// Relative deviation of a size of the mesh from that of the case: polygons instead of circles, and
-/// coordinates of few digits.
+/// Largest relative deviation of a size of the mesh from that of the case. It allows for polygons instead of
+/// circles, and for coordinates of few digits.
 const SIZE: f64 = 0.01;
 
-/// Distance of a contact surface from where the case has it, over the edge of the zone's elements.
+/// Largest distance of a contact surface from its place in the case, over the edge of the zone's elements.
 const PLACE: f64 = 0.05;
 
-/// Distance of the nodes of the zone from the exact surface, over the edge of the zone's elements:
-/// at 2 mm, 0.2 um of the 0.1 mm by which wheel and rail approach each other.
+/// Largest distance of the nodes of the zone from the exact surface, over the edge of the zone's elements. At
+/// 2 mm it is 0.2 um, small against the 0.1 mm by which the bodies of the reference model approach each other.
 const EXACT: f64 = 1e-4;
 
-/// Deviation of a plane end of the bar from its plane, over the bar's length.
+/// Largest deviation of a plane end of the bar from its plane, over the bar's length.
 const PLANE: f64 = 1e-6;
 
-/// Shapes that the case gives.
+/// The shapes of the case, with which an imported mesh is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// The disk.
     pub disk: Disk,
     /// The bar.
     pub bar: Bar,
-    /// The zone that contact passes over; of the sizes only that of its elements.
+    /// The fine zone; its depth, growth and coarsest size are not compared.
     pub zone: FineZone,
-    /// Whether the contact surfaces are the exact cylinder and crown of the case, on which the nodes
-    /// of the zone must then lie; if not, contact meets the facets.
+    /// Whether contact uses the exact surfaces of the case, cylinder and crown; the nodes of the zone must then
+    /// lie on them. If not, contact uses the facets.
     pub exact: bool,
-    /// Whether the bar's ends must be plane, for the boundary that lets waves out.
+    /// Whether the bar's ends must be plane, as the quiet boundary requires.
     pub ends: bool,
 }
 
-/// Sets the bodies against the shapes of the case, and adds what the solver takes from there:
-/// surfaces and node sets `"zone"` (the faces of tread and top whose middle lies in the zone),
-/// surfaces `"rear"` and `"front"` of the bar, and the exact surfaces.
+/// Compares the bodies with the shapes of the case, and adds what generated meshes have besides: surfaces and
+/// node sets `"zone"` (the faces of tread and top whose middle lies in the zone), exact surfaces if
+/// [`Shape::exact`], and, if [`Shape::ends`], surfaces `"rear"` and `"front"` and the node set `"ends"` of the bar.
 ///
 /// # Errors
-/// The first size or place that does not agree.
+/// The first disagreement: [`Fault::Size`], [`Fault::Unit`], [`Fault::Place`], [`Fault::NoEnd`],
+/// [`Fault::Uncovered`], [`Fault::OffSurface`] or [`Fault::ZoneSize`].
 pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportError> {
     sizes(&imported, shape)?;
     ends(&mut imported, shape)?;
@@ -62,11 +63,11 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
         let all = mesh.bodies[body].surfaces[ours].faces.clone();
         let inside = |f: &&Face| in_zone(&middle(mesh, f), body, shape);
         let faces: Vec<Face> = all.iter().filter(inside).copied().collect();
-        // the sum over no face is -0
+        // an empty sum is -0.0, which would be printed
         let area = 0.0 + faces.iter().map(|f| face_area(mesh, f)).sum::<f64>();
         let covered = area / (zone.length * zone.width);
         edges[body] = (area / faces.len() as f64).sqrt();
-        // a row of elements may stick out or be missing at each side
+        // one row of elements may be missing at each side of the zone
         let row = 2.0 * edges[body].max(zone.size) * (1.0 / zone.length + 1.0 / zone.width);
         if faces.is_empty() || covered < (1.0 - row).max(0.25) {
             let name = name.clone();
@@ -97,7 +98,7 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
     Ok(imported)
 }
 
-/// Sizes and places of the bodies as wholes.
+/// Checks the sizes and places of the bodies.
 fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     let Shape { disk, bar, zone, .. } = *shape;
     let mesh = &imported.mesh;
@@ -127,8 +128,8 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
         libm::hypot(p[0] - x, p[2] - z)
     });
     let hub = hub.fold(0.0, f64::max);
-    let nearly = |what, found: f64, expected: f64, room: f64| {
-        if (found - expected).abs() <= room {
+    let nearly = |what, found: f64, expected: f64, tolerance: f64| {
+        if (found - expected).abs() <= tolerance {
             return Ok(());
         }
         Err(Fault::Place { what, found: digits(found), expected }.nowhere())
@@ -152,11 +153,11 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     ] {
         nearly(what, 0.5 * (extent.low[1] + extent.high[1]), 0.0, SIZE * width)?;
     }
-    // An apex between two nodes is missed by the sag of half an element.
+    // An apex between two nodes lies the sag of half an element beyond them.
     let sag = |curvature: f64| 0.125 * zone.size * zone.size * curvature;
     let across = |crown: Option<f64>| crown.map_or(0.0, f64::recip);
-    let room = PLACE * zone.size;
-    let apex = |crown| room + 4.0 * (sag(1.0 / disk.radius) + sag(across(crown)));
+    let place = PLACE * zone.size;
+    let apex = |crown| place + 4.0 * (sag(1.0 / disk.radius) + sag(across(crown)));
     nearly("lowest point of the tread (z)", tread.low[2], 0.0, apex(disk.crown))?;
     nearly("apex of the bar's top (z)", top.high[2], 0.0, apex(bar.crown))
 }
@@ -165,7 +166,7 @@ fn size(parameter: Parameter, found: f64, expected: f64) -> Fault {
     Fault::Size { parameter, found: digits(found), expected }
 }
 
-/// A measured length to six digits, as a person would give it.
+/// A measured length rounded to six digits, for messages.
 fn digits(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
@@ -186,7 +187,7 @@ fn extent(mesh: &Mesh, nodes: &[u32]) -> Extent {
     e
 }
 
-/// The faces of the bar's plane ends.
+/// Adds the faces and nodes of the bar's plane ends, if they are asked for.
 fn ends(imported: &mut Imported, shape: &Shape) -> Result<(), ImportError> {
     if !shape.ends {
         return Ok(());
@@ -223,13 +224,13 @@ fn face_area(mesh: &Mesh, face: &Face) -> f64 {
     quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize])).iter().sum()
 }
 
-/// Whether a point of a contact surface lies in the zone: on the disk by its arc from the first
-/// contact, as the generated zone.
+/// Whether a point of a contact surface lies in the zone; on the disk its arc length from the first contact
+/// takes the place of x, as in the generated mesh.
 fn in_zone(p: &[f64; 3], body: usize, shape: &Shape) -> bool {
     let Shape { disk, zone, .. } = *shape;
     let along = if body == 0 { disk.radius * libm::atan2(p[0], disk.radius - p[2]) } else { p[0] };
-    let room = 1e-6 * zone.size;
-    along >= zone.start - room
-        && along <= zone.start + zone.length + room
-        && p[1].abs() <= 0.5 * zone.width + room
+    let slack = 1e-6 * zone.size;
+    along >= zone.start - slack
+        && along <= zone.start + zone.length + slack
+        && p[1].abs() <= 0.5 * zone.width + slack
 }

@@ -1,43 +1,43 @@
-//! A mesh as it stands in a file.
+//! A mesh as a file holds it.
 
 use super::error::{Fault, ImportError};
 use std::collections::BTreeMap;
 
-/// A mesh as a file or a program gives it: nothing is checked yet.
+/// A mesh as a file or a program gives it, not checked yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Foreign {
-    /// Coordinates, in the unit of the file.
+    /// Coordinates (x, y, z) of the nodes, in the unit of the file.
     pub points: Vec<[f64; 3]>,
-    /// Places in `points` of each hexahedron's corners in `VTK_HEXAHEDRON` order, which is also that
-    /// of Gmsh, Abaqus C3D8 and LS-DYNA.
+    /// Corners of each hexahedron, as indices in `points`, in `VTK_HEXAHEDRON` order, which is also that of
+    /// Gmsh, Abaqus C3D8 and LS-DYNA.
     pub hexes: Vec<[u32; 8]>,
-    /// Named sets.
+    /// The sets by their names.
     pub sets: BTreeMap<String, Set>,
-    /// Numbers and lines of nodes in the file; empty where they have none, and their places count.
+    /// Numbers and lines of the nodes in the file; empty where they have none.
     pub nodes: Labels,
-    /// Numbers and lines of hexahedra in the file.
+    /// Numbers and lines of the hexahedra in the file; empty where they have none.
     pub elements: Labels,
-    /// What the user should know of the reading.
+    /// What the user should know about how the file was read, a sentence each.
     pub notes: Vec<String>,
 }
 
-/// A named set, by any of three kinds of members.
+/// A named set; its members may be of three kinds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Set {
-    /// Places in [`Foreign::points`].
+    /// Nodes, as indices in [`Foreign::points`].
     pub nodes: Vec<u32>,
-    /// Places in [`Foreign::hexes`].
+    /// Elements, as indices in [`Foreign::hexes`].
     pub hexes: Vec<u32>,
-    /// Faces by their corners, in order around the face in either sense.
+    /// Faces by their corners, as indices in [`Foreign::points`], in order around the face in either sense.
     pub faces: Vec<[u32; 4]>,
 }
 
-/// Numbers and lines in a file.
+/// The numbers of nodes or elements in a file, and the lines where they stand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
-    /// Numbers.
+    /// Their numbers; may be empty.
     pub ids: Vec<u64>,
-    /// Lines, counted from 1.
+    /// Their lines, counted from 1; may be empty.
     pub lines: Vec<usize>,
 }
 
@@ -47,27 +47,27 @@ impl Labels {
         self.lines.push(line);
     }
 
-    /// Takes over entry `place` of `other`, as far as it has one.
-    pub(crate) fn copy(&mut self, other: &Self, place: usize) {
-        self.ids.push(other.id(place));
-        self.lines.extend(other.lines.get(place));
+    /// Appends entry `index` of `other`: its number, and its line if it has one.
+    pub(crate) fn copy(&mut self, other: &Self, index: usize) {
+        self.ids.push(other.id(index));
+        self.lines.extend(other.lines.get(index));
     }
 
-    /// The number in the file of entry `place`.
-    pub fn id(&self, place: usize) -> u64 {
-        self.ids.get(place).copied().unwrap_or(place as u64)
+    /// The number in the file of entry `index`; `index` itself where there are no numbers.
+    pub fn id(&self, index: usize) -> u64 {
+        self.ids.get(index).copied().unwrap_or(index as u64)
     }
 
-    /// The fault, at the line of entry `place` where it has one.
-    pub(crate) fn fault(&self, place: usize, fault: Fault) -> ImportError {
-        ImportError { line: self.lines.get(place).copied(), fault }
+    /// The fault, at the line of entry `index` where it has one.
+    pub(crate) fn fault(&self, index: usize, fault: Fault) -> ImportError {
+        ImportError { line: self.lines.get(index).copied(), fault }
     }
 }
 
 impl Foreign {
-    /// A mesh from arrays: points (in any one unit), hexahedra by the places of their corners in
-    /// `VTK_HEXAHEDRON` order, named sets. Messages then name nodes and elements by their places,
-    /// counted from 0. [`bodies`](super::bodies()) checks it.
+    /// A mesh from arrays: coordinates of nodes (in any one unit), hexahedra by the indices of their corners in
+    /// `VTK_HEXAHEDRON` order, and named sets. Messages name nodes and elements by their indices, counted
+    /// from 0. [`bodies`](super::bodies()) checks the mesh.
     pub fn from_arrays(
         points: Vec<[f64; 3]>,
         hexes: Vec<[u32; 8]>,
@@ -76,7 +76,7 @@ impl Foreign {
         Self { points, hexes, sets, ..Self::default() }
     }
 
-    /// The set of a name, made where there is none.
+    /// The set of a name, created empty if there is none.
     pub(crate) fn set(&mut self, name: &str) -> &mut Set {
         self.sets.entry(name.to_owned()).or_default()
     }

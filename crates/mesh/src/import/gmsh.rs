@@ -1,24 +1,25 @@
 //! Gmsh's MSH files, formats 2.2 and 4.1, as text.
 //!
 //! Source: Gmsh reference manual, "MSH file format" and "MSH file format version 2 (legacy)".
-//! Physical groups are the sets: volumes of hexahedra, surfaces of quadrangles, and points, whose
-//! nodes count.
+//! Physical groups become sets: volumes of hexahedra give elements, surfaces of quadrangles faces, and lines and
+//! points their nodes.
 //!
-//! The library `mshio` reads neither version 2.2 nor the names of physical groups.
+//! The library `mshio` is not used: it reads neither version 2.2 nor the names of physical groups.
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
 use super::text::Text;
 use std::collections::{BTreeMap, HashMap};
 
-/// Physical groups that one entity may belong to.
+/// Most physical groups that one entity may belong to.
 const MOST_GROUPS: u64 = 100;
 
-/// Reads a MSH file of format 2.2 or 4.1.
+/// Reads an MSH file of format 2.2 or 4.1, saved as text.
 ///
 /// # Errors
-/// What does not follow the format, cells other than hexahedra with 8 nodes (points, lines and
-/// quadrangles apart), and binary files.
+/// [`Fault::Syntax`], [`Fault::Repeated`] or [`Fault::Unknown`] for a file that does not follow the format,
+/// [`Fault::Cell`] for cells other than hexahedra with 8 nodes, points, lines and quadrangles, and
+/// [`Fault::Unsupported`] for binary files and other versions.
 pub fn read_gmsh(bytes: &[u8]) -> Result<Foreign, ImportError> {
     // A binary file says so in its first lines, which are text.
     let head = &bytes[..bytes.len().min(200)];
@@ -46,13 +47,13 @@ struct Reader<'a> {
     names: BTreeMap<(u8, i64), String>,
     /// Physical groups of the entities of format 4.1, by dimension and number.
     groups: HashMap<(u8, i64), Vec<i64>>,
-    /// Places of nodes by their numbers.
-    places: HashMap<u64, u32>,
-    /// Places of hexahedra by their numbers.
+    /// Indices of nodes by their numbers.
+    indices: HashMap<u64, u32>,
+    /// Indices of hexahedra by their numbers.
     hexes: HashMap<u64, u32>,
 }
 
-/// An element type: its dimension, its nodes, and whether it is read; or what else it is.
+/// Dimension and number of nodes of an element type that is read; for any other, what it is.
 fn kind(number: i64) -> Result<(u8, usize), &'static str> {
     match number {
         15 => Ok((0, 1)),
@@ -126,7 +127,7 @@ impl<'a> Reader<'a> {
         Err(self.text.ends(&end))
     }
 
-    /// The main number of the version, 2 or 4.
+    /// The major version of the format, 2 or 4.
     fn format(&mut self) -> Result<u8, ImportError> {
         let version = self.text.word().unwrap_or_default();
         let main = match version {
@@ -159,7 +160,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Which physical groups the entities belong to.
+    /// Reads which physical groups the entities belong to.
     fn entities(&mut self) -> Result<(), ImportError> {
         let text = &mut self.text;
         let mut counts = [0u64; 4];
@@ -194,7 +195,7 @@ impl<'a> Reader<'a> {
     }
 
     fn node(&mut self, id: u64, line: usize, point: [f64; 3]) -> Result<(), ImportError> {
-        if self.places.insert(id, self.foreign.points.len() as u32).is_some() {
+        if self.indices.insert(id, self.foreign.points.len() as u32).is_some() {
             return Err(Fault::Repeated { what: "node", id }.at(line));
         }
         self.foreign.points.push(point);
@@ -286,7 +287,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The nodes of an element, and its place in its sets.
+    /// Reads the nodes of an element, and adds it to the sets of its groups.
     fn element(
         &mut self,
         id: u64,
@@ -299,7 +300,7 @@ impl<'a> Reader<'a> {
         let mut nodes = [0u32; 8];
         for node in &mut nodes[..size] {
             let name: u64 = self.text.number("a node of an element")?;
-            *node = *self.places.get(&name).ok_or_else(|| {
+            *node = *self.indices.get(&name).ok_or_else(|| {
                 let from = format!("element {id}");
                 Fault::Unknown { from, what: format!("node {name}") }.at(self.text.line)
             })?;

@@ -1,10 +1,10 @@
 //! Meshes of other programs: Gmsh, Abaqus, VTU, arrays.
 //!
-//! [`Format::read`] takes a file to a [`Foreign`] mesh, [`Foreign::from_arrays`] arrays; [`bodies()`]
-//! checks it and makes the two bodies of it; [`fit()`] sets them against the shapes that the case
-//! gives. The result has the sets and surfaces of the generated meshes, so that the solver does not
-//! know where a mesh comes from. Nodes and elements are numbered anew along a curve through space:
-//! the bits of a run depend neither on the file's format nor on its numbering of nodes.
+//! [`Format::read`] makes a [`Foreign`] mesh of a file, [`Foreign::from_arrays`] of arrays. [`bodies()`] checks
+//! it and makes the two bodies, disk and bar; [`fit()`] compares them with the shapes of the case. The result
+//! has the sets and surfaces of the generated meshes, so that the solver need not know where a mesh comes from.
+//! Nodes and elements are renumbered along a space-filling curve: the bits of a run depend neither on the file's
+//! format nor on its numbering of nodes.
 
 mod abaqus;
 mod bodies;

@@ -1,13 +1,14 @@
-//! How deep the elements of an XML text lie in one another.
+//! How deep the elements of an XML text are nested.
 //!
-//! `roxmltree` descends by calls of itself and has no limit: a text of thousands of nested elements
-//! would end the process for want of stack.
+//! `roxmltree` parses recursively and without a limit: a text of thousands of nested elements would overflow
+//! the stack and abort the process.
 
-/// A VTU file has six levels: file, grid, piece, section, array, and information about an array.
+/// Deepest nesting that is read. A VTU file has six levels: file, grid, piece, section, array, and information
+/// about an array.
 pub(super) const DEEPEST: usize = 32;
 
-/// The line, counted from 1, of the first element in more than [`DEEPEST`] others. What is no
-/// well-formed XML is left to the parser, which goes no further than the mistake.
+/// The line, counted from 1, of the first element at a depth of more than [`DEEPEST`]. `None` also for a text that
+/// is not well-formed: the parser stops at the mistake.
 pub(super) fn too_deep(text: &str) -> Option<usize> {
     let mut depth = 0_usize;
     let mut at = 0;
@@ -37,12 +38,12 @@ pub(super) fn too_deep(text: &str) -> Option<usize> {
     None
 }
 
-/// Bytes up to the end of `mark`.
+/// Number of bytes up to and including `mark`.
 fn behind(text: &str, mark: &str) -> Option<usize> {
     text.find(mark).map(|at| at + mark.len())
 }
 
-/// Bytes of a tag; a `>` in the quotes of an attribute does not end it.
+/// Length of a tag (bytes); a `>` within the quotes of an attribute does not end it.
 fn behind_tag(tag: &str) -> Option<usize> {
     let mut quote = None;
     for (at, byte) in tag.bytes().enumerate() {

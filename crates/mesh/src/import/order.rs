@@ -1,13 +1,13 @@
-//! A numbering of points that keeps neighbours together.
+//! A numbering of points by which neighbours are near in memory.
 
 use std::cmp::Ordering;
 
-/// Bits per coordinate of the curve's cells.
+/// Bits per coordinate of a cell of the curve.
 const BITS: u32 = 21;
 
-/// The points' places in the order of Morton's curve through their bounding cube, those of one cell
-/// by their coordinates: an order that depends on the points alone, in which points that are near
-/// each other are near in memory.
+/// Indices of the points in the order of Morton's curve through their bounding cube; points of one cell are ordered
+/// by their coordinates. The order of the points does not depend on how they are listed, and neighbours are near
+/// each other in it.
 ///
 /// Source: Morton (1966), "A computer oriented geodetic data base", IBM.
 pub(crate) fn along_curve(points: &[[f64; 3]]) -> Vec<u32> {
@@ -37,7 +37,7 @@ fn by_coordinates(p: [f64; 3], q: [f64; 3]) -> Ordering {
     (0..3).map(|a| p[a].total_cmp(&q[a])).find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
 }
 
-/// The low 21 bits of `x`, two zeros after each.
+/// The low 21 bits of `x` with two zeros after each.
 fn spread(x: u64) -> u64 {
     let mut x = x & 0x1f_ffff;
     for (shift, mask) in [

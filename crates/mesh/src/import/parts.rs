@@ -1,9 +1,11 @@
-//! Parts that hang together.
+//! Connected parts.
 
-/// Sets of items joined pair by pair (Tarjan 1975, union by least item, with path halving).
+/// Disjoint sets of items, joined pair by pair: the least item represents its set; path halving (Tarjan and van
+/// Leeuwen 1984).
 pub(super) struct Parts(Vec<u32>);
 
 impl Parts {
+    /// Each item by itself.
     pub(super) fn new(items: usize) -> Self {
         Self((0..items as u32).collect())
     }
@@ -17,12 +19,13 @@ impl Parts {
         i
     }
 
+    /// Joins the parts of two items.
     pub(super) fn join(&mut self, i: u32, j: u32) {
         let (i, j) = (self.of(i), self.of(j));
         self.0[i.max(j) as usize] = i.min(j);
     }
 
-    /// An item outside the largest part, if there is one.
+    /// The least item outside the largest part, if there is one.
     pub(super) fn apart(&mut self) -> Option<u32> {
         let part: Vec<u32> = (0..self.0.len() as u32).map(|i| self.of(i)).collect();
         let mut size = vec![0u32; part.len()];

@@ -28,7 +28,8 @@ impl Unit {
         }
     }
 
-    /// A length of this unit in metres: by division, so that 460 mm are the number 0.46.
+    /// The length `x` of this unit in metres; for centimetres and millimetres by division, so that 460 mm give
+    /// exactly the number 0.46.
     pub fn metres(self, x: f64) -> f64 {
         match self {
             Self::Metre => x,

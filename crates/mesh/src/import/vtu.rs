@@ -1,12 +1,12 @@
 //! VTK XML unstructured grids (`.vtu`).
 //!
-//! Source: "VTK File Formats" and "VTK XML Formats", docs.vtk.org. Arrays as text, base64 or raw,
-//! inline or appended, with zlib or without. A set is an array of zeros and ones: over the points it
-//! names nodes; over the cells, hexahedra and quadrangles. An array `body` over the cells names
-//! disk (0) and bar (1), as Creepage's own files have it.
+//! Source: "VTK File Formats" and "VTK XML Formats", docs.vtk.org. Arrays may be text, base64 or raw, inline or
+//! appended, compressed by zlib or not. A set is an array of zeros and ones: over the points it holds nodes;
+//! over the cells, hexahedra and quadrangles. An array `body` over the cells says which belong to the disk (0)
+//! and to the bar (1), as in Creepage's own files.
 //!
-//! The XML, base64 and zlib are libraries' (`roxmltree`, `base64`, `miniz_oxide`). `vtkio`, which reads the whole
-//! format, has had no release but a candidate since 2021 and does not read what meshio writes (its issue 21).
+//! Libraries read XML, base64 and zlib (`roxmltree`, `base64`, `miniz_oxide`). `vtkio` would read the whole format,
+//! but has had no release since 2021 except a candidate, and does not read what meshio writes (its issue 21).
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
@@ -16,17 +16,19 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use roxmltree::{Document, Node};
 
-/// Largest part of an array that one byte of zlib can stand for.
+/// Most bytes of an array that one byte of zlib data can stand for.
 const ZLIB_RATIO: usize = 1100;
 
-/// Arrays over points, or over cells, that a file may have.
+/// Most arrays over points, or over cells, that a file may have.
 const MOST_ARRAYS: usize = 200;
 
-/// Reads a VTU file.
+/// Reads a VTU file. Vertices and lines are ignored; arrays of more than one component, and of values other than
+/// zero and one, are no sets.
 ///
 /// # Errors
-/// What does not follow the format, cells other than hexahedra with 8 nodes (vertices, lines and
-/// quadrangles apart), grids in several pieces, and compressors other than zlib.
+/// [`Fault::Syntax`] or [`Fault::Unknown`] for a file that does not follow the format, [`Fault::Cell`] for cells
+/// other than hexahedra with 8 nodes, quadrangles, vertices and lines, and [`Fault::Unsupported`] for grids in
+/// several pieces and for compressors other than zlib.
 pub fn read_vtu(bytes: &[u8]) -> Result<Foreign, ImportError> {
     let (head, appended) = split(bytes);
     let head = utf8(head)?;
@@ -60,7 +62,8 @@ pub fn read_vtu(bytes: &[u8]) -> Result<Foreign, ImportError> {
     file.piece(piece)
 }
 
-/// Cuts the file where appended data begin: the XML before their section, and the section.
+/// Cuts the file where the section of appended data begins: the XML before it, and the section, which need not be
+/// text.
 fn split(bytes: &[u8]) -> (&[u8], Option<&[u8]>) {
     const START: &[u8] = b"<AppendedData";
     match bytes.windows(START.len()).position(|window| window == START) {
@@ -85,13 +88,13 @@ fn unsupported(node: Node, what: &str, remedy: &'static str) -> ImportError {
     Fault::Unsupported { what: what.into(), remedy }.at(line(node))
 }
 
-/// What holds for all arrays of a file.
+/// How the arrays of a file are encoded.
 struct File<'a> {
     big_endian: bool,
     /// Bytes of a number in the header of an array, 4 or 8.
     word: usize,
     zlib: bool,
-    /// Appended data from the byte after their mark, and whether they are base64.
+    /// Appended data after their initial `_`, and whether they are base64.
     appended: Option<(&'a [u8], bool)>,
 }
 
@@ -172,7 +175,8 @@ impl<'a> File<'a> {
         Ok(foreign)
     }
 
-    /// The place in the grid, and the nodes, of a cell.
+    /// A cell by its VTK type `kind` and its nodes, of which there are `points`; `hex` is the index that it has as a
+    /// hexahedron.
     fn cell(
         &self,
         element: u64,
@@ -192,7 +196,7 @@ impl<'a> File<'a> {
                 checked(element, nodes, points, &mut corners)?;
                 return Ok(Cell::Quad(corners));
             }
-            (1..=4, _) => return Ok(Cell::Passed),
+            (1..=4, _) => return Ok(Cell::Ignored),
             (5 | 22, _) => "a triangle",
             (8 | 11, _) => "a pixel or voxel",
             (10 | 24, _) => "a tetrahedron",
@@ -207,7 +211,7 @@ impl<'a> File<'a> {
         Err(Fault::Cell { element, kind: kind.into() })
     }
 
-    /// Sets from arrays of zeros and ones.
+    /// Makes sets of the arrays of zeros and ones.
     fn sets(
         &self,
         piece: Node,
@@ -316,10 +320,12 @@ impl<'a> File<'a> {
         })
     }
 
-    /// The bytes of an array: a header with their number, and they; or, compressed, a header with
-    /// the number of blocks, the size of a block, that of the last and the packed sizes, and they.
+    /// The decoded bytes of an array.
+    ///
+    /// Uncompressed, a header with the number of bytes precedes them. Compressed, a header with the number of
+    /// blocks, the size of a block, that of the last block and the compressed size of each precedes the blocks.
     fn unpack(&self, array: Node, packed: Packed) -> Result<Vec<u8>, ImportError> {
-        let short = || syntax(array, "an array ends before its header says");
+        let cut_short = || syntax(array, "an array ends before its header says");
         let word = |bytes: &[u8], i: usize| {
             let bytes = bytes.get(i * self.word..(i + 1) * self.word)?;
             let mut padded = [0u8; 8];
@@ -330,40 +336,40 @@ impl<'a> File<'a> {
             usize::try_from(u64::from_le_bytes(padded)).ok()
         };
         let start = packed.bytes(self.word, array)?;
-        let first = word(&start, 0).ok_or_else(short)?;
+        let first = word(&start, 0).ok_or_else(cut_short)?;
         if !self.zlib {
-            let end = self.word.checked_add(first).ok_or_else(short)?;
+            let end = self.word.checked_add(first).ok_or_else(cut_short)?;
             let all = packed.bytes(end, array)?;
-            return Ok(all.get(self.word..end).ok_or_else(short)?.to_vec());
+            return Ok(all.get(self.word..end).ok_or_else(cut_short)?.to_vec());
         }
-        let words = first.checked_add(3).ok_or_else(short)?;
-        let header = words.checked_mul(self.word).ok_or_else(short)?;
+        let words = first.checked_add(3).ok_or_else(cut_short)?;
+        let header = words.checked_mul(self.word).ok_or_else(cut_short)?;
         let header = packed.bytes(header, array)?;
         if header.len() < words * self.word {
-            return Err(short());
+            return Err(cut_short());
         }
         let (block, last) =
-            (word(&header, 1).ok_or_else(short)?, word(&header, 2).ok_or_else(short)?);
+            (word(&header, 1).ok_or_else(cut_short)?, word(&header, 2).ok_or_else(cut_short)?);
         let mut sizes = Vec::new();
         for i in 0..first {
-            sizes.push(word(&header, 3 + i).ok_or_else(short)?);
+            sizes.push(word(&header, 3 + i).ok_or_else(cut_short)?);
         }
         let total = sizes.iter().try_fold(0usize, |sum, size| sum.checked_add(*size));
-        let total = total.ok_or_else(short)?;
+        let total = total.ok_or_else(cut_short)?;
         let body = packed.after(header.len(), total, array)?;
         let (mut bytes, mut at) = (Vec::new(), 0);
         for (i, &size) in sizes.iter().enumerate() {
             let block = if i + 1 == sizes.len() && last > 0 { last } else { block };
-            let packed = body.get(at..at + size).ok_or_else(short)?;
+            let packed = body.get(at..at + size).ok_or_else(cut_short)?;
             at += size;
             if block > ZLIB_RATIO.saturating_mul(size.max(1)) {
-                return Err(short());
+                return Err(cut_short());
             }
             let unpacked = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(packed, block);
             let unpacked =
                 unpacked.map_err(|_| syntax(array, "the zlib data of an array are damaged"))?;
             if unpacked.len() != block {
-                return Err(short());
+                return Err(cut_short());
             }
             bytes.extend(unpacked);
         }
@@ -371,7 +377,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Bytes of an array as they stand in the file; what follows the array may follow here.
+/// Encoded bytes of an array, possibly with more of the file after them.
 #[derive(Clone, Copy)]
 enum Packed<'a> {
     Raw(&'a [u8]),
@@ -379,7 +385,7 @@ enum Packed<'a> {
 }
 
 impl Packed<'_> {
-    /// The first `count` bytes, or all if there are fewer.
+    /// The first `count` decoded bytes, or all if there are fewer.
     fn bytes(&self, count: usize, array: Node) -> Result<Vec<u8>, ImportError> {
         match self {
             Self::Raw(data) => Ok(data[..count.min(data.len())].to_vec()),
@@ -391,7 +397,7 @@ impl Packed<'_> {
         }
     }
 
-    /// `count` bytes after a header of `header` bytes, which base64 packs by itself.
+    /// `count` decoded bytes after a header of `header` bytes, which is encoded in base64 by itself.
     fn after(&self, header: usize, count: usize, array: Node) -> Result<Vec<u8>, ImportError> {
         match self {
             Self::Raw(data) => {
@@ -415,7 +421,7 @@ fn arrays<'a, 'i: 'a>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> 
     node.children().filter(|child| child.has_tag_name("DataArray"))
 }
 
-/// Bytes of a number.
+/// Size of a number of a VTK type (bytes); `None` for a type that is not read.
 fn width(kind: &str) -> Option<usize> {
     match kind {
         "Int8" | "UInt8" => Some(1),
@@ -434,7 +440,7 @@ impl Numbers {
         }
     }
 
-    /// Whole numbers; -1 for those that are none.
+    /// The numbers as integers; -1 in place of one that is none.
     fn whole(self) -> Vec<i64> {
         match self {
             Self::Whole(values) => values,
@@ -445,24 +451,25 @@ impl Numbers {
     }
 }
 
-/// A cell of the grid.
+/// A cell of the grid: a hexahedron with its index among them, a quadrangle, or one that is ignored.
 enum Cell {
     Hex(u32, [u32; 8]),
     Quad([u32; 4]),
-    Passed,
+    Ignored,
 }
 
 impl super::foreign::Set {
+    /// Adds a cell to the set.
     fn take(&mut self, cell: &Cell) {
         match cell {
             Cell::Hex(hex, _) => self.hexes.push(*hex),
             Cell::Quad(nodes) => self.faces.push(*nodes),
-            Cell::Passed => {}
+            Cell::Ignored => {}
         }
     }
 }
 
-/// The nodes of a cell, which must be there.
+/// Copies the nodes of a cell into `to`; each must be one of the `points` nodes of the grid.
 fn checked(element: u64, nodes: &[i64], points: usize, to: &mut [u32]) -> Result<(), Fault> {
     for (to, &node) in to.iter_mut().zip(nodes) {
         let place = usize::try_from(node).ok().filter(|&n| n < points);
