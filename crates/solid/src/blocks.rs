@@ -1,37 +1,37 @@
 //! A fixed partition of the elements for parallel assembly with the same bits on any number of
 //! threads.
 //!
-//! Elements are cut, in mesh order, into blocks of one body and one
-//! formulation, and the blocks are coloured so that blocks of one colour share no nodes. Colours run one after
-//! the other, blocks of a colour in any order: each node receives its contributions in the order
-//! of colours and, within a block, of elements, whatever the number of threads.
+//! Elements are cut, in mesh order, into blocks of one body and one formulation. Blocks are coloured so that those
+//! of one colour share no nodes. Colours run one after the other, blocks of a colour in any order: each node
+//! receives its contributions in the order of colours and, within a block, of elements, whatever the number of
+//! threads.
 
 use crate::formulation::Elements;
 use mesh::Mesh;
 
-/// Blocks that a body's one-point elements are cut into, if the bounds allow: enough for the threads of a
-/// large machine in two or three colours. Larger blocks have fewer nodes in common, each of which is loaded
-/// once per block.
+/// Number of blocks into which a body's one-point elements are cut, within the bounds of [`BLOCK_ELEMENTS`]: enough
+/// for the threads of a large machine in two or three colours. More blocks would be smaller and have more nodes
+/// in common, and each node is loaded once per block.
 const BLOCKS: usize = 64;
 
-/// Least and largest number of elements in a block of one-point elements: below, starting it costs more
-/// than its work; above, nothing more is gained.
+/// Least and largest number of elements in a block of one-point elements. A smaller block costs more to start than
+/// to compute; a larger one gains nothing more.
 const BLOCK_ELEMENTS: [usize; 2] = [512, 16384];
 
-/// A fully integrated element takes about as long as so many of one point.
+/// A fully integrated element takes about as long as this many one-point elements.
 const FULL: usize = 4;
 
-/// Elements per block for `elements` of a body and a formulation; a multiple of the batch.
+/// Elements per block for the `elements` of one body and formulation; a multiple of [`BATCH`].
 fn block_size(elements: usize, full: bool) -> usize {
     let [least, most] = BLOCK_ELEMENTS;
     let size = elements.div_ceil(BLOCKS).next_multiple_of(FULL * BATCH).clamp(least, most);
     if full { size / FULL } else { size }
 }
 
-/// Elements per batch; the widest vector has as many lanes.
+/// Elements per batch: the number of lanes of the widest vector.
 pub(crate) const BATCH: usize = 8;
 
-/// Eight elements, node by node: `nodes[corner][lane]`.
+/// The nodes of eight elements: `nodes[corner][lane]`, one lane per element.
 ///
 /// A batch with fewer elements repeats its last one in the unused lanes.
 #[derive(Clone, Copy, Debug)]
@@ -40,10 +40,10 @@ pub(crate) struct Batch {
     pub(crate) nodes: [[u32; BATCH]; 8],
 }
 
-/// A run of batches of one body and one formulation.
+/// Consecutive batches of one body and one formulation.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
-    /// First batch and one past the last.
+    /// Indices in [`Blocks::batches`].
     pub(crate) batches: std::ops::Range<usize>,
     /// Number of elements, at most eight per batch; only the last batch may be partial.
     pub(crate) elements: usize,
@@ -64,8 +64,8 @@ pub(crate) struct Blocks {
     bodies: Vec<Places>,
 }
 
-/// Where the elements of a body are: its one-point elements fill batches in mesh order, then its
-/// fully integrated ones do.
+/// Where the elements of a body are: first its one-point elements fill batches in mesh order, then its fully
+/// integrated ones.
 #[derive(Clone, Debug)]
 struct Places {
     /// Index of the body's first element in the mesh.
@@ -102,8 +102,8 @@ impl Blocks {
         Self { batches, blocks, colours, bodies }
     }
 
-    /// Batch and lane of an element, and whether it is fully integrated. Blocks hold a multiple of eight
-    /// elements but for the last of a body's formulation, so its batches are full but for the last.
+    /// Batch and lane of an element, and whether it is fully integrated. All blocks of one body and formulation but
+    /// the last hold a multiple of eight elements, so that only their last batch may be partial.
     pub(crate) fn place(&self, body: usize, element: usize) -> (&Batch, usize, bool) {
         let places = &self.bodies[body];
         let (full, slot) = match places.full.binary_search(&(element as u32)) {
@@ -139,18 +139,18 @@ fn batch(mesh: &Mesh, elements: &[u32]) -> Batch {
 
 /// Greedy colouring of blocks that share nodes, in order.
 fn colour(nodes: usize, batches: &[Batch], blocks: &[Block]) -> Vec<Vec<u32>> {
-    // One bit per colour already present at each node; 64 is far beyond what a 3-D mesh needs,
-    // and a block that finds none free opens a colour of its own.
+    // One bit per colour already present at each node. 64 colours are far more than a 3-D mesh needs; a block that
+    // finds none of them free gets a colour of its own.
     let mut used = vec![0u64; nodes];
     let mut colours: Vec<Vec<u32>> = Vec::new();
-    let mut lonely = Vec::new();
+    let mut alone = Vec::new();
     for (index, block) in blocks.iter().enumerate() {
         let own = &batches[block.batches.clone()];
         let nodes = || own.iter().flat_map(|b| b.nodes.as_flattened()).map(|&n| n as usize);
         let taken = nodes().fold(0u64, |bits, n| bits | used[n]);
         let free = (!taken).trailing_zeros() as usize;
         if free >= 64 {
-            lonely.push(vec![index as u32]);
+            alone.push(vec![index as u32]);
             continue;
         }
         nodes().for_each(|n| used[n] |= 1 << free);
@@ -159,7 +159,7 @@ fn colour(nodes: usize, batches: &[Batch], blocks: &[Block]) -> Vec<Vec<u32>> {
         }
         colours[free].push(index as u32);
     }
-    colours.append(&mut lonely);
+    colours.append(&mut alone);
     colours
 }
 

@@ -1,4 +1,4 @@
-//! What an element costs: the kernel run on numbers that count their own operations.
+//! The cost of an element, counted by running its kernel on numbers that count their operations.
 
 use crate::blocks::{BATCH, Batch};
 use crate::formulation::Volumetric;
@@ -11,17 +11,17 @@ use std::cell::Cell;
 /// Operations of one element in one evaluation of its internal force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Work {
-    /// Additions and subtractions.
+    /// Additions, subtractions and minima.
     pub(crate) additions: u32,
     /// Multiplications.
     pub(crate) multiplications: u32,
-    /// Multiplications with an addition to the product, one instruction.
+    /// Fused multiply-additions, one instruction each.
     pub(crate) multiply_additions: u32,
     /// Divisions and square roots.
     pub(crate) divisions: u32,
-    /// Vectors of three read from nodes.
+    /// Nodal vectors read.
     pub(crate) gathered: u32,
-    /// Vectors of three added to nodes, read and written.
+    /// Nodal vectors read, added to and written.
     pub(crate) scattered: u32,
 }
 
@@ -33,7 +33,7 @@ impl Work {
     }
 }
 
-/// Counts the work of one element: `full` of a fully integrated one, else of a one-point one.
+/// Counts the work of one element: a fully integrated one with `full`, else a one-point one.
 pub(crate) fn work(full: Option<Volumetric>, energies: bool, viscous: bool) -> Work {
     match full {
         None => counted::<OnePoint>(energies, viscous),
@@ -75,7 +75,7 @@ fn counted<K: Kernel>(energies: bool, viscous: bool) -> Work {
         force: force.as_mut_ptr(),
     };
     let mut sums = [0.0; 3];
-    DONE.set(Work::default());
+    TALLY.set(Work::default());
     let sums = &mut sums;
     // SAFETY: `Counted` needs no special instructions, the batch's indices are those of the eight
     // nodes of each array, and these are local.
@@ -95,11 +95,12 @@ fn counted<K: Kernel>(energies: bool, viscous: bool) -> Work {
             }
         }
     }
-    DONE.get()
+    TALLY.get()
 }
 
 thread_local! {
-    static DONE: Cell<Work> = const {
+    /// Operations that [`Counted`] has done on this thread.
+    static TALLY: Cell<Work> = const {
         Cell::new(Work {
             additions: 0,
             multiplications: 0,
@@ -111,13 +112,14 @@ thread_local! {
     };
 }
 
-fn count(of: fn(&mut Work)) {
-    let mut done = DONE.get();
-    of(&mut done);
-    DONE.set(done);
+/// Changes the tally of this thread.
+fn count(change: fn(&mut Work)) {
+    let mut done = TALLY.get();
+    change(&mut done);
+    TALLY.set(done);
 }
 
-/// One lane whose operations are counted on the calling thread.
+/// One lane whose operations are counted in the tally of the calling thread.
 #[derive(Clone, Copy)]
 struct Counted(f64);
 
@@ -178,8 +180,7 @@ impl Lanes for Counted {
 mod tests {
     use super::*;
 
-    /// The guard of the kernels' cost, the same on every machine: a change that makes an element
-    /// dearer fails here and says so.
+    /// Guards the cost of the kernels, which is the same on every machine.
     #[test]
     fn an_element_costs_no_more_operations_than_when_it_was_measured() {
         for (full, flops, gathered) in [

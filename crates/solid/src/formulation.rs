@@ -1,18 +1,18 @@
-//! Which elements of a mesh are fully integrated.
+//! How the elements of a mesh are integrated.
 
 /// Options of the one-point element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element {
-    /// Flanagan–Belytschko hourglass stiffness coefficient kappa; 0.05 is usual.
+    /// Coefficient kappa of the hourglass stiffness of Flanagan and Belytschko (dimensionless); 0.05 is usual.
     pub hourglass: f64,
 }
 
 /// How the volumetric part of a fully integrated element is integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Volumetric {
-    /// At every Gauss point, as the rest: locks as Poisson's ratio nears 1/2.
+    /// At every Gauss point, as the deviatoric part: locks as Poisson's ratio nears 1/2.
     Full,
-    /// By the mean of tr E over the element (selective integration): does not lock in volume.
+    /// By the mean of tr E over the element (selective integration, mean dilatation): no volumetric locking.
     #[default]
     Mean,
 }
@@ -20,9 +20,9 @@ pub enum Volumetric {
 /// How one element is integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Formulation {
-    /// One point and hourglass stiffness.
+    /// At one point, with hourglass stiffness.
     OnePoint(Element),
-    /// 2x2x2 Gauss points.
+    /// At 2x2x2 Gauss points.
     Full(Volumetric),
 }
 
@@ -38,10 +38,9 @@ impl From<Volumetric> for Formulation {
     }
 }
 
-/// How the elements of a mesh are integrated.
+/// How each element of a mesh is integrated.
 ///
-/// An [`Element`] converts into one-point elements throughout, a [`Volumetric`] into fully
-/// integrated ones.
+/// An [`Element`] converts into one-point elements throughout, a [`Volumetric`] into fully integrated ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elements<'a> {
     one_point: Element,
@@ -57,13 +56,13 @@ enum Selection<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// Fully integrated elements where `full` holds, one entry per element of the mesh; one-point
-    /// elements elsewhere, also beyond its end.
+    /// Fully integrated elements where `full` is true, one-point elements elsewhere. `full` has one entry per element
+    /// of the mesh; where it is shorter, the rest count as false.
     pub fn mixed(one_point: Element, full: &'a [bool], volumetric: Volumetric) -> Self {
         Self { one_point, volumetric, full: Selection::These(full) }
     }
 
-    /// The formulation of an element by its index in the mesh.
+    /// The formulation of an element, given by its index in the mesh.
     pub fn formulation(&self, element: usize) -> Formulation {
         if self.is_full(element) {
             Formulation::Full(self.volumetric)
@@ -72,7 +71,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// Whether an element is fully integrated.
+    /// Whether an element, given by its index in the mesh, is fully integrated.
     pub fn is_full(&self, element: usize) -> bool {
         match self.full {
             Selection::None => false,

@@ -1,29 +1,28 @@
 //! The fully integrated hexahedron: 2x2x2 Gauss points, no hourglass modes.
 //!
-//! The derivatives by xi, eta, zeta of a trilinear field are bilinear in the other two
-//! coordinates, so that each takes four values at the eight Gauss points (+-p, p = 1/sqrt(3)); with
-//! the Hadamard modes A_k, G_a of the corner values (see [`crate::kernel`]), cyclic in k, l, m,
+//! The derivative of a trilinear field by one of xi, eta, zeta is bilinear in the other two, so that it takes four
+//! values at the eight Gauss points (coordinates +-p, p = 1/sqrt(3)). With the Hadamard modes A_k, G_a of the corner
+//! values (see [`crate::kernel`]), k, l, m cyclic, and xi_k here the sign of the coordinate,
 //!
 //! * 8 dx/dxi_k = A_k + p xi_l G_m + p xi_m G_l + p^2 xi_l xi_m G_4.
 //!
-//! From them at each point, J_k = dx/dxi_k and D_k = du/dxi_k:
+//! From them, at each point, with J_k = 8 dx/dxi_k and D_k = 8 du/dxi_k:
 //!
-//! * cofactors C_1 = J_2 x J_3 (cyclic), w = J_1 . C_1, H = sum D_k C_k^T/w,
+//! * cofactors C_1 = J_2 x J_3 (cyclic), w = J_1 . C_1 (512 times the point's volume), H = sum D_k C_k^T/w,
 //! * E = (H + H^T + H^T H)/2, S = lambda tr(E) I + 2 G E, P = (I + H) S,
-//! * f_k = sum over the points of P C_k, the force on D_k.
+//! * f_k = sum over the points of P C_k/512, the force conjugate to D_k; the constants contain the 1/512.
 //!
 //! **Mean dilatation** (selective integration of the volumetric part, Malkus and Hughes 1978;
 //! Nagtegaal, Parks and Rice 1974): the energy is
-//! lambda/2 V `<tr E>`^2 + G sum w E : E with `<.>` the mean over the element, so it is objective
-//! and the force, its derivative, is conservative: lambda `<tr E>` takes the place of lambda tr(E).
+//! lambda/2 V `<tr E>`^2 + G int E : E dV with `<.>` the mean over the element. It is objective, and the force, its
+//! derivative, is conservative: lambda `<tr E>` takes the place of lambda tr(E).
 //!
-//! Kelvin–Voigt stresses are eta times the elastic law of dE/dt at each Gauss point, with the same
-//! mean: they damp every mode of the element in proportion to its stiffness. Bulk viscosity is one
-//! pressure per element from the mean of tr dE/dt, as in the one-point element, and works on that
-//! mean: it must not stiffen bending.
+//! Kelvin–Voigt stresses are eta times the elastic law applied to dE/dt at each Gauss point, with the same mean:
+//! they damp every mode of the element in proportion to its stiffness. Bulk viscosity is one pressure per element,
+//! from the mean of tr dE/dt as in the one-point element, so that it does not damp bending.
 //!
-//! A pressure that is uniform over the element is known only after all points: its force
-//! p sum (I + H) C_k is summed beside the rest and added at the end.
+//! A pressure p that is uniform over the element is known only after all points: sum (I + H) C_k is summed beside
+//! the rest, and p times it is added at the end.
 
 use crate::blocks::Batch;
 use crate::kernel::{
@@ -32,14 +31,13 @@ use crate::kernel::{
 };
 use crate::lanes::Lanes;
 
-/// The fully integrated element, `MEAN` with mean dilatation.
+/// The fully integrated element, with mean dilatation if `MEAN`.
 pub(crate) struct FullyIntegrated<const MEAN: bool>;
 
-/// Derivatives by xi_k: `d[k][s]` with s = (xi_l > 0) + 2 (xi_m > 0), k, l, m cyclic; eight times
-/// the derivative.
+/// Eight times the derivatives by xi_k: `d[k][s]` with s = (xi_l > 0) + 2 (xi_m > 0), k, l, m cyclic.
 type Derivatives<L> = [[Vector<L>; 4]; 3];
 
-/// p and p^2, p = 1/sqrt(3) the place of the Gauss points.
+/// Coordinate p = 1/sqrt(3) of the Gauss points, and its square.
 const P: f64 = 0.577_350_269_189_625_8;
 const P_SQUARED: f64 = 1.0 / 3.0;
 
@@ -76,8 +74,8 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
                 power: zero,
             };
             if L::N == 8 {
-                // With 32 registers it pays to write the points out: constant indices leave no
-                // addresses to compute, and totals stay in registers.
+                // Unrolled: with the 32 registers of AVX-512, constant indices need no address
+                // computation and the totals stay in registers.
                 add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(0));
                 add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(1));
                 add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(2));
@@ -87,7 +85,7 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
                 add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(6));
                 add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(7));
             } else {
-                // With fewer, everything spills and the code would outgrow its cache.
+                // With fewer registers the totals spill anyway, and unrolled code would not fit its cache.
                 let mut point = 0;
                 while point < 8 {
                     add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(point));
@@ -161,9 +159,9 @@ struct Fields<L> {
 
 /// Sums over the Gauss points.
 struct Total<L> {
-    /// Force on the derivatives of the displacement, without uniform pressures.
+    /// Force conjugate to the derivatives of the displacement, without that of uniform pressures.
     force: Derivatives<L>,
-    /// The same of a uniform pressure of -1/512 Pa, that is S = I/512.
+    /// The same for the uniform stress S/512 = I: the sum of (I + H) C_k.
     unit_pressure: Derivatives<L>,
     /// 512 V
     volume: L,
@@ -177,7 +175,7 @@ struct Total<L> {
     power: L,
 }
 
-/// Adds the Gauss point whose derivatives are number `at` of the four of each direction.
+/// Adds the contribution of a Gauss point; `at[k]` is the index of its derivative by xi_k among the four.
 #[inline(always)]
 unsafe fn add_point<L: Lanes, const MEAN: bool, const ENERGY: bool, const VISCOUS: bool>(
     fields: &Fields<L>,
@@ -245,8 +243,7 @@ unsafe fn add_point<L: Lanes, const MEAN: bool, const ENERGY: bool, const VISCOU
     }
 }
 
-/// Which of the four values of each derivative belongs to a Gauss point; bit k of `point` is set
-/// where xi_k > 0.
+/// The indices of a Gauss point's derivatives by each xi_k among the four; bit k of `point` is set if xi_k > 0.
 #[inline(always)]
 const fn signs(point: usize) -> [usize; 3] {
     let bit = [point & 1, point >> 1 & 1, point >> 2 & 1];
@@ -281,7 +278,7 @@ unsafe fn derivatives<L: Lanes>(x: &Modes<L>) -> Derivatives<L> {
     }
 }
 
-/// The transpose of [`derivatives`].
+/// The transpose of [`derivatives`]: forces on modes from forces on derivatives.
 #[inline(always)]
 unsafe fn transposed<L: Lanes>(f: &Derivatives<L>) -> Modes<L> {
     unsafe {

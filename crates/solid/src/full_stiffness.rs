@@ -4,11 +4,11 @@ use crate::formulation::Volumetric;
 use crate::gauss::gauss_points;
 use crate::material::Material;
 
-/// Tangent stiffness (N/m) of the fully integrated element in the undeformed state; rows and
-/// columns run over the corners, x y z of each in turn.
+/// Tangent stiffness (N/m) of the fully integrated element in the undeformed state; rows and columns run over the
+/// corners, and over x, y, z of each.
 ///
-/// `corners` in `VTK_HEXAHEDRON` order (m), with a positive Jacobian at all Gauss points. With B_I
-/// the gradient of corner I's shape function at a Gauss point of volume w and K_IJ its 3x3 blocks,
+/// `corners` (m) are in `VTK_HEXAHEDRON` order; the Jacobian must be positive at all Gauss points. With B_I the
+/// gradient of corner I's shape function at a Gauss point of volume w, the 3x3 blocks are
 ///
 /// K_IJ = sum w (lambda B_I B_J^T + G B_J B_I^T + G (B_I . B_J) 1);
 ///
@@ -54,8 +54,8 @@ pub(crate) fn full_stiffness(
     k
 }
 
-/// (tr K^16)^(1/16), an upper bound of the largest eigenvalue of a symmetric positive semi-definite
-/// matrix: of rank 18 it is at most 18^(1/16) = 1.2 times as large.
+/// (tr K^16)^(1/16), an upper bound of the largest eigenvalue of a symmetric positive semi-definite matrix. At the
+/// rank 18 of an element, the bound is at most 18^(1/16) = 1.2 times the eigenvalue. NaN for a zero matrix.
 pub(crate) fn largest_eigenvalue_bound(matrix: [[f64; 24]; 24]) -> f64 {
     let norm = |m: &[[f64; 24]; 24]| m.iter().flatten().map(|c| c * c).sum::<f64>().sqrt();
     let scale = norm(&matrix);

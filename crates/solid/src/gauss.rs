@@ -1,5 +1,5 @@
-//! The Gauss points of one hexahedron in plain scalar form: what set-up, output and the stiffness of
-//! the fully integrated element use, and the reference for its vector kernel.
+//! The Gauss points of one hexahedron in plain scalar form, for set-up, output, the stiffness of the fully integrated
+//! element, and tests of its vector kernel.
 
 use crate::geometry::{cross, dot};
 use mesh::HEX_CORNERS as CORNERS;
@@ -7,13 +7,13 @@ use mesh::HEX_CORNERS as CORNERS;
 /// One of the 2x2x2 Gauss points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GaussPoint {
-    /// Volume that the point stands for, det(dX/dxi) (m^3).
+    /// Volume that the point represents (m^3): det(dX/dxi), as all weights are 1.
     pub(crate) volume: f64,
-    /// dN_I/dX_j (1/m).
+    /// `gradient[I][j]` = dN_I/dX_j (1/m).
     pub(crate) gradient: [[f64; 3]; 8],
 }
 
-/// The eight Gauss points of a hexahedron with corners `x` (m).
+/// The eight Gauss points of a hexahedron with corners `x` (m), in the order of the corners.
 pub(crate) fn gauss_points(x: &[[f64; 3]; 8]) -> [GaussPoint; 8] {
     let p = 1.0 / 3f64.sqrt();
     CORNERS.map(|corner| {

@@ -1,13 +1,12 @@
-//! The uniform gradient of one hexahedron in plain scalar form: the reference for the vector
-//! kernel, and what set-up and output use.
+//! The uniform gradient of one hexahedron in plain scalar form, for set-up, output and tests of the vector kernel.
 
 use mesh::{HEX_CORNERS as CORNERS, Mesh, Padded};
 
-/// Volume V (m^3) and B_I = dV/dx_I (m^2) of a trilinear hexahedron, so that B_I/V is the mean
+/// Volume V (m^3) and B_I = dV/dx_I (m^2; `[corner][axis]`) of a trilinear hexahedron, so that B_I/V is the mean
 /// gradient of the shape function of corner I (Flanagan and Belytschko 1981, Eqs 15–18).
 ///
-/// With the coordinate modes a_k = 1/8 sum xi_k x_I and g_1 = 1/8 sum eta zeta x_I (cyclic),
-/// the integral of the Jacobian is
+/// `x` are the corners (m) in `VTK_HEXAHEDRON` order; V is negative if they are inside out. With the coordinate
+/// modes a_k = 1/8 sum xi_k x_I and g_1 = 1/8 sum eta zeta x_I (cyclic), the integral of the Jacobian is
 /// V = 8 ([a1 a2 a3] + ([a1 g3 g2] + [a2 g1 g3] + [a3 g2 g1])/3).
 pub fn mean_gradient(x: &[[f64; 3]; 8]) -> (f64, [[f64; 3]; 8]) {
     let mode = |weight: fn([f64; 3]) -> f64| {
@@ -42,7 +41,8 @@ pub fn mean_gradient(x: &[[f64; 3]; 8]) -> (f64, [[f64; 3]; 8]) {
     (volume, gradient)
 }
 
-/// Displacement gradient H_ij = du_i/dX_j at the element's single point, and its volume (m^3).
+/// Mean displacement gradient H_ij = du_i/dX_j (dimensionless) of a one-point element, and its undeformed volume
+/// (m^3), from its corners `x` (m) in `VTK_HEXAHEDRON` order and their displacements `u` (m).
 pub fn displacement_gradient(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> ([[f64; 3]; 3], f64) {
     let (volume, b) = mean_gradient(x);
     let mut h = [[0.0; 3]; 3];
@@ -56,7 +56,11 @@ pub fn displacement_gradient(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> ([[f64; 3]
     (h, volume)
 }
 
-/// Displacement gradient at the nodes: the volume-weighted mean over the elements around each.
+/// Displacement gradient H_ij = du_i/dX_j (dimensionless) at each node: the mean of [`displacement_gradient`] over the
+/// elements around it, weighted by their undeformed volumes. NaN at a node without elements.
+///
+/// # Panics
+/// If there are fewer displacements (m) than nodes.
 pub fn nodal_gradients(mesh: &Mesh, displacement: &[Padded]) -> Vec<[[f64; 3]; 3]> {
     let mut sum = vec![[[0.0; 3]; 3]; mesh.nodes.len()];
     let mut weight = vec![0.0; mesh.nodes.len()];

@@ -1,8 +1,8 @@
-//! The internal force of a block of elements, eight elements or fewer at a time, and the one-point
-//! element; the fully integrated one is [`crate::full`].
+//! The internal force of a block of elements, as many at a time as a vector has lanes, and the one-point element.
+//! The fully integrated element is in [`crate::full`].
 //!
-//! Per one-point element, in the Hadamard modes of the corner values (sums of the coordinates over the
-//! corners with the signs of xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta):
+//! Per one-point element, in the Hadamard modes of the corner values (their sums over the corners with the signs
+//! of xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta):
 //!
 //! * mean gradient B_I = dV/dx_I (Flanagan and Belytschko 1981; see [`crate::mean_gradient`]),
 //! * H = 1/V sum u_I B_I^T, E = (H + H^T + H^T H)/2,
@@ -11,16 +11,16 @@
 //!   gamma_aI = Gamma_aI - B_I . (X Gamma_a)/V, amplitudes q_a = sum u_I gamma_aI and
 //!   K_h = kappa (lambda + 2G) B_iI B_iI/(24 V).
 //!
-//! The modes leave out their factor 1/8; it is collected into the constants: with A_k and G_a
-//! the plain sums, V = W/64, B_I = 1/64 (sum of the signs times b_k and c_a).
+//! The modes are plain sums, without the factor 1/8; the constants contain it. With A_k and G_a the plain sums,
+//! V = W/64 and B_I = 1/64 (sum of the signs of corner I times b_k and c_a).
 
 use crate::blocks::{BATCH, Batch};
 use crate::lanes::Lanes;
 use mesh::Padded;
 
-/// Material and element constants of a body, in the scaling of a kernel: `w` is the volume that
-/// the plain sums of its modes give over the true one, 64 for the one-point element and 512 for
-/// the sum over the Gauss points of the fully integrated one.
+/// Material and element constants of a body, in the scaling of a kernel. Here `w` is the volume that the plain sums
+/// of its modes give, over the true volume: 64 for the one-point element, 512 for the fully integrated one, whose
+/// Gauss points are summed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
     /// lambda/w (Pa)
@@ -37,7 +37,8 @@ pub(crate) struct Constants {
     pub(crate) bulk_quadratic: f64,
 }
 
-/// Nodal arrays that a block reads and writes.
+/// Nodal arrays that a block reads, and `force` (N), which it changes; positions and displacements in m, velocities in
+/// m/s.
 #[derive(Clone, Copy)]
 pub(crate) struct Arrays {
     pub(crate) reference: *const Padded,
@@ -46,7 +47,7 @@ pub(crate) struct Arrays {
     pub(crate) force: *mut Padded,
 }
 
-/// Energies of a block: internal (J), hourglass (J), viscous dissipation (W).
+/// Of a block: strain energy (J), hourglass energy (J), viscous power (W).
 pub(crate) type Sums = [f64; 3];
 
 pub(crate) type Vector<L> = [L; 3];
@@ -58,8 +59,10 @@ pub(crate) struct Modes<L> {
     pub(crate) hourglass: [Vector<L>; 4],
 }
 
-/// The force of one vector of elements by one formulation.
+/// A formulation of the element.
 pub(crate) trait Kernel {
+    /// Subtracts the internal force of one vector of elements, and adds their energies and power to `sums`.
+    ///
     /// # Safety
     /// As [`block_force`], for `count` elements of `batch` from `lane` on.
     unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
@@ -75,8 +78,8 @@ pub(crate) trait Kernel {
 /// The one-point element with hourglass stiffness.
 pub(crate) struct OnePoint;
 
-/// Subtracts the internal force of a block from `arrays.force` and returns its energies (zero
-/// unless `ENERGY`; the viscous power unless `VISCOUS`).
+/// Subtracts the internal force of a block from `arrays.force`. Returns its energies, zero unless `ENERGY`, and its
+/// viscous power, zero unless `VISCOUS`.
 ///
 /// # Safety
 /// The instructions of `L` are available; every node index of `batches` is valid in all arrays
@@ -171,8 +174,8 @@ impl Kernel for OnePoint {
 
             let mut p = piola(&h, &s); // P/64
 
-            // Hourglass: K_h = kappa M squares/(192 W); its stress-like part lowers P/64 by
-            // K_h/W sum q_a (x) G_a.
+            // Hourglass: K_h = kappa (lambda + 2 G) squares/(192 W). The part of the force along B_I is
+            // taken off P/64: K_h/W sum of the dyads of q_a and G_a.
             let stiffness = L::splat(k.hourglass).mul(squares).mul(per_w);
             let mut q = u.hourglass;
             let mut amplitude = 0;
@@ -226,7 +229,7 @@ impl Kernel for OnePoint {
     }
 }
 
-/// The mean gradient in modes: B_I = 1/64 (sum of the signs of corner I times b_k and c_a).
+/// The mean gradient in modes: B_I = 1/64 (sum of the signs of corner I times b_k and c_a); see [`mean_gradient`].
 pub(crate) struct Gradient<L> {
     b: [Vector<L>; 3],
     c: [Vector<L>; 3],
@@ -238,6 +241,7 @@ pub(crate) struct Gradient<L> {
     pub(crate) squares: L,
 }
 
+/// The mean gradient from the modes `x` of the corners, as [`crate::mean_gradient`] without its factors.
 #[inline(always)]
 pub(crate) unsafe fn mean_gradient<L: Lanes>(x: &Modes<L>) -> Gradient<L> {
     unsafe {
@@ -263,10 +267,10 @@ pub(crate) unsafe fn mean_gradient<L: Lanes>(x: &Modes<L>) -> Gradient<L> {
     }
 }
 
-/// Bulk viscosity as a stress, in compression only (von Neumann and Richtmyer; Landshoff), from
-/// the mean of tr dE/dt; negative, a compression.
+/// Bulk viscosity as a uniform second Piola–Kirchhoff stress, scaled as the constants `k`, from the mean of tr dE/dt
+/// (von Neumann and Richtmyer; Landshoff): negative in compression, zero otherwise.
 ///
-/// Length V sqrt(3/2)/|B|: the edge of a cube, the thickness of a flat element; with
+/// Its length is V sqrt(3/2)/|B|: the edge of a cube, sqrt(3) times the thickness of a flat element. With
 /// |B|^2 = 8 squares/4096 it is W sqrt(3/2)/sqrt(8 squares), W = 64 V.
 #[inline(always)]
 pub(crate) unsafe fn bulk_viscosity<L: Lanes>(rate: L, w: L, squares: L, k: &Constants) -> L {
@@ -377,7 +381,7 @@ pub(crate) unsafe fn scatter<L: Lanes>(
     }
 }
 
-/// H = 1/W (sum U_k b_k^T + sum U_a c_a^T).
+/// H = 1/W (sum U_k b_k^T + sum U_a c_a^T), U the modes of the displacement or velocity.
 #[inline(always)]
 pub(crate) unsafe fn gradient<L: Lanes>(u: &Modes<L>, of_volume: &Gradient<L>) -> Matrix<L> {
     unsafe {
@@ -490,6 +494,7 @@ pub(crate) unsafe fn dot<L: Lanes>(a: Vector<L>, b: Vector<L>) -> L {
     unsafe { a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul(b[0]))) }
 }
 
+/// a . b + c.
 #[inline(always)]
 pub(crate) unsafe fn dot_add<L: Lanes>(a: Vector<L>, b: Vector<L>, c: L) -> L {
     unsafe { a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul_add(b[0], c))) }

@@ -1,22 +1,22 @@
-//! Vectors of elements: one type per instruction set behind one small trait.
+//! Vectors of elements: one type per instruction set, all with the trait [`Lanes`].
 //!
-//! The kernels are generic over [`Lanes`] and are instantiated once per level inside a function
-//! that enables the level's instructions; nothing else in the workspace needs special compiler
-//! flags. Every method is `#[inline(always)]` and free of closures, because a call that is not
-//! inlined loses the enabled instructions and most of the speed.
+//! The kernels are generic over [`Lanes`] and are instantiated once per level inside a function that enables the
+//! level's instructions; nothing else in the workspace needs special compiler flags. The methods for vector
+//! instructions are `#[inline(always)]` and free of closures: a call that is not inlined would lose the enabled
+//! instructions and most of the speed.
 
 use mesh::Padded;
 
-/// Which instruction set the kernels use.
+/// The instruction set of the kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// 8 lanes of AVX-512F.
+    /// AVX-512F, 8 lanes.
     Avx512,
-    /// 4 lanes of AVX2 with FMA.
+    /// AVX2 with FMA, 4 lanes.
     Avx2,
-    /// The arithmetic of [`Level::Avx2`] in plain Rust, to the bit; slow where the machine cannot fuse.
+    /// Plain Rust with the bits of [`Level::Avx2`]; slow where the machine has no fused multiply-add.
     Fused,
-    /// Plain Rust, any machine.
+    /// Plain Rust, one lane, no fused multiply-add; on any machine.
     Portable,
 }
 
@@ -24,17 +24,17 @@ impl Level {
     /// All levels, the widest first.
     pub const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Fused, Self::Portable];
 
-    /// The level whose bits every machine can give: AVX2's, by its instructions or without them.
+    /// The level whose bits every machine can give: [`Level::Avx2`] where available, else [`Level::Fused`].
     pub fn pinned() -> Self {
         if Self::Avx2.available() { Self::Avx2 } else { Self::Fused }
     }
 
-    /// The level of that [`name`](Self::name).
+    /// The level of this [`name`](Self::name), if there is one.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|level| level.name() == name)
     }
 
-    /// A level that gives the bits of this one on this machine.
+    /// A level available on this machine that gives the bits of this one, if there is one.
     pub fn with_the_same_bits(self) -> Option<Self> {
         match self {
             Self::Avx2 | Self::Fused => Some(Self::pinned()),
@@ -42,7 +42,7 @@ impl Level {
         }
     }
 
-    /// The widest level that this machine runs.
+    /// The widest level that this machine has instructions for; never [`Level::Fused`].
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -56,7 +56,7 @@ impl Level {
         Self::Portable
     }
 
-    /// Whether this machine runs this level.
+    /// Whether this machine can run this level.
     pub fn available(self) -> bool {
         match (Self::detect(), self) {
             (_, Self::Portable | Self::Fused) | (Self::Avx512, _) => true,
@@ -75,7 +75,7 @@ impl Level {
     }
 }
 
-/// `N` elements side by side.
+/// One number for each of `N` elements.
 ///
 /// # Safety
 /// Every method may only run where the instructions of the implementing type are available.
@@ -139,7 +139,7 @@ impl Lanes for f64 {
     }
     #[inline(always)]
     unsafe fn mul_add(self, b: Self, c: Self) -> Self {
-        // Two roundings: a fused multiply-add without hardware support is a library call.
+        // Rounds twice: a fused multiply-add without hardware support would be a slow library call.
         self * b + c
     }
     #[inline(always)]
@@ -148,7 +148,7 @@ impl Lanes for f64 {
     }
     #[inline(always)]
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
-        // SAFETY: the caller vouches for both pointers.
+        // SAFETY: both pointers are valid by the caller's contract.
         unsafe { (*base.add(*index as usize)).xyz() }
     }
     #[inline(always)]
@@ -167,7 +167,7 @@ impl Lanes for f64 {
     }
 }
 
-/// Four elements as AVX2 has them: the same operations in the same order, fused where it fuses.
+/// The arithmetic of AVX2 in plain Rust: the same operations in the same order, fused where AVX2 fuses.
 #[derive(Clone, Copy)]
 pub(crate) struct Four([f64; 4]);
 
@@ -239,6 +239,7 @@ impl Lanes for Four {
     }
 }
 
+/// Sum of the first `count` lanes, in lane order.
 #[inline(always)]
 fn ordered_sum(lanes: &[f64], count: usize) -> f64 {
     let mut sum = 0.0;
@@ -301,7 +302,7 @@ pub(crate) mod x86 {
         #[inline(always)]
         unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
             unsafe {
-                // Rows [x y z _] of nodes (i, i + 4), then a transpose within each half.
+                // Rows [x y z 0] of the nodes (i, i + 4), then a transpose within each half.
                 let r0 = pair(base, index, 0);
                 let r1 = pair(base, index, 1);
                 let r2 = pair(base, index, 2);
@@ -369,6 +370,7 @@ pub(crate) mod x86 {
         }
     }
 
+    /// The vectors of the nodes `index[i]` and `index[i + 4]`.
     #[inline(always)]
     unsafe fn pair(base: *const Padded, index: *const u32, i: usize) -> __m512d {
         unsafe {
@@ -378,6 +380,7 @@ pub(crate) mod x86 {
         }
     }
 
+    /// Subtracts `row` from the node `index[i]`.
     #[inline(always)]
     unsafe fn subtract(base: *mut Padded, index: *const u32, i: usize, row: __m256d) {
         unsafe {

@@ -1,9 +1,13 @@
 //! Linear-elastic hexahedra under finite rotation.
 //!
-//! The element is the uniform-gradient hexahedron of Flanagan and Belytschko (1981) in a
-//! Total-Lagrangian setting with a St. Venant–Kirchhoff law: exactly objective, no rate
-//! integration, no drift. Chosen elements may be fully integrated instead. Everything runs in
-//! batches of eight elements; the vector width of the machine is chosen at run time.
+//! The element is the uniform-gradient hexahedron of Flanagan and Belytschko (1981) in a total Lagrangian
+//! formulation with the law of St. Venant and Kirchhoff: it is exactly objective, and integrates no stress rates,
+//! so that stresses do not drift. Chosen elements may be fully integrated instead. The internal force is computed in
+//! batches of eight elements; the vector instructions are chosen at run time.
+//!
+//! SI units; global axes x, y, z; positions and gradients refer to the undeformed (reference) configuration, that
+//! of the mesh. Nodal arrays hold one [`mesh::Padded`] per node of the mesh. Corners of elements are in
+//! `VTK_HEXAHEDRON` order.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

@@ -3,9 +3,9 @@
 use crate::geometry::{cross, dot};
 use mesh::{HEX_CORNERS as CORNERS, Mesh};
 
-/// Row-sum lumped nodal mass m_I = integral of rho N_I (kg), 2x2x2 Gauss.
+/// Lumped mass of each node by row sums, m_I = integral of rho N_I (kg), exact by 2x2x2 Gauss points.
 ///
-/// `density` holds one value per body (kg/m^3).
+/// `density` holds one value per body, in order (kg/m^3); bodies beyond its end get no mass.
 pub fn lumped_mass(mesh: &Mesh, density: &[f64]) -> Vec<f64> {
     let mut mass = vec![0.0; mesh.nodes.len()];
     for (body, rho) in mesh.bodies.iter().zip(density) {
@@ -19,7 +19,7 @@ pub fn lumped_mass(mesh: &Mesh, density: &[f64]) -> Vec<f64> {
     mass
 }
 
-/// Integral of each shape function over the element (m^3).
+/// Integral of each corner's shape function over the element with corners `x` (m) (m^3).
 pub(crate) fn nodal_volumes(x: &[[f64; 3]; 8]) -> [f64; 8] {
     let p = 1.0 / 3f64.sqrt();
     let mut volumes = [0.0; 8];

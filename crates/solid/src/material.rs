@@ -2,31 +2,34 @@
 
 use thiserror::Error;
 
-/// A homogeneous isotropic material.
+/// A homogeneous, isotropic, linear-elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Young's modulus E (Pa).
     pub young: f64,
-    /// Poisson's ratio nu.
+    /// Poisson's ratio nu (dimensionless), above -1 and below 0.5.
     pub poisson: f64,
     /// Density rho in the reference configuration (kg/m^3).
     pub density: f64,
 }
 
-/// A material that is no material.
+/// A material constant outside its physical range.
 #[derive(Debug, Error, PartialEq)]
 #[error("{property} = {value} is outside {range}")]
 pub struct MaterialError {
-    /// Which property.
+    /// Name of the constant.
     pub property: &'static str,
-    /// Its value.
+    /// Its value, in the unit that `property` names.
     pub value: f64,
-    /// What is allowed.
+    /// The values allowed, as an open interval.
     pub range: &'static str,
 }
 
 impl Material {
-    /// The material, if its constants are physical.
+    /// The material itself, if its constants are physical.
+    ///
+    /// # Errors
+    /// Young's modulus or a density that is not positive and finite, or Poisson's ratio outside (-1, 0.5).
     pub fn checked(self) -> Result<Self, MaterialError> {
         let positive = |property, value: f64| {
             if value.is_finite() && value > 0.0 {

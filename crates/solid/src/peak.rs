@@ -1,16 +1,16 @@
-//! The most multiply-additions that this machine's vector unit does, the other side of a roofline.
+//! A loop of multiply-additions by which the peak of this machine's vector units is measured, for a roofline.
 
 use crate::lanes::{Lanes, Level};
 
-/// Independent chains: enough to hide the latency of the instruction on two units, few enough for
+/// Independent chains of operations: enough to hide the latency of the instruction on two units, few enough for
 /// sixteen registers.
 const CHAINS: usize = 12;
 
-/// Does at least `flops` floating-point operations as multiply-additions on the calling thread by the
-/// instructions of `level`; returns how many it did.
+/// Does at least `flops` floating-point operations on the calling thread, as multiply-additions (two operations each)
+/// with the instructions of `level`; returns how many it did.
 ///
 /// # Panics
-/// If the machine does not have the level.
+/// If this machine cannot run the level.
 pub fn multiply_additions(level: Level, flops: usize) -> usize {
     assert!(level.available());
     let (lanes, chains): (usize, unsafe fn(usize, f64) -> f64) = match level {

@@ -1,4 +1,4 @@
-//! Both bodies as one assembly of elements: internal force, energies, stiffness product, stress.
+//! All bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
 use crate::blocks::{Batch, Block, Blocks};
 use crate::count::work;
@@ -16,14 +16,16 @@ use mesh::{Mesh, Padded};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Viscous stresses in the elements, each zero by default.
+/// Coefficients of the viscous stresses in the elements, each zero by default. Bulk viscosity q is a pressure that acts
+/// in compression only (tr dE/dt < 0); its length l is V sqrt(3/2)/|B|, the edge of a cube. Stresses are second
+/// Piola–Kirchhoff stresses.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viscosity {
-    /// Linear bulk viscosity coefficient b1 (0.06 is usual): q = b1 rho c_p l |tr dE/dt|.
+    /// Linear coefficient b1 (dimensionless; 0.06 is usual): q = b1 rho c_p l |tr dE/dt|.
     pub bulk_linear: f64,
-    /// Quadratic bulk viscosity coefficient b2 (1.2 to 1.5): q = b2^2 rho l^2 (tr dE/dt)^2.
+    /// Quadratic coefficient b2 (dimensionless; 1.2 to 1.5 is usual): q = b2^2 rho l^2 (tr dE/dt)^2.
     pub bulk_quadratic: f64,
-    /// Kelvin–Voigt time eta (s): S_v = eta C : dE/dt.
+    /// Kelvin–Voigt time eta (s): S_v = eta C : dE/dt, C the elasticity tensor.
     pub kelvin_voigt: f64,
 }
 
@@ -34,14 +36,14 @@ impl Viscosity {
     }
 }
 
-/// What an evaluation of the internal force found.
+/// Sums over all elements of an evaluation of the internal force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForceSums {
     /// Strain energy (J); zero unless energies were asked for.
     pub internal: f64,
     /// Hourglass energy (J); zero unless energies were asked for.
     pub hourglass: f64,
-    /// Power dissipated by viscous stresses (W).
+    /// Power dissipated by viscous stresses (W); zero if there are none.
     pub viscous_power: f64,
 }
 
@@ -53,10 +55,10 @@ pub enum SolidError {
     Material {
         /// Name of the body.
         body: String,
-        /// The offending property.
+        /// The constant that is not physical.
         source: MaterialError,
     },
-    /// An element has no volume.
+    /// An element has no positive volume.
     #[error(
         "element {element} of body '{body}' has volume {volume:e} m^3; its nodes are ordered inside out or it is degenerate"
     )]
@@ -77,13 +79,13 @@ pub enum SolidError {
         body: String,
         /// Index in the mesh.
         element: usize,
-        /// Volume at its worst Gauss point over an eighth of the element's, not positive.
+        /// Smallest volume of a Gauss point over an eighth of the element's (dimensionless), not positive.
         jacobian: f64,
     },
-    /// The instruction set does not exist on this machine.
+    /// This machine cannot run the level of this name.
     #[error("this machine has no {0} instructions")]
     Level(&'static str),
-    /// Number of materials and of bodies differ.
+    /// The numbers of materials and of bodies differ.
     #[error("{bodies} bodies need as many materials, not {materials}")]
     Count {
         /// Bodies in the mesh.
@@ -99,7 +101,7 @@ type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
 pub struct Solid {
     reference: Vec<Padded>,
     blocks: Blocks,
-    /// Of each body, for its one-point and its fully integrated elements.
+    /// Per body, for its one-point and for its fully integrated elements.
     constants: Vec<[Constants; 2]>,
     one_point: Element,
     volumetric: Volumetric,
@@ -110,11 +112,13 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// One material per body of `mesh`, in order; `elements` may be an [`Element`] where all have
-    /// one point.
+    /// The elements of `mesh` with one material per body, in order. An [`Element`] for `elements` gives one-point
+    /// elements throughout, a [`Volumetric`] fully integrated ones. `level` is the instruction set of the kernels.
     ///
     /// # Errors
-    /// A material that is none, an element without volume or, if fully integrated, folded.
+    /// [`SolidError::Count`], [`SolidError::Level`], [`SolidError::Material`]; [`SolidError::Inverted`] for an element
+    /// without positive volume; [`SolidError::Folded`] for a fully integrated element whose Jacobian is not
+    /// positive at a Gauss point.
     pub fn new<'a>(
         mesh: &Mesh,
         materials: &[Material],
@@ -177,7 +181,7 @@ impl Solid {
         })
     }
 
-    /// Coefficient of the hourglass stiffness of the one-point elements.
+    /// Coefficient kappa of the hourglass stiffness of the one-point elements (dimensionless).
     pub fn hourglass(&self) -> f64 {
         self.one_point.hourglass
     }
@@ -207,14 +211,16 @@ impl Solid {
         self.bodies.last().map_or(0, |(range, _)| range.end)
     }
 
-    /// Bytes held for the time loop: connectivity in batches, reference positions.
+    /// Memory that the time loop reads here: nodes of the elements in batches, reference positions (bytes).
     pub fn bytes(&self) -> usize {
         self.blocks.batches.len() * size_of::<Batch>() + self.reference.len() * size_of::<Padded>()
     }
 
-    /// `force -= f_int(u, v)` (N). Viscous stresses take `velocity` at the last half step (m/s).
+    /// Subtracts the internal force: `force -= f_int(u, v)` (N), with `displacement` u (m) and `velocity` v (m/s).
     ///
-    /// All arrays hold one entry per node. The result does not depend on the number of threads.
+    /// Explicit time integration gives v at the last half step. All arrays hold one entry per node; `velocity` may be
+    /// empty if there is no viscosity. Energies are summed if `energies`. The bits of the result do not depend on the
+    /// number of threads.
     ///
     /// # Panics
     /// If an array is shorter than the number of nodes.
@@ -228,8 +234,8 @@ impl Solid {
         self.subtract_internal_force_beside(displacement, velocity, force, energies, |_| ()).0
     }
 
-    /// The same, with work that does not need it done at the same time by one of the threads; it is given
-    /// the reference coordinates.
+    /// As [`subtract_internal_force`](Self::subtract_internal_force), while one of the threads does the independent
+    /// work `beside`, which is called with the reference coordinates (m); returns also its result.
     ///
     /// # Panics
     /// As [`subtract_internal_force`](Self::subtract_internal_force).
@@ -244,7 +250,7 @@ impl Solid {
         self.run(displacement, velocity, force, energies, self.viscous, beside)
     }
 
-    /// `force -= f_int(u)` without viscous stresses, for bodies at rest (N).
+    /// Subtracts the internal force without viscous stresses, for bodies at rest: `force -= f_int(u)` (N).
     ///
     /// # Panics
     /// As [`subtract_internal_force`](Self::subtract_internal_force).
@@ -257,8 +263,11 @@ impl Solid {
         self.run(displacement, &[], force, energies, false, |_| ()).0
     }
 
-    /// `y += K x` with the stiffness of the undeformed state (N), for x so small (m) that the
-    /// force is linear in it: the element has no separate tangent.
+    /// `y += K x` (N) with the stiffness K of the undeformed state. The product is the internal force at the
+    /// displacements x (m), which must be so small that it is linear in them: about 1e-13 m in millimetre elements.
+    ///
+    /// # Panics
+    /// If an array is shorter than the number of nodes.
     pub fn add_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
         let negate = |y: &mut [Padded]| y.iter_mut().for_each(|y| *y = Padded(y.0.map(|c| -c)));
         negate(y);
@@ -319,8 +328,8 @@ impl Solid {
         (sums, done_beside)
     }
 
-    /// Cauchy stress of each element (Pa), xx yy zz xy yz xz, without viscous parts: of a fully
-    /// integrated element the mean over its deformed volume.
+    /// Writes the Cauchy stress of each element into `stress` (Pa): xx yy zz xy yz xz in the global axes, without
+    /// viscous parts. For a fully integrated element it is the mean over the deformed volume.
     ///
     /// # Panics
     /// If there are fewer displacements than nodes or fewer stresses than elements.
@@ -360,8 +369,12 @@ impl Solid {
         (x, hex.map(|n| displacement[n as usize].xyz()))
     }
 
-    /// The element with the smallest det F, its body and the value: below zero it is inside out.
-    /// Of a fully integrated element every Gauss point counts.
+    /// The element with the smallest det F (dimensionless), the index of its body, and that det F: of a one-point
+    /// element that of the mean gradient, of a fully integrated one the smallest of its Gauss points. Below zero the
+    /// element is inside out. The first NaN is returned at once.
+    ///
+    /// # Panics
+    /// If there are fewer displacements than nodes.
     pub fn smallest_jacobian(&self, displacement: &[Padded]) -> (usize, usize, f64) {
         let mut worst = (0, 0, f64::INFINITY);
         for (body, (range, _)) in self.bodies.iter().enumerate() {
@@ -387,7 +400,10 @@ impl Solid {
         worst
     }
 
-    /// Centre of an element in the reference configuration (m).
+    /// Centre of an element in the reference configuration (m): the mean of its corners.
+    ///
+    /// # Panics
+    /// If there is no such element.
     pub fn centre(&self, element: usize) -> [f64; 3] {
         let mut c = [0.0; 3];
         let body = self.bodies.iter().position(|(range, _)| range.contains(&element));
@@ -409,7 +425,8 @@ unsafe impl Sync for SharedSums {}
 
 macro_rules! level_kernels {
     ($name:ident, $lanes:ty $(, $features:literal)?) => {
-        /// The kernel for this level and these options; `full` of fully integrated elements.
+        /// The kernel for this level and these options: of fully integrated elements with `full`, else of one-point
+        /// elements.
         fn $name(full: Option<Volumetric>, energies: bool, viscous: bool) -> BlockForce {
             $(#[target_feature(enable = $features)])?
             unsafe fn run<K: Kernel, const ENERGY: bool, const VISCOUS: bool>(

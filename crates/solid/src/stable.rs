@@ -5,12 +5,13 @@ use crate::material::Material;
 use crate::{Element, Elements, Formulation, mean_gradient};
 use mesh::{Mesh, Padded};
 
-/// A rigorous upper bound of the largest frequency (rad/s) of the free elements, hence of the
-/// assembly (Irons): omega^2 <= lambda_max(K_e)/m_min with
-/// lambda_max(K_e) <= (lambda + 2G) B_iI B_iI/V + K_h sum |gamma_a|^2 of a one-point element and
-/// (tr K_e^16)^(1/16) of a fully integrated one.
+/// An upper bound of the largest angular frequency (rad/s) of the free elements, hence of the assembly (Irons), and
+/// the index of the element that sets it.
 ///
-/// Returns the bound and the element that sets it.
+/// omega^2 <= lambda_max(K_e)/m_min with the element's least nodal mass m_min, and lambda_max(K_e) at most
+/// (lambda + 2G) B_iI B_iI/V + K_h sum |gamma_a|^2 for a one-point element, (tr K_e^16)^(1/16) for a fully integrated
+/// one. There is one material per body, in order; bodies beyond the last material are left out. Zero without
+/// elements.
 pub fn element_frequency_bound<'a>(
     mesh: &Mesh,
     materials: &[Material],
@@ -31,8 +32,9 @@ pub fn element_frequency_bound<'a>(
     (worst.0.sqrt(), worst.1)
 }
 
-/// The bound on lambda_max(K_e) of [`element_frequency_bound`], summed over the elements around
-/// each node (N/m): a quarter of it as fictitious mass makes a unit step stable.
+/// The bound on lambda_max(K_e) of [`element_frequency_bound`], summed over the elements around each node (N/m), one
+/// value per node. A quarter of it as fictitious mass makes a time step of one stable, for dynamic relaxation. There
+/// is one material per body, in order.
 pub fn nodal_stiffness_bounds<'a>(
     mesh: &Mesh,
     materials: &[Material],
@@ -93,17 +95,17 @@ fn lightest_node(x: &[[f64; 3]; 8], density: f64) -> f64 {
     density * crate::mass::nodal_volumes(x).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Largest displacement (m) that [`largest_frequency`] hands to its product: strains near 1e-10 in
-/// millimetre elements, where the elements' force is linear to 1e-10 and, formed from displacements
-/// alone, as accurate as ever.
+/// Largest displacement (m) for which [`largest_frequency`] asks for a product. Strains are then about 1e-10 in
+/// millimetre elements: the elements' force is linear to 1e-10, and no less accurate, since it is formed from
+/// displacements and not from deformed positions.
 const AMPLITUDE: f64 = 1e-13;
 
-/// Largest frequency (rad/s) of M^-1 K by `iterations` Lanczos steps on M^-1/2 K M^-1/2.
+/// Largest angular frequency (rad/s) of M^-1 K by `iterations` Lanczos steps on M^-1/2 K M^-1/2.
 ///
-/// `product(x, y)` adds K x to y; the entries of x are at most 1e-13 m, so that the force of
-/// the elements may stand for K x. Nodes of zero inverse mass are held. The value approaches the
-/// true one from below; 40 steps bring it within about 1 % (see the test), which the caller adds
-/// as a margin. The start vector is fixed, so the result is reproducible.
+/// `inverse_mass` holds one value per node (1/kg); zero holds the node. `product(x, y)` adds K x (N) to y; the entries
+/// of x are at most 1e-13 m, so that the force of the elements may take the place of K x. The value approaches the
+/// true one from below: 40 steps bring it within about 1 %, a margin that the caller must add. The start vector is
+/// fixed, so that the result is reproducible. Zero if all nodes are held.
 pub fn largest_frequency(
     inverse_mass: &[f64],
     mut product: impl FnMut(&[Padded], &mut [Padded]),
@@ -113,7 +115,7 @@ pub fn largest_frequency(
     let root: Vec<f64> = inverse_mass.iter().map(|m| m.sqrt()).collect();
     let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
     let mut random = || {
-        // xorshift64: any vector that is not orthogonal to the top mode will do
+        // xorshift64: any start vector that is not orthogonal to the highest mode will do
         seed ^= seed << 13;
         seed ^= seed >> 7;
         seed ^= seed << 17;
@@ -166,7 +168,8 @@ pub fn largest_frequency(
     largest_eigenvalue(&alphas, &betas).max(0.0).sqrt()
 }
 
-/// Largest eigenvalue of the symmetric tridiagonal matrix by bisection on Sturm counts.
+/// Largest eigenvalue of the symmetric tridiagonal matrix with this diagonal and off-diagonal: by bisection, as the
+/// shifted matrix is definite exactly above it.
 fn largest_eigenvalue(diagonal: &[f64], off: &[f64]) -> f64 {
     let n = diagonal.len();
     let radius = |i: usize| {

@@ -6,9 +6,9 @@ use crate::geometry::{dot, mean_gradient};
 use crate::material::Material;
 use mesh::HEX_CORNERS as CORNERS;
 
-/// Stiffness of a hexahedron with corners `x` (m) in `VTK_HEXAHEDRON` order, tangent at the
-/// undeformed state (N/m); rows and columns run by node, then by axis: corner I, component i is
-/// `3 I + i`. An [`Element`] or a [`crate::Volumetric`] converts into the formulation.
+/// Tangent stiffness (N/m) of a hexahedron in the undeformed state, from its corners `x` (m) in `VTK_HEXAHEDRON` order.
+/// Row and column `3 I + i` belong to component i of corner I. An [`Element`] or a [`crate::Volumetric`] converts into
+/// the formulation. The volume of the element must be positive.
 pub fn element_stiffness(
     x: &[[f64; 3]; 8],
     material: &Material,
@@ -55,7 +55,7 @@ fn one_point_stiffness(
     k
 }
 
-/// gamma_aI of the four hourglass modes.
+/// The shapes gamma_aI of the four hourglass modes (dimensionless), `[mode][corner]`; `b` is dV/dx_I (m^2).
 pub(crate) fn hourglass_shapes(x: &[[f64; 3]; 8], volume: f64, b: &[[f64; 3]; 8]) -> [[f64; 8]; 4] {
     let base = [
         CORNERS.map(|c| c[1] * c[2]),

@@ -1,4 +1,5 @@
-//! Cauchy stress of an element, without viscous parts: sigma = F S F^T/det F with S = lambda tr(E) I + 2G E.
+//! Cauchy stress of an element, without viscous parts: sigma = F S F^T/det F, S = lambda tr(E) I + 2G E. Components are
+//! in the order xx yy zz xy yz xz.
 
 use crate::blocks::Batch;
 use crate::formulation::Volumetric;
@@ -8,9 +9,9 @@ use crate::kernel::{gradient, mean_gradient, modes};
 use crate::material::Material;
 use mesh::Padded;
 
-/// Of a one-point element, xx yy zz xy yz xz (Pa), by the formulas of its force.
+/// Cauchy stress (Pa) of a one-point element, from the gradient that its force uses.
 ///
-/// The same bits with all kernels: one element at a time, nothing is fused.
+/// The bits do not depend on the level of the kernels: one element at a time, nothing is fused.
 pub(crate) fn one_point_cauchy(
     reference: &[Padded],
     displacement: &[Padded],
@@ -31,7 +32,7 @@ pub(crate) fn one_point_cauchy(
     cauchy(&h, material)
 }
 
-/// Of the displacement gradient H.
+/// Cauchy stress (Pa) for the displacement gradient H.
 pub(crate) fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
     let e = green(h);
     let f = deformation(h);
@@ -39,9 +40,10 @@ pub(crate) fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
     kirchhoff(&f, &e, material, trace(&e)).map(|c| c / det)
 }
 
-/// Components of a symmetric tensor in the order of files: xx yy zz xy yz xz.
+/// Components of a symmetric tensor in the order of the result files: xx yy zz xy yz xz.
 const SIX: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
 
+/// Deformation gradient F = I + H.
 pub(crate) fn deformation(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let mut f = *h;
     for i in 0..3 {
@@ -54,8 +56,8 @@ pub(crate) fn determinant(f: &[[f64; 3]; 3]) -> f64 {
     dot(f[0], cross(f[1], f[2]))
 }
 
-/// Mean of the Cauchy stress over the deformed volume: sum w F S F^T/sum w det F over the Gauss
-/// points, with the element's mean of tr(E) where the volumetric part takes it.
+/// Mean Cauchy stress (Pa) of a fully integrated element over its deformed volume: sum w F S F^T/sum w det F over the
+/// Gauss points. With [`Volumetric::Mean`], S has the element's mean of tr(E).
 pub(crate) fn mean_cauchy(
     x: &[[f64; 3]; 8],
     u: &[[f64; 3]; 8],
@@ -81,7 +83,7 @@ pub(crate) fn mean_cauchy(
     sum.map(|c| c / volume)
 }
 
-/// F S F^T with S = lambda theta I + 2G E; xx yy zz xy yz xz.
+/// Kirchhoff stress F S F^T (Pa) with S = lambda theta I + 2G E, theta the `dilatation`.
 fn kirchhoff(
     f: &[[f64; 3]; 3],
     e: &[[f64; 3]; 3],

@@ -4,8 +4,8 @@ use super::Solid;
 use crate::element_stiffness;
 
 impl Solid {
-    /// The 3x3 diagonal blocks of the stiffness of the undeformed state (N/m), one per node: what
-    /// [`add_stiffness_product`](Self::add_stiffness_product) multiplies with, at a node.
+    /// The 3x3 diagonal blocks of the stiffness K of the undeformed state (N/m), one per node; K is that of
+    /// [`add_stiffness_product`](Self::add_stiffness_product).
     pub fn stiffness_diagonal(&self) -> Vec<[[f64; 3]; 3]> {
         let mut diagonal = vec![[[0.0; 3]; 3]; self.reference.len()];
         for (body, (range, material)) in self.bodies.iter().enumerate() {

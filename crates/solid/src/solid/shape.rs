@@ -1,5 +1,5 @@
-//! How far elements are from their shape: what guards look at and post-mortems show, in plain scalar
-//! form beside the kernels of the time loop.
+//! The distortion and energy of single elements, in plain scalar form: for the guards of a run and for reports on why
+//! it stopped.
 
 use super::Solid;
 use crate::formulation::Volumetric;
@@ -13,9 +13,10 @@ use rayon::prelude::*;
 /// The state of one element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ElementState {
-    /// Mean det F: its volume over that of the reference (dimensionless).
+    /// Mean det F (dimensionless): of a fully integrated element its volume over the undeformed one, of a one-point
+    /// element det F of the mean gradient.
     pub volume_ratio: f64,
-    /// Smallest det F at its corners (dimensionless): zero where the element is folded flat.
+    /// Smallest det F at its corners (dimensionless): zero where the element is flat, negative where it is folded.
     pub corner_ratio: f64,
     /// Strain energy (J).
     pub strain_energy: f64,
@@ -23,11 +24,12 @@ pub struct ElementState {
     pub hourglass_energy: f64,
 }
 
-/// The corners that differ from each in xi, eta and zeta (`VTK_HEXAHEDRON` order).
+/// For each corner, the neighbours that differ from it in xi, eta and zeta (`VTK_HEXAHEDRON` order).
 const NEIGHBOURS: [[usize; 3]; 8] =
     [[1, 3, 4], [0, 2, 5], [3, 1, 6], [2, 0, 7], [5, 7, 0], [4, 6, 1], [7, 5, 2], [6, 4, 3]];
 
-/// det(dx/dxi) at each corner up to one common sign per corner: the product of the three edges there.
+/// The triple product of the three edges at each corner (m^3): det(dx/dxi) there up to a constant factor and sign,
+/// which cancel in a ratio.
 fn corner_products(x: &[[f64; 3]; 8]) -> [f64; 8] {
     std::array::from_fn(|corner| {
         let edge = |other: usize| [0, 1, 2].map(|i| x[other][i] - x[corner][i]);
@@ -36,14 +38,15 @@ fn corner_products(x: &[[f64; 3]; 8]) -> [f64; 8] {
     })
 }
 
-/// Smallest det F at the corners: of a trilinear element det F is there the deformed over the reference
-/// product of edges. NaN where a displacement is none.
+/// Smallest det F at the corners. At a corner of a trilinear element, det F is the triple product of the deformed edges
+/// over that of the undeformed ones. NaN if a displacement is NaN.
 fn corner_ratio(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> f64 {
     let deformed = std::array::from_fn(|c| [0, 1, 2].map(|i| x[c][i] + u[c][i]));
     let ratios = corner_products(&deformed).into_iter().zip(corner_products(x));
     ratios.map(|(now, reference)| now / reference).fold(f64::INFINITY, worse)
 }
 
+/// The smaller of two numbers, or NaN if one is.
 fn worse(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
@@ -60,8 +63,12 @@ fn hourglass_energy(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8], modulus: f64) -> f64 {
 }
 
 impl Solid {
-    /// The element that is folded most at a corner and the smallest det F there; the first of several,
-    /// and of those where it is NaN. Zero and below, the element is inside out. Allocates nothing.
+    /// The element with the smallest det F at a corner, and that det F (dimensionless). A NaN counts as the smallest;
+    /// of equals the first element is returned, and `(usize::MAX, f64::INFINITY)` if there are no elements. At zero or
+    /// below, the element is flat or folded. Allocates nothing.
+    ///
+    /// # Panics
+    /// If there are fewer displacements (m) than nodes.
     pub fn most_folded(&self, displacement: &[Padded]) -> (usize, f64) {
         let rank = |(element, ratio): (usize, f64)| {
             let ratio = if ratio.is_nan() { f64::NEG_INFINITY } else { ratio };
@@ -86,7 +93,11 @@ impl Solid {
             .fold(none, least)
     }
 
-    /// What the energy of the one-point elements' hourglass stiffness would be with `coefficient` (J).
+    /// The hourglass energy (J) that the one-point elements would have with the hourglass coefficient `coefficient`
+    /// (dimensionless) at these displacements (m).
+    ///
+    /// # Panics
+    /// If there are fewer displacements than nodes.
     pub fn hourglass_energy(&self, displacement: &[Padded], coefficient: f64) -> f64 {
         let of = |element| {
             let body = self.body_of(element);
@@ -99,23 +110,32 @@ impl Solid {
         exact_sum::sum((0..self.elements()).map(of))
     }
 
-    /// The state of every element.
+    /// The state of every element, in the order of the mesh, at these displacements (m).
+    ///
+    /// # Panics
+    /// If there are fewer displacements than nodes.
     pub fn element_states(&self, displacement: &[Padded]) -> Vec<ElementState> {
         let of = |element| self.element_state(displacement, element);
         (0..self.elements()).into_par_iter().map(of).collect()
     }
 
-    /// Nodes of an element (`VTK_HEXAHEDRON` order).
+    /// Nodes of an element in `VTK_HEXAHEDRON` order.
+    ///
+    /// # Panics
+    /// If there is no such element.
     pub fn nodes_of(&self, element: usize) -> [u32; 8] {
         self.blocks.hex(self.body_of(element), element)
     }
 
-    /// Index of the body of an element.
+    /// Index of the body of an element; zero if there is no such element.
     pub fn body_of(&self, element: usize) -> usize {
         self.bodies.iter().position(|(range, _)| range.contains(&element)).unwrap_or(0)
     }
 
-    /// The state of one element.
+    /// The state of one element at these displacements (m).
+    ///
+    /// # Panics
+    /// If there is no such element, or there are fewer displacements than nodes.
     pub fn element_state(&self, displacement: &[Padded], element: usize) -> ElementState {
         let body = self.body_of(element);
         let material = &self.bodies[body].1;
