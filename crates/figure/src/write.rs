@@ -97,9 +97,10 @@ impl Figure {
                 std::fs::write(&path, self.svg(&path)?).map_err(|cause| failed(&path, cause))?;
             }
             Format::Png => {
+                // a figure that is there stays until the new one is whole
+                let unmarked = folder.join(format!(".{stem}.{}.partial.png", std::process::id()));
                 // the encoder does not say why a file cannot be created
-                std::fs::write(&path, []).map_err(|cause| failed(&path, cause))?;
-                let unmarked = folder.join(format!(".{stem}.partial.png"));
+                std::fs::write(&unmarked, []).map_err(|cause| failed(&path, cause))?;
                 let backend = BitMapBackend::new(&unmarked, self.pixels(PNG_UNIT));
                 let drawn = draw_on(self, backend, PNG_UNIT, Joints::Open, &path)
                     .map(|()| input::bytes(&unmarked, input::RESULTS));

@@ -103,6 +103,9 @@ fn a_cube_of_msh_2_2_is_read_with_its_numbers_lines_and_groups() {
     assert_eq!((cube.elements.ids[0], cube.elements.lines[0]), (7, 22));
     assert_eq!(cube.sets["the disk"].hexes, [0]);
     assert_eq!(cube.sets["5"].nodes, [0, 1], "a group without a name goes by its number");
+    // names in columns
+    let aligned = CUBE_2.replace("3 1 \"the disk\"", "  3   1   \"the disk\"");
+    assert_eq!(read_gmsh(aligned.as_bytes()).unwrap().sets["the disk"].hexes, [0]);
 }
 
 #[test]
@@ -298,16 +301,17 @@ fn counts_in_a_header_are_not_believed() {
 #[test]
 fn a_mesh_that_creepage_writes_raw_and_appended_is_read() {
     // a header of 8 bytes, three points, then nothing else
-    let mut raw =
-        b"<VTKFile header_type=\"UInt64\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece>\
+    let head = "<VTKFile header_type=\"UInt64\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece>\
         <Points><DataArray type=\"Float32\" format=\"appended\" offset=\"0\"/></Points><Cells>\
         <DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\"></DataArray>\
         <DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\"></DataArray>\
         <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\"></DataArray>\
-        </Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_"
-            .to_vec();
-    raw.extend(12u64.to_le_bytes());
-    [0.5f32, -1.0, 0.25].iter().for_each(|x| raw.extend(x.to_le_bytes()));
-    raw.extend(b"</AppendedData></VTKFile>");
-    assert_eq!(read_vtu(&raw).unwrap().points, [[0.5, -1.0, 0.25]]);
+        </Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_";
+    for head in [head.to_owned(), head.replace("\"raw\"", "'raw'")] {
+        let mut raw = head.into_bytes();
+        raw.extend(12u64.to_le_bytes());
+        [0.5f32, -1.0, 0.25].iter().for_each(|x| raw.extend(x.to_le_bytes()));
+        raw.extend(b"</AppendedData></VTKFile>");
+        assert_eq!(read_vtu(&raw).unwrap().points, [[0.5, -1.0, 0.25]]);
+    }
 }

@@ -524,6 +524,11 @@ fn unknown(what: &str, word: &str, surface: &str, at: usize) -> ImportError {
 /// The entries of `all` whose numbers are first, first + increment, and so on up to last, in order.
 fn within<T: Copy>([first, last, step]: &[u64; 3], all: &HashMap<u64, T>) -> Vec<(u64, T)> {
     let step = (*step).max(1);
+    // few numbers are looked up, not looked for
+    if last.saturating_sub(*first) / step < all.len() as u64 {
+        let ids = (*first..=*last).step_by(usize::try_from(step).unwrap_or(usize::MAX));
+        return ids.filter_map(|id| Some((id, *all.get(&id)?))).collect();
+    }
     let mut found: Vec<(u64, T)> = all
         .iter()
         .filter(|(id, _)| (*first..=*last).contains(id) && (*id - first).is_multiple_of(step))

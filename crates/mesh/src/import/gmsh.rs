@@ -148,11 +148,11 @@ impl<'a> Reader<'a> {
         let count: u64 = self.text.number("the number of names")?;
         for _ in 0..count {
             let line = self.text.next_line().ok_or_else(|| self.text.ends("a physical name"))?;
-            let mut words = line.splitn(3, char::is_whitespace);
-            let dimension = words.next().and_then(|w| w.parse().ok());
-            let number = words.next().and_then(|w| w.parse().ok());
-            let name = words.next().map(|w| w.trim().trim_matches('"'));
-            let (Some(dimension), Some(number), Some(name)) = (dimension, number, name) else {
+            let word = |text: &'a str| text.trim_start().split_once(char::is_whitespace);
+            let (dimension, rest) = word(line).unwrap_or_default();
+            let (number, name) = word(rest).unwrap_or_default();
+            let name = name.trim().trim_matches('"');
+            let (Ok(dimension), Ok(number)) = (dimension.parse(), number.parse()) else {
                 return Err(self.syntax("a dimension, a number and a name in quotes are expected"));
             };
             self.names.insert((dimension, number), name.to_owned());

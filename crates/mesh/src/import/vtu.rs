@@ -125,7 +125,7 @@ impl<'a> File<'a> {
                 let Some(mark) = mark else {
                     return Err(syntax(root, "the appended data do not begin with _"));
                 };
-                let raw = tag.windows(5).any(|w| w == b"\"raw\"");
+                let raw = tag.windows(5).any(|w| w == b"\"raw\"" || w == b"'raw'");
                 Some((&data[mark + 1..], !raw))
             }
         };
