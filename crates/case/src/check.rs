@@ -9,10 +9,13 @@ use crate::keys::{self, KEYS};
 use crate::layers::{Layers, get, join, key_error_in};
 use friction::USES;
 
-/// So many mistakes are told at once; more hide the first.
+/// Most mistakes in one message: more would hide the first.
 const MOST_MISTAKES: usize = 20;
 
 /// Checks every key: it exists, has the right type and lies in its range; none is missing.
+///
+/// # Errors
+/// All mistakes, the first with the others in [`KeyError::others`]; no more than some twenty.
 pub fn keys(layers: &Layers) -> Result<(), CaseError> {
     let mut errors = Vec::new();
     check_table(layers, &layers.table, "", "", &mut errors);
@@ -26,6 +29,9 @@ pub fn keys(layers: &Layers) -> Result<(), CaseError> {
 }
 
 /// The errors as one, if there are any.
+///
+/// # Errors
+/// The first of `errors`, with the rest in [`KeyError::others`].
 pub fn raise(mut errors: Vec<KeyError>) -> Result<(), CaseError> {
     if errors.is_empty() {
         return Ok(());
@@ -108,7 +114,7 @@ fn check_needed(layers: &Layers, errors: &mut Vec<KeyError>) {
         let Some((section, name)) = key.path.rsplit_once('.') else {
             continue;
         };
-        // A section that is no table has had its message.
+        // A section that is no table was refused before.
         let no_section = get(&layers.table, section).is_some_and(|value| !value.is_table());
         let spared = key.path == "friction.static" && !needs_static(layers);
         if !no_section && !spared && get(&layers.table, key.path).is_none() {
@@ -117,7 +123,7 @@ fn check_needed(layers: &Layers, errors: &mut Vec<KeyError>) {
     }
 }
 
-/// Whether the friction law has the coefficient `static`. One that there is not has had its message.
+/// Whether the friction law uses `static`; true for an unknown law, which was refused before.
 fn needs_static(layers: &Layers) -> bool {
     let law = get(&layers.table, "friction.law").and_then(Value::as_str);
     USES.iter().find(|uses| Some(uses.word) == law).is_none_or(|uses| uses.has("static"))
@@ -136,7 +142,7 @@ fn missing(layers: &Layers, section: &str, name: &str, key: &Key) -> KeyError {
     }
 }
 
-/// Why a value does not suit its key, if it does not: the value, then what is allowed.
+/// Why a value is not allowed for its key, if it is not: the value, then what is allowed.
 pub fn refused(key: &Key, value: &Value) -> Option<String> {
     let allowed = key.form.allowed(key.unit);
     let not_allowed = || Some(format!("{} must be {allowed}", show(value)));
@@ -175,7 +181,7 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
     if fine { None } else { not_allowed() }
 }
 
-/// A value as it would be written, shortened.
+/// A value as it would be written in a file, with at most 60 characters.
 pub fn show(value: &Value) -> String {
     let text = match value {
         Value::Float(x) => number(*x),
@@ -215,7 +221,8 @@ fn unknown(layers: &Layers, path: &str, pattern: &str) -> KeyError {
     }
 }
 
-/// What may have been meant by a key that there is not, and what keys there are in its section.
+/// The remedy for an unknown key: a key of a similar name, if there is one, and the keys of its section. `pattern`
+/// is the dotted path with `[]` for indices.
 pub fn suggestion(pattern: &str) -> String {
     let (section, name) = match pattern.rsplit_once('.') {
         Some((section, name)) => (format!("{section}."), name),
@@ -236,7 +243,7 @@ pub fn suggestion(pattern: &str) -> String {
     }
 }
 
-/// The name that a misspelt one was most likely meant to be.
+/// The name that a misspelt one was most likely meant to be, if one is near enough.
 pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     names
         .map(|other| (distance(name, other), other))
@@ -245,7 +252,7 @@ pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&
         .map(|(_, other)| other)
 }
 
-/// Levenshtein's distance.
+/// Levenshtein's distance; of `a` no more than the first 64 characters count.
 fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

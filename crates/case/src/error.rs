@@ -1,4 +1,4 @@
-//! What can be wrong with a case file, and how it is told.
+//! The errors of a case file, with the place in its text.
 
 use std::path::PathBuf;
 
@@ -43,7 +43,7 @@ pub struct KeyError {
     /// What to do.
     #[help]
     pub help: Option<String>,
-    /// Further problems.
+    /// Further problems of the same reading, each without `others` of its own.
     #[related]
     pub others: Vec<KeyError>,
 }

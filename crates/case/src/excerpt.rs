@@ -11,8 +11,8 @@ pub struct Excerpt {
 }
 
 impl Excerpt {
-    /// The line of the text of this name in which `span` begins, and what to point at in it; none where
-    /// it is too long to be shown.
+    /// The line of `text` in which `span` (bytes of `text`) begins, and the part of that line to point at (bytes
+    /// of the line); none where the line is too long to be shown. `name` is that of the text.
     pub fn of(name: &str, text: &str, span: std::ops::Range<usize>) -> Option<(Self, SourceSpan)> {
         let line = files::line_of(text, span)?;
         let at = SourceSpan::new(line.span.start.into(), line.span.len());

@@ -67,11 +67,12 @@ impl JsonSchema for Crown {
 /// Stiffness of a penalty spring, in one of three forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stiffness {
-    /// A multiple of K/d per pass: LS-DYNA's scale factor (dimensionless).
+    /// A multiple of K/d in each pass (dimensionless), with the bulk modulus K (Pa) and the thickness d = V/A (m) of
+    /// the element below the face: LS-DYNA's scale factor.
     Factor(f64),
-    /// Areal stiffness, the sum of both passes (N/m^3).
+    /// Stiffness per area, the sum of both passes (N/m^3).
     Areal(f64),
-    /// A fraction of the stability limit (dimensionless).
+    /// A fraction of the stiffness at which the time step would be unstable (dimensionless).
     Stability(f64),
 }
 
@@ -122,7 +123,7 @@ impl JsonSchema for Stiffness {
     }
 }
 
-/// A number, written as a float or as an integer.
+/// The number that a value holds, written as a float or as an integer; none for any other value.
 pub fn float(value: &Value) -> Option<f64> {
     match value {
         Value::Float(x) => Some(*x),

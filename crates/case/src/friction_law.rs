@@ -9,7 +9,7 @@ use friction::{Domain, Expression, LawError, NodeFriction, OwnLaw, USES};
 use std::sync::Arc;
 
 rows! {
-    /// The keys of a friction law, whose parameters the crate of the laws declares.
+    /// The keys of `[friction]`; the crate `friction` declares the parameters.
     "friction.law" => word(&LAWS);
     "friction.static"
         => needed(Number(within(0.0, 5.0)), "-", "give the coefficient of friction: `static = 0.5`");
@@ -40,7 +40,7 @@ rows! {
         => key(Number(over(0.0, 100.0)), "m/s", "give the slip speed below which friction adapts in time: 10e-3");
 }
 
-/// The names of the laws.
+/// The words of `friction.law`.
 const LAWS: [&str; USES.len()] = {
     let mut words = [""; USES.len()];
     let mut law = 0;
@@ -56,8 +56,8 @@ pub fn path(key: &str) -> String {
     format!("friction.{key}")
 }
 
-/// Where a formula must give a coefficient: pressures up to three times Hertz's, which shocks and
-/// coarse meshes may reach, the time of rolling, and the fine zone.
+/// Where a formula must give a coefficient of friction: pressures (Pa) up to three times Hertz's largest, which
+/// shocks and coarse meshes may reach, the duration of rolling (s), and x in the fine zone (m).
 pub fn domain(case: &Case) -> Domain {
     let zone = &case.mesh.zone;
     Domain {
@@ -67,7 +67,11 @@ pub fn domain(case: &Case) -> Domain {
     }
 }
 
-/// The friction law of a case; `own` is what was handed over with the run.
+/// The friction law of a case. `own` is the function of `friction.law = "python"`, which a run is given beside
+/// its case; other laws do not use it.
+///
+/// # Errors
+/// A formula or a table that gives no coefficient of friction.
 pub fn law(case: &Case, own: Option<&Arc<dyn OwnLaw>>) -> Result<Box<dyn NodeFriction>, LawError> {
     let formula = |text: &str| Expression::over(text, &domain(case));
     case.friction.node_friction(formula, own)

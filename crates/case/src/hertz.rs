@@ -1,4 +1,6 @@
 //! Hertz's contact of two bodies with aligned principal curvatures: the scale of a case.
+//!
+//! Source: Johnson (1985), *Contact Mechanics*, sections 4.1 and 4.2.
 
 use std::f64::consts::PI;
 
@@ -30,12 +32,14 @@ fn across(case: &Case) -> f64 {
     case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature()
 }
 
-/// What the patch of a case is: a rectangle where both bodies are flat across, as those of a slice are.
+/// Shape of the patch of a case: a rectangle where both bodies are straight across, as in plane strain, else an
+/// ellipse.
 pub fn patch_shape(case: &Case) -> PatchShape {
     if across(case) > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
 }
 
-/// Hertz's contact of a case's disk on its bar under `load.normal`.
+/// Hertz's contact of a case's disk on its bar under `load.normal`. A line contact has the width of the narrower
+/// body.
 pub fn hertz(case: &Case) -> Hertz {
     let compliance = |m: crate::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
     let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
@@ -81,7 +85,7 @@ fn ellipse(load: f64, low: f64, high: f64, modulus: f64) -> Hertz {
     Hertz { a, b, p0, approach: p0 / modulus * b * k }
 }
 
-/// Complete elliptic integrals K(m) and E(m) by the arithmetic-geometric mean.
+/// Complete elliptic integrals K(m) and E(m), m the squared modulus, by the arithmetic-geometric mean.
 fn elliptic(m: f64) -> (f64, f64) {
     let (mut x, mut y, mut power) = (1.0, (1.0 - m).sqrt(), 0.5);
     let mut sum = 0.5 * m;

@@ -1,4 +1,4 @@
-//! A key of a case file: what it may hold, its unit, and what to do where it does not.
+//! A key of a case file: what it may hold, its unit, and what to do where its value is refused.
 
 use std::fmt;
 
@@ -91,14 +91,16 @@ pub struct Key {
     pub needed: bool,
     /// What to do where the value is refused, or the key is missing.
     pub remedy: &'static str,
-    /// The key without which it is not used, and the words that this must be; none where any value does.
+    /// The key that must be given for this one to be used, and the words of which that key must be one; no words
+    /// where any value of it will do.
     pub only: Option<(&'static str, &'static [&'static str])>,
-    /// The key that it stands for: the two are not given together, and it takes the other back from the files beneath.
+    /// The key that it replaces: the two are not given together in one layer, and this one removes the other from
+    /// the layers below.
     pub instead_of: Option<&'static str>,
 }
 
 impl Key {
-    /// The key, used only where another has one of these words, or where it is given at all.
+    /// The key, used only where `other` is one of `words`; without words, where `other` is given.
     pub(crate) const fn only_with(
         self,
         other: &'static str,
@@ -107,7 +109,7 @@ impl Key {
         Self { only: Some((other, words)), ..self }
     }
 
-    /// The key, which stands for another.
+    /// The key, which replaces `other`.
     pub(crate) const fn instead_of(self, other: &'static str) -> Self {
         Self { instead_of: Some(other), ..self }
     }
@@ -118,7 +120,7 @@ impl Key {
     }
 }
 
-/// Ranges of the three forms of a penalty stiffness: factor (-), areal (N/m^3), stability (-).
+/// The three forms of a penalty stiffness: name (empty for the plain number), range, unit.
 pub const STIFFNESS: [(&str, Range, &str); 3] = [
     ("", over(0.0, 100.0), "-"),
     ("stiffness", over(0.0, 1e18), "N/m^3"),
@@ -133,17 +135,17 @@ pub(crate) const fn within(low: f64, high: f64) -> Range {
     Range { low: End::Closed(low), high: End::Closed(high) }
 }
 
-/// A row without its path.
+/// A row of the table of keys, without its path.
 pub(crate) const fn key(form: Form, unit: &'static str, remedy: &'static str) -> Key {
     Key { path: "", form, unit, needed: false, remedy, only: None, instead_of: None }
 }
 
-/// The same for a key that must be given.
+/// The same, of a key that must be given.
 pub(crate) const fn needed(form: Form, unit: &'static str, remedy: &'static str) -> Key {
     Key { needed: true, ..key(form, unit, remedy) }
 }
 
-/// The same for a key that is one of the words.
+/// The same, of a key that must be one of `words`.
 pub(crate) const fn word(words: &'static [&'static str]) -> Key {
     key(Word(words), "", "choose one of the words")
 }

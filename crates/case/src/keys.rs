@@ -77,7 +77,7 @@ pub fn find(path: &str) -> Option<&'static Key> {
 }
 
 /// Whether every dotted path in a text is that of a key or a section, and every word in square brackets
-/// that of a section. To be asked while compiling.
+/// that of a section. For assertions at compile time: see [`remedy!`](crate::remedy) and [`key!`](crate::key!).
 pub const fn names_only_keys(text: &str) -> bool {
     let text = text.as_bytes();
     let mut at = 0;
@@ -136,7 +136,7 @@ pub fn is_list(path: &str) -> bool {
 }
 
 impl Form {
-    /// What the form allows, as a noun phrase.
+    /// What the form allows, as a noun phrase; `unit` is that of the key.
     pub fn allowed(&self, unit: &str) -> String {
         let unit = match unit {
             "" | "-" => String::new(),

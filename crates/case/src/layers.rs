@@ -23,16 +23,16 @@ use friction::USES;
 /// A chain of `extends` longer than this is taken for a mistake.
 const LONGEST_CHAIN: usize = 16;
 
-/// A message is no longer than this: it is to be read.
+/// Most characters of a message.
 const LONGEST_MESSAGE: usize = 1000;
 
-/// The name of a text that is no file, but an option.
+/// The name of a source that is an option and no file.
 const SET: &str = "--set";
 
 /// A text that keys came from: a file, or one `--set` option.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// Its name, for messages.
+    /// Path of the file, or `--set`.
     pub name: String,
     /// What it holds.
     pub text: String,
@@ -41,11 +41,11 @@ pub struct Source {
 /// Where a key was written.
 #[derive(Clone, Debug)]
 pub struct Origin {
-    /// Which of the sources.
+    /// Index into [`Layers::sources`].
     pub source: usize,
-    /// Bytes of the key in its text.
+    /// Bytes of the key in the text of its source.
     pub key: Range<usize>,
-    /// Bytes of the value.
+    /// Bytes of the value there.
     pub value: Range<usize>,
 }
 
@@ -54,7 +54,7 @@ pub struct Origin {
 pub struct Layers {
     /// The keys, the last layer on top.
     pub table: Table,
-    /// Where each key was written, by its dotted path.
+    /// Where each key was written, by its dotted path with indices as `[i]`.
     pub origins: BTreeMap<String, Origin>,
     /// The texts, the lowest layer first.
     pub sources: Vec<Source>,
@@ -62,13 +62,20 @@ pub struct Layers {
 
 impl Layers {
     /// Reads a case file with everything that it extends.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is not well-formed TOML, or extends itself.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let mut layers = Self::default();
         layers.add_file(path, &mut Vec::new())?;
         Ok(layers)
     }
 
-    /// Reads a case from a text; `path` names it and is what `extends` is relative to.
+    /// Reads a case from a text, with everything that it extends. `path` names it; `extends` is relative to the
+    /// folder of `path`.
+    ///
+    /// # Errors
+    /// As those of [`Layers::read`].
     pub fn from_text(text: &str, path: &Path) -> Result<Self, CaseError> {
         let mut layers = Self::default();
         layers.add_text(text.to_owned(), path, &mut vec![path.to_path_buf()])?;
@@ -130,7 +137,10 @@ impl Layers {
         Ok(())
     }
 
-    /// Lays one `--set KEY=VALUE` over everything before.
+    /// Lays one `--set KEY=VALUE` over everything before. A value that is no TOML is taken as a word.
+    ///
+    /// # Errors
+    /// A text of another form.
     pub fn add_set(&mut self, set: &str) -> Result<(), CaseError> {
         let name = SET.to_owned();
         let refuse = |problem: &str, layers: &Self| {
@@ -171,7 +181,7 @@ impl Layers {
         Ok(())
     }
 
-    /// The files that were read, and the table that they name.
+    /// The files that were read, and the file that `friction.table` names, if it names one.
     pub fn files(&self) -> Vec<PathBuf> {
         let sources = self.sources.iter().filter(|source| source.name != SET);
         let mut files: Vec<PathBuf> = sources.map(|source| PathBuf::from(&source.name)).collect();
@@ -182,7 +192,8 @@ impl Layers {
         files
     }
 
-    /// The folder that a path is relative to, by where it was written, and that in words.
+    /// The folder that a path written at `origin` is relative to, and the same in words: that of the case file, or
+    /// the working directory for an option.
     pub fn paths_from(&self, origin: Option<&Origin>) -> (&Path, &'static str) {
         match origin.map(|origin| self.sources[origin.source].name.as_str()) {
             Some(file) if file != SET => {
@@ -198,7 +209,7 @@ impl Layers {
         text: String,
     ) -> Result<(Table, BTreeMap<String, Origin>), CaseError> {
         let source = Source { name, text };
-        // What is no TOML may be any file that can be read: of it a place is told, and no text.
+        // What is no TOML may be any readable file, also a private one: the message names the place and quotes no line.
         let malformed = |error: toml::de::Error| {
             let span = error.span().unwrap_or(0..0);
             let written = source.text.get(span.clone()).unwrap_or_default();
@@ -229,8 +240,9 @@ impl Layers {
     }
 
     fn lay_over(&mut self, top: Table, origins: BTreeMap<String, Origin>) {
-        // A choice takes back from the layers beneath what it stands for: a file that extends a case with a
-        // creepage may set a torque instead. A friction law takes back the keys that it does not use.
+        // A key removes from the layers below those that it replaces or that are not used with it: a file that
+        // extends a case with a creepage may set a torque instead. A friction law removes the keys that it does
+        // not use.
         for key in keys::KEYS.iter().filter(|key| key.instead_of.is_some()) {
             let replaced = key.instead_of.is_some_and(|other| get(&top, other).is_some());
             let ruled_out = key.only.is_some_and(|(other, words)| {
@@ -261,7 +273,7 @@ impl Layers {
         }
     }
 
-    /// An error at the place where a key was written.
+    /// [`Layers::key_error`] as the error of a case.
     pub fn error(
         &self,
         origin: Option<&Origin>,
@@ -272,7 +284,8 @@ impl Layers {
         CaseError::Key(Box::new(self.key_error(origin, key, problem, remedy)))
     }
 
-    /// The same, with place, key and problem joined into one sentence.
+    /// The error `KEY = PROBLEM` at `origin`, where the value was written; without an origin it names the first
+    /// file alone. `remedy` says what to do.
     pub fn key_error(
         &self,
         origin: Option<&Origin>,
@@ -290,7 +303,7 @@ impl Layers {
         }
     }
 
-    /// A whole sentence about a key, at the place where the key was written.
+    /// The error `message`, a whole sentence, at the place where the value of `key` was written, if it was.
     pub fn error_at(&self, key: &str, message: &str, remedy: &str) -> KeyError {
         match self.origins.get(key) {
             Some(origin) => {
@@ -301,7 +314,7 @@ impl Layers {
         }
     }
 
-    /// An error about a key that stands in no file: a default, or a missing key.
+    /// The error `message` about a key that is written nowhere: a default, or a missing key.
     pub fn error_nowhere(&self, key: &str, message: &str, remedy: &str) -> KeyError {
         // The case file itself is read first, before what it extends.
         let file = self.sources.first().map_or("", |source| source.name.as_str());
@@ -328,7 +341,7 @@ impl Layers {
     }
 }
 
-/// An error with the line of the text that it is about, which is well-formed.
+/// An error at `span` of a source, with the line of the text. For sources that are known to be TOML.
 pub fn key_error_in(
     source: Source,
     span: Range<usize>,
@@ -340,7 +353,7 @@ pub fn key_error_in(
     KeyError { span: at, source_code, ..key_error_at(&source, span, key, message, remedy) }
 }
 
-/// An error that names the place in a text and shows nothing of it: it may be any file that can be read.
+/// The same without the line, for a source that may be any file that can be read.
 pub fn key_error_at(
     source: &Source,
     span: Range<usize>,
@@ -366,13 +379,13 @@ pub fn key_error_at(
     }
 }
 
-/// The place of a byte in its line, in characters from 1.
+/// The column of a byte of a text, in characters, counted from 1.
 fn column(text: &str, at: usize) -> usize {
     let before = text.get(..at).unwrap_or(text);
     before.chars().rev().take_while(|&c| c != '\n').count() + 1
 }
 
-/// A message that can be read: printable, and not without end.
+/// A message with printable characters alone, and no more than [`LONGEST_MESSAGE`] of them.
 fn shortened(message: String) -> String {
     let message = printable(&message);
     match message.char_indices().nth(LONGEST_MESSAGE) {
@@ -381,7 +394,10 @@ fn shortened(message: String) -> String {
     }
 }
 
-/// Reads a file as UTF-8.
+/// Reads a file of a kind as UTF-8.
+///
+/// # Errors
+/// A file that is missing, too large for its kind, or not UTF-8.
 pub fn read_text(path: &Path, kind: Kind) -> Result<String, CaseError> {
     input::text(path, kind).map_err(|error| CaseError::File {
         path: path.to_path_buf(),
@@ -390,7 +406,7 @@ pub fn read_text(path: &Path, kind: Kind) -> Result<String, CaseError> {
     })
 }
 
-/// Notes where every key of a table, at any depth, was written.
+/// Records where every key of a table, at any depth, was written.
 fn record(table: &DeTable, prefix: &str, source: usize, origins: &mut BTreeMap<String, Origin>) {
     for (key, value) in table {
         let path = join(prefix, key.get_ref());
@@ -453,12 +469,12 @@ fn forget(origins: &mut BTreeMap<String, Origin>, path: &str) {
     }
 }
 
-/// A dotted path.
+/// `prefix.key`; the key alone where the prefix is empty.
 pub fn join(prefix: &str, key: &str) -> String {
     if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") }
 }
 
-/// The value at a dotted path.
+/// The value at a dotted path without indices, if there is one.
 pub fn get<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     let mut segments = path.split('.');
     let mut value = table.get(segments.next()?)?;

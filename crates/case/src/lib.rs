@@ -1,8 +1,11 @@
 //! What a case file says.
 //!
-//! A case is a TOML file ([`schema`]); it is read with its `extends` and `--set` layers
-//! ([`load`]), checked against the table of keys ([`keys`]) and against itself, and resolved so
-//! that every default is written out.
+//! A case is a TOML file ([`schema`]). [`Case::load`] lays the files of `extends` and the `--set` options
+//! over one another ([`layers`]), checks every key against the table of keys ([`check`], [`keys`]), then the keys
+//! against one another ([`validation`]), and writes every default out.
+//!
+//! SI units. x is the rolling direction, y the direction across, z up; the disk touches the bar's top at the
+//! origin.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

@@ -20,29 +20,36 @@ use output::hexadecimal;
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
     /// checks it and writes every default out.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is not well-formed TOML; keys that are unknown, missing, out of range, or
+    /// contradict one another; a mesh file or a friction table that cannot be read.
     pub fn load(path: &Path, sets: &[String]) -> Result<Self, CaseError> {
         resolve(Layers::read(path)?, path, sets)
     }
 
-    /// The same for a text; `path` gives the case its name and is what `extends` is relative to.
+    /// The same for a text. `path` gives the case its name, unless the text does; `extends` is relative to the
+    /// folder of `path`.
+    ///
+    /// # Errors
+    /// As those of [`Case::load`].
     pub fn from_text(text: &str, path: &Path, sets: &[String]) -> Result<Self, CaseError> {
         resolve(Layers::from_text(text, path)?, path, sets)
     }
 
     /// The resolved case as TOML; loading it again gives an equal case.
     pub fn to_toml(&self) -> String {
-        // A case holds nothing that TOML cannot: the proof is the round-trip test.
+        // A case holds nothing that TOML cannot: the round-trip test shows it.
         toml::to_string(self).unwrap_or_default()
     }
 
-    /// SHA-256, in hexadecimal, of [`Case::to_toml`] with the default sections `checkpoint` and `guards`, on
-    /// which no result depends.
+    /// SHA-256, in hexadecimal, of [`Case::results_toml`].
     pub fn hash(&self) -> String {
         hexadecimal(&Sha256::digest(self.results_toml()))
     }
 
-    /// The case file with the default `checkpoint` and `guards` and without the place of a mesh file,
-    /// whose contents count: everything that results depend on.
+    /// The resolved case as TOML with all that results depend on: `checkpoint` and `guards` are set to their
+    /// defaults, and `mesh.file` is left out, since `mesh.sha256` identifies the mesh.
     pub fn results_toml(&self) -> String {
         let (checkpoint, guards) = (Checkpoint::default(), Guards::default());
         let mesh = Meshing { file: None, ..self.mesh.clone() };
@@ -55,8 +62,9 @@ impl Case {
     }
 }
 
-/// The files that a case is made of: its own, those that it extends, its mesh. `source` is where it
-/// was read, and may be no file.
+/// The files that a case is made of: its own, those that it extends, its friction table and its mesh. `source` is
+/// the path that the case was read from, or the name of a text that is no file. A friction table that an option
+/// names is not among them.
 pub fn inputs(case: &Case, source: &Path) -> Vec<PathBuf> {
     let mut files = vec![source.to_path_buf()];
     files.extend(Layers::read(source).map(|layers| layers.files()).unwrap_or_default());
@@ -64,8 +72,8 @@ pub fn inputs(case: &Case, source: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// An error found after loading, told at the place where a key was written; `text` is the case where it is
-/// not in the file.
+/// An error about a key that was found after loading, at the place where the key was written. `path`, `text` and
+/// `sets` are those of the case; `text` is none where the case was read from the file `path`.
 pub fn error_at_key(
     path: &Path,
     text: Option<&str>,

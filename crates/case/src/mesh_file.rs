@@ -1,4 +1,4 @@
-//! Where the mesh file of a case is, and that it is the one meant.
+//! The mesh file of a case: its path, its checksum, its bytes.
 
 use std::path::Path;
 
@@ -13,12 +13,14 @@ use output::hexadecimal;
 
 const KEY: &str = "mesh.file";
 const DIGEST: &str = "mesh.sha256";
-/// Which endings a mesh file may have.
+/// What to do about a name that ends in none of the endings of a mesh file.
 pub const ENDINGS: &str = "give a Gmsh .msh, an Abaqus .inp or a .vtu file; meshio converts others";
 
-/// Puts the full path of the file that `mesh.file` names in its place, and the file's digest beside
-/// it. The path is taken relative to the case file that holds it; of an option, to the working
-/// directory.
+/// Replaces `mesh.file` by the full path of the file, and sets `mesh.sha256`. The path is relative to the case
+/// file that holds it; of an option, to the working directory.
+///
+/// # Errors
+/// A file that cannot be read, has another ending than those of mesh files, or is not that of `mesh.sha256`.
 pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
     let Some(file) = get(&layers.table, KEY).and_then(Value::as_str).map(str::to_owned) else {
         return Ok(());
@@ -55,10 +57,10 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The bytes of a mesh file; what is wrong where it cannot be read.
+/// The bytes of a mesh file.
 ///
 /// # Errors
-/// A file that is missing, too large or no file.
+/// What is wrong with a file that is missing, too large or no file.
 pub fn read(path: &Path) -> Result<Vec<u8>, String> {
     input::bytes(path, input::MESH).map_err(|error| error.problem())
 }

@@ -3,7 +3,7 @@
 /// Most bytes of a name.
 const LONGEST: usize = 100;
 
-/// What a name may be, for people.
+/// What a name may be, for messages.
 pub const REMEDY: &str = "use letters, digits, '-', '_', '+' and '.'";
 
 /// Whether a character may stand in a name.
@@ -11,7 +11,7 @@ pub fn may_hold(c: char) -> bool {
     c.is_alphanumeric() || "-_. +".contains(c)
 }
 
-/// Why a name cannot name a folder inside another one, if it cannot.
+/// Why a name cannot be that of a folder inside another one, if it cannot.
 pub fn refused(name: &str) -> Option<String> {
     let fine = !name.trim_matches(['.', ' ']).is_empty()
         && name.len() <= LONGEST

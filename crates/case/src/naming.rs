@@ -1,6 +1,6 @@
-//! Texts that name keys, checked while they compile.
+//! Texts that name keys, checked at compile time.
 
-/// A text whose keys and sections the table of keys has, with the values of its braces.
+/// `format!` of a text in which every key and section is in the table of keys; another one does not compile.
 #[macro_export]
 macro_rules! remedy {
     ($text:literal) => {{
@@ -9,7 +9,7 @@ macro_rules! remedy {
     }};
 }
 
-/// The path of a key that the table of keys has.
+/// The path of a key in the table of keys; another one does not compile.
 #[macro_export]
 macro_rules! key {
     ($path:literal) => {

@@ -347,17 +347,17 @@ impl Time {
     pub const FACTOR: f64 = 0.67;
 }
 
-/// What the time step is taken from.
+/// How the time step of a case is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// A fraction of the stability limit (dimensionless).
     Fraction(f64),
-    /// This step (s), which must not exceed the limit.
+    /// This step (s), whatever the limit; a run refuses one above it.
     Absolute(f64),
 }
 
 impl Step {
-    /// The step (s) for a stability limit (s).
+    /// The step (s) for a stability limit (s); an absolute step is not compared with it.
     pub fn under(self, limit: f64) -> f64 {
         match self {
             Self::Fraction(factor) => factor * limit,
@@ -472,7 +472,7 @@ impl Case {
         self.bar.material.over(self.material)
     }
 
-    /// What the time step is taken from.
+    /// How the time step is chosen.
     pub fn step(&self) -> Step {
         match self.time.step {
             Some(step) => Step::Absolute(step),
@@ -507,7 +507,7 @@ impl Case {
         last.or_else(of_transits).unwrap_or_else(|| (self.rolled() / 3.0).min(0.020))
     }
 
-    /// Where the preload has converged (dimensionless), by its method.
+    /// The preload's tolerance (dimensionless); the default is that of its method.
     pub fn preload_tolerance(&self) -> f64 {
         self.preload.tolerance.unwrap_or(match self.preload.method {
             PreloadMethod::Static => 1e-9,
@@ -515,7 +515,7 @@ impl Case {
         })
     }
 
-    /// Iterations after which the preload gives up, by its method.
+    /// Iterations after which the preload fails; the default is that of its method.
     pub fn preload_iterations(&self) -> u64 {
         self.preload.max_iterations.unwrap_or(match self.preload.method {
             PreloadMethod::Static => 100,
@@ -535,7 +535,7 @@ impl Case {
         self.guards.friction.or((!lags).then_some(5.0))
     }
 
-    /// Intervals between field snapshots of a case that gives none.
+    /// Intervals between the field snapshots of a run whose case gives no `output.fields_interval`.
     pub(crate) const SNAPSHOTS: f64 = 40.0;
 
     /// Interval between field snapshots (s).

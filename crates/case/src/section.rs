@@ -63,7 +63,7 @@ macro_rules! section {
     };
 }
 
-/// Declares the words that a key may be, each with what it stands for; one is the default.
+/// Declares the words that a key may be as an enum, each word with its variant; one is the default.
 macro_rules! words {
     ($(#[$meta:meta])* $name:ident { $($(#[$of:meta])* $variant:ident = $word:literal,)+ }) => {
         $(#[$meta])*

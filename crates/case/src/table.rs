@@ -1,4 +1,4 @@
-//! A friction table in a file of its own, taken into the case.
+//! A friction table in a file of its own, read into the case.
 
 use files::input;
 use friction::{Table, TableError};
@@ -11,8 +11,11 @@ const KEY: &str = "friction.table";
 const REMEDY: &str = "two columns: slip velocity (m/s), rising from 0, and coefficient, with a comma between; \
                       a heading and lines that start with # are passed over";
 
-/// Puts the points of the file that `friction.table` names in its place. The path is taken relative to the
-/// case file that holds it; of an option, to the working directory.
+/// Replaces a path in `friction.table` by the points of that file: slip velocity (m/s) and coefficient. The path is
+/// relative to the case file that holds it; of an option, to the working directory.
+///
+/// # Errors
+/// A file that cannot be read, or is no table.
 pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
     let Some(file) = get(&layers.table, KEY).and_then(Value::as_str).map(str::to_owned) else {
         return Ok(());
@@ -33,7 +36,7 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
         let source = Source { name: path.display().to_string(), text: text.clone() };
         let message = format!("{KEY}: {problem}");
         let span = line_span(&text, line);
-        // A file without a point may be any that can be read: nothing of it is shown.
+        // A file without a point may be any readable file, also a private one: nothing of it is quoted.
         CaseError::Key(Box::new(if points {
             key_error_in(source, span, KEY, &message, REMEDY)
         } else {
@@ -47,7 +50,7 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Pairs of numbers, if they are.
+/// The values as pairs of numbers, if all of them are.
 pub fn points(values: &[Value]) -> Option<Vec<[f64; 2]>> {
     let number = crate::forms::float;
     let pair = |value: &Value| match value.as_array()?.as_slice() {
@@ -64,11 +67,11 @@ fn line_span(text: &str, line: usize) -> std::ops::Range<usize> {
     start..start + length
 }
 
-/// A mistake in a table.
+/// A mistake in a table, at a line counted from 1.
 struct Mistake {
     line: usize,
     problem: String,
-    /// Whether there were points before it: then the file is a table.
+    /// Whether points stand before it: then the file is meant as a table, and may be quoted.
     points: bool,
 }
 
@@ -78,7 +81,7 @@ fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, Mistake> {
     let mut lines = Vec::new();
     let mut headed = false;
     for (i, line) in text.lines().enumerate() {
-        // a mark of byte order is no part of the heading
+        // a byte order mark is no part of the heading
         let row = line.trim_start_matches('\u{feff}').trim();
         if row.is_empty() || row.starts_with('#') {
             continue;

@@ -17,19 +17,19 @@ use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
 
-/// Fully integrated layers where a case with them does not say how many.
+/// Default of `element.layers` with `element.contact_layers = "full"`.
 pub const LAYERS: u64 = 2;
 
-/// More steps than this is a slip of a digit; many deserve a warning.
+/// More steps than the first are taken for a typing mistake; more than the second deserve a warning.
 const MOST_STEPS: f64 = 1e9;
 const MANY_STEPS: f64 = 1e7;
 
-/// A record at less than this share of the step, as it is known before the mesh is made, is a slip of
-/// a digit: there can be one at every step at most.
+/// An interval between records that is shorter than this part of the estimated time step is taken for a typing
+/// mistake: there can be one record at every step at most.
 const SHORTEST: f64 = 1e-3;
 
-/// More snapshots of fields or contact, more rows of the history and more numbers of probes than these are
-/// a slip of a digit: they fill any disk.
+/// More snapshots of fields or contact, more rows of the history and more numbers of probes than these are taken
+/// for a typing mistake: they fill any disk.
 const MOST_RECORDS: f64 = 1e7;
 const MOST_ROWS: f64 = 1e8;
 const MOST_NUMBERS: f64 = 1e11;
@@ -42,7 +42,7 @@ const MOST_WINDOWS: usize = 1000;
 /// A formula is evaluated at every node in contact in every step, and some 200,000 times before.
 const LONGEST_FORMULA: usize = 4000;
 
-/// Young's modulus below this (Pa) and density outside these (kg/m^3) are likely of another unit.
+/// Young's modulus below this (Pa) and density outside these bounds (kg/m^3) are likely given in other units.
 const SOFTEST: f64 = 5e5;
 const LIGHTEST: f64 = 20.0;
 const HEAVIEST: f64 = 2.5e4;
@@ -54,8 +54,8 @@ struct Findings<'a> {
 }
 
 impl Findings<'_> {
-    /// Refuses the case unless `fine`. The message points at the first of `keys` that an option
-    /// gives, or else a file: the others have their defaults, which the user cannot see.
+    /// Refuses the case unless `fine`. The message points at the first of `keys` that an option gives, or else at
+    /// the first that a file gives: keys with their defaults are not in the user's sight.
     fn require(
         &mut self,
         fine: bool,
@@ -81,7 +81,10 @@ impl Findings<'_> {
 }
 
 /// Checks the case against itself: sizes that fit, choices that agree, a path that stays in the
-/// fine zone.
+/// fine zone. `layers` are those that the case was read from.
+///
+/// # Errors
+/// All contradictions found, the first with the others in [`KeyError::others`].
 pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
     let mut found = Findings { layers, errors: Vec::new() };
     check_name(case, &mut found);
@@ -205,7 +208,7 @@ fn check_rules(case: &Case, found: &mut Findings) {
     }
 }
 
-/// A key with the words that it may be.
+/// `KEY = "WORD"`, with all words that the key may be.
 fn quoted(key: &str, words: &[&str]) -> String {
     let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
     format!("{key} = {}", words.join(" or "))
@@ -257,7 +260,7 @@ fn check_friction(friction: &Parameters, found: &mut Findings) {
     }
 }
 
-/// A formula gives a coefficient of friction all over the case.
+/// A formula gives a coefficient of friction at every pressure, time and place of the case.
 fn check_formula(case: &Case, found: &mut Findings) {
     let Some(text) = &case.friction.expression else { return };
     let length = text.chars().count();
@@ -391,7 +394,7 @@ fn steps(case: &Case) -> f64 {
     case.duration() / case.step().under(case.mesh.zone.size / fastest)
 }
 
-/// The run must end while somebody still waits for it.
+/// The run does not need more steps than anybody waits for.
 fn check_length(case: &Case, found: &mut Findings) {
     let steps = steps(case);
     found.require(
@@ -484,8 +487,8 @@ fn check_records(case: &Case, found: &mut Findings) {
     }
 }
 
-/// What to say of intervals that are shorter than the time step, now that it is known, and are not the
-/// defaults of a short run.
+/// Warnings about intervals that are shorter than the time step `dt` (s), one sentence each. The default interval of
+/// a very short run gives none.
 pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
     let default = case.duration() / Case::SNAPSHOTS;
     [
@@ -505,7 +508,7 @@ pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
     .collect()
 }
 
-/// What looks like another unit than that of the key, one sentence each.
+/// Warnings about values that look as if given in another unit, one sentence each.
 fn units(case: &Case) -> Vec<String> {
     let mut found = Vec::new();
     for (body, own, material) in [
@@ -542,7 +545,7 @@ fn units(case: &Case) -> Vec<String> {
 
 /// The patch, by Hertz, must stay inside the fine zone while rolling from x = 0.
 fn check_path(case: &Case, found: &mut Findings) {
-    // the likely cause of an absurd patch
+    // a wrong unit is the likely cause of an absurd patch
     let units = units(case).into_iter().map(|unit| format!("; {unit}")).collect::<String>();
     let help = |remedy: &str| format!("{remedy}{units}");
     let zone = &case.mesh.zone;
@@ -597,7 +600,7 @@ fn check_path(case: &Case, found: &mut Findings) {
     );
 }
 
-/// Six digits, so that a sum such as -0.01 + 0.08 is shown as it was meant.
+/// Rounded to nanometres, so that a sum such as -0.01 + 0.08 is shown as it was meant.
 fn round(x: f64) -> f64 {
     (x * 1e9).round() / 1e9
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: LS-DYNA Keyword User's Manual, vol. I, "Getting started: description of keyword input".
 //!
-//! No library for this format was found.
+//! Read here, since no library for this format was found.
 
 use mesh::import::{Fault, ImportError};
 
@@ -133,7 +133,7 @@ impl Fields<'_> {
             .map_err(|_| syntax(self.at, format!("a number from 1 is expected, found {n}")))
     }
 
-    /// Refuses fields that are neither blank nor 0, with their names.
+    /// Refuses the line where one of `fields`, by index and name, is neither blank nor 0.
     pub(super) fn unused(
         &self,
         keyword: &str,

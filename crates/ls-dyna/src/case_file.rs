@@ -1,4 +1,4 @@
-//! What the cards say of material, load and motion, and the case file that is made of it.
+//! What the cards say of materials, load, motion and contact, and the case file with it.
 
 use crate::cards::unsupported;
 use crate::deck::{Contact, Deck, Material};
@@ -16,9 +16,11 @@ pub(crate) struct Settings {
     contact: Contact,
     /// `SLSFAC` times `SFS`.
     penalty: f64,
+    /// `TSSFAC`.
     tssfac: f64,
     /// Rolling speed (m/s).
     speed: f64,
+    /// Creepage (dimensionless).
     creepage: f64,
     /// Normal force (N).
     normal: f64,
@@ -40,7 +42,7 @@ struct Elements {
 }
 
 impl Settings {
-    /// Those of a keyword file; `notes` takes what had to be decided.
+    /// The settings of a keyword file; choices that had to be made go into `notes`.
     ///
     /// # Errors
     /// Cards that are missing, refer to what is not there, or differ for disk and bar.
@@ -292,7 +294,7 @@ duration = {}          # ENDTIM
     );
 }
 
-/// Six digits, as a person would write them.
+/// A number of six significant digits at most.
 fn six(x: f64) -> String {
     case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
 }

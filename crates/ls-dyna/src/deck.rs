@@ -10,19 +10,23 @@ pub(super) struct Deck {
     pub(super) nodes: Vec<Node>,
     pub(super) solids: Vec<Solid>,
     pub(super) parts: BTreeMap<u64, Part>,
-    /// `ELFORM` of the sections.
+    /// `ELFORM` of the sections, 1 or 2, by their number.
     pub(super) sections: BTreeMap<u64, i64>,
     pub(super) materials: BTreeMap<u64, Material>,
     /// `*HOURGLASS` by number; 0 stands for `*CONTROL_HOURGLASS`.
     pub(super) hourglass: BTreeMap<u64, Hourglass>,
     /// Quadratic and linear bulk viscosity of `*CONTROL_BULK_VISCOSITY`, Q1 and Q2.
     pub(super) bulk: [f64; 2],
+    /// `SLSFAC`, the scale factor of penalty stiffness.
     pub(super) slsfac: f64,
+    /// `TSSFAC`, the scale factor of the time step.
     pub(super) tssfac: f64,
+    /// `ENDTIM`, the end time.
     pub(super) endtim: Option<f64>,
     pub(super) contact: Option<Contact>,
     pub(super) node_sets: BTreeMap<u64, Vec<u64>>,
     pub(super) segment_sets: BTreeMap<u64, Vec<[u64; 4]>>,
+    /// Nodes that are held in x, y and z.
     pub(super) clamped: Vec<Target>,
     /// Nodes of the rigid hub.
     pub(super) hub: Option<Target>,
@@ -31,11 +35,13 @@ pub(super) struct Deck {
     pub(super) speed: Option<f64>,
     /// Initial angular velocity about y.
     pub(super) spin: Option<f64>,
+    /// Points of the curves, scaled and shifted as their cards say, by their number.
     pub(super) curves: BTreeMap<u64, Vec<[f64; 2]>>,
-    /// What was passed over, a sentence each.
+    /// Cards that were ignored, one sentence each.
     pub(super) notes: Vec<String>,
 }
 
+/// A node with its number, its line and its position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) id: u64,
@@ -43,6 +49,7 @@ pub(super) struct Node {
     pub(super) point: [f64; 3],
 }
 
+/// A solid element with the numbers of its part and nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Solid {
     pub(super) id: u64,
@@ -51,6 +58,7 @@ pub(super) struct Solid {
     pub(super) nodes: [u64; 8],
 }
 
+/// The numbers of a part's section, material and hourglass card; 0 for no hourglass card.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) section: u64,
@@ -59,6 +67,7 @@ pub(super) struct Part {
     pub(super) line: usize,
 }
 
+/// RO, E and PR of an elastic material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Material {
     pub(super) density: f64,
@@ -66,34 +75,43 @@ pub(super) struct Material {
     pub(super) poisson: f64,
 }
 
+/// Hourglass control by stiffness.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hourglass {
+    /// `QM`.
     pub(super) coefficient: f64,
     /// Q1 and Q2 where the card gives them.
     pub(super) bulk: Option<[f64; 2]>,
 }
 
-/// Segment sets and numbers of the contact card.
+/// The contact card.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     pub(super) line: usize,
+    /// Segment sets of both sides.
     pub(super) sides: [u64; 2],
+    /// Coefficient of friction at rest.
     pub(super) fs: f64,
+    /// Coefficient of friction at high slip velocity.
     pub(super) fd: f64,
+    /// Decay of friction with slip velocity, in time over length.
     pub(super) dc: f64,
+    /// Viscous damping in per cent of critical.
     pub(super) vdc: f64,
+    /// `SFS` and `SFM`, which are equal.
     pub(super) sf: f64,
 }
 
-/// Nodes that a card acts on.
+/// Nodes that a card acts on: a node set, or one node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
+    /// Whether `id` is the number of a set.
     pub(super) set: bool,
     pub(super) id: u64,
     pub(super) line: usize,
 }
 
-/// A force on nodes in z.
+/// A force in z on each of the nodes: `factor` times a curve.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Load {
     pub(super) on: Target,
@@ -101,8 +119,9 @@ pub(super) struct Load {
     pub(super) factor: f64,
 }
 
-/// Keywords without a say in the model: output, and what Creepage always does.
-const PASSED: &[(&str, &str)] = &[
+/// Keywords that are ignored, with the reason for the notes: output, and what Creepage always does. One that ends in
+/// `_` stands for all that begin with it.
+const IGNORED: &[(&str, &str)] = &[
     ("KEYWORD", ""),
     ("TITLE", ""),
     ("CONTROL_ENERGY", "the energy of every part is always written"),
@@ -111,6 +130,10 @@ const PASSED: &[(&str, &str)] = &[
 ];
 
 impl Deck {
+    /// Reads a keyword file.
+    ///
+    /// # Errors
+    /// What is not read, with its line.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, ImportError> {
         let mut deck = Self {
             nodes: Vec::new(),
@@ -141,9 +164,10 @@ impl Deck {
         Ok(deck)
     }
 
+    /// Takes a card into the model, ignores it or refuses it.
     fn card(&mut self, card: &Card) -> Result<(), ImportError> {
         let name = card.name.as_str();
-        if let Some((_, why)) = PASSED.iter().find(|(word, _)| {
+        if let Some((_, why)) = IGNORED.iter().find(|(word, _)| {
             if word.ends_with('_') { name.starts_with(word) } else { name == *word }
         }) {
             if !why.is_empty() {
@@ -270,7 +294,7 @@ impl Deck {
         Ok(())
     }
 
-    /// Pairs of a heading and a card.
+    /// Pairs of a heading line and a data line.
     fn part(&mut self, card: &Card) -> Result<(), ImportError> {
         for pair in card.data.chunks(2) {
             let [_, line] = pair else {
@@ -446,7 +470,7 @@ impl Deck {
     }
 }
 
-/// LS-DYNA takes 0 for its default.
+/// The default for a field of 0, as LS-DYNA takes it.
 fn nonzero(x: f64, default: f64) -> f64 {
     if x == 0.0 { default } else { x }
 }
@@ -462,10 +486,12 @@ fn stiffness_form(fields: &Fields, card: &Card, ihq: usize, qm: usize) -> Result
     Ok(nonzero(fields.real(qm, 0.1)?, 0.1))
 }
 
+/// The data lines of a card that are not blank.
 fn lines<'a>(card: &Card<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
     card.data.clone().into_iter().filter(|line| !line.text.trim().is_empty())
 }
 
+/// Data line `i` of a card, counted from 0.
 fn line<'a>(card: &Card<'a>, i: usize) -> Result<Line<'a>, ImportError> {
     let missing = || syntax(card.line, format!("data line {} of *{} is missing", i + 1, card.name));
     card.data.get(i).copied().ok_or_else(missing)

@@ -1,7 +1,7 @@
 //! LS-DYNA keyword files of a disk on a bar, as a case and a mesh file.
 //!
-//! Cards that are read, and what becomes of each: docs/ls-dyna.md. Everything else is refused by its
-//! line, so that nothing of a model is lost unseen.
+//! Which cards are read, and what becomes of each: docs/ls-dyna.md. Any other card is refused with its
+//! line, so that no part of a model is lost without notice.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

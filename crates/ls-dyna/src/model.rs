@@ -8,14 +8,15 @@ use std::collections::{BTreeSet, HashMap};
 
 /// The mesh of the disk and the bar with its sets.
 pub(crate) struct Model {
+    /// Nodes in metres, elements and sets.
     pub(crate) foreign: Foreign,
-    /// The parts of disk and bar.
+    /// Numbers of the parts of disk and bar.
     pub(crate) parts: [u64; 2],
-    /// Nodes of the two bodies.
+    /// Nodes of disk and bar, as indices into the mesh.
     pub(crate) nodes: [BTreeSet<u32>; 2],
 }
 
-/// What a disk on a bar needs, and the file does not have.
+/// The error of a file that lacks what a disk on a bar needs.
 pub(crate) fn lacks(what: &str) -> ImportError {
     ImportError { line: None, fault: Fault::Syntax { what: format!("the file has no {what}") } }
 }
@@ -27,12 +28,12 @@ impl Model {
     /// Cards that refer to what is not there, and what a disk on a bar lacks.
     pub(crate) fn new(deck: &Deck, units: Units) -> Result<Self, ImportError> {
         let mut foreign = Foreign::default();
-        let places = take_nodes(deck, units, &mut foreign)?;
-        take_solids(deck, &places, &mut foreign)?;
+        let indices = take_nodes(deck, units, &mut foreign)?;
+        take_solids(deck, &indices, &mut foreign)?;
         let hub = deck.hub.as_ref().ok_or_else(|| {
             lacks("*CONSTRAINED_NODAL_RIGID_BODY, whose node set is the rigid hub of the disk")
         })?;
-        let hub = places.of_target(deck, hub)?;
+        let hub = indices.of_target(deck, hub)?;
         let parts = parts(deck, &foreign, &hub)?;
         let mut nodes = [BTreeSet::new(), BTreeSet::new()];
         for (e, solid) in deck.solids.iter().enumerate() {
@@ -43,13 +44,13 @@ impl Model {
         }
         foreign.sets.entry("hub".into()).or_default().nodes = hub;
         for target in &deck.clamped {
-            let held = places.of_target(deck, target)?;
+            let held = indices.of_target(deck, target)?;
             foreign.sets.entry("clamp".into()).or_default().nodes.extend(held);
         }
         if deck.clamped.is_empty() {
             return Err(lacks("*BOUNDARY_SPC_SET that clamps the bar"));
         }
-        take_surfaces(deck, &places, &nodes[0], &mut foreign)?;
+        take_surfaces(deck, &indices, &nodes[0], &mut foreign)?;
         Ok(Self { foreign, parts, nodes })
     }
 
@@ -65,24 +66,24 @@ impl Model {
         extent
     }
 
-    /// The faces of a set; none where there is no such set.
+    /// The faces of a set; empty where there is no such set.
     pub(crate) fn faces(&self, set: &str) -> &[[u32; 4]] {
         self.foreign.sets.get(set).map_or(&[], |set| &set.faces)
     }
 }
 
-/// The place of every node of the file, by its number there.
-struct Places(HashMap<u64, u32>);
+/// Index of every node in the mesh, by its number in the file.
+struct Indices(HashMap<u64, u32>);
 
-impl Places {
-    /// The place of a node to which `from` refers in a line.
+impl Indices {
+    /// Index of a node to which `from` refers in a line of the file.
     fn find(&self, from: &str, node: u64, line: usize) -> Result<u32, ImportError> {
         let fault = || Fault::Unknown { from: from.into(), what: format!("node {node}") };
-        let place = self.0.get(&node).copied();
-        place.ok_or_else(|| ImportError { line: Some(line), fault: fault() })
+        let index = self.0.get(&node).copied();
+        index.ok_or_else(|| ImportError { line: Some(line), fault: fault() })
     }
 
-    /// The nodes that a card refers to, by a set or one by itself.
+    /// Indices of the nodes that a card refers to.
     fn of_target(&self, deck: &Deck, target: &Target) -> Result<Vec<u32>, ImportError> {
         let ids = match deck.node_sets.get(&target.id) {
             _ if !target.set => vec![target.id],
@@ -97,24 +98,24 @@ impl Places {
     }
 }
 
-fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Places, ImportError> {
-    let mut places = HashMap::new();
+fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Indices, ImportError> {
+    let mut indices = HashMap::new();
     for node in &deck.nodes {
-        if places.insert(node.id, foreign.points.len() as u32).is_some() {
+        if indices.insert(node.id, foreign.points.len() as u32).is_some() {
             let fault = Fault::Repeated { what: "node", id: node.id };
             return Err(ImportError { line: Some(node.line), fault });
         }
         foreign.points.push(node.point.map(|x| x * units.length()));
         label(&mut foreign.nodes, node.id, node.line);
     }
-    Ok(Places(places))
+    Ok(Indices(indices))
 }
 
-fn take_solids(deck: &Deck, places: &Places, foreign: &mut Foreign) -> Result<(), ImportError> {
+fn take_solids(deck: &Deck, indices: &Indices, foreign: &mut Foreign) -> Result<(), ImportError> {
     for solid in &deck.solids {
         let mut hex = [0; 8];
         for (corner, &node) in hex.iter_mut().zip(&solid.nodes) {
-            *corner = places.find(&format!("element {}", solid.id), node, solid.line)?;
+            *corner = indices.find(&format!("element {}", solid.id), node, solid.line)?;
         }
         foreign.hexes.push(hex);
         label(&mut foreign.elements, solid.id, solid.line);
@@ -122,7 +123,7 @@ fn take_solids(deck: &Deck, places: &Places, foreign: &mut Foreign) -> Result<()
     Ok(())
 }
 
-/// The parts of disk and bar: the disk's is that which has nodes of the hub.
+/// The parts of disk and bar: the disk's is the one that has nodes of the hub.
 fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[u64; 2], ImportError> {
     let held: BTreeSet<u32> = hub.iter().copied().collect();
     let on_hub = |e: &usize| foreign.hexes[*e].iter().any(|n| held.contains(n));
@@ -141,7 +142,7 @@ fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[u64; 2], Import
 /// The two surfaces of the contact, as the sets `tread` of the disk and `top` of the bar.
 fn take_surfaces(
     deck: &Deck,
-    places: &Places,
+    indices: &Indices,
     disk: &BTreeSet<u32>,
     foreign: &mut Foreign,
 ) -> Result<(), ImportError> {
@@ -158,7 +159,7 @@ fn take_surfaces(
         for segment in segments {
             let mut face = [0; 4];
             for (corner, &node) in face.iter_mut().zip(segment) {
-                *corner = places.find(&format!("segment set {side}"), node, contact.line)?;
+                *corner = indices.find(&format!("segment set {side}"), node, contact.line)?;
             }
             faces.push(face);
         }

@@ -1,4 +1,4 @@
-//! Where the bodies of a keyword file are put, and their shapes, measured on the mesh.
+//! The shapes of the bodies of a keyword file, measured on the mesh, and their place in Creepage's frame.
 
 use crate::model::Model;
 use std::collections::BTreeSet;
@@ -26,8 +26,8 @@ pub(crate) struct Zone {
 }
 
 impl Model {
-    /// Moves the bodies to where Creepage wants them: the disk's axis at x = 0, the bar's apex at
-    /// z = 0 and the disk on it, both centred on y = 0. Measures their shapes.
+    /// Moves the bodies into Creepage's frame: the disk's axis at x = 0, the bar's apex at
+    /// z = 0 and the disk on it, both centred on y = 0. Returns their shapes; `notes` says what was moved.
     pub(crate) fn place(&mut self, notes: &mut Vec<String>) -> Shape {
         let top = self.extent(&mut self.faces("top").iter().flatten().copied());
         let bodies = [0, 1].map(|b| self.extent(&mut self.nodes[b].iter().copied()));
@@ -114,8 +114,8 @@ impl Model {
         ([mean[0] + a, mean[1] + b], (rr / count + a * a + b * b).sqrt())
     }
 
-    /// The part of the bar's top with faces about as small as that nearest to the first contact, on
-    /// the bar from `ends[0]` to `ends[1]` and no wider than `width`.
+    /// The fine zone: the part of the bar's top whose faces are about as large as the one nearest to the first
+    /// contact, between x = `ends[0]` and `ends[1]` (m) and no wider than `width` (m).
     fn zone(&self, ends: [f64; 2], width: f64) -> Zone {
         let points = &self.foreign.points;
         let faces: Vec<([f64; 2], f64)> = self
@@ -143,7 +143,8 @@ impl Model {
     }
 }
 
-/// Radius of the crown from (y, depth below the apex): that through its outermost points.
+/// Radius of the crown (m) from points (y, depth below the apex) of the running surface: that of the circle through
+/// the apex and the outermost points. None for a flat surface.
 fn crown(profile: &[[f64; 2]]) -> Option<f64> {
     let widest = profile.iter().map(|p| p[0].abs()).fold(0.0, f64::max);
     let rim: Vec<_> = profile.iter().filter(|p| p[0].abs() > 0.999 * widest).collect();

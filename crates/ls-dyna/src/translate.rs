@@ -6,21 +6,23 @@ use crate::model::Model;
 use crate::units::Units;
 use mesh::import::{ImportError, write_abaqus};
 
-/// A keyword file as Creepage takes it.
+/// A keyword file as a case and a mesh file of Creepage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Translation {
-    /// The case file.
+    /// Text of the case file, in SI units.
     pub case: String,
-    /// The mesh file, an Abaqus input file in metres with the nodes' and elements' own numbers.
+    /// Text of the mesh file: an Abaqus input file in metres, with the numbers that nodes and elements have in the
+    /// keyword file.
     pub mesh: String,
-    /// What was passed over or decided, a sentence each.
+    /// Cards that were ignored, and choices that were made, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// Translates a keyword file; `title` names it, `mesh_file` is the mesh file's name in the case.
+/// Translates a keyword file in consistent `units`. `title` is its name for the case's `title`; `mesh_file` is the
+/// value of `mesh.file` in the case.
 ///
 /// # Errors
-/// What is not read, by its line, and what a disk on a bar lacks.
+/// A card or field that is not supported, with its line; a card that a disk on a bar needs and the file lacks.
 pub fn translate(
     bytes: &[u8],
     units: Units,

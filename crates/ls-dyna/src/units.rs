@@ -1,6 +1,6 @@
-//! Consistent units of a keyword file.
+//! Consistent units of a keyword file, and their sizes in SI units.
 
-/// Length, mass and time in metres, kilograms and seconds.
+/// The units of length, mass and time, in metres, kilograms and seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Units {
     length: f64,
@@ -10,7 +10,7 @@ pub struct Units {
 
 impl Units {
     /// Units named as `mm-ton-s`: length (`m`, `cm`, `mm`, `in`), mass (`kg`, `ton`, `g`) and time
-    /// (`s`, `ms`, `us`).
+    /// (`s`, `ms`, `us`). None for any other text.
     pub fn parse(text: &str) -> Option<Self> {
         let find = |name: &str, units: &[(&str, f64)]| {
             units.iter().find(|(unit, _)| *unit == name).map(|(_, size)| *size)
@@ -23,32 +23,32 @@ impl Units {
         names.next().is_none().then_some(Self { length, mass, time })
     }
 
-    /// A length in metres.
+    /// The unit of length (m).
     pub(super) fn length(self) -> f64 {
         self.length
     }
 
-    /// A time in seconds.
+    /// The unit of time (s).
     pub(super) fn time(self) -> f64 {
         self.time
     }
 
-    /// A velocity in m/s.
+    /// The unit of velocity (m/s).
     pub(super) fn velocity(self) -> f64 {
         self.length / self.time
     }
 
-    /// A force in N.
+    /// The unit of force (N).
     pub(super) fn force(self) -> f64 {
         self.mass * self.length / (self.time * self.time)
     }
 
-    /// A stress in Pa.
+    /// The unit of stress (Pa).
     pub(super) fn stress(self) -> f64 {
         self.mass / (self.length * self.time * self.time)
     }
 
-    /// A density in kg/m^3.
+    /// The unit of density (kg/m^3).
     pub(super) fn density(self) -> f64 {
         self.mass / (self.length * self.length * self.length)
     }

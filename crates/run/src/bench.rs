@@ -34,12 +34,13 @@ static = 0.5
 method = \"none\"
 ";
 
-/// Measures kernel, whole step and the machine with the given number of threads, on the reference
-/// disk and bar at 1 mm with keys of the case set as on the command line, with the given kernels (by
-/// default the machine's best).
+/// Measures the element kernel, a whole step, and the machine's bandwidth and arithmetic, on the reference disk and
+/// bar at 1 mm, with so many `threads` and these `kernels` (by default the machine's best). `sets` are keys of the
+/// case, `KEY=VALUE` as on the command line.
 ///
 /// # Errors
-/// Keys that make no case.
+/// Keys that make no case; a mesh that cannot be made or that this machine has no memory for; threads that cannot
+/// be started.
 pub fn bench(
     threads: usize,
     kernels: Option<Level>,
@@ -51,7 +52,7 @@ pub fn bench(
 
 fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<serde_json::Value, RunError> {
     let mut case = Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), sets)?;
-    // Pressed rigidly by Hertz's approach, contact is as busy as after a preload.
+    // With the undeformed disk lowered by Hertz's approach about as many nodes touch as after a preload.
     if case.preload.method == PreloadMethod::None {
         case.disk.lift = -hertz(&case).approach;
     }

@@ -1,4 +1,4 @@
-//! The whole state of a run, and when it is kept.
+//! The whole state of a run, and when it is written as a checkpoint.
 
 use std::time::{Duration, Instant};
 
@@ -20,7 +20,7 @@ pub(crate) struct State {
     /// The last energies read.
     pub(crate) energies: Energies,
     pub(crate) found: Found,
-    /// Wall time of everything and of rolling so far.
+    /// Wall time so far: of the whole run, and of rolling.
     pub(crate) wall: [Duration; 2],
 }
 
@@ -28,9 +28,9 @@ pub(crate) struct State {
 pub(crate) struct Clock {
     steps: Option<u64>,
     wall: Option<Duration>,
-    /// Step and instant of the last one, or of the beginning.
+    /// Step and instant of the last checkpoint, or of the beginning.
     last: (u64, Instant),
-    /// Whether the first is due at once.
+    /// Whether none was written yet: the first is due at once.
     first: bool,
 }
 
@@ -49,7 +49,7 @@ impl Clock {
     /// Whether one is due before step `step`; the next interval then begins.
     pub(crate) fn is_due(&mut self, step: u64) -> bool {
         let (at, instant) = self.last;
-        // what the preload has found is kept at once
+        // the preload took time: its result is kept at once
         let any = self.steps.is_some() || self.wall.is_some();
         let due = (self.first && any)
             || self.steps.is_some_and(|interval| step - at >= interval)
@@ -63,7 +63,7 @@ impl Clock {
 }
 
 impl State {
-    /// The checkpoint that holds it, with what of the result files belongs to it.
+    /// The checkpoint of this state; `results` says how much of the result files belongs to it.
     pub(crate) fn checkpoint(
         &self,
         mut provenance: Provenance,

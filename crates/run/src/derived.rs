@@ -1,4 +1,4 @@
-//! What `creepage sweep`, `plot` and `report` put beside the files of a run, and `--force` removes with it.
+//! The files that `creepage sweep`, `plot` and `report` write beside those of a run; `--force` removes them with it.
 
 use std::fs;
 use std::io;
@@ -23,7 +23,7 @@ pub const FIGURE_NAMES: [&str; 8] = [
     "spectrum",
 ];
 
-/// Whether this program wrote the file.
+/// Whether a file is this program's work.
 type Ours = fn(&Path) -> bool;
 
 /// Every file that may be there.

@@ -6,8 +6,8 @@ use case::schema::Case;
 use scenario::Model;
 use serde_json::{Value, json};
 
-/// What compression leaves of the numbers, measured on the small case and on the reference case; both are
-/// rounded up.
+/// Part of the numbers of fields and of contact that compression leaves, measured on the small case and on the
+/// reference case and rounded up.
 const FIELDS: f64 = 0.95;
 const CONTACT: f64 = 0.6;
 /// Numbers per row of the history, per step and probe, and per node of a checkpoint.
@@ -27,7 +27,7 @@ pub(crate) struct Disk {
 }
 
 impl Disk {
-    /// Of a run of so many steps.
+    /// The estimate for a run of so many steps.
     pub(crate) fn of(case: &Case, model: &Model, steps: f64) -> Self {
         let (nodes, elements) = (model.mesh.nodes.len() as f64, model.mesh.hexes.len() as f64);
         let dt = case.duration() / steps;
@@ -59,7 +59,7 @@ impl Disk {
         self.fields + self.contact + self.history + self.checkpoints
     }
 
-    /// What to say where `folder` has less room than the run takes.
+    /// The warning where `folder` has less room than the run takes.
     pub(crate) fn shortage(&self, folder: &Path) -> Option<String> {
         let free = output::free_space(folder)? as f64;
         self.shortage_of(free)

@@ -19,7 +19,7 @@ pub enum RunError {
     #[error("the mesh has no contact surface in its fine zone")]
     #[diagnostic(help("enlarge mesh.zone"))]
     NoContact,
-    /// The function of the friction law is missing.
+    /// `friction.law = "python"` without its function.
     #[error("friction.law = \"python\": the run needs the function of its friction law")]
     #[diagnostic(help(
         "hand it over: `creepage.run(case, friction=law)` in Python; friction.source is what it was"
@@ -33,7 +33,7 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Text(#[from] output::NotWritten),
-    /// A built-in case is wrong.
+    /// The case of a benchmark is wrong, by the keys that were set.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Case(#[from] case::CaseError),
@@ -43,7 +43,7 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// The key of the case that the error is about, where it is about one.
+    /// The dotted path of the key of the case that the error is about, where it is about one.
     pub fn key(&self) -> Option<&'static str> {
         match self {
             Self::Scenario(error) => error.key(),
@@ -51,13 +51,13 @@ impl RunError {
         }
     }
 
-    /// What to do about it, in the keys of the case file.
+    /// What to do about it, in terms of the keys of the case file.
     pub fn remedy(&self) -> String {
         miette::Diagnostic::help(self).map_or("change this key".into(), |help| help.to_string())
     }
 
-    /// Exit code of the process: 2 for bad input, 3 where the run's own guards stopped it, 130
-    /// when interrupted.
+    /// Exit code of the process: 2 for bad input, 3 where no preload was found, a file could not be written, or
+    /// another process took the folder, 130 when interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,

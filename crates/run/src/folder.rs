@@ -1,4 +1,4 @@
-//! The folder of a run: taken only when it is free, or given up by `--force`.
+//! The folder of a run: used only when it is free, or when `--force` lets its run be replaced.
 
 use std::fs;
 use std::io;
@@ -16,10 +16,10 @@ use output::CHECKPOINTS;
 pub use output::VTKHDF;
 use output::layout::file;
 
-/// How the names of files begin that prove a folder writable; a kill leaves one behind.
+/// Prefix of the files that are written to prove a folder writable; a kill leaves one behind.
 const PROBE: &str = ".creepage-";
 
-/// How the names of files end that are not yet whole.
+/// Suffix of files that are not yet complete.
 const PARTIAL: &str = ".partial";
 
 /// The files that a run writes; `--force` removes these, what was made from them, and nothing else. It
@@ -125,20 +125,23 @@ pub(crate) enum Content {
     Other,
 }
 
-/// Whether the files of a run in `folder` are of a run of this program, and not a case that somebody
-/// wrote there: a run leaves its lock behind, and its name in its results.
+/// Whether `folder` holds a run of this program, and not files of the same names that somebody wrote there: a run
+/// leaves its lock behind, and the program's name in its results.
 pub fn is_run(folder: &Path) -> bool {
     let ours = |file: &&str| output::is_ours(&folder.join(file));
     content(folder) == Content::Run && (folder.join(LOCK).exists() || RUN_FILES.iter().any(ours))
 }
 
-/// Whether a file is one of a run's own, which nothing but the run may replace.
+/// Whether `path` is a file of a run, which no other command may replace.
 pub fn is_of_a_run(path: &Path) -> bool {
     let named = path.file_name().is_some_and(|name| RUN_FILES.iter().any(|file| name == *file));
     named && path.parent().is_some_and(|folder| folder.join(LOCK).exists())
 }
 
 /// Refuses to replace the run in `folder` where one of its files is among `inputs`.
+///
+/// # Errors
+/// [`FolderError::Input`].
 pub fn spare(folder: &Path, inputs: &[PathBuf]) -> Result<(), FolderError> {
     let files = RUN_FILES.map(|file| folder.join(file));
     match among(inputs, &files) {
@@ -154,7 +157,7 @@ pub(crate) fn content(folder: &Path) -> Content {
         entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     let is = |name: &str| names.iter().any(|other| other == name);
     let held = is(LOCK);
-    // the log is begun after the lock is taken, so that a file of that name alone is somebody's
+    // a run takes its lock before it begins its log: a log without a lock is somebody else's file
     let left = |name: &String| {
         name == LOCK || (name == file::LOG && held) || name.starts_with(PROBE) || is_partial(name)
     };
@@ -175,13 +178,16 @@ pub(crate) fn has_no_results(folder: &Path) -> bool {
     !results.into_iter().any(|file| folder.join(file).exists())
 }
 
-/// Whether a name is that of a run's file that is not yet whole.
+/// Whether a name is that of a run's file that is not yet complete.
 fn is_partial(name: &str) -> bool {
     name.strip_suffix(PARTIAL).is_some_and(|name| RUN_FILES.contains(&name))
 }
 
-/// Refuses a folder that cannot be written to, or in which a run cannot be begun because it holds
-/// anything, unless `force`; leaves nothing behind.
+/// Checks that a run can begin in `folder`: it can be written to, or made, and holds nothing; with `force` it may hold
+/// something. Leaves nothing behind.
+///
+/// # Errors
+/// A folder that fails the check.
 pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
     let path = || folder.to_path_buf();
     match fs::metadata(folder) {
@@ -203,12 +209,15 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
     }
 }
 
-/// Makes `folder` ready for a run: it exists, is writable and holds no run. It may be held already.
+/// Makes `folder` ready for a run: it exists, is writable, holds no run and is locked; `held` is the lock where the
+/// caller has it already.
 ///
-/// A folder that holds anything is refused without `force`; with it only [`RUN_FILES`] and the checks, pages
-/// and figures that this program made from them are removed, so that anything else beside a run survives;
-/// [`file::CASE`] is the run's to replace. What a run leaves that was killed as it began is no reason to
-/// refuse, and removed too.
+/// A folder that holds anything is refused without `force`. With it, [`RUN_FILES`] and the checks, pages and figures
+/// that this program made from them are removed, and everything else stays; [`file::CASE`] stays too, for the run to
+/// replace. What is left of a run that was killed as it began is removed also without `force`.
+///
+/// # Errors
+/// A folder that holds something, that another process works in, or that cannot be written to.
 pub fn prepare(
     folder: &Path,
     force: bool,
@@ -225,9 +234,9 @@ pub fn prepare(
     }
     fs::create_dir_all(folder).map_err(unwritable)?;
     let held = held.map_or_else(|| take(folder), Ok)?;
-    // looked at again: another process may just have been here
+    // checked again under the lock: another process may just have been here
     check(folder, force)?;
-    // the case itself is replaced at once, so that at any kill there is one that says what the folder is of
+    // the run replaces the case in one step, so that after any kill the folder says of which case it is
     RUN_FILES
         .iter()
         .filter(|file| **file != file::CASE)
@@ -236,7 +245,7 @@ pub fn prepare(
     Ok(held)
 }
 
-/// Holds `folder`, which is there, and removes what a kill left half-written.
+/// Locks `folder`, which must exist, and removes incomplete files that a kill left.
 pub(crate) fn take(folder: &Path) -> Result<FolderLock, FolderError> {
     let held = hold(folder)?;
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
@@ -262,7 +271,7 @@ fn prove_writable(folder: &Path) -> io::Result<()> {
     let number = PROBES.fetch_add(1, Ordering::Relaxed);
     let probe = folder.join(format!("{PROBE}{}-{number}", std::process::id()));
     let written = fs::write(&probe, b"creepage");
-    // also what a full disk has let in
+    // removed also where a full disk took only a part of it
     let removed = fs::remove_file(&probe);
     written.and(removed)
 }

@@ -1,9 +1,9 @@
 //! One process at a time in the folder of a run.
 //!
-//! Three signs keep a second one out: a lock on the folder itself, which nobody can delete; a lock on
-//! `run.lock`, for systems that cannot lock folders; and, for those that cannot lock at all, the word of
-//! its holder in it. The holder looks whether the file and the word are still its own
-//! ([`FolderLock::prove`]): where no sign kept another out, the first of two then stops.
+//! Three things keep a second one out: a lock on the folder itself, which nobody can delete; a lock on
+//! `run.lock`, for systems that cannot lock folders; and, for those that cannot lock at all, the identity of the
+//! process that holds the folder, written in `run.lock`. The holder checks from time to time that the file and the
+//! identity are still its own ([`FolderLock::prove`]): where nothing kept a second process out, the first one stops.
 
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Seek, Write};
@@ -15,21 +15,23 @@ use files::input;
 
 use crate::folder::FolderError;
 
-/// Held locked while a run is written, with the word of its holder; stays behind, empty.
+/// Locked while a run is written, with the identity of its holder in it; stays behind, empty.
 pub(crate) const LOCK: &str = "run.lock";
 
-/// A folder in which no other process writes a run as long as this lives.
+/// The lock of a folder: no other process writes a run there until it is dropped.
 #[derive(Debug)]
 pub struct FolderLock {
     folder: PathBuf,
     lock: File,
-    /// None where a full disk has no room for it.
-    word: Option<String>,
+    /// The identity in the file; none where a full disk had no room for it.
+    identity: Option<String>,
     _folder: Option<File>,
 }
 
-/// Keeps other processes out of `folder`, which is there. The system lets go of it however this process
-/// ends.
+/// Locks `folder`, which must exist, against other processes. The system frees the lock however this process ends.
+///
+/// # Errors
+/// [`FolderError::Busy`] where another process holds it, [`FolderError::NotWritable`] where the lock cannot be made.
 pub fn hold(folder: &Path) -> Result<FolderLock, FolderError> {
     let busy = || FolderError::Busy { path: folder.to_path_buf() };
     let unwritable = |cause| FolderError::NotWritable { path: folder.to_path_buf(), cause };
@@ -49,22 +51,27 @@ pub fn hold(folder: &Path) -> Result<FolderLock, FolderError> {
         Err(TryLockError::WouldBlock) => return Err(busy()),
         Err(TryLockError::Error(_)) => {
             let mut theirs = String::new();
-            if lock.read_to_string(&mut theirs).is_ok() && Word::parse(&theirs).lives() {
+            if lock.read_to_string(&mut theirs).is_ok() && Holder::parse(&theirs).lives() {
                 return Err(busy());
             }
         }
     }
-    let word = Word::own().to_string();
-    let written = write(&mut lock, &word).is_ok();
-    Ok(FolderLock { folder: folder.into(), lock, word: written.then_some(word), _folder: own })
+    let identity = Holder::own().to_string();
+    let written = write(&mut lock, &identity).is_ok();
+    Ok(FolderLock {
+        folder: folder.into(),
+        lock,
+        identity: written.then_some(identity),
+        _folder: own,
+    })
 }
 
 impl FolderLock {
-    /// That the folder is still this process's: its `run.lock` is the file that was locked, with the
-    /// word that was written.
+    /// Checks that the folder is still this process's: its `run.lock` is the file that was locked, with the identity
+    /// that was written. A file that is there and cannot be read passes.
     ///
     /// # Errors
-    /// The file is gone, or another's. What cannot be read proves nothing.
+    /// [`FolderError::Lost`] where the file is gone or another one.
     pub fn prove(&self) -> Result<(), FolderError> {
         let path = self.folder.join(LOCK);
         let same = match (fs::metadata(&path), self.lock.metadata()) {
@@ -72,17 +79,17 @@ impl FolderLock {
             (Err(cause), _) => cause.kind() != io::ErrorKind::NotFound,
             _ => true,
         };
-        let said = |word: &String| {
-            input::text(&path, input::DOCUMENT).map_or(true, |there| there == *word)
+        let said = |identity: &String| {
+            input::text(&path, input::DOCUMENT).map_or(true, |there| there == *identity)
         };
-        if same && self.word.as_ref().is_none_or(said) {
+        if same && self.identity.as_ref().is_none_or(said) {
             return Ok(());
         }
         Err(FolderError::Lost { path: self.folder.clone() })
     }
 }
 
-/// The word goes with its holder, where that ends in order.
+/// The identity is removed with its holder, unless that is killed.
 impl Drop for FolderLock {
     fn drop(&mut self) {
         if self.prove().is_ok() {
@@ -91,10 +98,10 @@ impl Drop for FolderLock {
     }
 }
 
-fn write(file: &mut File, word: &str) -> io::Result<()> {
+fn write(file: &mut File, identity: &str) -> io::Result<()> {
     file.set_len(0)?;
     file.rewind()?;
-    file.write_all(word.as_bytes())
+    file.write_all(identity.as_bytes())
 }
 
 #[cfg(unix)]
@@ -108,17 +115,17 @@ fn same(_: &Metadata, _: &Metadata) -> bool {
     true
 }
 
-/// Who holds a folder: a process by the boot of its machine, its number and when it started, and which of its
-/// holds.
+/// Who holds a folder: a process by the boot of its machine, its number and its start, and which of the locks that
+/// it has taken.
 #[derive(Debug, PartialEq)]
-struct Word {
+struct Holder {
     boot: String,
     process: String,
     started: String,
     hold: String,
 }
 
-impl Word {
+impl Holder {
     fn own() -> Self {
         static HOLDS: AtomicUsize = AtomicUsize::new(0);
         let count = HOLDS.fetch_add(1, Ordering::Relaxed);
@@ -138,20 +145,19 @@ impl Word {
         Self { boot: next(), process: next(), started: next(), hold: next() }
     }
 
-    /// Whether the process that said it is one of this machine and there. Of those elsewhere nothing is
-    /// known.
+    /// Whether the process runs on this machine. One of another machine, of which nothing is known, counts as gone.
     fn lives(&self) -> bool {
         self.boot == boot() && started(&self.process).is_some_and(|since| since == self.started)
     }
 }
 
-impl std::fmt::Display for Word {
+impl std::fmt::Display for Holder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(f, "{} {} {} {}", self.boot, self.process, self.started, self.hold)
     }
 }
 
-/// The identity of the machine since it was started; where there is none, what no word holds.
+/// The identity of the machine's present boot; `-` where the system has none.
 fn boot() -> String {
     let id = input::text(Path::new("/proc/sys/kernel/random/boot_id"), input::LOG);
     let id = id.unwrap_or_default();
@@ -182,17 +188,17 @@ mod tests {
             assert!(matches!(second, Err(FolderError::Busy { .. })), "{second:?}");
         }
         assert!(matches!(first.prove(), Err(FolderError::Lost { .. })));
-        fs::write(folder.path().join(LOCK), first.word.as_ref().unwrap()).unwrap();
+        fs::write(folder.path().join(LOCK), first.identity.as_ref().unwrap()).unwrap();
         if cfg!(unix) {
             assert!(matches!(first.prove(), Err(FolderError::Lost { .. })), "another file");
         }
     }
 
     #[test]
-    fn another_word_in_the_lock_is_noticed() {
+    fn another_identity_in_the_lock_is_noticed() {
         let folder = tempfile::tempdir().unwrap();
         let first = hold(folder.path()).unwrap();
-        fs::write(folder.path().join(LOCK), Word::own().to_string()).unwrap();
+        fs::write(folder.path().join(LOCK), Holder::own().to_string()).unwrap();
         assert!(matches!(first.prove(), Err(FolderError::Lost { .. })));
     }
 
@@ -206,13 +212,13 @@ mod tests {
 
     #[test]
     #[cfg(target_os = "linux")]
-    fn a_word_tells_a_living_process_from_one_that_is_gone() {
-        let own = Word::own();
-        assert_eq!(Word::parse(&own.to_string()), own);
+    fn an_identity_tells_a_living_process_from_one_that_is_gone() {
+        let own = Holder::own();
+        assert_eq!(Holder::parse(&own.to_string()), own);
         assert!(own.lives());
-        assert!(!Word { started: "1".into(), ..Word::own() }.lives(), "another's number");
-        assert!(!Word { boot: "elsewhere".into(), ..Word::own() }.lives());
-        assert!(!Word { process: "4194305".into(), ..Word::own() }.lives(), "no such process");
-        assert!(!Word::parse("").lives());
+        assert!(!Holder { started: "1".into(), ..Holder::own() }.lives(), "another's number");
+        assert!(!Holder { boot: "elsewhere".into(), ..Holder::own() }.lives());
+        assert!(!Holder { process: "4194305".into(), ..Holder::own() }.lives(), "no such process");
+        assert!(!Holder::parse("").lives());
     }
 }

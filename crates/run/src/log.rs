@@ -9,7 +9,7 @@ use output::NotWritten;
 /// How the last line of the log begins where a run was refused after its mesh was made.
 pub const REFUSED: &str = "end: refused before rolling: ";
 
-/// `run.log`: what the run said, line by line.
+/// `run.log`: a line for every event of a run.
 pub(crate) struct Log {
     path: PathBuf,
     file: File,
@@ -23,7 +23,7 @@ impl Log {
         }
     }
 
-    /// Goes on with the log of a run.
+    /// The log of a run that goes on.
     pub(crate) fn append(path: PathBuf) -> Result<Self, NotWritten> {
         match File::options().append(true).create(true).open(&path) {
             Ok(file) => Ok(Self { path, file }),
@@ -31,12 +31,13 @@ impl Log {
         }
     }
 
+    /// Writes a line, and passes it on to the subscriber of `tracing`.
     pub(crate) fn say(&mut self, line: &str) -> Result<(), NotWritten> {
         tracing::info!("{line}");
         self.write(line)
     }
 
-    /// What the user should know whether or not more is to be said.
+    /// Writes a warning, which the user sees also where other lines are not shown.
     pub(crate) fn warn(&mut self, line: &str) -> Result<(), NotWritten> {
         tracing::warn!("{line}");
         self.write(&format!("warning: {line}"))

@@ -12,7 +12,7 @@ pub(crate) struct Mean {
 }
 
 impl Mean {
-    /// Takes a sample in (Welford 1962); values that are not numbers are left out.
+    /// Adds a sample (Welford 1962); values that are not finite are left out.
     pub(crate) fn add(&mut self, x: f64) {
         if x.is_finite() {
             self.count += 1.0;
@@ -32,13 +32,13 @@ impl Mean {
         (self.count > 0.0).then_some(self.mean)
     }
 
-    /// The standard deviation; none without samples.
+    /// The standard deviation of the samples about their own mean; none without samples.
     pub(crate) fn deviation(&self) -> Option<f64> {
         (self.count > 0.0).then(|| (self.squares / self.count).sqrt())
     }
 }
 
-/// Means over the evaluation window and extremes over the run.
+/// Means over the evaluation window, and extremes and counts over the run; SI units, forces on the disk.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Means {
     pub(crate) force: [Mean; 3],
@@ -59,9 +59,9 @@ pub(crate) struct Means {
     pub(crate) worst_mismatch: f64,
     /// Most sweeps of exact enforcement in a step.
     pub(crate) most_sweeps: usize,
-    /// Nodes and steps in which the law of friction had more than one solution.
+    /// Sum over the steps of the nodes whose friction law had more than one solution.
     pub(crate) non_unique: u64,
-    /// Integrals of mortar rows, in all steps.
+    /// Integrals of mortar rows in all steps.
     pub(crate) integrated: u64,
     pub(crate) mesh_mode: MeshModeSums,
 }

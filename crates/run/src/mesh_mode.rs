@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use solid::Solid;
 
-/// The energies of the elements below the contact are taken so often over the evaluation window: each is a
-/// pass over them outside the kernels.
+/// Samples of the energies of the elements below the contact over the evaluation window. They are few, since each
+/// is a pass over the elements outside the vector kernels.
 const SAMPLES: f64 = 20.0;
 
 /// Sums over the evaluation window.
@@ -37,7 +37,7 @@ impl MeshModeSums {
         (strain > 0.0).then(|| hourglass / strain)
     }
 
-    /// What is to be said of them.
+    /// Warnings about them, one sentence each.
     pub(crate) fn warnings(&self, case: &Case) -> Vec<String> {
         let one_point = case.element.contact_layers == ContactLayers::OnePoint;
         let slip = self.alternating(case).and_then(|share| warning(share, one_point));
@@ -68,16 +68,17 @@ impl MeshModeSums {
     }
 }
 
-/// What is looked at.
+/// The faces and elements whose slip and energies are watched.
 pub(crate) struct WatchedFaces {
     /// Sides at whose nodes slip is judged: those where the conditions are enforced.
     sides: Vec<usize>,
-    /// Faces of the zones, in the nodes of their tables.
+    /// Faces of the zones of both sides, their nodes as rows of that side's table.
     faces: [Vec<[u32; 4]>; 2],
     /// Elements of the layers below the zones.
     layers: Vec<u32>,
+    /// Least pressure of a node in contact (Pa).
     pressure: f64,
-    /// From (s), and time between two samples of energy (s).
+    /// Start of the window (s), and time between two samples of energy (s).
     from: f64,
     interval: f64,
 }
@@ -116,12 +117,12 @@ impl WatchedFaces {
         })
     }
 
-    /// Faces of the zones of both sides, in the nodes of their tables.
+    /// Faces of the zones of both sides, their nodes as rows of that side's table.
     pub(crate) fn faces(&self) -> &[Vec<[u32; 4]>; 2] {
         &self.faces
     }
 
-    /// Takes in the slip at a time within the window.
+    /// Adds the slip at a time within the window.
     pub(crate) fn slip(&self, tables: &[NodalContact; 2], sums: &mut MeshModeSums) {
         for &side in &self.sides {
             let table = &tables[side];
@@ -130,7 +131,7 @@ impl WatchedFaces {
         }
     }
 
-    /// Takes in the energies if a sample is due in the step from `time` to `time + dt`, within the window.
+    /// Adds the energies of the elements if a sample is due between `time - dt` and `time` (s), within the window.
     pub(crate) fn energy(
         &self,
         [time, dt]: [f64; 2],

@@ -7,12 +7,13 @@ use output::layout::{POSTMORTEM, PostmortemFields, attribute, file};
 use output::{Cells, FieldSpec, GridSpec, Provenance, StaticField, TransientGrid, Values};
 use std::path::Path;
 
-/// An element folded to less than this at a corner is suspect.
+/// An element whose volume ratio at a corner is less than this is suspect.
 const FOLDED: f64 = 0.2;
 
-/// Writes both bodies as they are, with the state of every element and what is suspect.
+/// Writes both bodies as they are, with the state of every element and what is suspect: 2 where the guard stopped the
+/// run, 1 for other elements that are folded or hold that node.
 ///
-/// Displacements may be no numbers: viewers then leave those points out.
+/// Displacements may be NaN: viewers then leave those points out.
 pub(crate) fn write(
     folder: &Path,
     simulation: &mut Simulation,

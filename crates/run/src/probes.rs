@@ -1,4 +1,4 @@
-//! Surface nodes recorded at every step, in `probes.h5`.
+//! Surface nodes recorded at every step, in `probes.h5`: those of the fine zones nearest to the points of the case.
 
 use crate::error::RunError;
 use crate::record::RecordBasis;
@@ -14,7 +14,7 @@ use scenario::{BAR, DISK, Model};
 pub(crate) struct Probes {
     history: History,
     tables: [NodalContact; 2],
-    /// Side and row in that side's table.
+    /// Side and row in that side's table, of each probe.
     rows: Vec<(usize, usize)>,
     buffer: Vec<f64>,
 }
@@ -118,7 +118,7 @@ impl Probes {
         Ok(())
     }
 
-    /// The file, which holds all but what is held back.
+    /// The file, which holds all but the rows that are not yet flushed.
     pub(crate) fn file(&self) -> &History {
         &self.history
     }

@@ -33,7 +33,7 @@ const HISTORY_BATCH: usize = 64;
 /// Nodes of both contact zones and the motion copied from them before a step.
 struct Zones {
     tables: [NodalContact; 2],
-    /// Whether records hold the velocities of the step that leaves or of the one that led there.
+    /// Whether records at t^n hold the velocities of the step before (t^{n-1/2}) or after (t^{n+1/2}).
     pairing: Pairing,
     displacement: Vec<[f64; 3]>,
     velocity: Vec<[f64; 3]>,
@@ -48,41 +48,48 @@ impl Zones {
     }
 }
 
-/// Writes fields, contact surfaces and history, and gathers the means of the window.
+/// Writes fields, contact surfaces, history and probes, and gathers the means over the evaluation window.
 pub(crate) struct Recorder {
     writer: BackgroundWriter,
     zones: Zones,
     enforced_on: Option<usize>,
     fields: Schedule,
     contact_every: u64,
+    /// First and last step of each output window, and its interval (steps).
     windows: Vec<(u64, u64, u64)>,
     history_every: u64,
+    /// Rows of the history that are not yet handed to the writer.
     rows: Vec<f64>,
     probes: Option<Probes>,
     stress: bool,
-    /// Nodes that move with the hub but for their deformation.
+    /// Nodes of the disk, which moves with the hub but for its deformation.
     disk: Range<usize>,
+    /// Undeformed positions of the zones' nodes (m).
     points: [Vec<[f64; 3]>; 2],
+    /// Rows of the bar's table on the centre line, by x.
     centreline: Vec<usize>,
     shape: PatchShape,
+    /// Buffer: x (m) of the nodes of the centre line in contact, and whether they stick.
     line: Vec<(f64, bool)>,
     effective_radius: f64,
     speed: f64,
     hertz_pressure: f64,
+    /// The evaluation window (s).
     evaluate: [f64; 2],
     mesh_mode: WatchedFaces,
     pub(crate) means: Means,
+    /// Wall time of output on the time loop's side.
     pub(crate) wall: Duration,
 }
 
-/// Steps at which snapshots of the fields are due: at least the asked interval apart.
+/// Times at which snapshots of the fields are due: an interval apart, or at every step where steps are longer (s).
 struct Schedule {
     interval: f64,
     next: f64,
 }
 
 impl Schedule {
-    /// Takes the first instant of the schedule after `time`, at which a snapshot was due.
+    /// Moves on to the first instant of the schedule after `time`, at which a snapshot was due.
     fn advance(&mut self, time: f64) {
         self.next += self.interval;
         // where steps are longer than the interval: all of those between at once
@@ -94,13 +101,13 @@ impl Schedule {
     }
 }
 
-/// What the files of a run rest on besides the case.
+/// What the files of a run are made from besides the case.
 pub(crate) struct RecordBasis<'a> {
     pub(crate) folder: &'a Path,
     pub(crate) provenance: Provenance,
     pub(crate) effective_radius: f64,
     pub(crate) hertz_pressure: f64,
-    /// Where the run goes on with files that are there: what of them it keeps.
+    /// How much of the existing files a resumed run keeps; none for a run that begins.
     pub(crate) keeps: Option<Results>,
 }
 
@@ -134,13 +141,13 @@ impl RecordBasis<'_> {
     }
 }
 
-/// What the recorder carries from step to step, with nothing held back.
+/// What the recorder carries from step to step, once all rows are handed to the writer.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct RecorderState {
     /// When the next snapshot of the fields is due (s).
     pub(crate) next_fields: f64,
     pub(crate) means: Means,
-    /// Wall time so far.
+    /// Wall time of output so far.
     pub(crate) wall: Duration,
 }
 
@@ -208,7 +215,7 @@ impl Recorder {
         })
     }
 
-    /// The state once everything held back is on its way to the files.
+    /// The state, after all rows are handed to the writer.
     pub(crate) fn snapshot(&mut self) -> Result<RecorderState, RunError> {
         self.flush_history()?;
         if let Some(probes) = &mut self.probes {
@@ -218,14 +225,14 @@ impl Recorder {
         Ok(RecorderState { next_fields, means, wall: self.wall })
     }
 
-    /// Takes over the state of the recorder whose files this one goes on with.
+    /// Takes over the state of the recorder that began the files.
     pub(crate) fn restore(&mut self, state: &RecorderState) {
         self.fields.next = state.next_fields;
         self.means = state.means.clone();
         self.wall = state.wall;
     }
 
-    /// Writes the checkpoint that `make` gives behind everything sent before.
+    /// Has the writer write the checkpoint that `make` returns, after everything sent before.
     pub(crate) fn keep(
         &mut self,
         make: impl FnOnce(Results) -> Result<Checkpoint, OutputError> + Send + 'static,
@@ -236,7 +243,7 @@ impl Recorder {
         Ok(self.writer.keep(make, folder, beside)?)
     }
 
-    /// Whether step `n` writes a row of the history, hence reads the energies.
+    /// Whether step `n` writes a row of the history, and so needs the energies.
     pub(crate) fn reads(&self, n: u64) -> bool {
         n.is_multiple_of(self.history_every)
     }
@@ -318,7 +325,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// The patch on the bar as the tables have it, with the hub at `hub_x` (m).
+    /// The patch on the bar by the present tables, with the hub at `hub_x` (m).
     fn patch(&mut self, hub_x: f64) -> PatchMeasures {
         let bar = &self.zones.tables[BAR];
         let fit = patch::fit(self.shape, &self.points[BAR], &bar.pressure);
@@ -332,7 +339,8 @@ impl Recorder {
         }
     }
 
-    /// Writes what is still held back, the final state, and closes the files.
+    /// Writes the remaining rows and the final state, and closes the files. Returns the means, and the wall time of
+    /// output.
     pub(crate) fn finish(mut self, simulation: &Simulation) -> Result<(Means, Duration), RunError> {
         let clock = Instant::now();
         self.flush_history()?;
@@ -449,8 +457,8 @@ impl Recorder {
     }
 }
 
-/// Nodes of the line along x that lies nearest to y = 0, by their x; where there is none on y = 0, as on a
-/// slice or an odd number of elements across, the one at y > 0 of two alike.
+/// Nodes of the line along x that lies nearest to y = 0, in ascending x. Of two lines at the same distance, as on a
+/// slice or with an odd number of elements across, the one at y > 0.
 fn centreline(points: &[[f64; 3]], size: f64) -> Vec<usize> {
     let least = points.iter().map(|x| x[1].abs()).fold(f64::INFINITY, f64::min);
     let slack = 0.1 * size;
@@ -482,7 +490,7 @@ fn create_fields(
 struct ContactSurfaces<'a> {
     tables: &'a [NodalContact; 2],
     points: &'a [Vec<[f64; 3]>; 2],
-    /// Faces by the nodes of the tables.
+    /// Faces, their nodes as rows of the tables.
     faces: &'a [Vec<[u32; 4]>; 2],
 }
 
@@ -519,7 +527,8 @@ fn create_contact(
     basis.grid(file::CONTACT, &grid, &fields, &provenance, |results| &results.contact)
 }
 
-/// Conditions that are enforced hold with the slip of the step that leaves.
+/// Which velocities belong to a record: conditions that are enforced hold with the slip velocity of the step that
+/// leaves x^n.
 fn pairing(enforced_on: Option<usize>) -> Pairing {
     enforced_on.map_or(Pairing::Before, |_| Pairing::After)
 }

@@ -18,11 +18,11 @@ use solid::Level;
 
 /// Where a run goes on.
 pub(crate) enum ResumeFrom {
-    /// It is complete; its summary.
+    /// Nowhere: the run is complete. Its summary.
     Complete(Value),
-    /// From its beginning; why.
+    /// At its beginning. The reason.
     Beginning(String),
-    /// From a checkpoint.
+    /// At a checkpoint.
     Checkpoint(Box<Point>),
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Point {
     pub(crate) checkpoint: Checkpoint,
     pub(crate) state: State,
     pub(crate) kernels: Level,
-    /// Newer ones, and what is wrong with them.
+    /// Newer checkpoints that cannot be used, and why.
     pub(crate) damaged: Vec<(&'static str, String)>,
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn resume_from(case: &Case, folder: &Path) -> Result<ResumeFrom, Resu
         }
     }
     if damaged.is_empty() {
-        // what the summary of a run that can go on says is of no use
+        // a summary that is damaged matters only where there is no checkpoint
         summary.map_err(damage)?;
         return Ok(ResumeFrom::Beginning("the run has no checkpoint yet".into()));
     }
@@ -102,7 +102,7 @@ fn difference(case: &Case, folder: &Path) -> Option<String> {
     let theirs = toml::Table::try_from(&theirs).unwrap_or_default();
     let mut keys = Vec::new();
     differing(&ours, &theirs, "", &mut keys);
-    // intervals and limits may change
+    // no result depends on these
     keys.retain(|key| !key.starts_with("checkpoint") && !key.starts_with("guards"));
     match &keys[..] {
         [] => None,

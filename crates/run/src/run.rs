@@ -33,10 +33,15 @@ use rolling::{Rolled, Rolling, Stopped};
 use scenario::progress::{Progress, Stage};
 use scenario::{Facts, Start};
 
-/// Runs a case to its end, to a stop request or to a guard, and returns its summary.
+/// Runs a case to its end, to a stop request or to a guard, and returns its summary (`summary.json`).
 ///
-/// A run that a guard stopped has the status `failed` and a `diagnosis`; one that was interrupted
-/// has the status `interrupted`. In both cases the results so far are readable.
+/// A run that a guard stopped, or that found no preload, has the status `failed` and a `diagnosis`; one that was
+/// interrupted has the status `interrupted`. In all cases the results so far are readable. `stop` is read at every
+/// step; `observe` is called now and then.
+///
+/// # Errors
+/// A folder that cannot be used, a run that cannot be resumed, a mesh, contact or friction law that cannot be set up,
+/// files that cannot be written, a folder that another process took.
 pub fn run(
     case: &Case,
     options: &RunOptions,
@@ -84,7 +89,7 @@ fn run_in_pool(
     };
     let Start { simulation, facts } = start;
     let Opened { held, mut log, model, .. } = opened;
-    tell(&simulation, &facts, &mut log)?;
+    log_facts(&simulation, &facts, &mut log)?;
     if resumed.is_none() {
         let below = validation::below_the_step(case, simulation.dt());
         below.iter().try_for_each(|line| log.warn(line))?;
@@ -92,10 +97,10 @@ fn run_in_pool(
         disk.shortage(&options.out).iter().try_for_each(|line| log.warn(line))?;
     }
     let basis = basis(case, options, &facts, resumed.as_deref());
-    // another process may have come during the preload
+    // another process may have taken the folder during the preload
     held.prove()?;
     if resumed.is_some() {
-        // the word of an interruption or a stop holds no longer once the files change
+        // what these say of an interruption or a stop is no longer true once the files change
         [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
     }
     let recorder = Recorder::new(case, &model, &simulation, &basis)?;
@@ -106,20 +111,20 @@ fn run_in_pool(
     if let Some(resumed) = resumed {
         rolling.resume(resumed.state);
     }
-    let Stopped { status, diagnosis, found } = rolling.roll(options, &basis, stop, observe)?;
+    let Stopped { status, diagnosis, guard } = rolling.roll(options, &basis, stop, observe)?;
     let mut rolled = rolling.end()?;
     if let Some(line) = &diagnosis {
         log.say(line)?;
     }
-    if let Some(found) = &found {
-        postmortem::write(&options.out, &mut rolled.simulation, found, &basis.provenance)?;
+    if let Some(guard) = &guard {
+        postmortem::write(&options.out, &mut rolled.simulation, guard, &basis.provenance)?;
         log.say(&format!("{} holds both bodies as they are", file::POSTMORTEM))?;
     }
     let Rolled { simulation, energies, means, before, rolling, output, keeping } = rolled;
     let ending = Ending {
         status,
         diagnosis,
-        postmortem: found.is_some(),
+        postmortem: guard.is_some(),
         energies,
         means,
         elements,
@@ -133,8 +138,8 @@ fn run_in_pool(
     conclude(case, options, &simulation, &facts, &ending, &held, &mut log)
 }
 
-/// Says in the log what is known before the disk rolls.
-fn tell(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<(), NotWritten> {
+/// Writes into the log what is known before the disk rolls.
+fn log_facts(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<(), NotWritten> {
     let stability = &facts.stability;
     log.say(&format!(
         "step: {:.4e} s, {:.3} of the limit 2/omega_max (omega_max {:.4e} rad/s with contact, \
@@ -150,7 +155,7 @@ fn tell(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<(), Not
     facts.numbers.expectation().iter().try_for_each(|line| log.warn(line))
 }
 
-/// What the files of the run rest on besides the case.
+/// What the files of the run are made from besides the case.
 fn basis<'a>(
     case: &Case,
     options: &'a RunOptions,
@@ -174,7 +179,7 @@ fn basis<'a>(
     }
 }
 
-/// Writes the summary; a run that is complete needs its checkpoints no longer.
+/// Writes the summary, and removes the checkpoints of a run that is complete.
 fn conclude(
     case: &Case,
     options: &RunOptions,
@@ -203,7 +208,7 @@ fn conclude(
 /// A run with nothing left to do.
 fn complete(folder: &Path, summary: serde_json::Value) -> serde_json::Value {
     tracing::warn!("the run in {} is complete: nothing to resume", folder.display());
-    // It may have been killed just before it took them away itself.
+    // It may have been killed just before it removed them itself.
     let _ = remove_checkpoints(folder);
     summary
 }

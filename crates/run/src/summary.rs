@@ -22,7 +22,7 @@ pub(crate) struct Ending {
     pub(crate) status: Status,
     /// Why it failed, and what to do.
     pub(crate) diagnosis: Option<String>,
-    /// Whether guards stopped it and left the bodies as they were.
+    /// Whether a guard stopped it and wrote the post-mortem file.
     pub(crate) postmortem: bool,
     /// The last energies read.
     pub(crate) energies: Energies,
@@ -30,7 +30,7 @@ pub(crate) struct Ending {
     pub(crate) elements: usize,
     pub(crate) nodes: usize,
     pub(crate) threads: usize,
-    /// Wall time of everything, of rolling, and of output on the time loop's side.
+    /// Wall time of the whole run, of rolling, and of output on the time loop's side.
     pub(crate) wall: Duration,
     pub(crate) rolling: Duration,
     pub(crate) output: Duration,
@@ -152,11 +152,11 @@ pub(crate) fn without_rolling(
     }
 }
 
-/// The files whose lengths and sums a summary holds.
+/// The files whose lengths and checksums a summary holds.
 const SUMMED: [&str; 6] =
     [file::CASE, file::FIELDS, file::CONTACT, file::HISTORY, file::PROBES, file::POSTMORTEM];
 
-/// Writes the summary of a run whose files are closed into its folder, with their sums; returns it.
+/// Writes the summary of a run whose files are closed into its folder, with their checksums; returns it.
 pub(crate) fn write(folder: &Path, summary: &Summary) -> Result<Value, RunError> {
     let mut document = json!(summary);
     if let Value::Object(entries) = &mut document {
@@ -183,7 +183,7 @@ fn contact_means(means: &Means) -> Contact {
     }
 }
 
-/// The evaluation window: what it spans, means that the contract's `contact` does not name, and
+/// The section `window`: the span of the evaluation window (s), means that the section `contact` does not hold, and
 /// standard deviations.
 fn window(case: &Case, means: &Means) -> serde_json::Value {
     let [from, to] = case.evaluation_window();
@@ -216,7 +216,7 @@ fn window(case: &Case, means: &Means) -> serde_json::Value {
     })
 }
 
-/// Why means of the patch have no value, or which rows of the history they leave out.
+/// Why means of the patch have no value, or how many rows of the history they leave out.
 fn reasons(means: &Means) -> serde_json::Map<String, serde_json::Value> {
     let rows = means.area.count();
     let fit = "Hertz's distribution fits the pressure of";

@@ -16,8 +16,8 @@ pub(crate) fn remove(path: &Path) -> Result<(), NotWritten> {
     }
 }
 
-/// Writes a TOML file under another name first and brings it to the disk: a kill or a power cut
-/// leaves the old text or the new one.
+/// Writes a TOML file under another name, syncs it to the disk and renames it: a kill or a power cut leaves the old
+/// text or the new one.
 pub(crate) fn write_text(path: PathBuf, text: &str) -> Result<(), NotWritten> {
     let partial = path.with_extension("toml.partial");
     let write = || {

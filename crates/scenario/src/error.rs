@@ -30,7 +30,7 @@ pub enum ScenarioError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Contact(#[from] contact::ContactError),
-    /// There is no friction law.
+    /// The case gives no valid friction law.
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Friction(#[from] friction::LawError),
@@ -64,7 +64,7 @@ pub enum ScenarioError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Preload(#[from] crate::preload::PreloadError),
-    /// The state of a checkpoint is not of this model.
+    /// The state of a checkpoint is that of another model.
     #[error("the checkpoint cannot be used: {0}")]
     #[diagnostic(help("begin the run anew with --force; its results so far are readable"))]
     Restore(#[from] dynamics::RestoreError),
@@ -75,7 +75,7 @@ pub enum ScenarioError {
 }
 
 impl ScenarioError {
-    /// The key of the case that the error is about, where it is about one.
+    /// The dotted path of the key of the case that the error is about, where it is about one.
     pub fn key(&self) -> Option<&'static str> {
         match self {
             Self::Mesh(error) => key_of_mesh(error),
@@ -103,7 +103,7 @@ impl Remedy for ScenarioError {
     }
 }
 
-/// What is wrong with a mesh, after the key that it is refused by.
+/// What is wrong with a generated mesh, after the key of the case that it is about.
 fn named(error: &mesh::MeshError) -> String {
     key_of_mesh(error).map_or(error.to_string(), |key| format!("{key}: {error}"))
 }
@@ -118,7 +118,7 @@ fn gigabytes(gb: f64) -> String {
 pub struct MeshFileError {
     /// The file.
     pub path: PathBuf,
-    /// Line, counted from 1.
+    /// Line of a text file, counted from 1.
     pub line: Option<usize>,
     /// What is wrong.
     pub problem: String,

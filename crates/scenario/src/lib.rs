@@ -1,7 +1,8 @@
 //! A scenario: the bodies of a case, what drives them, and their state when they begin to move.
 //!
-//! Everything that knows the shapes and roles of the bodies stands in the folder of its scenario, today
-//! `disk_on_bar` alone. A scenario yields a [`dynamics::Simulation`] and what a run records of it.
+//! A [`Model`] is the discretised bodies; a [`Start`] is the [`dynamics::Simulation`] in the state in which they begin
+//! to move, with what a run reports of it. How both are made of a case stands in the folder of the scenario, today
+//! `disk_on_bar` alone; [`Model`] and [`numbers`](mod@numbers) name its two bodies as well.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
@@ -17,7 +18,7 @@ pub mod start;
 #[cfg(test)]
 mod tests;
 
-// there is one scenario; with a second one, these choose by the case
+// there is one scenario; with a second one, these functions choose by the case
 pub use disk_on_bar::{elements, model, restart, stable_limit, start};
 pub use error::{MeshFileError, ScenarioError};
 pub use model::{BAR, DISK, Model};

@@ -1,4 +1,4 @@
-//! Memory: what a run needs, what the machine has, what was used.
+//! Memory: what a run needs, what the machine has free, what this process used.
 
 use std::path::Path;
 
@@ -7,14 +7,17 @@ use files::input;
 use crate::error::ScenarioError;
 use case::schema::Case;
 
-/// Bytes per element of a whole run; the static preload takes the most.
+/// Bytes per element that a whole run needs at most, during its static preload.
 pub const BYTES_PER_ELEMENT: f64 = 950.0;
 
-/// Bytes per element of its mesh alone, with the elements set up.
+/// Bytes per element of the mesh and the elements alone.
 const BYTES_PER_MESH_ELEMENT: f64 = 400.0;
 
-/// Refuses a case before its mesh is made where the fine zones alone, which are known without it, are more
-/// than the machine can hold at so many bytes per element.
+/// Checks before the mesh of a case is made that the machine has the memory for it. Only the elements of the fine
+/// zones count, which are known without the mesh; a mesh file is not looked at.
+///
+/// # Errors
+/// [`ScenarioError::Memory`] where `bytes_per_element` times their number is more than is free.
 pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), ScenarioError> {
     // a mesh that is read has the elements of its file
     if case.mesh.file.is_some() {
@@ -26,12 +29,18 @@ pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), Scena
     fits(elements as usize, bytes_per_element, free_mb())
 }
 
-/// The same for the mesh alone.
+/// The same for the mesh and the elements alone.
+///
+/// # Errors
+/// [`ScenarioError::Memory`].
 pub fn enough_for_mesh(case: &Case) -> Result<(), ScenarioError> {
     enough_for_zones(case, BYTES_PER_MESH_ELEMENT)
 }
 
-/// Refuses a mesh that would bring the machine to its knees, where the system tells what is free.
+/// Checks that the machine has the memory for a run of so many elements, where the system reports what is free.
+///
+/// # Errors
+/// [`ScenarioError::Memory`].
 pub fn enough_memory(elements: usize) -> Result<(), ScenarioError> {
     fits(elements, BYTES_PER_ELEMENT, free_mb())
 }
@@ -45,18 +54,18 @@ fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), Sce
     Ok(())
 }
 
-/// Memory that the machine has free for this process (MB); infinite where the system does not tell.
+/// Memory that the machine has free for this process (MB); infinite where the system does not report it.
 pub fn free_mb() -> f64 {
     let free = entry("/proc/meminfo", "MemAvailable:").unwrap_or(f64::INFINITY);
     free.min(address_space_mb())
 }
 
-/// Address space that the threads reserve and the mesh takes before its size is known (MB): where it is
-/// short, the system's refusal would abort the program.
+/// Address space that threads reserve and the mesh takes before its size is known (MB). A refusal by the system
+/// there would abort the program.
 #[cfg(unix)]
 const RESERVED_MB: f64 = 200.0;
 
-/// What the limit of this process's address space (`ulimit -v`) leaves (MB).
+/// Address space that its limit (`ulimit -v`) leaves to this process (MB).
 #[cfg(unix)]
 fn address_space_mb() -> f64 {
     let limit = rustix::process::getrlimit(rustix::process::Resource::As).current;
@@ -69,12 +78,12 @@ fn address_space_mb() -> f64 {
     f64::INFINITY
 }
 
-/// Largest resident memory of this process so far (MB); zero where the system does not tell.
+/// Largest resident memory of this process so far (MB); zero where the system does not report it.
 pub fn peak_rss_mb() -> f64 {
     entry("/proc/self/status", "VmHWM:").unwrap_or(0.0)
 }
 
-/// An entry in kibibytes of a table of the system, in MB.
+/// The entry `name`, in kibibytes, of a table of the system such as `/proc/meminfo` (MB).
 fn entry(table: &str, name: &str) -> Option<f64> {
     let table = input::text(Path::new(table), input::LOG).ok()?;
     let line = table.lines().find_map(|l| l.strip_prefix(name))?;

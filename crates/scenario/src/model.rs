@@ -1,5 +1,5 @@
-//! The discretised bodies of a scenario: mesh, masses, sets, elements and contact; all that follows from geometry
-//! and material alone.
+//! The discretised bodies of a scenario: mesh, masses, sets, elements and contact, as far as they follow from the
+//! case without the preload.
 
 use crate::error::ScenarioError;
 use case::friction_law;
@@ -13,7 +13,7 @@ use mesh::{Face, Mesh, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 use std::sync::Arc;
 
-/// Lanczos steps for the largest frequency, and the margin on what they find.
+/// Lanczos steps for the largest frequency, and the factor by which their result, a lower bound, is raised.
 pub(crate) const LANCZOS: usize = 40;
 pub(crate) const MARGIN: f64 = 1.01;
 
@@ -22,13 +22,14 @@ pub const DISK: usize = 0;
 /// Index of the bar among bodies and contact sides.
 pub const BAR: usize = 1;
 
-/// The discretised bodies.
+/// The discretised bodies of a disk on a bar: x along the rolling direction, z up, the first point of contact at
+/// the origin.
 pub struct Model {
-    /// Both bodies, the disk first.
+    /// Both bodies in one mesh, the disk first; nodes in m.
     pub mesh: Mesh,
-    /// What is to be said of a mesh file, a sentence each.
+    /// Remarks on a mesh file for the user, one sentence each; none for a generated mesh.
     pub notes: Vec<String>,
-    /// Of the disk and of the bar.
+    /// Materials of the disk and of the bar.
     pub materials: [Material; 2],
     pub(crate) element: Element,
     /// Which elements are fully integrated, one entry per element; empty where none is.
@@ -36,13 +37,14 @@ pub struct Model {
     pub(crate) volumetric: Volumetric,
     /// Instruction set of the element kernels.
     pub kernels: Level,
-    /// The friction law that was handed over with the run.
+    /// The function of `friction.law = "python"`, which is no part of the case.
     pub law: Option<Arc<dyn OwnLaw>>,
-    /// Nodes that face each other across a slice in plane strain and move as one; empty in space.
+    /// Pairs of nodes that face each other across a slice in plane strain and move as one, ascending by the first;
+    /// empty in three dimensions.
     pub paired: Vec<[u32; 2]>,
-    /// Lumped masses (kg).
+    /// Lumped mass of each node (kg), also of those that are held.
     pub mass: Vec<f64>,
-    /// The whole contact surfaces.
+    /// The whole contact surfaces, of the disk and of the bar.
     pub surfaces: [Surface; 2],
     /// Their faces in the fine zone, which contact output records.
     pub zones: [Vec<Face>; 2],
@@ -65,7 +67,10 @@ impl Model {
         self.full.iter().filter(|full| **full).count()
     }
 
-    /// The elements.
+    /// The elements, ready to give forces.
+    ///
+    /// # Errors
+    /// A material without a wave speed, elements that are inverted, kernels that this machine does not have.
     pub fn solid(&self, case: &Case) -> Result<Solid, ScenarioError> {
         let viscosity = Viscosity {
             bulk_linear: case.damping.bulk_linear,
@@ -75,14 +80,14 @@ impl Model {
         Ok(Solid::new(&self.mesh, &self.materials, self.elements(), viscosity, self.kernels)?)
     }
 
-    /// Inverse masses (1/kg) with held and carried nodes at zero.
+    /// Inverse mass of each node (1/kg), zero for clamped nodes and for those of the hub.
     pub(crate) fn inverse_mass(&self) -> Vec<f64> {
         let mut inverse: Vec<f64> = self.mass.iter().map(|m| 1.0 / m).collect();
         self.clamped.iter().chain(&self.hub).for_each(|&n| inverse[n as usize] = 0.0);
         inverse
     }
 
-    /// Largest frequency of the bodies without contact, with its margin (rad/s).
+    /// Largest angular frequency of the bodies without contact (rad/s), with a margin of one per cent.
     pub fn elastic_frequency(&self, solid: &mut Solid) -> f64 {
         MARGIN
             * solid::largest_frequency(
@@ -92,7 +97,11 @@ impl Model {
             )
     }
 
-    /// Penalty contact of disk and bar.
+    /// Penalty contact of disk and bar, not yet in touch. `scale` is what springs that are given as a fraction of
+    /// the stability limit are a fraction of.
+    ///
+    /// # Errors
+    /// A friction law or settings that the contact refuses, or surfaces that cannot be used.
     pub fn penalty_contact(
         &self,
         case: &Case,
@@ -108,13 +117,19 @@ impl Model {
         Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
     }
 
-    /// Exact contact of disk and bar.
+    /// Exact contact of disk and bar, by Lagrange multipliers, not yet in touch.
+    ///
+    /// # Errors
+    /// As those of [`Model::penalty_contact`].
     pub fn exact_contact(&self, case: &Case) -> Result<ExactContact, ScenarioError> {
         let law = friction_law::law(case, self.law.as_ref())?;
         Ok(ExactContact::new(&self.mesh, self.sides(), &self.exact_settings(case), law)?)
     }
 
-    /// The gaps that exact contact closes.
+    /// The gaps between slave nodes and the other surface that exact contact constrains.
+    ///
+    /// # Errors
+    /// Surfaces that cannot be used.
     pub fn gaps(&self, case: &Case) -> Result<GapFunction, ScenarioError> {
         Ok(GapFunction::new(&self.mesh, self.sides(), &self.exact_settings(case))?)
     }

@@ -1,4 +1,5 @@
-//! The dimensionless numbers of a case, before it rolls: what to expect of its friction law.
+//! The dimensionless numbers of a case, before it rolls: what to expect of its friction law. Their definitions:
+//! docs/theory.md.
 
 use crate::model::{BAR, DISK, Model};
 use case::friction_law;
@@ -15,15 +16,15 @@ pub struct DimensionlessNumbers {
     at: Interface,
     /// `N_1 = dt^2 k_t/m*` (dimensionless) of the friction springs of penalty contact.
     n1: Option<f64>,
-    /// The numbers of falling friction; `None` for a law that does not fall.
+    /// The numbers of falling friction; none for a law that does not fall.
     falling: Option<Falling>,
-    /// Length of the zone of slip (m) by Carter's theory; twice the half length of the patch where all slips.
+    /// Length of the zone of slip (m) by Carter's theory; at most the length of the patch.
     slip_length: f64,
     /// Nucleation length (m) of friction with memory.
     nucleation: Option<f64>,
 }
 
-/// The numbers of a case with the time step `dt` (s).
+/// The numbers of a case at Hertz's largest pressure, with the time step `dt` (s).
 pub fn numbers(case: &Case, model: &Model, dt: f64) -> DimensionlessNumbers {
     let [disk, bar] = [&model.materials[DISK], &model.materials[BAR]];
     let depth = case.mesh.zone.size;
@@ -62,7 +63,7 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
             Some([DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum())
         }
         PenaltyStiffness::Areal(both) => Some(both),
-        // a fraction of 4 m*/dt^2 less what the bodies need, which is not known here
+        // a fraction of 4 m*/dt^2 less the part of the bodies' own frequency, which is not known here
         PenaltyStiffness::StabilityFraction(_) => None,
     }
 }
@@ -84,7 +85,7 @@ fn slipping(case: &Case, model: &Model, half_length: f64) -> f64 {
 }
 
 impl DimensionlessNumbers {
-    /// The line of the log; `None` for a law that does not fall.
+    /// The line of the log; none for a law that does not fall.
     pub fn line(&self) -> Option<String> {
         let f = self.falling?;
         let mut line =
@@ -107,7 +108,7 @@ impl DimensionlessNumbers {
         self.nucleation.map(|length| self.slip_length / length)
     }
 
-    /// One sentence on what to expect of the run, where there is reason to warn.
+    /// One sentence on what to expect of the run, where there is reason for a warning.
     pub fn expectation(&self) -> Option<String> {
         let f = self.falling?;
         match self.gamma() {
@@ -127,7 +128,7 @@ impl DimensionlessNumbers {
         }
     }
 
-    /// The section of the summary. Lengths in m, speeds in m/s, pressure in Pa.
+    /// The section `numbers` of the summary. Lengths in m, speeds in m/s, pressure in Pa, impedance in Pa s/m.
     pub fn json(&self) -> serde_json::Value {
         let f = self.falling;
         json!({
@@ -147,7 +148,7 @@ impl DimensionlessNumbers {
     }
 }
 
-/// Three digits, as people read them.
+/// A number with three significant digits and no exponent.
 fn three(x: f64) -> String {
     let after = (2.0 - libm::log10(x.abs()).floor()).clamp(0.0, 9.0);
     format!("{x:.0$}", after as usize)

@@ -22,11 +22,11 @@ pub enum PreloadReport {
         normal_force: f64,
         /// Contact points that are closed.
         closed_pairs: usize,
-        /// Residual over the load, with the normals of the smooth surfaces.
+        /// Residual force over the load at the end (dimensionless).
         residual: f64,
-        /// The same once the normals follow the facets.
+        /// The same once normals that had to be held follow the facets again; zero where none were held.
         facets: f64,
-        /// Whether the residual ended at round-off, above the tolerance.
+        /// Whether the residual stopped falling at round-off, above the tolerance.
         round_off: bool,
         /// Displacement of the hub in z (m).
         hub: f64,
@@ -37,7 +37,7 @@ pub enum PreloadReport {
         iterations: usize,
         /// Sum of the contact's normal forces (N).
         normal_force: f64,
-        /// Kinetic (fictitious) over internal energy at the end.
+        /// Fictitious kinetic energy over internal energy at the end (dimensionless).
         kinetic_ratio: f64,
         /// Displacement of the hub in z (m).
         hub: f64,
@@ -102,7 +102,7 @@ impl PreloadReport {
         }
     }
 
-    /// The section of the summary.
+    /// The section `preload` of the summary, in SI units.
     pub fn json(&self) -> serde_json::Value {
         match self {
             Self::Static {

@@ -1,9 +1,9 @@
-//! What a run tells whoever watches it.
+//! What a run reports to its observer.
 
 /// The stages of a run, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// The mesh is generated and the stable step found.
+    /// The mesh is generated or read, and the elements are set up.
     Mesh,
     /// The disk is pressed on the bar.
     Preload,
@@ -11,23 +11,23 @@ pub enum Stage {
     Roll,
 }
 
-/// A look at a run under way.
+/// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The stage under way.
     pub stage: Stage,
-    /// Steps done in this stage.
+    /// Steps, or iterations of the preload, that are done in this stage.
     pub step: u64,
     /// Steps planned in this stage; in [`Stage::Preload`] the most there can be.
     pub steps: u64,
-    /// Simulated time of rolling (s).
+    /// Simulated time since rolling began (s).
     pub time: f64,
     /// Simulated time at the end (s).
     pub end_time: f64,
     /// Normal force in contact (N).
     pub normal_force: f64,
-    /// Tangential force in contact, in the rolling direction (N).
+    /// Tangential force of the contact on the disk, positive in the rolling direction +x (N).
     pub tangential_force: f64,
-    /// Elements times steps per second of wall time (1/s).
+    /// Elements times steps per second of wall time (1/s); of the preload, evaluations of elements.
     pub element_steps_per_s: f64,
 }

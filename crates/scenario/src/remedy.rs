@@ -1,7 +1,7 @@
 //! What to do about what the crates below find wrong, in the keys of the case file.
 //!
-//! Those crates tell what is wrong in the terms of mechanics and know no key. A text in `remedy!` that
-//! names a key or a section which there is not does not compile.
+//! Those crates say what is wrong in the terms of mechanics and know no key. A text in `remedy!` that
+//! names an unknown key or section does not compile.
 
 use crate::preload::PreloadError;
 use case::{key, remedy};
@@ -15,11 +15,11 @@ use statics::StaticsError;
 
 /// What to do about an error.
 pub trait Remedy {
-    /// What to do, in the keys of the case file.
+    /// What to do, in terms of the keys of the case file.
     fn remedy(&self) -> String;
 }
 
-/// The key of a parameter of the mesh generators.
+/// The dotted path of the key of a parameter of the mesh generators; none where no key gives it.
 pub fn key_of(parameter: Parameter) -> Option<&'static str> {
     Some(match parameter {
         Parameter::DiskRadius => key!("disk.radius"),
@@ -42,7 +42,7 @@ pub fn key_of(parameter: Parameter) -> Option<&'static str> {
     })
 }
 
-/// The key that a fault of a generated mesh is about, if it is about one.
+/// The dotted path of the key that a fault of a generated mesh is about, if it is about one.
 pub fn key_of_mesh(error: &MeshError) -> Option<&'static str> {
     match error {
         MeshError::OutOfRange { parameter, .. } => key_of(*parameter),
@@ -239,7 +239,7 @@ impl Remedy for PreloadError {
     }
 }
 
-/// What remains where a preload goes astray.
+/// What to do where a preload diverges for no known reason.
 fn soften() -> String {
     remedy!(
         "look at the quality of the mesh with `creepage mesh`; lower contact.penalty.normal, or \

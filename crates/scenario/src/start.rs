@@ -1,4 +1,4 @@
-//! A scenario at its start: the simulation, and what is known of it.
+//! A scenario at its start: the simulation, and the results of the preload and of the stability analysis.
 
 use dynamics::Simulation;
 use serde::{Deserialize, Serialize};
@@ -6,35 +6,35 @@ use serde::{Deserialize, Serialize};
 use crate::numbers::DimensionlessNumbers;
 use crate::preload::PreloadReport;
 
-/// What the stable step is made of.
+/// The frequencies that limit the time step.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Stability {
     /// Largest frequency of the bodies without contact, with margin (rad/s).
     pub omega_elastic: f64,
     /// Largest frequency with the contact springs closed after the preload, with margin (rad/s).
     pub omega_max: f64,
-    /// Rigorous upper bound: element bound and contact bound combined (rad/s).
+    /// Rigorous upper bound of `omega_max`, by the bounds of the elements and of the contact springs (rad/s).
     pub omega_bound: f64,
-    /// 2/omega_max (s).
+    /// Longest stable step (s): 2/omega_max, less with Kelvin-Voigt damping.
     pub dt_limit: f64,
     /// Time step over that limit (dimensionless).
     pub factor: f64,
 }
 
-/// Rolling radii.
+/// Rolling radii of the disk.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct RollingRadius {
     /// Of the undeformed disk (m).
     pub nominal: f64,
     /// V/omega at which the mean slip velocity over the preloaded patch, weighted with the
-    /// pressure, vanishes (m).
+    /// pressure, vanishes (m); the nominal radius without a preload.
     pub effective: f64,
 }
 
-/// What is known once the start is made.
+/// What is known when the disk begins to roll.
 #[derive(Clone, Debug)]
 pub struct Facts {
-    /// What the time step is limited by.
+    /// The frequencies that limit the time step.
     pub stability: Stability,
     /// Rolling radii of the disk.
     pub radius: RollingRadius,
@@ -49,17 +49,17 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// What a restart needs of them.
+    /// The part of them that a checkpoint keeps.
     pub fn found(&self) -> Found {
         let Self { stability, radius, preload, preload_wall, steps, .. } = *self;
         Found { stability, radius, preload, preload_wall, steps }
     }
 }
 
-/// What of the facts does not follow from the case without the preload.
+/// The part of [`Facts`] that a checkpoint keeps, since it takes a preload to find it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Found {
-    /// What the time step is limited by.
+    /// The frequencies that limit the time step.
     pub stability: Stability,
     /// Rolling radii of the disk.
     pub radius: RollingRadius,
@@ -71,9 +71,9 @@ pub struct Found {
     pub steps: u64,
 }
 
-/// A simulation ready to roll.
+/// A simulation that can be stepped.
 pub struct Start {
-    /// At t = 0, or where it was restored.
+    /// At t = 0, or in the state of a checkpoint.
     pub simulation: Simulation,
     /// What is known of it.
     pub facts: Facts,

@@ -11,28 +11,28 @@ use crate::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
 use crate::points::Point;
 use crate::{ensemble, table};
 
-/// Fields of a run's summary that the clock, the memory and the number of threads put in, and sums that
-/// depend on these (files name the time of their making). All
-/// other numbers of a sweep are the same to the bit however often it was interrupted, wherever and
-/// on however many threads its runs ran, as long as program and kernels are the same.
+/// Fields of a run's summary that do not repeat: they depend on the clock, the memory and the number of threads, or
+/// are checksums of files that hold the time at which they were made. All other numbers of a sweep are the same to
+/// the bit on any number of threads and machines and after any number of interruptions, as long as program and
+/// kernels are the same.
 pub const NOT_REPEATED: [&str; 7] =
     ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads", "checksums", "sha256"];
 
 /// How far a run is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum State {
-    /// It came to its end and was checked.
+    /// It ran to its end and was checked.
     Completed,
-    /// Its own guards, or its preload, stopped it; or it could not begin.
+    /// A guard or its preload stopped it, or it could not begin; the reason.
     Failed(String),
-    /// It came to its end but has no checks yet.
+    /// It ran to its end but has no checks yet.
     Unchecked,
-    /// It was interrupted, or has not begun.
+    /// It was interrupted, or has not begun; the word for that in the results.
     Undone(&'static str),
 }
 
 impl State {
-    /// The word in the results.
+    /// The `status` in the results.
     pub fn word(&self) -> &str {
         match self {
             Self::Completed => "completed",
@@ -43,13 +43,16 @@ impl State {
     }
 }
 
-/// Writes `sweep.json` and `sweep.csv` into the sweep's folder, and returns the first. Runs are
-/// looked for there and in `elsewhere`, in folders that have a run's name.
+/// Writes `sweep.json` and `sweep.csv` into the sweep's folder, and returns the first. Runs are looked for there and
+/// in the folders `elsewhere`, in subfolders that have a run's name.
+///
+/// # Errors
+/// Results that cannot be written.
 pub fn collect(plan: &Plan, elsewhere: &[PathBuf]) -> Result<Value, SweepError> {
     collect_with(plan, elsewhere, &BTreeMap::new())
 }
 
-/// The same, with what is known of runs that left nothing that says why.
+/// The same. `failures` are the reasons, by name, of runs that failed and left no reason in their folders.
 pub(crate) fn collect_with(
     plan: &Plan,
     elsewhere: &[PathBuf],
@@ -104,7 +107,7 @@ fn entry(
 
 const NOT_BEGUN: &str = "not begun";
 
-/// How far a run in `folder` is; one of another case has not begun.
+/// How far a run in `folder` is; where the folder holds a run of another case, it has not begun.
 pub fn state(folder: &Path, run: &Point) -> State {
     let case = input::text(&folder.join(file::CASE), input::CASE).unwrap_or_default();
     if case != run.case.to_toml() {
@@ -131,14 +134,14 @@ pub fn state(folder: &Path, run: &Point) -> State {
     }
 }
 
-/// What a run that was refused after its mesh said at the end of its log.
+/// The last line of the log of a run that was refused after its mesh was made: why.
 fn last_words(folder: &Path) -> Option<String> {
     let log = input::text(&folder.join(file::LOG), input::LOG).ok()?;
     let last = log.lines().next_back()?;
     last.strip_prefix(run::REFUSED).map(str::to_owned)
 }
 
-/// A JSON document that is there and whole.
+/// A JSON document, if it is there and well-formed.
 fn read(path: &Path) -> Option<Value> {
     serde_json::from_slice(&input::bytes(path, input::DOCUMENT).ok()?).ok()
 }

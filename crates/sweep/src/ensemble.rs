@@ -1,5 +1,5 @@
-//! Ensembles: runs of one point of a sweep that differ by a disturbance of the preload alone, and what their
-//! means are good for.
+//! Ensembles: runs of one point of a sweep that differ by a disturbance of the preload alone, and the means over
+//! them with their confidence intervals.
 
 use output::confidence::interval;
 use serde_json::{Map, Value, json};
@@ -9,10 +9,10 @@ pub(crate) const AXIS: &str = "preload.seed";
 /// Key and size of the disturbance by which they differ, unless the file sets it.
 pub(crate) const DISTURBANCE: (&str, f64) = ("preload.disturbance", 1e-9);
 
-/// Numbers of a run of which means are taken, as pointers to objects.
+/// JSON pointers to the objects of a run over whose numbers means are taken.
 const OF_RUN: [&str; 2] = ["/summary/contact", "/summary/window"];
 
-/// The points of a sweep with an ensemble, in the order of their first members; none without one.
+/// The points of a sweep with an ensemble, in the order of their first members; none without an ensemble.
 ///
 /// A point looks like a run: its `summary` and `check` hold the means over the members that completed, and `ci95`
 /// half the width of the 95 % confidence interval of these means (Student 1908).
@@ -51,7 +51,7 @@ fn point(parameters: Map<String, Value>, members: &[&Value]) -> Value {
         "parameters": parameters,
         "members": members.iter().map(|run| &run["name"]).collect::<Vec<_>>(),
         "completed": completed.len(),
-        // one alone has no interval
+        // one member alone has no interval
         "status": if completed.len() > 1 { "completed" } else { "failed" },
         "run": completed.first().map(|run| &run["run"]),
         "summary": { "contact": only_means(&contact), "window": window_means },
@@ -63,7 +63,8 @@ fn point(parameters: Map<String, Value>, members: &[&Value]) -> Value {
     })
 }
 
-/// Means and half widths of the numbers in the object at `at` that every member has.
+/// Name, mean and half width of the confidence interval of the numbers in the object at `at`, where all members
+/// have them.
 fn means(members: &[&Value], at: &str) -> Vec<(String, [f64; 2])> {
     let first = members.first().and_then(|run| run.pointer(at)).and_then(Value::as_object);
     let mean = |name: &String| {
@@ -73,7 +74,7 @@ fn means(members: &[&Value], at: &str) -> Vec<(String, [f64; 2])> {
     first.into_iter().flat_map(|object| object.keys()).filter_map(mean).collect()
 }
 
-/// The same of the numbers `key` in the entries of the object at `at`.
+/// The same of the number `key` in each entry of the object at `at`.
 fn of_entries(members: &[&Value], at: &str, key: &str) -> Map<String, Value> {
     let first = members.first().and_then(|run| run.pointer(at)).and_then(Value::as_object);
     let entry = |name: &String| {

@@ -13,10 +13,10 @@ use case::keys;
 use case::layers::{Layers, get, join};
 use case::name;
 
-/// A `log` or `linear` axis with more points than this is a slip of a digit.
+/// A `log` or `linear` axis with more points than this is taken for a typing mistake.
 const MOST_POINTS: i64 = 1000;
 
-/// Keys that no axis may have: they name things, or lie in a list.
+/// Keys that cannot be swept: they name the case. Nor can those in a list of sections.
 const NO_AXIS: [&str; 3] = ["name", "title", "extends"];
 
 /// Keys of the sweep file by section; `[]` stands for the index in an array of tables.
@@ -29,7 +29,7 @@ const DERIVE: [&str; 5] = ["key", "rule", "from", "factor", "power"];
 /// How axes are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Every value of each axis with every value of the others; the last axis runs fastest.
+    /// Every value of each axis with every value of the others; the last axis varies fastest.
     Grid,
     /// The n-th values of all axes together.
     Zip,
@@ -54,12 +54,12 @@ pub struct Axis {
     pub values: Vec<Value>,
 }
 
-/// The time step where runs differ in their stability limit.
+/// What the time step follows where runs differ in their stability limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepRule {
-    /// Each run takes `time.factor` times its own limit.
+    /// The step of each run is `time.factor` times its own limit.
     Bound,
-    /// All runs take `time.factor` times the smallest limit of the sweep.
+    /// The step of all runs is `time.factor` times the smallest limit of the sweep.
     Fixed,
 }
 
@@ -76,9 +76,9 @@ impl StepRule {
 /// A key that follows an axis: `factor * axis^power`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Follow {
-    /// The key that follows.
+    /// Dotted path of the key that follows.
     pub key: String,
-    /// Index of the axis that it follows.
+    /// Index into [`Sweep::axes`] of the axis that it follows.
     pub axis: usize,
     /// Factor, in the unit of the key over that of the axis to `power`.
     pub factor: f64,
@@ -99,11 +99,11 @@ pub struct Sweep {
     pub base: PathBuf,
     /// How axes are combined.
     pub mode: Mode,
-    /// Keys laid over the base for every run.
+    /// Keys laid over the base for every run: dotted path and value.
     pub sets: Vec<(String, Value)>,
     /// The axes, at least one.
     pub axes: Vec<Axis>,
-    /// What the time step follows; without it the base and the axes say.
+    /// What the time step follows; none where the base case and the axes determine it.
     pub step: Option<StepRule>,
     /// Keys that follow an axis.
     pub follows: Vec<Follow>,
@@ -113,7 +113,10 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads a sweep file and checks it against itself and the table of keys.
+    /// Reads a sweep file and checks it against itself and the table of keys. The base case is not read.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or its mistakes.
     pub fn load(path: &Path) -> Result<Self, CaseError> {
         let layers = Layers::read(path)?;
         let mut reading = Reading { layers: &layers, errors: Vec::new() };
@@ -124,7 +127,7 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Checks what the whole file must make true once its parts are right.
+    /// Checks the file as a whole, after its parts: files, keys given twice, lengths of axes, the time step.
     fn check(&self) -> Result<(), CaseError> {
         let refuse = |at: &str, message: &str, remedy: &str| {
             Err(CaseError::Key(Box::new(self.layers.error_at(at, message, remedy))))
@@ -181,13 +184,14 @@ impl Sweep {
         Ok(())
     }
 
-    /// The files that the sweep is made of: its own, its base, and what these extend.
+    /// The files that the sweep is made of: its own, its base, those that these extend, and the base's friction
+    /// table. A mesh file is not among them.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let base = Layers::read(&self.base).map(|layers| layers.files()).unwrap_or_default();
         self.layers.files().into_iter().chain([self.base.clone()]).chain(base).collect()
     }
 
-    /// Every case key that the file gives, with its place in the file.
+    /// Every case key that the file gives: its dotted path in the sweep file, and the key.
     fn given(&self) -> Vec<(String, &str)> {
         let sets = self.sets.iter().map(|(key, _)| (join("set", key), key.as_str()));
         let axes = self.axes.iter().enumerate();
@@ -198,7 +202,7 @@ impl Sweep {
         sets.chain(axes).chain(follows).collect()
     }
 
-    /// Where the file gives axis `i`.
+    /// Dotted path in the sweep file of axis `i`.
     pub(crate) fn axis_place(&self, i: usize) -> String {
         let members = self.ensemble && i + 1 == self.axes.len();
         if members { "ensemble.members".into() } else { format!("axis[{i}].key") }
@@ -210,14 +214,14 @@ impl Sweep {
         derive.and_then(|list| list.iter().position(place)).unwrap_or(0)
     }
 
-    /// Where the file gives the value of `key` for the run at `index` of each axis.
+    /// Dotted path in the sweep file of the value of `key` for the run with these `indices` on the axes.
     pub(crate) fn place_of(&self, key: &str, indices: &[usize]) -> Option<String> {
         if let Some(i) = self.axes.iter().position(|axis| axis.key == key) {
             let value = format!("axis[{i}].values[{}]", indices[i]);
             let written = self.layers.origins.contains_key(&value);
             return Some(if written { value } else { self.axis_place(i) });
         }
-        // A key in a list of sections is told where the list is given.
+        // A key in a list of sections has the place of the list.
         let list = key.split('[').next().unwrap_or(key);
         if self.sets.iter().any(|(set, _)| set == list) {
             return Some(join("set", list));
@@ -227,7 +231,7 @@ impl Sweep {
     }
 }
 
-/// Whether a key reaches the highest frequency of the preloaded bodies.
+/// Whether a key may change the highest frequency of the preloaded bodies.
 fn moves_the_limit(key: &str) -> bool {
     const UNMOVED: [&str; 6] =
         ["friction.", "output.", "evaluate.", "time.", "preload.disturbance", "preload.seed"];
@@ -235,7 +239,7 @@ fn moves_the_limit(key: &str) -> bool {
     !drive && !UNMOVED.iter().any(|section| key.starts_with(section))
 }
 
-/// The reading of a file; mistakes are gathered so that all are told at once.
+/// The reading of a file; mistakes are gathered, so that one message has them all.
 struct Reading<'a> {
     layers: &'a Layers,
     errors: Vec<KeyError>,

@@ -1,6 +1,6 @@
 //! A sweep file becomes many runs.
 //!
-//! [`Sweep::load`] reads and checks the file, [`Sweep::points`] gives the resolved case of every
+//! [`Sweep::load`] reads and checks the file, [`Sweep::points`] resolves the case of every
 //! run, [`plan::prepare`] lays the sweep's folder out, [`schedule::run`] runs what is not yet done
 //! as child processes of this program, and [`collect::collect`] gathers the results.
 

@@ -5,9 +5,10 @@
 //! | `plan.json` | the sweep: its hash, axes, step, and the runs with their parameters |
 //! | `cases/NAME.toml` | the resolved case of each run |
 //! | `runs/NAME/` | the run, with `check.json` beside its own files |
-//! | `logs/NAME.log` | what the run and its check said on standard error |
+//! | `logs/NAME.log` | standard error of the run and of its check |
 //! | `preload/` | preloads that runs share |
 //! | `sweep.json`, `sweep.csv` | the results |
+//! | `sweep.lock` | locked by the process that works in the folder |
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -45,7 +46,7 @@ pub enum SweepError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Folder(#[from] FolderError),
-    /// The folder holds this sweep, and it was not said what to do with it.
+    /// The folder holds this sweep already, with [`Existing::Refuse`].
     #[error("{} already holds this sweep", path.display())]
     #[diagnostic(help("go on with --resume, or run everything anew with --force"))]
     Begun {
@@ -92,7 +93,7 @@ pub enum SweepError {
     /// The sweep was asked to stop before its first run.
     #[error("interrupted before the first run began")]
     Interrupted,
-    /// A file of the sweep that is not one to be read.
+    /// A file of the sweep that cannot be read: too large, or no regular file.
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Input(#[from] InputError),
@@ -129,11 +130,11 @@ impl SweepError {
 pub struct Plan {
     /// The folder.
     pub folder: PathBuf,
-    /// `plan.json`.
+    /// The document of `plan.json`.
     pub document: Value,
     /// The runs, in order.
     pub runs: Vec<Point>,
-    /// Held as long as the plan is, against a second process in the folder.
+    /// Lock against a second process in the folder; none where only results are gathered.
     _lock: Option<File>,
 }
 
@@ -148,11 +149,11 @@ pub enum Existing {
     Replace,
 }
 
-/// What a folder is good for, found without touching it.
+/// Whether the sweep may use `folder`, which is left as it is.
 fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<(), SweepError> {
     let path = || folder.to_path_buf();
     let Some(plan) = read_plan(folder)? else {
-        // One that was stopped before its plan was made has its lock alone, and perhaps preloads.
+        // A sweep that was stopped before its plan was written leaves its lock, and perhaps preloads.
         if folder.join(LOCK).exists() {
             return Ok(());
         }
@@ -169,7 +170,7 @@ fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<
     }
 }
 
-/// The folder is another sweep's: points at the first thing in which the two differ.
+/// The error of a folder that holds another sweep, at the first difference of the two.
 fn other_sweep(folder: &Path, sweep: &Sweep, plan: &Value) -> CaseError {
     let theirs = plan["axes"].as_object().cloned().unwrap_or_default();
     let differs = |axis: &crate::file::Axis| theirs.get(&axis.key) != Some(&json!(axis.values));
@@ -191,7 +192,7 @@ fn read_plan(folder: &Path) -> Result<Option<Value>, SweepError> {
             Ok(plan) => Ok(Some(plan)),
             Err(error) => Err(SweepError::File { path, cause: error.into() }),
         },
-        // A path through a file is told by the check of the folder.
+        // The check of the folder refuses a path through a file.
         Err(error) if error.is_missing() => Ok(None),
         Err(error) => Err(error.into()),
     }
@@ -199,8 +200,12 @@ fn read_plan(folder: &Path) -> Result<Option<Value>, SweepError> {
 
 /// Lays the sweep out in `folder`; nothing is written before everything has been checked.
 ///
-/// `threads` find the smallest stability limit where the sweep asks for it; `say` is told of work
-/// that takes time.
+/// So many `threads` make the meshes, and find the smallest stability limit for [`StepRule::Fixed`]; `say` takes a line
+/// before work that takes time; `stop` ends the search for the limit.
+///
+/// # Errors
+/// A case that is refused, a mesh that cannot be made, a stability limit that cannot be found, a folder that holds
+/// something else or that another process works in, files that cannot be written, a `stop`.
 pub fn prepare(
     sweep: &Sweep,
     folder: &Path,
@@ -219,7 +224,7 @@ pub fn prepare(
     fs::create_dir_all(folder)
         .map_err(|cause| FolderError::NotWritable { path: folder.into(), cause })?;
     let lock = lock(folder)?;
-    // Looked at again under the lock: another process may just have finished here.
+    // Checked again under the lock: another process may just have finished here.
     look(folder, sweep, &hash, existing)?;
     if existing == Existing::Replace {
         spare(folder, sweep)?;
@@ -269,7 +274,10 @@ pub fn prepare(
     Ok(Plan { folder: folder.into(), document, runs, _lock: lock })
 }
 
-/// The plan of a folder in which this sweep was begun, to gather its results.
+/// The plan in a folder in which this sweep was begun, to gather its results. The folder is not locked.
+///
+/// # Errors
+/// A case that is refused, or a folder that holds no plan or that of another sweep.
 pub fn open(sweep: &Sweep, folder: &Path) -> Result<Plan, SweepError> {
     let mut runs = sweep.points()?;
     let path = || folder.to_path_buf();
@@ -296,7 +304,7 @@ fn smallest_step(
     let mut smallest = f64::INFINITY;
     for run in runs {
         let case = &run.case;
-        // Friction, drive, output and length do not reach the limit.
+        // The limit does not depend on friction, on the drive but for its speed, on output or on the duration.
         let basis = json!([
             case.disk,
             case.bar,
@@ -339,7 +347,7 @@ fn spare(folder: &Path, sweep: &Sweep) -> Result<(), SweepError> {
     }
 }
 
-/// Removes what a sweep wrote, by its plan; notes and figures beside it survive.
+/// Removes what a sweep wrote, by its plan; other files in the folder stay.
 fn clear(folder: &Path) -> Result<(), SweepError> {
     let Some(plan) = read_plan(folder)? else {
         return Ok(());
@@ -381,27 +389,28 @@ fn lock(folder: &Path) -> Result<Option<File>, SweepError> {
     }
 }
 
-/// The resolved case of a run.
+/// Path of the resolved case of a run.
 pub fn case_file(folder: &Path, name: &str) -> PathBuf {
     folder.join("cases").join(format!("{name}.toml"))
 }
 
-/// The folder of a run.
+/// Path of the folder of a run.
 pub fn run_folder(folder: &Path, name: &str) -> PathBuf {
     folder.join("runs").join(name)
 }
 
-/// What a run and its check said.
+/// Path of the log of a run and its check.
 pub fn log_file(folder: &Path, name: &str) -> PathBuf {
     folder.join("logs").join(format!("{name}.log"))
 }
 
-/// The preloads of a sweep.
+/// Path of the folder of the preloads that the runs share.
 pub fn preloads(folder: &Path) -> PathBuf {
     folder.join("preload")
 }
 
-/// The arguments with which this program does a run, and those with which it checks it.
+/// The command-line arguments with which this program does the run `name` of the sweep in `folder`, and those with
+/// which it checks that run.
 pub fn arguments(folder: &Path, name: &str, threads: usize) -> [Vec<String>; 2] {
     let text = |path: PathBuf| path.display().to_string();
     let run = run_folder(folder, name);
@@ -416,7 +425,7 @@ pub fn arguments(folder: &Path, name: &str, threads: usize) -> [Vec<String>; 2] 
             &threads.to_string(),
             "--preload-cache",
             &text(preloads(folder)),
-            // goes on from a checkpoint, or else replaces what is there
+            // the run goes on from a checkpoint, or else replaces what is there
             "--resume",
             "--force",
         ]),

@@ -14,7 +14,7 @@ use case::schema::{Case, Time};
 use output::hexadecimal;
 use scenario::{Remedy, ScenarioError};
 
-/// More runs than this is a slip of a digit.
+/// More runs than this are taken for a typing mistake.
 const MOST_RUNS: usize = 10_000;
 /// Longest name of a run, without its number.
 const LONGEST_NAME: usize = 60;
@@ -22,21 +22,24 @@ const LONGEST_NAME: usize = 60;
 /// One run of a sweep.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// Name: of the run's folder and of its case.
+    /// Name of the run's folder and of its case: the number of the run and its parameters.
     pub name: String,
-    /// Values of the swept keys.
+    /// Values of the swept keys, by dotted path.
     pub parameters: Map<String, Json>,
     /// The resolved case.
     pub case: Case,
     /// Elements of its mesh; zero before [`Sweep::count_elements`].
     pub elements: usize,
-    /// Which value of each axis it takes.
+    /// Index of its value on each axis.
     pub(crate) indices: Vec<usize>,
 }
 
 impl Sweep {
-    /// The runs in their order, every case resolved and checked. Where all runs are to have the
-    /// same step, they have their own here: the smallest limit takes meshes to find.
+    /// The runs in their order, every case resolved and checked. With [`StepRule::Fixed`](crate::file::StepRule) each
+    /// still has the step of its own limit: [`plan::prepare`](crate::plan::prepare) finds the common one.
+    ///
+    /// # Errors
+    /// Too many runs; a run whose case is refused, at the place in the sweep file that causes it.
     pub fn points(&self) -> Result<Vec<Point>, CaseError> {
         let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
         let count = match self.mode {
@@ -69,7 +72,7 @@ impl Sweep {
         let mut sets: Vec<String> =
             self.sets.iter().map(|(key, value)| format!("{key}={value}")).collect();
         if self.step.is_some() {
-            // The rule speaks of a fraction, which an absolute step of the base would hide.
+            // The rule takes a fraction of the limit, which an absolute step in the base would override.
             let base = Case::load(&self.base, &sets)?;
             if base.time.step.is_some() {
                 sets.push(format!("time.factor={}", Time::FACTOR));
@@ -88,7 +91,10 @@ impl Sweep {
         Ok(Point { name, parameters, case, elements: 0, indices })
     }
 
-    /// Builds the mesh of every run, the same once, and notes its size.
+    /// Sets [`Point::elements`] of every run by making its mesh; equal meshes are made once.
+    ///
+    /// # Errors
+    /// A mesh that cannot be made.
     pub fn count_elements(&self, points: &mut [Point]) -> Result<(), CaseError> {
         let mut known: BTreeMap<String, usize> = BTreeMap::new();
         for point in points {
@@ -106,7 +112,7 @@ impl Sweep {
         Ok(())
     }
 
-    /// SHA-256, in hexadecimal, of what the sweep is: its runs' cases and the rule of the step.
+    /// SHA-256, in hexadecimal, of the cases of `points` and the rule of the step: what identifies the sweep.
     pub fn hash(&self, points: &[Point]) -> String {
         let mut hash = Sha256::new();
         for point in points {
@@ -116,7 +122,7 @@ impl Sweep {
         hexadecimal(&hash.finalize())
     }
 
-    /// An error of a run's case, at the place of the sweep file that caused it, if one did.
+    /// An error of a run's case, at the place in the sweep file that caused it, if one did.
     fn placed(&self, error: CaseError, indices: &[usize]) -> CaseError {
         let CaseError::Key(found) = error else {
             return error;
@@ -129,7 +135,7 @@ impl Sweep {
         CaseError::Key(Box::new(self.layers.error_at(&place, said, remedy)))
     }
 
-    /// An error of a run before it began, at the place that caused it.
+    /// An error of a run that could not be set up, at the place in the sweep file or the base case that caused it.
     pub(crate) fn refused(&self, error: ScenarioError, indices: &[usize]) -> CaseError {
         let (message, remedy) = (error.to_string(), error.remedy());
         let place = error.key().and_then(|key| self.place_of(key, indices));
@@ -146,7 +152,7 @@ impl Sweep {
     }
 }
 
-/// The number of the run and what is special to it, as a folder's name.
+/// The number of the run and its parameters, as a folder's name.
 fn run_name(n: usize, chosen: &[(&str, &Value)]) -> String {
     let mut name = String::new();
     for (key, value) in chosen {

@@ -1,8 +1,8 @@
 //! The runs of a sweep as child processes, so many at a time as cores and memory allow.
 //!
-//! A child holds the other end of a pipe (`--leash`): a word through it asks the run to end in
-//! order, and its closing, which also the kill of this process brings about, ends the child. No run
-//! so outlives its sweep, and a sweep that goes on meets no run of its predecessor.
+//! The standard input of a child is a pipe from this process (`--leash`). [`STOP`] on a line of it asks the run to stop
+//! with a checkpoint; the end of the pipe, which a kill of this process also brings about, ends the child. So no run
+//! outlives its sweep, and a sweep that is resumed meets no run of the process before it.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ffi::OsString;
@@ -22,12 +22,12 @@ use crate::plan::{CHECK, Plan, SweepError, arguments, log_file, run_folder};
 use crate::points::Point;
 use scenario::memory::{BYTES_PER_ELEMENT, free_mb};
 
-/// How often the children are looked after.
+/// How often the children are polled.
 const LOOK: Duration = Duration::from_millis(20);
-/// Share of the free memory that a sweep takes unless it is told how much.
+/// Part of the free memory that a sweep uses where its budget does not say how much.
 const SHARE: f64 = 0.9;
 
-/// The word through the pipe that asks a run to end in order.
+/// The line on a child's standard input that asks it to stop in order.
 pub const STOP: &str = "stop";
 
 /// What a sweep may use at a time.
@@ -41,22 +41,22 @@ pub struct Budget {
     pub memory_mb: Option<f64>,
 }
 
-/// A look at a sweep under way.
+/// How far a sweep is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
     /// Runs in all.
     pub runs: usize,
-    /// Runs that came to their end, now or before.
+    /// Runs that are completed and checked, by this call or before.
     pub completed: usize,
     /// Runs that failed.
     pub failed: usize,
     /// Runs under way.
     pub running: usize,
-    /// Share of the work that this call began with that is done, by a rough cost of each run.
+    /// Part of this call's work that is done, from 0 to 1, by a rough cost of each run.
     pub fraction: f64,
 }
 
-/// What a job is at.
+/// What a job does.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stage {
     Run,
@@ -68,17 +68,17 @@ struct Job {
     index: usize,
     stage: Stage,
     child: Child,
-    /// The leash.
+    /// The pipe to the child's standard input; none for a check.
     stdin: Option<ChildStdin>,
-    /// Share of the run that is done, as bits.
+    /// Part of the run that is done, as the bits of a double.
     progress: Arc<AtomicU64>,
 }
 
-/// Runs what of `plan` is not yet done with `program`, its name and first arguments, and returns the sweep's
-/// results.
+/// Runs the runs of `plan` that are not yet done, and returns the sweep's results. `program` is the command to start:
+/// its file, and the arguments that come before those of a run.
 ///
-/// A run that fails does not stop the others. A stop request ends the runs under way in order;
-/// the results then say which runs are missing.
+/// A run that fails does not stop the others. A `stop` stops the runs under way with a checkpoint each; the results
+/// then say which runs are missing. `observe` is called many times a second.
 ///
 /// # Errors
 /// A run that needs more memory than there is, before any is begun; a program that cannot be
@@ -142,7 +142,7 @@ pub fn run(
             let job = jobs.swap_remove(at);
             let point = &plan.runs[job.index];
             let folder = run_folder(&plan.folder, &point.name);
-            // A check that is beyond a limit ends with 1 and is as good as one that is not.
+            // A check exits with 1 where a measure is beyond its limit: its document is complete all the same.
             if job.stage == Stage::Check && matches!(exit.code(), Some(0 | 1)) {
                 let failed = |cause| SweepError::File { path: folder.join(CHECK), cause };
                 fs::rename(partial_check(&folder), folder.join(CHECK)).map_err(failed)?;
@@ -173,8 +173,7 @@ pub fn run(
     collect_with(plan, &[], &failures)
 }
 
-/// What a run costs, roughly: elements times the steps that pressure waves need. In units of its
-/// own: only ratios matter.
+/// A rough cost of a run: elements times the steps at the speed of pressure waves in steel. Only ratios matter.
 fn cost(point: &Point) -> f64 {
     const WAVE_SPEED: f64 = 6e3;
     let case = &point.case;
@@ -235,7 +234,7 @@ impl Job {
                     }
                 }
             });
-            // the child ends with its leash
+            // on an error the pipe is closed, and the child ends
             reads.map_err(failed(&program_file(program)))?;
         }
         let stdin = child.stdin.take();
@@ -249,8 +248,8 @@ impl Job {
         }
     }
 
-    /// A run is asked to end in order; a check, which holds nothing, is ended. Either may have
-    /// ended by itself just now, so that failing is no news.
+    /// Asks a run to stop in order; kills a check, which has nothing to save. Either may just have ended by itself, so
+    /// that errors do not matter.
     fn ask_to_stop(&mut self) {
         match &mut self.stdin {
             Some(stdin) => {
@@ -264,7 +263,7 @@ impl Job {
     }
 }
 
-/// What a process said was wrong: the message of its report, or its last line.
+/// Why a process failed, by its log: the message of its error report, or its last line.
 fn reason(log: &Path) -> String {
     let text = input::text(log, input::LOG).unwrap_or_default();
     let message = text.lines().find_map(|line| line.trim_start().strip_prefix('\u{d7}'));

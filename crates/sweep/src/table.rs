@@ -1,4 +1,4 @@
-//! `sweep.csv`: one line per run, and behind them one per point of an ensemble; SI units.
+//! `sweep.csv`: one line per run, and after them one per point of an ensemble; SI units.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +7,7 @@ use serde_json::Value;
 
 use crate::plan::SweepError;
 
-/// What the table shows of a run besides its parameters and the measures of its checks: heading
-/// and pointer into the run's entry.
+/// Columns besides the parameters and the measures of the checks: heading, and JSON pointer into the entry of a run.
 const COLUMNS: [(&str, &str); 51] = [
     ("dt", "/summary/dt"),
     ("dt_limit", "/summary/stability/dt_limit"),
@@ -105,7 +104,7 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
         let name = format!("mean of {}", point["completed"]);
         let parameters = parameters.iter().map(|name| cell(&point["parameters"][*name]));
         let of_means = |(heading, at): &(&str, &'static str)| {
-            // deviations over a window are of a run
+            // a deviation over the window belongs to a run, not to a point
             if heading.ends_with(DEVIATION) { String::new() } else { cell(value_at(point, at)) }
         };
         let metrics = measures.iter().map(|name| cell(&point["check"]["metrics"][*name]["value"]));
@@ -121,8 +120,8 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
 /// End of the heading of a standard deviation over the window.
 const DEVIATION: &str = "_sd";
 
-/// Headings of the half widths of 95 % confidence intervals, each with its places: of the mean over an ensemble's
-/// members, else of the mean over the window of a run.
+/// Headings of the half widths of 95 % confidence intervals, each with two JSON pointers: to that of the mean over an
+/// ensemble's members, and to that of the mean over the window of a run.
 fn intervals(measures: &[&str]) -> Vec<(String, [String; 2])> {
     let means = COLUMNS.iter().filter_map(|(heading, at)| {
         if let Some(entry) = at.strip_prefix("/check/slip_zone/") {
@@ -142,14 +141,15 @@ fn intervals(measures: &[&str]) -> Vec<(String, [String; 2])> {
     means.chain(measures).collect()
 }
 
-/// The first of the places that an entry has.
+/// The value at the first of the pointers that an entry has; null where it has neither.
 fn first<'a>(entry: &'a Value, places: &[String; 2]) -> &'a Value {
     let there =
         places.iter().map(|at| if at.is_empty() { &Value::Null } else { value_at(entry, at) });
     there.into_iter().find(|value| !value.is_null()).unwrap_or(&Value::Null)
 }
 
-/// A value of a run; means over the evaluation window only where the run came to its end.
+/// The value at a pointer into the entry of a run, else null; means over the evaluation window only of a run that is
+/// completed.
 fn value_at<'a>(run: &'a Value, at: &str) -> &'a Value {
     let mean = ["/summary/contact/", "/summary/window/", "/check/patch/", "/check/slip_zone/"]
         .iter()

@@ -4,7 +4,7 @@ use super::{Findings, round};
 use crate::key::number;
 use crate::schema::{Case, Crown};
 
-/// More elements than this in the fine zones is a slip of a digit.
+/// More elements than this in the fine zones are taken for a typing mistake.
 const MOST_ELEMENTS: f64 = 2e8;
 
 const NOT_INSIDE: &str = "the fine zone must lie inside both bodies: make it smaller";
@@ -50,7 +50,7 @@ fn check_zone_size(case: &Case, found: &mut Findings<'_>) {
     }
 }
 
-/// The disk has a rim around its hub, which holds the fine zone.
+/// The hub is smaller than the disk, and the rim around it as deep as the fine zone.
 fn check_disk(case: &Case, found: &mut Findings<'_>) {
     let (disk, zone) = (&case.disk, &case.mesh.zone);
     found.require(

@@ -34,10 +34,14 @@ impl BlockElement {
     }
 }
 
-/// Whole steps of a free block of `n`^3 elements of 1 mm that starts with v_z = -z/L.
+/// Measures whole steps of a free block of `n`^3 elements of 1 mm that starts with v_z = -z/L (m/s), where L is its
+/// edge, with so many `threads` and these `kernels` (by default the machine's best).
 ///
 /// # Errors
-/// None but those of a thread pool or a material, neither of which can be at fault here.
+/// Threads that cannot be started.
+///
+/// # Panics
+/// If `n` is 0.
 pub fn bench_block(
     n: usize,
     element: BlockElement,

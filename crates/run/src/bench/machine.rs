@@ -1,4 +1,4 @@
-//! What the machine can do at most: memory bandwidth and arithmetic.
+//! The most that the machine can do: memory bandwidth and arithmetic.
 
 use super::median;
 use rayon::prelude::*;

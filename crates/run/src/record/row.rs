@@ -36,10 +36,10 @@ impl Resultants {
     }
 }
 
-/// The patch on the bar as it was recorded.
+/// Measures of the patch on the bar at one instant.
 pub(super) struct PatchMeasures {
-    /// Half axes (m), peak pressure (Pa) and centre (m, relative to the hub) by the fit; not a number where
-    /// nothing fits.
+    /// Half axes along and across (m), peak pressure (Pa) and x of the centre relative to the hub (m), by the fit of
+    /// Hertz's distribution; NaN where none fits.
     pub(super) fit: [f64; 4],
     pub(super) areas: patch::PatchAreas,
     /// Largest shear traction (Pa).
@@ -51,7 +51,7 @@ pub(super) struct PatchMeasures {
 }
 
 impl Means {
-    /// Takes in what every step tells; `inside` the evaluation window also what it averages.
+    /// Adds a step: to the extremes and counts always, to the means where it lies `inside` the evaluation window.
     pub(super) fn add_step(&mut self, report: &StepReport, resultants: &Resultants, inside: bool) {
         let contact = &report.contact;
         if contact.closed > 0 {
@@ -72,7 +72,7 @@ impl Means {
         }
     }
 
-    /// Takes in the patch and the energies of a row of the history.
+    /// Adds the patch and the energies of a row of the history.
     pub(super) fn add_patch(&mut self, patch: &PatchMeasures, energies: &Energies, inside: bool) {
         self.worst_cone = self.worst_cone.max(patch.cone_excess);
         if inside {
@@ -90,7 +90,7 @@ impl Means {
     }
 }
 
-/// The row of the history of a step; `imbalance` is that of the energies.
+/// The row of the history of a step; `imbalance` is that of the energy ledger (J).
 pub(super) fn row(
     report: &StepReport,
     resultants: &Resultants,

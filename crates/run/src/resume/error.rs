@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Why a run cannot be resumed.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ResumeError {
-    /// Nothing has run in the folder.
+    /// The folder holds no run.
     #[error("there is no run to resume in {}", folder.display())]
     #[diagnostic(help("leave out --resume to begin it, or name its folder with --out DIR"))]
     NoRun {
@@ -27,7 +27,7 @@ pub enum ResumeError {
         /// What differs.
         difference: String,
     },
-    /// There are checkpoints, but none to go on from.
+    /// There are checkpoints, but none that can be used.
     #[error("no checkpoint in {} can be used: {reasons}", folder.display())]
     #[diagnostic(help(
         "begin the run anew with --force; that replaces its results, look at them first"

@@ -1,4 +1,4 @@
-//! A run at its start, preloaded, or at the checkpoint that it goes on from.
+//! A run at its start: preloaded, or in the state of the checkpoint that it goes on from.
 
 use super::opening::Opened;
 use super::options::RunOptions;
@@ -22,11 +22,11 @@ pub(super) struct Resumed {
     pub(super) state: State,
 }
 
-/// What came of the beginning.
+/// How a run begins.
 pub(super) enum Begun {
     /// No preload was found, or a stop was asked for: the summary that says so.
     NotPreloaded(serde_json::Value),
-    /// The disk may roll.
+    /// The simulation can be stepped; with the checkpoint of a resumed run.
     Rolling(Box<Start>, Option<Box<Resumed>>),
 }
 
@@ -72,7 +72,7 @@ fn resume(
     let log = &mut opened.log;
     for (name, damage) in damaged {
         log.warn(&format!("not used, {name}: {damage}; the one before is"))?;
-        // it must not push a good one out
+        // of two checkpoints the next one replaces the older: that must not be the good one
         remove(&options.out.join(name))?;
     }
     log.say(&format!("resumed from the checkpoint of step {}", checkpoint.step))?;

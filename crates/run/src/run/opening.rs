@@ -1,4 +1,4 @@
-//! The folder of a run, taken; its model, made; and where the run goes on.
+//! Before a run begins: its folder is locked, its model is made, and it is found where the run goes on.
 
 use super::options::RunOptions;
 use crate::error::RunError;
@@ -16,11 +16,11 @@ use scenario::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 
 /// A run about to begin, or to go on.
 pub(super) struct Opened {
-    /// Its folder.
+    /// The lock of its folder.
     pub(super) held: FolderLock,
     pub(super) log: Log,
     pub(super) model: Model,
-    /// Where it goes on, if it does not begin.
+    /// The checkpoint where it goes on; none for a run that begins.
     pub(super) point: Option<Point>,
 }
 
@@ -28,12 +28,11 @@ pub(super) struct Opened {
 pub(super) enum Opening {
     /// Nothing: the run is complete. Its summary.
     Complete(serde_json::Value),
-    /// A run.
+    /// A run to begin, or to go on with.
     Run(Box<Opened>),
 }
 
-/// Takes the folder of a run and makes its model; results of an earlier run are replaced only once the
-/// mesh is found good.
+/// Locks the folder of a run and makes its model; results of an earlier run are removed only once the mesh is made.
 pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunError> {
     let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
     let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
@@ -45,11 +44,11 @@ pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunErro
     };
     let replaces = options.force || why.is_some();
     if point.is_none() {
-        // The same case begun anew from its own folder reads what it then writes.
+        // A run may be begun anew from the `case.toml` in its own folder, which then is replaced by an equal one.
         if options.force && !(options.resume && resume::is_of(case, &options.out)) {
             folder::spare(&options.out, &inputs(case, &options.source))?;
         }
-        // A mesh that is refused must cost no earlier run its results.
+        // Before the mesh is made, which takes time; the files of an earlier run are removed only after it.
         folder::check(&options.out, replaces)?;
     }
     let model = model(case, options, point.as_ref())?;
@@ -59,7 +58,7 @@ pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunErro
         (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
     };
     write_text(options.out.join(file::CASE), &case.to_toml())?;
-    tell(case, options, &model, why, &mut log)?;
+    log_opening(case, options, &model, why, &mut log)?;
     Ok(Opening::Run(Box::new(Opened { held, log, model, point })))
 }
 
@@ -75,8 +74,8 @@ fn model(case: &Case, options: &RunOptions, point: Option<&Point>) -> Result<Mod
     Ok(model)
 }
 
-/// The first lines of the log; `why` a run that was to be resumed begins at its start.
-fn tell(
+/// Writes the first lines of the log; `why` says why a run that was to be resumed begins at its start.
+fn log_opening(
     case: &Case,
     options: &RunOptions,
     model: &Model,

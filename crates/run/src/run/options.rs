@@ -12,14 +12,14 @@ pub struct RunOptions {
     pub out: PathBuf,
     /// Number of threads, at least one.
     pub threads: usize,
-    /// Replace the run that is already in `out`.
+    /// Whether to replace the run that is already in `out`.
     pub force: bool,
-    /// Go on with the run in `out` from its last checkpoint; with `force`, begin anew where that is
-    /// not possible.
+    /// Whether to go on with the run in `out` from its last checkpoint; with `force`, the run begins anew where that
+    /// is not possible.
     pub resume: bool,
-    /// Folder in which preloads are kept for other runs with the same, and taken from.
+    /// Folder in which preloads are kept for other runs that have the same; without it none is kept.
     pub preload_cache: Option<PathBuf>,
-    /// The case file, for the log.
+    /// The case file, for the log; with `force` no file that the case is made of is replaced.
     pub source: PathBuf,
     /// The friction law of a case with `friction.law = "python"`.
     pub law: Option<Arc<dyn OwnLaw>>,

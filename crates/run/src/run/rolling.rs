@@ -15,8 +15,8 @@ use scenario::remedy::Remedy;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Steps between two looks of whoever watches.
-const WATCHED: u64 = 64;
+/// Steps between two calls of the observer.
+const OBSERVED: u64 = 64;
 
 /// Steps between two readings of the energies, at most: `output.history_interval` may be larger.
 const READING: u64 = 100;
@@ -30,7 +30,7 @@ pub(super) struct Rolling<'a> {
     recorder: Recorder,
     /// The last energies read.
     energies: Energies,
-    /// Wall time before this process: of everything, and of rolling.
+    /// Wall time before this process: of the whole run, and of rolling.
     before: [Duration; 2],
     /// When this process began, and when it began to roll.
     since: [Instant; 2],
@@ -41,10 +41,10 @@ pub(super) struct Rolling<'a> {
 /// Why a run stopped.
 pub(super) struct Stopped {
     pub(super) status: Status,
-    /// What was wrong, and what to do.
+    /// What was wrong and what to do, in a sentence.
     pub(super) diagnosis: Option<String>,
-    /// What the guards found.
-    pub(super) found: Option<Diagnosis>,
+    /// The diagnosis of the guard that stopped the run, if one did.
+    pub(super) guard: Option<Diagnosis>,
 }
 
 /// A run whose files are closed.
@@ -61,7 +61,7 @@ pub(super) struct Rolled {
 }
 
 impl<'a> Rolling<'a> {
-    /// The run of a process that began at `wall`.
+    /// The run in a process that began at `wall`; `simulation` and `recorder` are those of its first step.
     pub(super) fn new(
         case: &'a Case,
         facts: &'a Facts,
@@ -101,12 +101,12 @@ impl<'a> Rolling<'a> {
         let mut clock = Clock::new(&self.case.checkpoint, self.simulation.dt(), first);
         for n in first..steps {
             let stops = stop.load(Ordering::Relaxed);
-            // a state that the guards are about to stop must push no good one out
+            // a state that the guards are about to stop must not replace a good checkpoint
             if (stops || clock.is_due(n)) && self.simulation.is_sound() {
                 self.keep(basis)?;
             }
             if stops {
-                return Ok(Stopped { status: Status::Interrupted, diagnosis: None, found: None });
+                return Ok(Stopped { status: Status::Interrupted, diagnosis: None, guard: None });
             }
             self.recorder.before_step(&self.simulation)?;
             let read = self.recorder.reads(n) || n + 1 == steps || n.is_multiple_of(READING);
@@ -114,19 +114,19 @@ impl<'a> Rolling<'a> {
             if let Some(failure) = options.law.as_ref().and_then(|law| law.failure()) {
                 let diagnosis = format!("the friction law failed at step {n}: {failure}");
                 let status = Status::Failed;
-                return Ok(Stopped { status, diagnosis: Some(diagnosis), found: None });
+                return Ok(Stopped { status, diagnosis: Some(diagnosis), guard: None });
             }
-            if let Some(found) = self.simulation.check(&report) {
-                let diagnosis = Some(format!("{found}; remedy: {}", found.remedy()));
-                return Ok(Stopped { status: Status::Failed, diagnosis, found: Some(found) });
+            if let Some(guard) = self.simulation.check(&report) {
+                let diagnosis = Some(format!("{guard}; remedy: {}", guard.remedy()));
+                return Ok(Stopped { status: Status::Failed, diagnosis, guard: Some(guard) });
             }
             self.energies = report.energies.unwrap_or(self.energies);
             self.recorder.after_step(&self.simulation, &report)?;
-            if n.is_multiple_of(WATCHED) {
+            if n.is_multiple_of(OBSERVED) {
                 observe(&self.progress(n - first, &report));
             }
         }
-        Ok(Stopped { status: Status::Completed, diagnosis: None, found: None })
+        Ok(Stopped { status: Status::Completed, diagnosis: None, guard: None })
     }
 
     /// Keeps a checkpoint.
@@ -148,7 +148,7 @@ impl<'a> Rolling<'a> {
         Ok(())
     }
 
-    /// A look at the run after `done` steps of this process.
+    /// How far the run is after `done` steps of this process.
     fn progress(&self, done: u64, report: &StepReport) -> Progress {
         let per_s = done as f64 / self.since[1].elapsed().as_secs_f64();
         Progress {

@@ -9,10 +9,10 @@ use case::validation::LAYERS;
 use mesh::Mesh;
 use solid::{Element, Level, Material, Volumetric};
 
-/// Builds the meshes of a case.
+/// The model of a case: its mesh is generated, or read from its file.
 ///
 /// # Errors
-/// A mesh that cannot be made, or that this machine has no memory for.
+/// A mesh that cannot be made or read, or that this machine has no memory for.
 pub fn model(case: &Case) -> Result<Model, ScenarioError> {
     enough_for_mesh(case)?;
     let (mut mesh, notes) = match mesh_file::import(case)? {
@@ -58,10 +58,10 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
     })
 }
 
-/// Elements of the mesh of a case.
+/// Number of elements of the mesh of a case, which is made for it.
 ///
 /// # Errors
-/// A mesh that cannot be made.
+/// As those of [`model`].
 pub fn elements(case: &Case) -> Result<usize, ScenarioError> {
     Ok(model(case)?.mesh.hexes.len())
 }
@@ -93,7 +93,8 @@ fn align(mesh: &mut Mesh) -> Result<Vec<[u32; 2]>, mesh::NoSlice> {
     Ok(pairs)
 }
 
-/// The elements in the contact layers of the fine zones, if they are to be fully integrated.
+/// Whether each element is fully integrated, as those in the contact layers of the fine zones are; empty where
+/// none is.
 fn fully_integrated(case: &Case, mesh: &Mesh) -> Vec<bool> {
     if case.element.contact_layers == ContactLayers::OnePoint {
         return Vec::new();

@@ -7,8 +7,9 @@ use mesh::Padded;
 /// Seed where a case gives none.
 const SEED: u64 = 1;
 
-/// Multiplies the displacement of every node that is neither held nor carried by 1 + r disturbance in each
-/// direction. A draw depends on the seed, the node and the direction alone, hence on no number of threads.
+/// Multiplies each component of the displacement (m) of every node that is neither clamped nor on the hub by
+/// 1 + r `preload.disturbance`, r random in [-1, 1). r depends on the seed, the node and the direction alone, so that
+/// the number of threads does not matter.
 pub fn disturb(case: &Case, model: &Model, displacement: &mut [Padded]) {
     let Some(size) = case.preload.disturbance else { return };
     let seed = case.preload.seed.unwrap_or(SEED);
@@ -21,8 +22,8 @@ pub fn disturb(case: &Case, model: &Model, displacement: &mut [Padded]) {
     }
 }
 
-/// A number from -1 to 1: the output of SplitMix64 (Steele, Lea and Flood 2014) for the state
-/// that `seed` and `place` give.
+/// A pseudo-random number in [-1, 1): the output of SplitMix64 (Steele, Lea and Flood 2014) for the state
+/// made of `seed` and `place`.
 fn draw(seed: u64, place: u64) -> f64 {
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
     let mix = |state: u64| {

@@ -5,12 +5,12 @@ use case::hertz::hertz;
 use case::schema::Case;
 use dynamics::GuardLimits;
 
-/// Energies below this part of load times approach (Hertz) are those of a contact that only begins.
+/// Energies below this part of load times approach (Hertz) are too small for the guard of hourglass energy.
 const LEAST_ENERGY: f64 = 0.01;
-/// A normal force below this part of the load is none.
+/// A normal force below this part of the load counts as no contact.
 const LEAST_FORCE: f64 = 1e-3;
 
-/// What stops the run of a case.
+/// The limits of the guards of a case, in SI units.
 pub fn limits(case: &Case, model: &Model) -> GuardLimits {
     let guards = &case.guards;
     let along = model.mesh.nodes[model.mesh.bodies[BAR].nodes.clone()].iter().map(|x| x[0]);

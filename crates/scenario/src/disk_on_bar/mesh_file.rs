@@ -12,7 +12,10 @@ use sha2::{Digest, Sha256};
 use crate::error::{MeshFileError, ScenarioError};
 use crate::remedy::Remedy;
 
-/// The mesh of the file that a case names, if it names one, and what is to be said of it.
+/// The mesh of the file that a case names, if it names one, in metres, with remarks for the user.
+///
+/// # Errors
+/// A file that cannot be read, has changed since the case was read, or is no mesh of the case's disk and bar.
 pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError> {
     let Some(path) = case.mesh.file.as_ref().map(PathBuf::from) else { return Ok(None) };
     let refused = |problem: String, remedy: &str| {

@@ -15,13 +15,13 @@ use statics::{Axis, Contact, Iteration, Problem, Spin, Supports, Tied};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// What the preload found.
+/// The preloaded state.
 pub(super) struct Preloaded {
     /// Displacements of the bodies (m).
     pub(super) displacement: Vec<Padded>,
-    /// How they were found: not at all with `preload.method = "none"`.
+    /// How they were found; none with `preload.method = "none"`.
     pub(super) report: Option<PreloadReport>,
-    /// Normal forces (N) of exact contact on the nodes of both sides.
+    /// Nodes of both sides with their normal force (N) in exact contact; empty with penalty contact.
     pub(super) loads: [Vec<(u32, f64)>; 2],
 }
 
@@ -30,14 +30,14 @@ pub(super) struct Bodies<'a> {
     pub(super) case: &'a Case,
     pub(super) model: &'a Model,
     pub(super) solid: &'a mut Solid,
-    /// What penalty springs that are a fraction of the stability limit are a fraction of.
+    /// The scale of penalty springs that are a fraction of the stability limit.
     pub(super) scale: StabilityScale,
     pub(super) hub: &'a Hub,
     /// Nodes that do not move.
     pub(super) held: &'a [u32],
 }
 
-/// The preload of a case. Says how Newton's iterations go.
+/// The preload of a case; `say` takes a line for each of Newton's iterations.
 pub(super) fn preload(
     mut bodies: Bodies<'_>,
     stop: &AtomicBool,
@@ -48,7 +48,7 @@ pub(super) fn preload(
     let clock = Instant::now();
     let elements = model.mesh.hexes.len() as f64;
     // `products` are evaluations of all elements.
-    let mut look = |step: usize, products: usize, normal_force: f64| {
+    let mut watch = |step: usize, products: usize, normal_force: f64| {
         observe(&Progress {
             stage: Stage::Preload,
             step: step as u64,
@@ -62,8 +62,8 @@ pub(super) fn preload(
         !stop.load(Ordering::Relaxed)
     };
     match case.preload.method {
-        PreloadMethod::Static => bodies.equilibrium(&mut look, say),
-        PreloadMethod::Relaxation => bodies.relaxed(&mut look),
+        PreloadMethod::Static => bodies.equilibrium(&mut watch, say),
+        PreloadMethod::Relaxation => bodies.relaxed(&mut watch),
         PreloadMethod::None => Ok(Preloaded {
             displacement: bodies.lowered(-case.disk.lift),
             report: None,
@@ -72,11 +72,11 @@ pub(super) fn preload(
     }
 }
 
-/// A look at a step, after so many evaluations of all elements, with the normal force (N); false to stop.
-type Look<'a> = dyn FnMut(usize, usize, f64) -> bool + 'a;
+/// Called with the iteration, the evaluations of all elements so far, and the normal force (N); false to stop.
+type Watch<'a> = dyn FnMut(usize, usize, f64) -> bool + 'a;
 
 impl Bodies<'_> {
-    /// Displacements (m) of bodies at rest with the disk lowered by `by` (m).
+    /// Displacements (m) of undeformed bodies with the disk lowered by `by` (m).
     fn lowered(&self, by: f64) -> Vec<Padded> {
         let mut u = vec![Padded::ZERO; self.model.mass.len()];
         u[self.model.mesh.bodies[DISK].nodes.clone()].iter_mut().for_each(|u| u[2] = -by);
@@ -86,7 +86,7 @@ impl Bodies<'_> {
     /// By Newton's method.
     fn equilibrium(
         &mut self,
-        look: &mut Look<'_>,
+        watch: &mut Watch<'_>,
         say: &mut (dyn FnMut(&str) -> Result<(), NotWritten> + Send),
     ) -> Result<Preloaded, ScenarioError> {
         let (case, model, hub) = (self.case, self.model, self.hub);
@@ -101,7 +101,7 @@ impl Bodies<'_> {
             plane_strain: case.mesh.plane_strain,
             spin: Some(Spin {
                 centre: hub.centre,
-                omega: spin(case),
+                omega: rolling_omega(case),
                 nodes: model.mesh.bodies[DISK].nodes.clone(),
                 mass: &model.mass,
                 hub: 0,
@@ -126,7 +126,7 @@ impl Bodies<'_> {
         let found = statics::solve(self.solid, contact, &problem, &start, |now| {
             products += now.cg_iterations + 1;
             said = say(&line(now));
-            said.is_ok() && look(now.iteration, products, now.normal_force)
+            said.is_ok() && watch(now.iteration, products, now.normal_force)
         });
         said?;
         let found = found.map_err(PreloadError::from)?;
@@ -139,7 +139,7 @@ impl Bodies<'_> {
     }
 
     /// By dynamic relaxation.
-    fn relaxed(&mut self, look: &mut Look<'_>) -> Result<Preloaded, ScenarioError> {
+    fn relaxed(&mut self, watch: &mut Watch<'_>) -> Result<Preloaded, ScenarioError> {
         let (case, model) = (self.case, self.model);
         let stiffness =
             solid::nodal_stiffness_bounds(&model.mesh, &model.materials, model.elements());
@@ -148,7 +148,7 @@ impl Bodies<'_> {
             load: case.load.normal,
             held: self.held,
             disk: model.mesh.bodies[DISK].nodes.clone(),
-            omega: spin(case),
+            omega: rolling_omega(case),
             mass: &model.mass,
             stiffness: &stiffness,
             start: -start_depth(case),
@@ -157,7 +157,7 @@ impl Bodies<'_> {
         };
         let mut contact = model.penalty_contact(case, self.scale)?;
         let (u, report) = dynamics::relax(self.solid, &mut contact, &setup, |now| {
-            look(now.iterations, now.iterations, now.normal_force)
+            watch(now.iterations, now.iterations, now.normal_force)
         })
         .map_err(PreloadError::from)?;
         let report = Some(PreloadReport::of_relaxation(&report));
@@ -184,14 +184,14 @@ fn loads_of_slaves(slave: usize, pressed: &[(Gap, f64)]) -> [Vec<(u32, f64)>; 2]
     loads
 }
 
-/// How deep the undeformed disk is lowered into the bar before Newton's iterations (m): Hertz's approach; in line
-/// contact, where there is none, what the half length of the patch needs.
+/// How deep the undeformed disk is lowered into the bar before the iterations (m): Hertz's approach; in line
+/// contact, for which it is not defined, the sagitta of the disk over the half length of the patch.
 fn start_depth(case: &Case) -> f64 {
     let patch = hertz(case);
     if patch.approach > 0.0 { patch.approach } else { patch.a * patch.a / (2.0 * case.disk.radius) }
 }
 
-/// Angular velocity whose centrifugal force acts during the preload (rad/s).
-fn spin(case: &Case) -> f64 {
+/// Angular velocity of rolling, whose centrifugal force acts during the preload (rad/s).
+fn rolling_omega(case: &Case) -> f64 {
     case.drive.speed / case.disk.radius
 }

@@ -22,7 +22,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// The bodies at rest under the load, and what the step must respect.
+/// The bodies at rest under the load, and what limits the time step.
 struct PreloadedState {
     solid: Solid,
     /// The springs of penalty contact, closed where the bodies touch; none of exact contact.
@@ -39,7 +39,7 @@ struct PreloadedState {
     limit: f64,
 }
 
-/// Longest stable step (s) of a case: that of the preloaded state, which is taken from `cache` if it is
+/// Longest stable step (s) of a case in its preloaded state. The preload is taken from the folder `cache` if it is
 /// there.
 ///
 /// # Errors
@@ -78,15 +78,15 @@ fn preloaded_state(
     })?;
     disturb(case, model, &mut preloaded.displacement);
     for &[first, second] in &model.paired {
-        // alike to the preload's tolerance until now
+        // equal only to the preload's tolerance until now
         preloaded.displacement[second as usize] = preloaded.displacement[first as usize];
     }
-    // Contact starts from the displacements alone, so that a preload from the cache and one just
+    // The state of the contact is made of the displacements alone, so that a preload from the cache and one just
     // found lead to the same bits.
     let springs = match case.contact.enforcement {
         Enforcement::Penalty => {
             let mut springs = model.penalty_contact(case, scale)?;
-            // closes those that touch, for the stable step
+            // closes the springs that touch, for the stable step
             let mut unused = vec![Padded::ZERO; preloaded.displacement.len()];
             springs.apply_frictionless(solid.reference(), &preloaded.displacement, &mut unused);
             Some(springs)
@@ -123,7 +123,13 @@ fn preloaded_state(
     })
 }
 
-/// Preloads the model, or takes the preload from `cache`, and sets it rolling.
+/// Preloads the model, or takes the preload from the folder `cache`, and gives it the velocities of free rolling.
+///
+/// `observe` is called as the preload goes on, `say` takes lines for the log, and `stop` ends the preload.
+///
+/// # Errors
+/// Elements or contact that cannot be set up; a preload that is not found or is stopped; `time.step` above the
+/// stability limit; a log that cannot be written.
 pub fn start(
     case: &Case,
     model: &Model,
@@ -199,7 +205,10 @@ pub fn start(
     Ok(assemble(case, model, found, Parts { solid, contact, hub, quiet, displacement, velocity }))
 }
 
-/// The simulation of which `state` was taken, with what was `found` when it began.
+/// The simulation in the `state` of a checkpoint, with what was `found` when it began.
+///
+/// # Errors
+/// Elements or contact that cannot be set up; a state of another model.
 pub fn restart(
     case: &Case,
     model: &Model,
@@ -233,7 +242,7 @@ struct Parts {
     velocity: Vec<Padded>,
 }
 
-/// Everything that rolls, set up for the time loop.
+/// The simulation with its boundary conditions and the limits of its guards.
 fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
     let Parts { solid, contact, mut hub, quiet, displacement, velocity } = parts;
     let Found { stability, radius, preload, preload_wall, steps } = found;
@@ -261,7 +270,7 @@ fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
     Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }
 }
 
-/// What penalty springs that are a fraction of the stability limit are a fraction of.
+/// The scale of penalty springs that are a fraction of the stability limit.
 fn scale(case: &Case, omega_elastic: f64) -> StabilityScale {
     StabilityScale { omega_elastic, dt: case.step().under(2.0 / omega_elastic) }
 }
@@ -271,7 +280,7 @@ fn quiet(model: &Model) -> QuietEnd {
     QuietEnd::new(&model.mesh, &ends, &model.materials[BAR], &model.clamped)
 }
 
-/// No node moves in y.
+/// The constraints of plane strain: no node moves in y.
 fn plane_strain(model: &Model) -> Vec<Fixed> {
     let nodes = 0..model.mass.len() as u32;
     nodes.map(|node| Fixed { node, axes: [false, true, false] }).collect()

@@ -1,7 +1,8 @@
 //! Preloads kept for the runs that share them.
 //!
-//! A preload depends on part of a case only: on neither friction nor drive, on the tangential
-//! springs or the step in rare forms alone. It is kept under the SHA-256 of that part, in
+//! A preload depends on part of a case only. Friction and the drive have no effect on it, save the speed, which
+//! gives the centrifugal force; damping and the tangential springs only by dynamic relaxation, the time step only by
+//! springs that are a fraction of the stability limit. It is kept under the SHA-256 of that part, in
 //! `HASH.preload` of a folder that any number of runs may use at once:
 //!
 //! | bytes | what |
@@ -11,9 +12,9 @@
 //! | 24 per node | displacement x, y, z (m), little-endian doubles |
 //! | 32 | SHA-256 of all before |
 //!
-//! A file is written under another name and renamed, so that nobody reads a half; one that does
-//! not prove whole is not used. `HASH.lock` is locked while a run looks for its preload, so that
-//! of runs that start together one finds it and the others wait for it.
+//! A file is written under another name and renamed, so that nobody reads an incomplete one; one whose checksum
+//! does not match is not used. `HASH.lock` is locked while a run computes or reads its preload: of runs that start
+//! together one computes it, and the others wait for it.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{BufWriter, Write};
@@ -37,7 +38,7 @@ use output::NotWritten;
 
 const MAGIC: &str = "creepage preload 1";
 const CHECKSUM: usize = 32;
-/// How often a run that waits for another's preload looks again.
+/// How often a run that waits for another's preload tries the lock.
 const LOOK: Duration = Duration::from_millis(50);
 
 type Say<'a> = dyn FnMut(&str) -> Result<(), NotWritten> + Send + 'a;
@@ -81,7 +82,7 @@ pub(crate) fn key(case: &Case, kernels: &str) -> String {
     hexadecimal(&Sha256::digest(basis.to_string()))
 }
 
-/// The preload of `case` from `folder`, or else from `find`, which is then kept for others.
+/// The preload of `case` from `folder`, or else by `find`; that one is then kept in `folder` for others.
 pub(crate) fn kept(
     case: &Case,
     model: &Model,
@@ -134,7 +135,7 @@ fn lock(path: &Path, stop: &AtomicBool) -> Option<File> {
     }
 }
 
-/// The entry, if there is one; why it is not to be trusted, if so.
+/// The preload in a file, if there is one; as the error, why the file cannot be used.
 fn read(path: &Path, key: &str, nodes: usize) -> Result<Option<Preloaded>, String> {
     let bytes = match input::bytes(path, input::PRELOAD) {
         Ok(bytes) => bytes,
@@ -179,7 +180,7 @@ fn write(path: &Path, header: &Header, displacement: &[Padded]) -> std::io::Resu
         fs::rename(&partial, path)
     })();
     if result.is_err() {
-        // The half-written neighbour is of no use; the error that matters is the first.
+        // The incomplete file is of no use; the error that matters is the first.
         let _ = fs::remove_file(&partial);
     }
     result

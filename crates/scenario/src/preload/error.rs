@@ -15,7 +15,7 @@ pub enum PreloadError {
 }
 
 impl PreloadError {
-    /// Whether it was asked to stop.
+    /// Whether the preload ended because it was asked to stop.
     pub fn is_interruption(&self) -> bool {
         matches!(
             self,
