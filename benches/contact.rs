@@ -1,8 +1,11 @@
-//! `PenaltyContact::apply` on the reference wheel pressed on its bar: `cargo bench -p
+//! Penalty contact on the reference wheel pressed on its bar: `cargo bench -p
 //! creepage-benches --bench contact`.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, Motion, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use contact::{
+    BodyMaterial, Contact, FreeMotion, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    TraceFields,
+};
 use friction::{Exponential, Lagged};
 use mesh::{Bar, Disk, FineZone, Padded, bar, disk, join};
 
@@ -21,7 +24,7 @@ struct Rolling {
     reference: Vec<Padded>,
     displacement: Vec<Padded>,
     velocity: Vec<Padded>,
-    inverse_mass: Vec<f64>,
+    fields: TraceFields,
     force: Vec<Padded>,
     disk_nodes: usize,
     dt: f64,
@@ -63,12 +66,13 @@ impl Rolling {
             Err(error) => panic!("{error}"),
         };
         let n = mesh.nodes.len();
+        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
         let mut rolling = Self {
+            fields: TraceFields::new(contact.trace(), &reference, &vec![1e5; n]),
             contact,
-            reference: mesh.nodes.iter().map(|&x| Padded::new(x)).collect(),
+            reference,
             displacement: vec![Padded::ZERO; n],
             velocity: vec![Padded::ZERO; n],
-            inverse_mass: vec![1e5; n],
             force: vec![Padded::ZERO; n],
             disk_nodes,
             dt: 0.67 * size / 6001.0,
@@ -108,15 +112,17 @@ impl Rolling {
     }
 
     fn apply(&mut self) -> contact::ContactSums {
-        let motion = Motion {
-            reference: &self.reference,
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-            inverse_mass: &self.inverse_mass,
-            time: 0.0,
-            dt: self.dt,
-        };
-        self.contact.apply(&motion, &mut self.force)
+        let fields = &mut self.fields;
+        fields.gather_positions(&self.displacement);
+        fields.gather_velocities(&self.velocity);
+        let contact: &mut dyn Contact = &mut self.contact;
+        contact.follow(&fields.motion(0.0, self.dt));
+        fields.gather_forces(contact.loaded().iter().copied(), &self.force);
+        let step = fields.step(0.0, self.dt);
+        let free = FreeMotion { velocity: &|_, _| [0.0; 3] };
+        let sums = contact.apply(&step.motion, &free, step.force);
+        fields.scatter_forces(contact.loaded().iter().copied(), &mut self.force);
+        sums
     }
 }
 

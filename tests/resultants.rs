@@ -2,7 +2,7 @@
 //! slid, and the nodal forces are summed up apart from the contact's own sums.
 #![allow(clippy::unwrap_used)]
 
-use contact::{BodyMaterial, ContactSums, Motion, PenaltyContact, PenaltySettings};
+use contact::{BodyMaterial, Contact, ContactSums, PenaltyContact, PenaltySettings, TraceFields};
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Mesh, Padded};
 
@@ -16,6 +16,7 @@ struct Rig {
     contact: PenaltyContact,
     reference: Vec<Padded>,
     displacement: Vec<Padded>,
+    fields: TraceFields,
     force: Vec<Padded>,
 }
 
@@ -46,9 +47,11 @@ impl Rig {
         let law = Box::new(Coulomb { mu: 0.3 });
         let contact = PenaltyContact::new(&mesh, surfaces, &settings, None, law).unwrap();
         let n = mesh.nodes.len();
+        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
         Self {
+            fields: TraceFields::new(contact.trace(), &reference, &vec![1e4; n]),
             contact,
-            reference: mesh.nodes.iter().map(|&x| Padded::new(x)).collect(),
+            reference,
             displacement: vec![Padded::ZERO; n],
             force: vec![Padded::ZERO; n],
             mesh,
@@ -69,15 +72,14 @@ impl Rig {
             self.displacement[n] = Padded::new(u);
         }
         self.force.fill(Padded::ZERO);
-        let motion = Motion {
-            reference: &self.reference,
-            displacement: &self.displacement,
-            velocity: &velocity,
-            inverse_mass: &vec![1e4; self.reference.len()],
-            time: 0.0,
-            dt: DT,
-        };
-        self.contact.apply(&motion, &mut self.force)
+        let fields = &mut self.fields;
+        fields.gather_positions(&self.displacement);
+        fields.gather_velocities(&velocity);
+        fields.gather_forces(fields.all(), &self.force);
+        let step = fields.step(0.0, DT);
+        let sums = self.contact.apply(&step.motion, step.force);
+        fields.scatter_forces(fields.all(), &mut self.force);
+        sums
     }
 
     /// Force (N) and moment about the origin (N m) of the nodal forces on a body.

@@ -6,7 +6,9 @@
 //! cargo run --release -p creepage-contact --example own_law
 //! ```
 
-use contact::{BodyMaterial, Contact, ExactContact, ExactSettings, FreeMotion, Motion};
+use contact::{
+    BodyMaterial, Contact, ExactContact, ExactSettings, FreeMotion, TraceFields, TraceStep,
+};
 use friction::{NodeFriction, Place};
 use mesh::{Face, Mesh, Padded, Surface};
 use std::error::Error;
@@ -70,6 +72,7 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
 
     let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
     let inverse_mass: Vec<f64> = (0..16).map(|i| if i < 8 { 1.0 / MASS } else { 0.0 }).collect();
+    let mut fields = TraceFields::new(contact.trace(), &reference, &inverse_mass);
     let mut displacement = vec![Padded::ZERO; 16];
     let mut velocity = vec![Padded::ZERO; 16];
     velocity[..8].fill(Padded::new([SPEED, 0.0, 0.0]));
@@ -78,22 +81,22 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
         let mut force = vec![Padded::ZERO; 16];
         // pressed down at its lower nodes
         force[..4].fill(Padded::new([0.0, 0.0, -0.25 * LOAD]));
-        let motion = Motion {
-            reference: &reference,
-            displacement: &displacement,
-            velocity: &velocity,
-            inverse_mass: &inverse_mass,
-            time: speeds.len() as f64 * DT,
-            dt: DT,
+        let step = |v: Padded, inverse_mass: f64, force: [f64; 3]| {
+            [0, 1, 2].map(|i| v[i] + DT * inverse_mass * force[i])
         };
-        let step = |node: u32, force: [f64; 3]| {
-            let (v, m) = (velocity[node as usize], inverse_mass[node as usize]);
-            [0, 1, 2].map(|i| v[i] + DT * m * force[i])
+        fields.gather_positions(&displacement);
+        fields.gather_velocities(&velocity);
+        let time = speeds.len() as f64 * DT;
+        contact.follow(&fields.motion(time, DT));
+        fields.gather_forces(fields.all(), &force);
+        let TraceStep { motion, force: on_surfaces, .. } = fields.step(time, DT);
+        let free = |node: u32, force: [f64; 3]| {
+            step(motion.velocity[node as usize], motion.inverse_mass[node as usize], force)
         };
-        let free_motion = FreeMotion { velocity: &step, inverse_mass: &inverse_mass };
-        contact.follow(&motion);
-        contact.apply(&motion, &free_motion, &mut force);
-        let moved: Vec<_> = (0..16).map(|n| step(n, force[n as usize].xyz())).collect();
+        contact.apply(&motion, &FreeMotion { velocity: &free }, on_surfaces);
+        fields.scatter_forces(fields.all(), &mut force);
+        let moved: Vec<_> =
+            (0..16).map(|n| step(velocity[n], inverse_mass[n], force[n].xyz())).collect();
         for ((v, u), moved) in velocity.iter_mut().zip(&mut displacement).zip(moved) {
             *v = Padded::new(moved);
             for i in 0..3 {

@@ -59,7 +59,7 @@ impl MasterPoint {
     pub fn new(shares: &[Share], master: &ContactSurface, positions: &Positions<'_>) -> Self {
         let (mut x, mut a1, mut a2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for share in shares {
-            let node = positions.at(master.nodes[share.node as usize]);
+            let node = positions.at(master.node(share.node));
             x = axpy(x, share.weight, node);
             a1 = axpy(a1, share.gradient[0], node);
             a2 = axpy(a2, share.gradient[1], node);

@@ -2,33 +2,41 @@
 
 use crate::point::follow_first;
 use crate::snapshot::{Points, check_points};
-use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError};
+use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError, Trace};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
 
 /// The motion that a step would have without contact.
 #[derive(Clone, Copy)]
 pub struct FreeMotion<'a> {
-    /// Velocity `v^{n+1/2}` (m/s) of a node under a force (N): the step's own update of velocities.
+    /// Velocity `v^{n+1/2}` (m/s) of a node of the trace under a force (N): the step's own update of velocities.
     pub velocity: &'a (dyn Fn(u32, [f64; 3]) -> [f64; 3] + Sync),
-    /// Inverse lumped masses (1/kg), zero for nodes that are held.
-    pub inverse_mass: &'a [f64],
 }
 
 /// Enforcement of contact and friction in explicit dynamics.
+///
+/// A step works on the [trace](Self::trace): motion and forces have one entry per node of it. Tables, pairs and the
+/// product with the stiffness have the numbers of the mesh.
 pub trait Contact: Send + Debug {
+    /// The nodes of both surfaces.
+    fn trace(&self) -> &Trace;
+
     /// Follows the surfaces to `x^n = X + u^n`: all that a step needs of positions and velocities alone, and
     /// may be done beside the internal force.
     ///
     /// # Panics
-    /// If a slice has fewer entries than the mesh has nodes.
+    /// If a slice has fewer entries than the trace has nodes.
     fn follow(&mut self, motion: &Motion<'_>);
 
+    /// The nodes of the trace, some more than once, whose forces [`apply`](Self::apply) asks for or changes in
+    /// this step, as they were [followed](Self::follow): no others need be gathered or scattered.
+    fn loaded(&self) -> &[u32];
+
     /// Adds the contact forces (N) of the step from `x^n`, to which the surfaces have been
-    /// [followed](Self::follow), to `force`, which holds all other forces on the nodes of the surfaces.
+    /// [followed](Self::follow), to `force`, which holds all other forces on the [loaded](Self::loaded) nodes.
     ///
     /// # Panics
-    /// If a slice has fewer entries than the mesh has nodes.
+    /// If a slice has fewer entries than the trace has nodes.
     fn apply(
         &mut self,
         motion: &Motion<'_>,
@@ -36,8 +44,8 @@ pub trait Contact: Send + Debug {
         force: &mut [Padded],
     ) -> ContactSums;
 
-    /// Gives the second slave of each pair the state of the first, of nodes that move as one: no
-    /// round-off then sets them apart. The pairs ascend by the first.
+    /// Gives the second slave of each pair of nodes of the mesh the state of the first, of nodes that move as one:
+    /// no round-off then sets them apart. The pairs ascend by the first.
     fn follow_first(&mut self, pairs: &[[u32; 2]]);
 
     /// `y += K_c x` with the springs closed at the last call; nothing for a method without springs.
@@ -71,8 +79,16 @@ pub trait Contact: Send + Debug {
 }
 
 impl Contact for PenaltyContact {
+    fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
     fn follow(&mut self, motion: &Motion<'_>) {
         self.follow(motion);
+    }
+
+    fn loaded(&self) -> &[u32] {
+        &self.loaded
     }
 
     fn apply(&mut self, _: &Motion<'_>, _: &FreeMotion<'_>, force: &mut [Padded]) -> ContactSums {
@@ -80,8 +96,8 @@ impl Contact for PenaltyContact {
     }
 
     fn follow_first(&mut self, pairs: &[[u32; 2]]) {
-        for (points, own) in self.points.iter_mut().zip(&self.sides) {
-            follow_first(points, own, pairs);
+        for (side, points) in self.points.iter_mut().enumerate() {
+            follow_first(points, self.trace.side(side), pairs);
         }
     }
 
@@ -94,7 +110,7 @@ impl Contact for PenaltyContact {
     }
 
     fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact {
-        NodalContact::part(&self.sides, side, faces)
+        NodalContact::part(&self.trace, &self.sides, side, faces)
     }
 
     fn nodal(&self, table: &mut NodalContact) {

@@ -16,7 +16,7 @@
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
 use crate::face::Positions;
-use crate::mortar::{Mean, Mortar, check_means};
+use crate::mortar::{Mean, Mortar};
 use crate::nodal::NodalContact;
 use crate::penalty::{check_common, in_range};
 use crate::point::{State, WATCHED, finer, follow_first, sleep};
@@ -25,7 +25,7 @@ use crate::snapshot::{Points, check_points};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
-use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError};
+use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError, Trace};
 use friction::slip_speed;
 use friction::{NodeFriction, Place, Slid};
 use mesh::{Face, Mesh, Padded, Surface};
@@ -71,6 +71,7 @@ pub(crate) fn slave_side(
 /// counts its whole mass.
 #[derive(Debug)]
 pub struct ExactContact {
+    trace: Trace,
     sides: [ContactSurface; 2],
     slave: usize,
     /// The constraints, ascending by slave, in the list of the slaves' side.
@@ -85,6 +86,8 @@ pub struct ExactContact {
     /// Constraints that may carry force in this step, and their legs.
     active: Vec<u32>,
     legs: Vec<Leg>,
+    /// The nodes of the trace that bear these.
+    loaded: Vec<u32>,
     /// What the law of friction is told about those that were closed before, in their order.
     slid: Vec<Slid>,
     /// Mortar constraints whose integrals were taken in this step.
@@ -109,12 +112,12 @@ impl ExactContact {
         law: Box<dyn NodeFriction>,
     ) -> Result<Self, ContactError> {
         check_common(&surfaces, &*law)?;
-        let sides = ContactSurface::both(mesh, surfaces)?;
+        let (trace, sides) = ContactSurface::both(mesh, surfaces)?;
         let slave = slave_side(settings, &sides)?;
-        let zeros = |side: usize| sides[side].nodes.len();
+        let zeros = |side: usize| sides[side].len();
         let mortar = || {
             let own = &sides[slave];
-            let means = vec![Mean::default(); own.nodes.len()];
+            let means = vec![Mean::default(); own.len()];
             (Mortar::new(own, settings.curvature), means)
         };
         Ok(Self {
@@ -133,6 +136,8 @@ impl ExactContact {
             pace: [0, 1].map(|s| vec![0.0; zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
             now: 0,
+            loaded: Vec::new(),
+            trace,
             sides,
         })
     }
@@ -153,7 +158,7 @@ impl ExactContact {
         if constraint.sleeps() {
             return false;
         }
-        let x = positions.at(self.sides[self.slave].nodes[constraint.slave as usize]);
+        let x = positions.at(self.sides[self.slave].node(constraint.slave));
         let old = match &self.mortar {
             None => self.kinematics_on_face(constraint, positions, x),
             Some(_) => self.kinematics_in_mean(constraint, positions, x),
@@ -246,16 +251,16 @@ impl ExactContact {
         local: u32,
         free_motion: &FreeMotion<'_>,
         force: &[Padded],
-        dt: f64,
+        motion: &Motion<'_>,
     ) {
         let i = local as usize;
         if self.stamp[side][i] == self.now {
             return;
         }
-        let node = self.sides[side].nodes[i];
+        let node = self.sides[side].node(local);
         self.stamp[side][i] = self.now;
         self.velocity[side][i] = (free_motion.velocity)(node, force[node as usize].xyz());
-        self.pace[side][i] = dt * free_motion.inverse_mass[node as usize];
+        self.pace[side][i] = motion.dt * motion.inverse_mass[node as usize];
     }
 
     /// Rates at the velocities that the forces found so far give.
@@ -269,9 +274,18 @@ impl ExactContact {
     fn rates_of(&self, constraint: &Constraint, motion: &Motion<'_>) -> (f64, Vec3) {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
         let at = |node: u32| motion.velocity[node as usize].xyz();
-        let slave = at(own.nodes[constraint.slave as usize]);
-        constraint
-            .rates(slave, &self.legs[constraint.legs()], |node| at(master.nodes[node as usize]))
+        let slave = at(own.node(constraint.slave));
+        constraint.rates(slave, &self.legs[constraint.legs()], |node| at(master.node(node)))
+    }
+
+    /// Notes which nodes bear the constraints that may carry force.
+    fn note_loaded(&mut self) {
+        let [own, master] = [&self.sides[self.slave], &self.sides[1 - self.slave]];
+        let constraints = &self.constraints[self.slave];
+        self.loaded.clear();
+        self.loaded.reserve(self.active.capacity() + self.legs.capacity());
+        self.loaded.extend(self.active.iter().map(|&i| own.node(constraints[i as usize].slave)));
+        self.loaded.extend(self.legs.iter().map(|leg| master.node(leg.node)));
     }
 
     /// Adds what the forces of a constraint change in the velocities.
@@ -289,7 +303,7 @@ impl ExactContact {
 
     fn at(&self, constraint: &Constraint, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
         let own = &self.sides[self.slave];
-        let position = positions.at(own.nodes[constraint.slave as usize]);
+        let position = positions.at(own.node(constraint.slave));
         constraint.place(own, position, motion.time)
     }
 
@@ -364,11 +378,11 @@ impl ExactContact {
         motion: &Motion<'_>,
     ) -> bool {
         let own = self.slave;
-        self.release(own, constraint.slave, free_motion, force, motion.dt);
+        self.release(own, constraint.slave, free_motion, force, motion);
         constraint.enforcement.delassus = self.pace[own][constraint.slave as usize];
         for k in constraint.legs() {
             let Leg { node, weight, .. } = self.legs[k];
-            self.release(1 - own, node, free_motion, force, motion.dt);
+            self.release(1 - own, node, free_motion, force, motion);
             constraint.enforcement.delassus += weight * weight * self.pace[1 - own][node as usize];
         }
         // both ends held: nothing to enforce
@@ -452,13 +466,13 @@ impl ExactContact {
         sums.damping_ahead.add(-(work((opening, slip)) + heat));
 
         let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
-        let node = self.sides[own].nodes[constraint.slave as usize];
+        let node = self.sides[own].node(constraint.slave);
         add_to(&mut force[node as usize], on_slave);
         sums.push(own, on_slave);
         let mut on_masters = [0.0; 3];
         for leg in &self.legs[constraint.legs()] {
             let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
-            let node = self.sides[1 - own].nodes[leg.node as usize];
+            let node = self.sides[1 - own].node(leg.node);
             add_to(&mut force[node as usize], on_leg);
             on_masters = add(on_masters, on_leg);
         }
@@ -514,10 +528,13 @@ impl ExactContact {
 }
 
 impl Contact for ExactContact {
+    fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
     /// Finds the constraints that may close, and sets them up.
     fn follow(&mut self, motion: &Motion<'_>) {
-        let positions =
-            Positions { reference: motion.reference, displacement: motion.displacement };
+        let positions = Positions(motion.position);
         let own = self.slave;
         self.searched = self.search.is_due(&self.sides, &positions, &self.constraints);
         if self.searched {
@@ -538,6 +555,11 @@ impl Contact for ExactContact {
             }
         }
         self.constraints[own] = constraints;
+        self.note_loaded();
+    }
+
+    fn loaded(&self) -> &[u32] {
+        &self.loaded
     }
 
     fn apply(
@@ -546,8 +568,7 @@ impl Contact for ExactContact {
         free_motion: &FreeMotion<'_>,
         force: &mut [Padded],
     ) -> ContactSums {
-        let positions =
-            Positions { reference: motion.reference, displacement: motion.displacement };
+        let positions = Positions(motion.position);
         let mut sums = Accumulator::new(self.searched);
         let mut constraints = std::mem::take(&mut self.constraints[self.slave]);
         let mut active = std::mem::take(&mut self.active);
@@ -581,17 +602,18 @@ impl Contact for ExactContact {
     }
 
     fn follow_first(&mut self, pairs: &[[u32; 2]]) {
-        follow_first(&mut self.constraints[self.slave], &self.sides[self.slave], pairs);
+        let own = self.trace.side(self.slave);
+        follow_first(&mut self.constraints[self.slave], own, pairs);
     }
 
     fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}
 
     fn nodal_table(&self, side: usize) -> NodalContact {
-        NodalContact::whole(&self.sides, side)
+        NodalContact::whole(&self.trace, &self.sides, side)
     }
 
     fn nodal_table_of(&self, side: usize, faces: &[Face]) -> NodalContact {
-        NodalContact::part(&self.sides, side, faces)
+        NodalContact::part(&self.trace, &self.sides, side, faces)
     }
 
     fn nodal(&self, table: &mut NodalContact) {
@@ -624,10 +646,8 @@ impl Contact for ExactContact {
             return Err(StateError::Method);
         };
         check_points(constraints, &self.sides[own], &self.sides[1 - own])?;
-        if let Some((_, means)) = &mut self.mortar {
-            let nodes = [own, 1 - own].map(|side| self.sides[side].nodes.len());
-            let all = self.sides[own].nodes.iter().max().map_or(0, |&n| n as usize + 1);
-            check_means(kept, nodes, all)?;
+        if let Some((mortar, means)) = &mut self.mortar {
+            mortar.check_means(kept, [&self.sides[own], &self.sides[1 - own]])?;
             means.clone_from(kept);
         }
         self.active.reserve(constraints.len());

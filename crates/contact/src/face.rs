@@ -30,18 +30,14 @@ pub(crate) fn shape_gradients(xi: f64, eta: f64) -> [[f64; 2]; 4] {
     [[-0.5 * em, -0.5 * xm], [0.5 * em, -0.5 * xp], [0.5 * ep, 0.5 * xp], [-0.5 * ep, 0.5 * xm]]
 }
 
-/// Positions of a body's nodes: `x = X + u`.
+/// Positions of the nodes of the trace (m).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Positions<'a> {
-    pub reference: &'a [Padded],
-    pub displacement: &'a [Padded],
-}
+pub(crate) struct Positions<'a>(pub &'a [Padded]);
 
 impl Positions<'_> {
     #[inline(always)]
     pub fn at(&self, node: u32) -> Vec3 {
-        let (x, u) = (self.reference[node as usize], self.displacement[node as usize]);
-        [x[0] + u[0], x[1] + u[1], x[2] + u[2]]
+        self.0[node as usize].xyz()
     }
 }
 

@@ -1,13 +1,13 @@
 //! The gap function of one pass without friction, for solvers of equilibrium.
 
-use crate::constraint::{Rows, within};
+use crate::constraint::{Rows, Share, within};
 use crate::exact::slave_side;
 use crate::face::{Positions, corner_normals, project, shape};
 use crate::mortar::{Mean, Mortar};
 use crate::search::{Listed, Search};
 use crate::surface::ContactSurface;
 use crate::vector::{add, axpy, norm, scale};
-use crate::{BodyMaterial, ContactError, ExactSettings, Gap};
+use crate::{BodyMaterial, ContactError, ExactSettings, Gap, Trace};
 use mesh::{Mesh, Padded, Surface};
 
 /// A slave near the master, and a face of the master near it.
@@ -34,6 +34,7 @@ impl Listed for Near {
 /// The gaps of the nodes of one surface, the slaves, over another, as functions of the positions.
 #[derive(Debug)]
 pub struct GapFunction {
+    trace: Trace,
     sides: [ContactSurface; 2],
     slave: usize,
     rows: Rows,
@@ -54,13 +55,14 @@ impl GapFunction {
         surfaces: [(&Surface, BodyMaterial); 2],
         settings: &ExactSettings,
     ) -> Result<Self, ContactError> {
-        let sides = ContactSurface::both(mesh, surfaces)?;
+        let (trace, sides) = ContactSurface::both(mesh, surfaces)?;
         Ok(Self {
             slave: slave_side(settings, &sides)?,
             rows: settings.rows,
             curvature: settings.curvature,
             search: Search::new(&sides),
             points: [Vec::new(), Vec::new()],
+            trace,
             sides,
         })
     }
@@ -71,7 +73,8 @@ impl GapFunction {
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
     pub fn at(&mut self, reference: &[Padded], displacement: &[Padded], gaps: &mut Vec<Gap>) {
-        let positions = Positions { reference, displacement };
+        let position = self.trace.positions(reference, displacement);
+        let positions = Positions(&position);
         self.search.refresh(&self.sides, &positions, &mut self.points);
         gaps.clear();
         match self.rows {
@@ -84,14 +87,15 @@ impl GapFunction {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
         let mut faces = Vec::new();
         for point in &self.points[self.slave] {
-            let x = positions.at(own.nodes[point.slave as usize]);
+            let x = positions.at(own.node(point.slave));
             let walk = project(master, positions, self.curvature, x, point.face, 0.0, 0.0);
             let Some(projection) = walk.projection else { continue };
             faces.push(projection.face);
             let [xi, eta] = within(&projection);
             let corners = master.faces[projection.face as usize].nodes;
+            let corners = corners.map(|node| self.trace.in_mesh(node));
             gaps.push(Gap {
-                node: own.nodes[point.slave as usize],
+                node: self.trace.in_mesh(own.node(point.slave)),
                 projection: corners.into_iter().zip(shape(xi, eta)).collect(),
                 normal: projection.point.normal,
                 gap: projection.gap,
@@ -111,12 +115,13 @@ impl GapFunction {
             if !on_master {
                 continue;
             }
-            let node = own.nodes[point.slave as usize];
+            let node = own.node(point.slave);
             let kinematics = mean.kinematics(master, positions, positions.at(node));
-            let projection = mean.shares.iter().map(|s| (master.nodes[s.node as usize], s.weight));
+            let in_mesh =
+                |share: &Share| (self.trace.in_mesh(master.node(share.node)), share.weight);
             gaps.push(Gap {
-                node,
-                projection: projection.collect(),
+                node: self.trace.in_mesh(node),
+                projection: mean.shares.iter().map(in_mesh).collect(),
                 normal: kinematics.normal,
                 gap: kinematics.gap,
                 area: own.area[point.slave as usize],
@@ -129,11 +134,11 @@ impl GapFunction {
     /// slave over their common edge finds no equilibrium with either normal.
     fn smooth_normals(&self, positions: &Positions<'_>, projections: &[u32], gaps: &mut [Gap]) {
         let surface = &self.sides[1 - self.slave];
-        let mut wanted = vec![false; surface.nodes.len()];
+        let mut wanted = vec![false; surface.len()];
         for &face in projections {
             surface.faces[face as usize].local.iter().for_each(|&n| wanted[n as usize] = true);
         }
-        let mut sums = vec![[0.0; 3]; surface.nodes.len()];
+        let mut sums = vec![[0.0; 3]; surface.len()];
         for (index, face) in surface.faces.iter().enumerate() {
             if face.local.iter().any(|&n| wanted[n as usize]) {
                 let normals = corner_normals(surface, index as u32, positions, self.curvature);

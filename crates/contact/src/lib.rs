@@ -21,6 +21,7 @@ mod nodal;
 pub mod patch;
 mod penalty;
 mod penalty_point;
+mod penalty_springs;
 #[cfg(test)]
 mod plates;
 mod point;
@@ -32,6 +33,7 @@ mod sums;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod trace;
 mod vector;
 
 pub use constraint::Rows;
@@ -47,3 +49,4 @@ pub use point::finer;
 pub use snapshot::{ContactState, StateError};
 pub use stiffness::{BodyMaterial, PenaltyStiffness, StabilityScale};
 pub use sums::ContactSums;
+pub use trace::{Trace, TraceFields, TraceStep};

@@ -57,26 +57,11 @@ pub(crate) struct Mean {
     normal: [f64; 3],
     /// Distance of the surfaces from their facets (m).
     beyond: f64,
-    /// The far corner of a slave face (mesh index), and where it was in the frame of the master (m).
+    /// The far corner of a slave face (a node of the trace), and where it was in the frame of the master (m).
     far: u32,
     seen: [f64; 2],
     /// Motion along the master (m) after which integrals are taken anew.
     reach: f64,
-}
-
-/// That means are of so many nodes on both sides, their far corners below `all`.
-pub(crate) fn check_means(
-    means: &[Mean],
-    [slaves, masters]: [usize; 2],
-    all: usize,
-) -> Result<(), StateError> {
-    let known = |mean: &Mean| {
-        mean.shares.is_empty()
-            || (mean.far as usize) < all
-                && mean.shares.iter().all(|share| (share.node as usize) < masters)
-    };
-    let fits = means.len() == slaves && means.iter().all(known);
-    if fits { Ok(()) } else { Err(StateError::Range { name: "means" }) }
 }
 
 /// A mean in the present configuration.
@@ -177,7 +162,7 @@ impl Plane {
 impl Mortar {
     /// For the nodes of `slaves`.
     pub fn new(slaves: &ContactSurface, curvature: bool) -> Self {
-        let mut start = vec![0; slaves.nodes.len() + 1];
+        let mut start = vec![0; slaves.len() + 1];
         let corners = |visit: &mut dyn FnMut(usize, u32, u8)| {
             for (f, face) in slaves.faces.iter().enumerate() {
                 for (c, node) in face.local.iter().enumerate() {
@@ -222,7 +207,7 @@ impl Mortar {
         let [own, master] = sides;
         mean.shares.clear();
         mean.shares.reserve(NODES);
-        let node = own.nodes[slave as usize];
+        let node = own.node(slave);
         let x = positions.at(node);
         let projection = project(master, positions, self.curvature, x, near, 0.0, 0.0).projection;
         let near = projection.map_or(near, |projection| projection.face);
@@ -274,7 +259,7 @@ impl Mortar {
         n: Vec3,
         gap: f64,
     ) {
-        let x = positions.at(own.nodes[slave as usize]);
+        let x = positions.at(own.node(slave));
         let master_point = MasterPoint::new(&mean.shares, master, positions);
         let [g1, g2] = master_point.duals(n);
         let to_node = sub(x, master_point.x);
@@ -287,9 +272,29 @@ impl Mortar {
         let [a1, a2] = master_point.tangents;
         let facet = cross(a1, a2);
         mean.normal = [dot(n, facet) / norm(facet), dot(n, a1), dot(n, a2)];
-        let (face, corner) = self.around[self.around(slave).start];
-        mean.far = own.faces[face as usize].nodes[(corner as usize + 2) % 4];
+        mean.far = self.far(own, slave);
         mean.seen = seen(&master_point, n, sub(positions.at(mean.far), x));
+    }
+
+    /// The corner of a face around a slave node that lies across from it, a node of the trace.
+    fn far(&self, own: &ContactSurface, slave: u32) -> u32 {
+        let (face, corner) = self.around[self.around(slave).start];
+        own.faces[face as usize].nodes[(corner as usize + 2) % 4]
+    }
+
+    /// That `means` are of the slaves and masters of these sides.
+    pub fn check_means(
+        &self,
+        means: &[Mean],
+        [own, master]: [&ContactSurface; 2],
+    ) -> Result<(), StateError> {
+        let known = |(slave, mean): (usize, &Mean)| {
+            mean.shares.is_empty()
+                || mean.far == self.far(own, slave as u32)
+                    && mean.shares.iter().all(|share| (share.node as usize) < master.len())
+        };
+        let fits = means.len() == own.len() && means.iter().enumerate().all(known);
+        if fits { Ok(()) } else { Err(StateError::Range { name: "means" }) }
     }
 
     /// Points of integration on the slave face over the master. Returns whether all of it lies there.
@@ -428,11 +433,13 @@ fn gather(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::Trace;
     use crate::plates::{STEEL, plate, together, tread};
     use crate::vector::tangential;
     use mesh::{Mesh, Padded, Surface};
 
     struct Rig {
+        trace: Trace,
         sides: [ContactSurface; 2],
         reference: Vec<Padded>,
         displacement: Vec<Padded>,
@@ -445,8 +452,11 @@ mod tests {
             let count = upper.0.nodes.len();
             let (mesh, second) = together(upper.0, lower.0, lower.1);
             let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+            let surfaces = [(&upper.1, STEEL), (&second, STEEL)];
+            let (trace, sides) = ContactSurface::both(&mesh, surfaces).unwrap();
             Self {
-                sides: ContactSurface::both(&mesh, [(&upper.1, STEEL), (&second, STEEL)]).unwrap(),
+                trace,
+                sides,
                 displacement: vec![Padded::ZERO; reference.len()],
                 reference,
                 upper: count,
@@ -475,8 +485,14 @@ mod tests {
             rig
         }
 
-        fn positions(&self) -> Positions<'_> {
-            Positions { reference: &self.reference, displacement: &self.displacement }
+        fn positions(&self) -> Vec<Padded> {
+            self.trace.positions(&self.reference, &self.displacement)
+        }
+
+        /// The position of a slave (m).
+        fn slave(&self, slave: usize) -> Vec3 {
+            let node = self.trace.side(0)[slave] as usize;
+            add(self.reference[node].xyz(), self.displacement[node].xyz())
         }
 
         /// Moves a body by `to(x)`.
@@ -492,25 +508,25 @@ mod tests {
             let sides = [&self.sides[0], &self.sides[1]];
             let mut mortar = Mortar::new(sides[0], curvature);
             let middle = sides[1].faces.len() as u32 / 2;
+            let positions = self.positions();
+            let positions = Positions(&positions);
             let integrate = |slave| {
                 let mut mean = Mean::default();
-                let (_, on) = mortar.integrate(sides, &self.positions(), slave, middle, &mut mean);
+                let (_, on) = mortar.integrate(sides, &positions, slave, middle, &mut mean);
                 on.then_some(mean)
             };
-            (0..sides[0].nodes.len() as u32).map(integrate).collect()
+            (0..sides[0].len() as u32).map(integrate).collect()
         }
 
         fn kinematics(&self, slave: usize, mean: &Mean) -> MeanKinematics {
-            let positions = self.positions();
-            let x = positions.at(self.sides[0].nodes[slave]);
-            mean.kinematics(&self.sides[1], &positions, x)
+            mean.kinematics(&self.sides[1], &Positions(&self.positions()), self.slave(slave))
         }
     }
 
     #[test]
     fn a_uniform_pressure_reaches_the_nodes_of_a_mesh_that_does_not_match_as_one() {
         let received = |rig: &Rig| {
-            let mut received = vec![0.0; rig.sides[1].nodes.len()];
+            let mut received = vec![0.0; rig.sides[1].len()];
             for (mean, area) in rig.means(false).into_iter().zip(&rig.sides[0].area) {
                 for share in mean.unwrap().shares {
                     received[share.node as usize] += area * share.weight;
@@ -525,7 +541,8 @@ mod tests {
         // a master turned and larger: nodes of faces that lie wholly under the slaves
         let rig = Rig::turned(0.3, 1.6, 7);
         let under = |face: &crate::surface::MasterFace| {
-            let mut corners = face.nodes.iter().map(|&n| rig.reference[n as usize]);
+            let corners = face.nodes.map(|n| rig.trace.in_mesh(n));
+            let mut corners = corners.iter().map(|&n| rig.reference[n as usize]);
             corners.all(|x| (0..2).all(|i| x[i] > 0.0 && x[i] < 8e-3))
         };
         let found = received(&rig);
@@ -553,7 +570,7 @@ mod tests {
             let mean = mean.unwrap();
             let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
             assert!((sum - 1.0).abs() < 1e-13, "{sum}");
-            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let x = rig.slave(slave);
             let kinematics = rig.kinematics(slave, &mean);
             let beside = tangential(sub(x, kinematics.master_point.x), kinematics.normal);
             assert!(norm(beside) < 1e-15, "{beside:?}");
@@ -570,7 +587,7 @@ mod tests {
             plate([-9e-3, -6e-3], [9e-3, 6e-3], [18, 12], 0.0, 1e-3, true),
         );
         for (slave, mean) in rig.means(true).into_iter().enumerate() {
-            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let x = rig.slave(slave);
             if x[0].abs() > 3.5e-3 || (x[1].abs() - 4e-3).abs() < 1e-9 {
                 continue;
             }
@@ -609,7 +626,7 @@ mod tests {
         // the smaller face is that of the slaves, 1.6 mm
         rig.put(0, |x| [x[0] + 0.9 * STALE * 1.6e-3, x[1], x[2]]);
         assert!((stale(&rig) - 0.9).abs() < 1e-6, "{}", stale(&rig));
-        let centre = rig.reference[rig.sides[0].nodes[slave] as usize].xyz();
+        let centre = rig.reference[rig.trace.side(0)[slave] as usize].xyz();
         rig.put(0, |x| axpy(x, 1.0, cross([0.0, 0.0, 0.02], sub(x, centre))));
         assert!(stale(&rig) > 2.0, "{}", stale(&rig));
         // away from the master is no motion along it
@@ -626,7 +643,7 @@ mod tests {
             rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
             let new = rig.means(false)[slave].clone().unwrap();
             let mut constraint = crate::search::Listed::near(slave as u32, 0);
-            let x = rig.positions().at(rig.sides[0].nodes[slave]);
+            let x = rig.slave(slave);
             let kinematics = rig.kinematics(slave, &old);
             let mut legs = Vec::new();
             crate::constraint::Constraint::set_up(

@@ -1,11 +1,11 @@
 //! Contact quantities at the nodes of one surface.
 
-use crate::PenaltyContact;
 use crate::penalty_point::PenaltyPoint;
 use crate::point::{ContactPoint, Enforced, State};
 use crate::search::Listed;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{axpy, scale};
+use crate::{PenaltyContact, Trace};
 use mesh::Face;
 
 /// Contact quantities at surface nodes, one entry per node of [`nodes`](Self::nodes).
@@ -87,21 +87,25 @@ impl NodalContact {
 
 impl NodalContact {
     /// A table for all nodes of a side.
-    pub(crate) fn whole(sides: &[ContactSurface; 2], side: usize) -> Self {
-        let surface = &sides[side];
-        Self::new(side, &surface.nodes, &surface.area, |_| true)
+    pub(crate) fn whole(trace: &Trace, sides: &[ContactSurface; 2], side: usize) -> Self {
+        Self::new(side, trace.side(side), &sides[side].area, |_| true)
     }
 
     /// A table for the nodes of `faces`, a part of the surface of a side.
-    pub(crate) fn part(sides: &[ContactSurface; 2], side: usize, faces: &[Face]) -> Self {
-        let surface = &sides[side];
-        let mut wanted = vec![false; surface.nodes.len()];
+    pub(crate) fn part(
+        trace: &Trace,
+        sides: &[ContactSurface; 2],
+        side: usize,
+        faces: &[Face],
+    ) -> Self {
+        let nodes = trace.side(side);
+        let mut wanted = vec![false; nodes.len()];
         for node in faces.iter().flat_map(|f| f.nodes) {
-            if let Ok(i) = surface.nodes.binary_search(&node) {
+            if let Ok(i) = nodes.binary_search(&node) {
                 wanted[i] = true;
             }
         }
-        Self::new(side, &surface.nodes, &surface.area, |i| wanted[i])
+        Self::new(side, nodes, &sides[side].area, |i| wanted[i])
     }
 
     /// Fills the table from the points in which nodes of its side are slaves (`own`) and the closed ones in
@@ -120,7 +124,7 @@ impl NodalContact {
         let table = self;
         table.clear(margin);
         let side = table.side;
-        if sides.get(side).is_none_or(|s| s.nodes.len() != table.rows.len()) {
+        if sides.get(side).is_none_or(|s| s.len() != table.rows.len()) {
             return;
         }
         if !followed {
@@ -191,7 +195,7 @@ impl NodalContact {
 impl PenaltyContact {
     /// An output table for all nodes of side `side`.
     pub fn nodal_table(&self, side: usize) -> NodalContact {
-        NodalContact::whole(&self.sides, side)
+        NodalContact::whole(&self.trace, &self.sides, side)
     }
 
     /// Fills a `table` of this contact with the values of the last call.

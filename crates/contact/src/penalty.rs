@@ -3,12 +3,12 @@
 use crate::face::Positions;
 use crate::penalty_point::{Pass, PenaltyPoint, scatter};
 use crate::point::State;
-use crate::search::{Listed, Search, neighbours};
+use crate::search::{Listed, Search};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
-use crate::vector::{Vec3, axpy, dot, scale};
+use crate::vector::axpy;
 use crate::{
-    BodyMaterial, ContactError, ContactSums, Gap, Motion, PenaltyStiffness, StabilityScale,
+    BodyMaterial, ContactError, ContactSums, Motion, PenaltyStiffness, StabilityScale, Trace,
 };
 use friction::{NodeFriction, Slid};
 use mesh::{Mesh, Padded, Surface};
@@ -35,10 +35,13 @@ pub struct PenaltySettings {
 /// its springs give back what they stored.
 #[derive(Debug)]
 pub struct PenaltyContact {
+    pub(crate) trace: Trace,
     pub(crate) sides: [ContactSurface; 2],
     /// The points of each pass, ascending by slave: pass `i` has the nodes of side `i` as slaves.
     pub(crate) points: [Vec<PenaltyPoint>; 2],
     pub(crate) law: Box<dyn NodeFriction>,
+    /// The nodes of the trace that bear the closed points.
+    pub(crate) loaded: Vec<u32>,
     /// What the law is told about the closed points of a pass, in their order.
     slid: Vec<Slid>,
     pub(crate) search: Search,
@@ -47,7 +50,7 @@ pub struct PenaltyContact {
     pub(crate) settings: PenaltySettings,
     stability: Option<StabilityScale>,
     /// [`PenaltyContact::nodal_stiffness_bound`] at the nodes of each side (N/m).
-    bound: [Vec<f64>; 2],
+    pub(crate) bound: [Vec<f64>; 2],
 }
 
 impl PenaltyContact {
@@ -69,11 +72,13 @@ impl PenaltyContact {
         if law.is_implicit() {
             return Err(ContactError::ImplicitLaw);
         }
-        let sides = ContactSurface::both(mesh, surfaces)?;
+        let (trace, sides) = ContactSurface::both(mesh, surfaces)?;
         let mut contact = Self {
             search: Search::new(&sides),
             searched: false,
+            trace,
             sides,
+            loaded: Vec::new(),
             points: [Vec::new(), Vec::new()],
             law,
             slid: Vec::new(),
@@ -85,40 +90,28 @@ impl PenaltyContact {
         Ok(contact)
     }
 
-    /// Mesh indices of the surface nodes of a side, ascending.
-    pub fn nodes(&self, side: usize) -> &[u32] {
-        &self.sides[side].nodes
-    }
-
-    /// Adds the contact forces (N) at `x^n = X + u^n` to `force`.
+    /// Adds the contact forces (N) at `x^n` to `force`, on the nodes of the [trace](crate::Contact::trace).
     ///
     /// # Panics
-    /// If a slice has fewer entries than the mesh has nodes.
+    /// If a slice has fewer entries than the trace has nodes.
     pub fn apply(&mut self, motion: &Motion<'_>, force: &mut [Padded]) -> ContactSums {
         self.follow(motion);
         self.load(force)
     }
 
-    /// Adds the forces of the normal springs alone, without damper or friction; the friction
-    /// springs are unloaded. For dynamic relaxation.
+    /// Adds the forces (N) of the normal springs alone at `position` (m), without damper or friction, to `force`,
+    /// both on the nodes of the trace; the friction springs are unloaded. For solvers of equilibrium.
     ///
     /// # Panics
-    /// If a slice has fewer entries than the mesh has nodes.
-    pub fn apply_frictionless(
-        &mut self,
-        reference: &[Padded],
-        displacement: &[Padded],
-        force: &mut [Padded],
-    ) -> ContactSums {
-        self.update(&Positions { reference, displacement }, None);
+    /// If a slice has fewer entries than the trace has nodes.
+    pub fn apply_frictionless(&mut self, position: &[Padded], force: &mut [Padded]) -> ContactSums {
+        self.update(&Positions(position), None);
         self.load(force)
     }
 
     /// Follows the points to `x^n`, with their springs, dampers and friction.
     pub(crate) fn follow(&mut self, motion: &Motion<'_>) {
-        let positions =
-            Positions { reference: motion.reference, displacement: motion.displacement };
-        self.update(&positions, Some(motion));
+        self.update(&Positions(motion.position), Some(motion));
     }
 
     fn update(&mut self, positions: &Positions<'_>, motion: Option<&Motion<'_>>) {
@@ -144,13 +137,31 @@ impl PenaltyContact {
         }
         self.points = points;
         self.slid = slid;
+        self.note_loaded();
+    }
+
+    /// Notes which nodes the closed points load.
+    fn note_loaded(&mut self) {
+        let mut loaded = std::mem::take(&mut self.loaded);
+        loaded.clear();
+        loaded.reserve(5 * self.points.iter().map(Vec::len).sum::<usize>());
+        for (slave, list) in self.points.iter().enumerate() {
+            let closed = list.iter().filter(|point| point.is_closed());
+            loaded.extend(closed.flat_map(|point| self.bearing(slave, point)));
+        }
+        self.loaded = loaded;
+    }
+
+    /// The nodes of the trace that a closed point of a pass loads: the slave and the corners of the face.
+    pub(crate) fn bearing(&self, slave: usize, point: &PenaltyPoint) -> [u32; 5] {
+        let [a, b, c, d] = self.sides[1 - slave].faces[point.face as usize].nodes;
+        [self.sides[slave].node(point.slave), a, b, c, d]
     }
 
     /// Adds the forces of the points to `force`.
     pub(crate) fn load(&self, force: &mut [Padded]) -> ContactSums {
         let mut sums = Accumulator::new(self.searched);
         for (slave, list) in self.points.iter().enumerate() {
-            let sides = [&self.sides[slave], &self.sides[1 - slave]];
             for point in list {
                 sums.friction_work.add(point.enforcement.friction_work);
                 sums.damping_work.add(point.enforcement.damping_work);
@@ -158,7 +169,8 @@ impl PenaltyContact {
                     continue;
                 }
                 let on_slave = axpy(point.friction, point.normal_force, point.normal);
-                scatter(sides, point, on_slave, force);
+                let [node, corners @ ..] = self.bearing(slave, point);
+                scatter(point, node, corners, on_slave, force);
                 // the forces that really reach the nodes of either side
                 sums.push(slave, on_slave);
                 let on_corners = point
@@ -180,7 +192,7 @@ impl PenaltyContact {
         sums.finish()
     }
 
-    fn pass(&self, slave: usize) -> Pass<'_> {
+    pub(crate) fn pass(&self, slave: usize) -> Pass<'_> {
         Pass {
             slave: &self.sides[slave],
             master: &self.sides[1 - slave],
@@ -194,146 +206,11 @@ impl PenaltyContact {
         }
     }
 
-    /// `y += K_c x` with the stiffness of the points closed at the last call: for slave
-    /// displacement relative to the projection `w`, the spring force `k_n n (n.w) + k_t (w - n (n.w))`.
-    ///
-    /// # Panics
-    /// If a slice has fewer entries than the mesh has nodes.
-    pub fn stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {
-        for (slave, list) in self.points.iter().enumerate() {
-            let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
-            for point in list.iter().filter(|p| p.is_closed()) {
-                let corners = master.faces[point.face as usize].nodes;
-                let mut w = x[own.nodes[point.slave as usize] as usize].xyz();
-                for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
-                    w = axpy(w, -weight, x[corner as usize].xyz());
-                }
-                let [normal, tangential] = point.enforcement.stiffness;
-                let along = (normal - tangential) * dot(point.normal, w);
-                let on_slave: Vec3 = axpy(scale(tangential, w), along, point.normal);
-                scatter([own, master], point, on_slave, y);
-            }
-        }
-    }
-
-    /// Adds to each contact node an upper bound (N/m) of the contact stiffness acting on it, for
-    /// any state of contact near the reference configuration.
-    ///
-    /// With `phi` the weights of the face's corners, a spring's matrix is bounded by a diagonal
-    /// one: `k (x_s - sum phi x)^2 <= 2 k x_s^2 + 2 k sum phi x^2` (convexity; `sum phi = 1`).
-    /// A node so bears twice its own spring and `2 sum phi k` of the slaves over its faces, where
-    /// `sum phi A_s` is at most `9/8` per direction of the larger of the two tributary areas on
-    /// rectangular grids. Hence `K_c <= diag(bound)`, and a mass `bound/4` added to a node makes
-    /// contact stable at unit time step.
-    pub fn nodal_stiffness_bound(&self, bound: &mut [f64]) {
-        for (side, values) in self.sides.iter().zip(&self.bound) {
-            for (&node, value) in side.nodes.iter().zip(values) {
-                bound[node as usize] += value;
-            }
-        }
-    }
-
-    fn stiffness_bounds(&self, mesh: &Mesh) -> [Vec<f64>; 2] {
-        const SIZES: f64 = 4.0;
-        const CORNERS: [[f64; 4]; 4] = [
-            [1.0, 0.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 1.0, 0.0],
-            [0.0, 0.0, 0.0, 1.0],
-        ];
-        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
-        let displacement = vec![Padded::ZERO; reference.len()];
-        let positions = Positions { reference: &reference, displacement: &displacement };
-        // Per node: largest own stiffness, areal stiffness of slaves above, their largest area.
-        let mut own = [0, 1].map(|s: usize| vec![0.0_f64; self.sides[s].nodes.len()]);
-        let mut over = own.clone();
-        let mut area = own.clone();
-        neighbours(&self.sides, &positions, SIZES, |f, g| {
-            for (slave, its, master, face) in [(0, f, 1, g), (1, g, 0, f)] {
-                let pass = self.pass(slave);
-                let face = &self.sides[master].faces[face];
-                for node in self.sides[slave].faces[its].local {
-                    let node = node as usize;
-                    // the largest over the face is that at a corner
-                    let at_corners = CORNERS.iter().map(|it| pass.stiffness(node, face, it));
-                    let k = at_corners.flatten().fold(0.0, f64::max);
-                    own[slave][node] = own[slave][node].max(k);
-                    let slave_area = self.sides[slave].area[node];
-                    for corner in face.local {
-                        let corner = corner as usize;
-                        over[master][corner] = over[master][corner].max(k / slave_area);
-                        area[master][corner] = area[master][corner].max(slave_area);
-                    }
-                }
-            }
-        });
-        [0, 1].map(|side: usize| {
-            (0..own[side].len())
-                .map(|i| {
-                    let covered = 81.0 / 64.0 * area[side][i].max(self.sides[side].area[i]);
-                    2.0 * own[side][i] + 2.0 * over[side][i] * covered
-                })
-                .collect()
-        })
-    }
-
-    /// The normal springs of both passes that were closed at the last call, each with its
-    /// stiffness (N/m), in a fixed order.
-    pub fn springs(&self) -> impl Iterator<Item = (Gap, f64)> + '_ {
-        (0..2).flat_map(move |slave: usize| {
-            let closed = self.points[slave].iter().filter(|p| p.is_closed());
-            closed.map(move |point| (self.spring(slave, point), point.enforcement.stiffness[0]))
-        })
-    }
-
-    fn spring(&self, slave: usize, point: &PenaltyPoint) -> Gap {
-        let (own, master) = (&self.sides[slave], &self.sides[1 - slave]);
-        Gap {
-            node: own.nodes[point.slave as usize],
-            projection: master.faces[point.face as usize]
-                .nodes
-                .into_iter()
-                .zip(point.enforcement.weights)
-                .collect(),
-            normal: point.normal,
-            gap: point.gap,
-            area: own.area[point.slave as usize],
-        }
-    }
-
     /// Says that the next positions may lie anywhere: the search looks at them at the next call.
     ///
     /// A time loop need not, since it moves by small steps; a solver of equilibrium must.
     pub fn expect_jump(&mut self) {
         self.search.expect_jump();
-    }
-
-    /// Upper bound (1/s^2) of the largest eigenvalue of `M^-1 K_c` with the points closed at the
-    /// last call, from the diagonal bound of
-    /// [`nodal_stiffness_bound`](Self::nodal_stiffness_bound) with the actual weights.
-    ///
-    /// # Panics
-    /// If `inverse_mass` has fewer entries than the mesh has nodes.
-    pub fn rigorous_omega_squared(&self, inverse_mass: &[f64]) -> f64 {
-        let mut diagonal = [0, 1].map(|s: usize| vec![0.0; self.sides[s].nodes.len()]);
-        for (slave, list) in self.points.iter().enumerate() {
-            for point in list.iter().filter(|p| p.is_closed()) {
-                let twice =
-                    2.0 * point.enforcement.stiffness[0].max(point.enforcement.stiffness[1]);
-                diagonal[slave][point.slave as usize] += twice;
-                let corners = self.sides[1 - slave].faces[point.face as usize].local;
-                for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
-                    diagonal[1 - slave][corner as usize] += twice * weight;
-                }
-            }
-        }
-        let mut largest = 0.0_f64;
-        for (side, diagonal) in self.sides.iter().zip(&diagonal) {
-            for (&node, d) in side.nodes.iter().zip(diagonal) {
-                largest = largest.max(d * inverse_mass[node as usize]);
-            }
-        }
-        largest
     }
 }
 

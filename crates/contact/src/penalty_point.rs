@@ -5,7 +5,7 @@ use crate::face::{Positions, SurfacePoint, shape};
 use crate::point::{ContactPoint, Enforced, State, relative_velocity, sleep};
 use crate::search::Listed;
 use crate::stiffness::{PenaltyStiffness, StabilityScale};
-use crate::surface::{ContactSurface, MasterFace, NONE};
+use crate::surface::{ContactSurface, MasterFace};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, Slid};
 use mesh::Padded;
@@ -129,7 +129,7 @@ impl Pass<'_> {
         if motion.is_some() && point.sleeps() {
             return;
         }
-        let node = self.slave.nodes[point.slave as usize];
+        let node = self.slave.node(point.slave);
         let x = positions.at(node);
         let followed = point.project(self.master, positions, self.curvature, x);
         let Some(projection) = followed.projection else {
@@ -262,7 +262,7 @@ impl Pass<'_> {
 
     /// What the law of friction is told about a closed point: the slip speed of the step before.
     pub fn slid(&self, point: &PenaltyPoint, positions: &Positions<'_>, time: f64) -> Slid {
-        let x = positions.at(self.slave.nodes[point.slave as usize]);
+        let x = positions.at(self.slave.node(point.slave));
         point.slid(point.place(self.slave, x, time))
     }
 
@@ -304,23 +304,19 @@ impl Pass<'_> {
     }
 }
 
-/// Adds the force of a closed point on the slave to it, and the reaction to the face.
+/// Adds the force of a closed point on the slave to that node, and the reaction to the `corners` of the face.
 #[inline]
 pub(crate) fn scatter(
-    pass: [&ContactSurface; 2],
     point: &PenaltyPoint,
+    slave: u32,
+    corners: [u32; 4],
     on_slave: Vec3,
     force: &mut [Padded],
 ) {
-    let [slave, master] = pass;
-    let node = slave.nodes[point.slave as usize] as usize;
-    debug_assert_ne!(point.face, NONE);
     for i in 0..3 {
-        force[node][i] += on_slave[i];
+        force[slave as usize][i] += on_slave[i];
     }
-    for (weight, corner) in
-        point.enforcement.weights.iter().zip(master.faces[point.face as usize].nodes)
-    {
+    for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
         for i in 0..3 {
             force[corner as usize][i] -= weight * on_slave[i];
         }

@@ -193,10 +193,10 @@ pub(crate) struct PointValues {
 }
 
 /// Gives the second slave of each pair of mesh nodes the state of the first; the pairs ascend by the first,
-/// `rows` by their slaves on `own`.
+/// `rows` by their slaves, which are the nodes `own` of the mesh.
 pub(crate) fn follow_first<E: Enforced>(
     rows: &mut [ContactPoint<E>],
-    own: &ContactSurface,
+    own: &[u32],
     pairs: &[[u32; 2]],
 ) {
     if pairs.is_empty() {
@@ -204,11 +204,11 @@ pub(crate) fn follow_first<E: Enforced>(
     }
     for i in 0..rows.len() {
         let first = rows[i];
-        let node = own.nodes[first.slave as usize];
+        let node = own[first.slave as usize];
         let second = pairs
             .binary_search_by_key(&node, |pair| pair[0])
             .ok()
-            .and_then(|k| own.nodes.binary_search(&pairs[k][1]).ok())
+            .and_then(|k| own.binary_search(&pairs[k][1]).ok())
             .and_then(|local| rows.binary_search_by_key(&(local as u32), |r| r.slave).ok());
         if let Some(second) = second {
             rows[second].follow(&first);

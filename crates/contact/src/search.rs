@@ -113,7 +113,7 @@ impl Search {
         let frame = self.mean_motion(sides, positions, points);
         let (mut used, mut went) = (0.0_f64, 0.0_f64);
         for side in 0..2 {
-            for (i, &node) in sides[side].nodes.iter().enumerate() {
+            for (i, node) in sides[side].nodes().enumerate() {
                 let moved = sub(sub(positions.at(node), self.at[side][i]), frame);
                 let last = sub(moved, self.moved[side][i]);
                 self.moved[side][i] = moved;
@@ -142,7 +142,8 @@ impl Search {
         for side in 0..2 {
             for point in &points[side] {
                 let i = point.slave() as usize;
-                sum = add(sum, sub(positions.at(sides[side].nodes[i]), self.at[side][i]));
+                sum =
+                    add(sum, sub(positions.at(sides[side].node(point.slave())), self.at[side][i]));
                 count += 1.0;
             }
         }
@@ -161,14 +162,14 @@ impl Search {
         for side in 0..2 {
             let surface = &sides[side];
             self.at[side].clear();
-            self.at[side].extend(surface.nodes.iter().map(|&n| positions.at(n)));
+            self.at[side].extend(surface.nodes().map(|n| positions.at(n)));
             self.moved[side].clear();
-            self.moved[side].resize(surface.nodes.len(), [0.0; 3]);
+            self.moved[side].resize(surface.len(), [0.0; 3]);
             self.spans[side].clear();
             self.spans[side]
                 .extend((0..surface.faces.len()).map(|f| span(surface, f, &self.at[side])));
             self.nearest[side].clear();
-            self.nearest[side].resize(surface.nodes.len(), (f64::INFINITY, NONE));
+            self.nearest[side].resize(surface.len(), (f64::INFINITY, NONE));
         }
         let whole = [0, 1].map(|side| hull(self.spans[side].iter()));
         let mut clearance = [0, 1].map(|side: usize| {
@@ -197,7 +198,7 @@ impl Search {
         for side in 0..2 {
             let allowance = &mut self.allowance[side];
             allowance.clear();
-            allowance.resize(sides[side].nodes.len(), 0.0);
+            allowance.resize(sides[side].len(), 0.0);
             for (face, c) in sides[side].faces.iter().zip(&clearance[side]) {
                 for node in face.local {
                     let a = &mut allowance[node as usize];
@@ -318,7 +319,7 @@ pub(crate) fn neighbours(
     mut visit: impl FnMut(usize, usize),
 ) {
     let spans = [0, 1].map(|side: usize| {
-        let at: Vec<Vec3> = sides[side].nodes.iter().map(|&n| positions.at(n)).collect();
+        let at: Vec<Vec3> = sides[side].nodes().map(|n| positions.at(n)).collect();
         (0..sides[side].faces.len()).map(|f| span(&sides[side], f, &at)).collect::<Vec<Span>>()
     });
     let leaves = spans[1].iter().enumerate().map(|(g, s)| (g, aabb(s, 0.0)));

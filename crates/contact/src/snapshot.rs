@@ -48,7 +48,7 @@ pub(crate) fn check_points<E: Enforced>(
     slaves: &ContactSurface,
     masters: &ContactSurface,
 ) -> Result<(), StateError> {
-    let known = |point: &ContactPoint<E>| (point.slave as usize) < slaves.nodes.len();
+    let known = |point: &ContactPoint<E>| (point.slave as usize) < slaves.len();
     if !points.iter().all(known) || !points.is_sorted_by(|a, b| a.slave < b.slave) {
         return Err(StateError::Range { name: "slave" });
     }
@@ -67,7 +67,7 @@ impl Search {
     ) -> Result<(), StateError> {
         for (side, surface) in sides.iter().enumerate() {
             // empty before the first search
-            let nodes = if state.at[0].is_empty() { 0 } else { surface.nodes.len() };
+            let nodes = if state.at[0].is_empty() { 0 } else { surface.len() };
             let counts =
                 [state.at[side].len(), state.moved[side].len(), state.allowance[side].len()];
             if counts != [nodes; 3] {

@@ -1,9 +1,10 @@
 //! One contact surface: its nodes, faces, neighbours, tributary areas and masses.
 
 use crate::face::Bilinear;
-use crate::{BodyMaterial, ContactError};
+use crate::{BodyMaterial, ContactError, Trace};
 use mesh::{Mesh, SmoothSurface, Surface};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// No face, or no neighbour across an edge.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -11,7 +12,7 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// A master face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MasterFace {
-    /// Corner nodes in the mesh.
+    /// Corner nodes in the trace.
     pub nodes: [u32; 4],
     /// Corner nodes in the surface.
     pub local: [u32; 4],
@@ -26,8 +27,8 @@ pub(crate) struct MasterFace {
 /// One side of the contact.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactSurface {
-    /// Mesh indices of the surface nodes, ascending.
-    pub nodes: Vec<u32>,
+    /// Its first node in the trace, where all of them stand in order.
+    first: u32,
     pub faces: Vec<MasterFace>,
     /// Tributary area of each node in the reference configuration (m^2).
     pub area: Vec<f64>,
@@ -44,37 +45,38 @@ impl ContactSurface {
     pub fn both(
         mesh: &Mesh,
         surfaces: [(&Surface, BodyMaterial); 2],
-    ) -> Result<[Self; 2], ContactError> {
+    ) -> Result<(Trace, [Self; 2]), ContactError> {
+        let trace = Trace::new(surfaces.map(|(surface, _)| nodes_of(surface)));
         let [(first, first_material), (second, second_material)] = surfaces;
         let sides = [
-            Self::new(mesh, first, first_material, 0)?,
-            Self::new(mesh, second, second_material, 1)?,
+            Self::new(mesh, first, first_material, &trace, 0)?,
+            Self::new(mesh, second, second_material, &trace, 1)?,
         ];
-        match sides[0].nodes.iter().find(|n| sides[1].nodes.binary_search(n).is_ok()) {
+        match trace.side(0).iter().find(|n| trace.side(1).binary_search(n).is_ok()) {
             Some(&node) => Err(ContactError::SharedNode { node }),
-            None => Ok(sides),
+            None => Ok((trace, sides)),
         }
     }
 
-    pub fn new(
+    fn new(
         mesh: &Mesh,
         surface: &Surface,
         material: BodyMaterial,
+        trace: &Trace,
         side: usize,
     ) -> Result<Self, ContactError> {
         if surface.faces.is_empty() {
             return Err(ContactError::EmptySurface { side });
         }
-        let mut nodes: Vec<u32> = surface.faces.iter().flat_map(|f| f.nodes).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        let nodes = trace.side(side);
+        let first = trace.range(side).start as u32;
         let mut result = Self {
+            first,
             area: vec![0.0; nodes.len()],
             mass_per_area: vec![0.0; nodes.len()],
             scaled_stiffness: vec![0.0; nodes.len()],
             faces: Vec::with_capacity(surface.faces.len()),
             smooth: surface.smooth,
-            nodes,
         };
         for (index, face) in surface.faces.iter().enumerate() {
             let outside = ContactError::OutsideMesh { side, face: index };
@@ -93,14 +95,14 @@ impl ContactSurface {
             let scaled = material.bulk_modulus * area / volume;
             let mut local = [0; 4];
             for corner in 0..4 {
-                let slot = result.nodes.partition_point(|&n| n < face.nodes[corner]);
+                let slot = nodes.partition_point(|&n| n < face.nodes[corner]);
                 local[corner] = slot as u32;
                 result.area[slot] += shares[corner];
                 result.mass_per_area[slot] += material.density * volume / 8.0;
                 result.scaled_stiffness[slot] += shares[corner] * scaled;
             }
             result.faces.push(MasterFace {
-                nodes: face.nodes,
+                nodes: local.map(|n| first + n),
                 local,
                 neighbours: [(NONE, 0); 4],
                 reference: Bilinear::through(corners),
@@ -111,28 +113,67 @@ impl ContactSurface {
         for sums in [mass_per_area, scaled_stiffness] {
             sums.iter_mut().zip(&*area).for_each(|(sum, area)| *sum /= area);
         }
-        result.join_neighbours(side)?;
+        result.join_neighbours(side, nodes)?;
         Ok(result)
     }
 
-    /// Every inner edge is run through once in each direction.
-    fn join_neighbours(&mut self, side: usize) -> Result<(), ContactError> {
+    /// How many nodes it has.
+    pub fn len(&self) -> usize {
+        self.area.len()
+    }
+
+    /// The number in the trace of a node of the surface.
+    #[inline(always)]
+    pub fn node(&self, local: u32) -> u32 {
+        self.first + local
+    }
+
+    /// The numbers of its nodes in the trace.
+    pub fn nodes(&self) -> Range<u32> {
+        self.first..self.first + self.len() as u32
+    }
+
+    /// Every inner edge is run through once in each direction; `nodes` are the numbers in the mesh.
+    fn join_neighbours(&mut self, side: usize, nodes: &[u32]) -> Result<(), ContactError> {
         let mut edges = BTreeMap::new();
         for (index, face) in self.faces.iter().enumerate() {
             for e in 0..4 {
-                let (a, b) = (face.nodes[e], face.nodes[(e + 1) % 4]);
+                let (a, b) = (face.local[e], face.local[(e + 1) % 4]);
                 if edges.insert((a, b), (index as u32, e as u8)).is_some() {
+                    let [a, b] = [a, b].map(|n| nodes[n as usize]);
                     return Err(ContactError::Edge { side, a, b });
                 }
             }
         }
         for face in &mut self.faces {
             for e in 0..4 {
-                let (a, b) = (face.nodes[e], face.nodes[(e + 1) % 4]);
+                let (a, b) = (face.local[e], face.local[(e + 1) % 4]);
                 face.neighbours[e] = edges.get(&(b, a)).copied().unwrap_or((NONE, 0));
             }
         }
         Ok(())
+    }
+}
+
+/// Numbers in the mesh of the nodes of a surface, ascending.
+fn nodes_of(surface: &Surface) -> Vec<u32> {
+    let mut nodes: Vec<u32> = surface.faces.iter().flat_map(|f| f.nodes).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+#[cfg(test)]
+impl ContactSurface {
+    /// A surface with no other, side 0.
+    pub fn alone(
+        mesh: &Mesh,
+        surface: &Surface,
+        material: BodyMaterial,
+    ) -> Result<(Trace, Self), ContactError> {
+        let trace = Trace::new([nodes_of(surface), Vec::new()]);
+        let surface = Self::new(mesh, surface, material, &trace, 0)?;
+        Ok((trace, surface))
     }
 }
 
@@ -145,14 +186,14 @@ mod tests {
     #[test]
     fn tributary_areas_of_a_plane_plate_add_up_to_its_area() {
         let (mesh, top) = plate([0.0, 0.0], [3.0, 2.0], [6, 5], 0.0, 0.5, true);
-        let surface = ContactSurface::new(&mesh, &top, STEEL, 0).unwrap();
+        let (_, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
         assert!((surface.area.iter().sum::<f64>() - 6.0).abs() < 1e-13);
     }
 
     #[test]
     fn brick_gives_bulk_modulus_over_depth_and_half_its_mass() {
         let (mesh, top) = plate([0.0, 0.0], [3.0, 2.0], [6, 5], 0.0, 0.5, true);
-        let surface = ContactSurface::new(&mesh, &top, STEEL, 0).unwrap();
+        let (_, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
         for scaled in &surface.scaled_stiffness {
             assert!((scaled * 0.5 / STEEL.bulk_modulus - 1.0).abs() < 1e-13);
         }
@@ -164,7 +205,7 @@ mod tests {
     #[test]
     fn neighbours_share_the_edge_in_opposite_direction() {
         let (mesh, top) = plate([0.0, 0.0], [3.0, 2.0], [6, 5], 0.0, 0.5, true);
-        let surface = ContactSurface::new(&mesh, &top, STEEL, 0).unwrap();
+        let (_, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
         let mut inner = 0;
         for face in &surface.faces {
             for e in 0..4 {
@@ -183,16 +224,16 @@ mod tests {
     #[test]
     fn wrong_surfaces_are_refused() {
         let (mesh, top) = plate([0.0, 0.0], [1.0, 1.0], [2, 2], 0.0, 0.5, true);
-        let refused = |s: &Surface| ContactSurface::new(&mesh, s, STEEL, 1).unwrap_err();
-        assert_eq!(refused(&Surface::default()), ContactError::EmptySurface { side: 1 });
+        let refused = |s: &Surface| ContactSurface::alone(&mesh, s, STEEL).unwrap_err();
+        assert_eq!(refused(&Surface::default()), ContactError::EmptySurface { side: 0 });
         let mut outside = top.clone();
         outside.faces[1].nodes[2] = 999;
-        assert_eq!(refused(&outside), ContactError::OutsideMesh { side: 1, face: 1 });
+        assert_eq!(refused(&outside), ContactError::OutsideMesh { side: 0, face: 1 });
         let mut flat = top.clone();
         flat.faces[2].nodes = [flat.faces[2].nodes[0]; 4];
-        assert_eq!(refused(&flat), ContactError::Degenerate { side: 1, face: 2 });
+        assert_eq!(refused(&flat), ContactError::Degenerate { side: 0, face: 2 });
         let mut twice = top.clone();
         twice.faces.push(twice.faces[0]);
-        assert!(matches!(refused(&twice), ContactError::Edge { side: 1, .. }));
+        assert!(matches!(refused(&twice), ContactError::Edge { side: 0, .. }));
     }
 }

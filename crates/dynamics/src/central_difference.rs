@@ -3,9 +3,8 @@
 
 use crate::hub::HubWork;
 use crate::ledger::{Energies, Works};
-use crate::nodes;
+use crate::nodes::{Update, free_velocity};
 use crate::simulation::{Simulation, StepReport};
-use contact::Motion;
 use std::time::Instant;
 
 impl Simulation {
@@ -15,57 +14,40 @@ impl Simulation {
         let time = n as f64 * dt;
         let start = Instant::now();
 
-        let system = &mut self.system;
-        let motion = Motion {
-            reference: &[],
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-            inverse_mass: &self.inverse_mass,
-            time,
-            dt,
-        };
-        let (sums, following) = system.subtract_internal_force(&motion, &mut self.force, read);
+        let (system, nodes) = (&mut self.system, &mut self.nodes);
+        let (sums, following) = system.subtract_internal_force(nodes, [time, dt], read);
         let internal = Instant::now();
 
-        let quiet = system.add_boundary_force(&motion, &mut self.force);
-        let given_before = 0.5 * dt * system.load.power(time, &self.velocity);
+        let quiet = system.add_boundary_force(nodes, [time, dt]);
+        let given_before = 0.5 * dt * system.load.power(time, &nodes.velocity);
         let bounded = Instant::now();
 
-        let (velocity, inverse_mass) = (&self.velocity, &self.inverse_mass);
-        let contact = system.add_contact_force(
-            &motion,
-            |node, force, dashpots| {
-                let i = node as usize;
-                nodes::free_velocity(i, velocity[i].xyz(), force, inverse_mass[i], dt, dashpots)
-            },
-            &mut self.force,
-        );
-        let load = system.hub.as_ref().map(|hub| hub.resultant(&self.displacement, &self.force));
+        let dashpots = system.dashpots();
+        let contact = system.add_contact_force(nodes, [time, dt], |node, force| {
+            free_velocity(node, force, dt, dashpots.as_ref())
+        });
+        let load = system.hub.as_ref().map(|hub| hub.resultant(&nodes.displacement, &nodes.force));
         let contacted = Instant::now();
 
-        let nodes = nodes::advance(
-            &mut self.displacement,
-            &mut self.velocity,
-            &mut self.force,
-            &self.inverse_mass,
+        let updated = nodes.advance(&Update {
             dt,
-            read,
-            system.dashpots().as_ref(),
-            &mut self.partial,
-            system.solid.level(),
-        );
+            kinetic: read,
+            dashpots: dashpots.as_ref(),
+            reference: system.solid.reference(),
+            level: system.solid.level(),
+        });
         let omega_before = system.hub.as_ref().map_or(0.0, |h| h.state.omega);
         let hub = match (&mut system.hub, load) {
             (Some(hub), Some(load)) => {
-                let load = [0, 1, 2].map(|i| load[i] + nodes.reaction[i]);
-                hub.step(time, dt, load, &mut self.displacement, &mut self.velocity)
+                let load = [0, 1, 2].map(|i| load[i] + updated.reaction[i]);
+                hub.step(time, dt, load, &mut nodes.displacement, &mut nodes.velocity)
             }
             _ => HubWork::default(),
         };
-        let given_after = 0.5 * dt * system.load.power(time, &self.velocity);
+        let given_after = 0.5 * dt * system.load.power(time, &nodes.velocity);
         let moved = Instant::now();
 
-        let viscous = 0.5 * dt * (sums.viscous_power + nodes.dashpot_power);
+        let viscous = 0.5 * dt * (sums.viscous_power + updated.dashpot_power);
         self.ledger.add(&Works {
             friction: contact.friction_work,
             damping: contact.damping_work + viscous + quiet.dissipated_before,
@@ -74,7 +56,7 @@ impl Simulation {
         });
         let energies = read.then(|| {
             let now = Energies {
-                kinetic: nodes.kinetic + hub.kinetic,
+                kinetic: updated.kinetic + hub.kinetic,
                 internal: sums.internal,
                 hourglass: sums.hourglass,
                 contact_stored: contact.stored_normal + contact.stored_tangential,

@@ -12,13 +12,11 @@ use std::ops::Range;
 
 /// The dashpots of a step.
 #[derive(Clone, Debug)]
-pub(crate) struct Dashpots<'a> {
+pub(crate) struct Dashpots {
     /// Damping rate (1/s).
     pub(crate) alpha: f64,
     /// Nodes of the disk.
     pub(crate) disk: Range<usize>,
-    /// Reference positions of all nodes (m).
-    pub(crate) reference: &'a [Padded],
     /// The hub's motion, if there is a hub.
     pub(crate) motion: Option<RigidMotion>,
 }

@@ -335,8 +335,8 @@ fn worst_spot(contact: &dyn Contact, measure: impl Fn(&Spot) -> f64) -> Option<S
 impl Simulation {
     /// Forces of the elements on the nodes (N) in the present state, without viscous parts.
     pub fn elastic_force(&mut self) -> Vec<Padded> {
-        let mut force = vec![Padded::ZERO; self.displacement.len()];
-        self.system.solid.subtract_elastic_force(&self.displacement, &mut force, false);
+        let mut force = vec![Padded::ZERO; self.nodes.displacement.len()];
+        self.system.solid.subtract_elastic_force(&self.nodes.displacement, &mut force, false);
         force
     }
 
@@ -357,7 +357,7 @@ impl Simulation {
             Some(now) => {
                 let cause = self.soft_cause(report, now)?;
                 // what bodies inside out do is no cause
-                let (element, ratio) = self.system.solid.most_folded(&self.displacement);
+                let (element, ratio) = self.system.solid.most_folded(&self.nodes.displacement);
                 if ratio <= 0.0 { self.inverted(element) } else { cause }
             }
             None => return None,
@@ -369,9 +369,9 @@ impl Simulation {
     /// of the state is worth keeping.
     pub fn is_sound(&self) -> bool {
         let finite = |field: &[Padded]| field.iter().all(|v| v.xyz().iter().all(|c| c.is_finite()));
-        finite(&self.displacement)
-            && finite(&self.velocity)
-            && self.system.solid.most_folded(&self.displacement).1 > 0.0
+        finite(&self.nodes.displacement)
+            && finite(&self.nodes.velocity)
+            && self.system.solid.most_folded(&self.nodes.displacement).1 > 0.0
     }
 
     fn watch_for_lost_contact(&mut self, report: &StepReport) {
@@ -394,13 +394,13 @@ impl Simulation {
         if self.system.contact.is_some() {
             let system = &mut self.system;
             let product = |x: &[Padded], y: &mut [Padded]| system.add_tangent_product(x, y);
-            let omega = solid::largest_frequency(&self.inverse_mass, product, LANCZOS);
+            let omega = solid::largest_frequency(&self.nodes.inverse_mass, product, LANCZOS);
             let ratio = self.dt * omega / 2.0;
             if ratio > 1.0 && ratio.is_finite() {
                 return Cause::StiffContact { ratio };
             }
         }
-        let (element, ratio) = self.system.solid.most_folded(&self.displacement);
+        let (element, ratio) = self.system.solid.most_folded(&self.nodes.displacement);
         if ratio <= 0.0 {
             self.inverted(element)
         } else if self.ledger.imbalance(now).is_finite() {
@@ -446,7 +446,7 @@ impl Simulation {
             });
         }
         if looks {
-            let (element, ratio) = self.system.solid.most_folded(&self.displacement);
+            let (element, ratio) = self.system.solid.most_folded(&self.nodes.displacement);
             if ratio <= 0.0 {
                 return Some(self.inverted(element));
             }
@@ -463,7 +463,9 @@ impl Simulation {
         } else if coefficient > 0.0 {
             Some((USUAL_HOURGLASS / coefficient).max(1.0) * now.hourglass)
         } else {
-            looks.then(|| self.system.solid.hourglass_energy(&self.displacement, USUAL_HOURGLASS))
+            looks.then(|| {
+                self.system.solid.hourglass_energy(&self.nodes.displacement, USUAL_HOURGLASS)
+            })
         }
     }
 
@@ -474,7 +476,7 @@ impl Simulation {
             return Cause::UnstableStep { ratio };
         }
         let volume_ratio =
-            self.system.solid.element_state(&self.displacement, element).volume_ratio;
+            self.system.solid.element_state(&self.nodes.displacement, element).volume_ratio;
         Cause::Inverted { volume_ratio }
     }
 
@@ -492,7 +494,7 @@ impl Simulation {
             _ => None,
         });
         let node = spot.map_or_else(|| self.fastest(), |spot| spot.node);
-        let (element, jacobian) = self.system.solid.most_folded(&self.displacement);
+        let (element, jacobian) = self.system.solid.most_folded(&self.nodes.displacement);
         Diagnosis {
             step: report.step,
             time: report.time,
@@ -517,14 +519,14 @@ impl Simulation {
             }
             _ => [0.0; 4],
         };
-        let v = &self.velocity[node];
+        let v = &self.nodes.velocity[node];
         (0..3).map(|i| (v.0[i] - at[i]).powi(2)).sum::<f64>().sqrt()
     }
 
     /// The node that moves fastest relative to its body, the first whose speed is no number.
     fn fastest(&self) -> usize {
         let mut worst = (0, 0.0);
-        for node in 0..self.velocity.len() {
+        for node in 0..self.nodes.velocity.len() {
             let speed = self.relative_speed(node);
             if !speed.is_finite() {
                 return node;

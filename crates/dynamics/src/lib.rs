@@ -13,6 +13,7 @@ mod guard;
 mod hub;
 mod ledger;
 mod load;
+mod nodal_state;
 mod nodes;
 mod paired;
 mod quiet;

@@ -1,14 +1,10 @@
-//! The nodal update: velocity, position, and the force cleared for the next step, in one pass.
+//! The nodal update of central difference: velocity, position, and the force cleared for the next step, in one pass.
 
 use crate::dashpots::{Dashpots, RigidMotion};
+use crate::nodal_state::{Chunk, NodalState, TraceNode};
 use mesh::Padded;
 use rayon::prelude::*;
 use solid::Level;
-use std::ops::Range;
-
-/// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads. Sums over chunks
-/// are exact: the chunks may come in any order.
-const CHUNK: usize = 4096;
 
 /// What the update sums up over the free nodes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,16 +19,6 @@ pub(crate) struct NodeSums {
 }
 
 impl NodeSums {
-    /// The sums of all chunks, in whatever order they arrive.
-    fn total(chunks: &[Self]) -> Self {
-        let sum = |of: fn(&Self) -> f64| exact_sum::sum(chunks.iter().map(of));
-        Self {
-            kinetic: sum(|c| c.kinetic),
-            dashpot_power: sum(|c| c.dashpot_power),
-            reaction: [sum(|c| c.reaction[0]), sum(|c| c.reaction[1]), sum(|c| c.reaction[2])],
-        }
-    }
-
     fn add(&mut self, other: &Self) {
         self.kinetic += other.kinetic;
         self.dashpot_power += other.dashpot_power;
@@ -42,97 +28,81 @@ impl NodeSums {
     }
 }
 
-/// v^{n+1/2} = v^{n-1/2} + dt (f/m - alpha (v^{n-1/2} - v_rigid)) and
-/// u^{n+1} = u^n + dt v^{n+1/2}; clears `force`.
-///
-/// Nodes of zero inverse mass keep their velocity. `partial` holds one entry per chunk; `level` is that of
-/// the element kernels.
-pub(crate) fn advance(
-    displacement: &mut [Padded],
-    velocity: &mut [Padded],
-    force: &mut [Padded],
-    inverse_mass: &[f64],
-    dt: f64,
-    kinetic: bool,
-    dashpots: Option<&Dashpots<'_>>,
-    partial: &mut [NodeSums],
-    level: Level,
-) -> NodeSums {
-    let pass = Pass { dt, kinetic, dashpots };
-    displacement
-        .par_chunks_mut(CHUNK)
-        .zip(velocity.par_chunks_mut(CHUNK))
-        .zip(force.par_chunks_mut(CHUNK).zip(inverse_mass.par_chunks(CHUNK)))
-        .zip(partial.par_iter_mut())
-        .enumerate()
-        .for_each(|(chunk, (((u, v), (f, inverse_mass)), sums))| {
-            let chunk = Chunk { u, v, f, inverse_mass, first: chunk * CHUNK };
-            *sums = advance_chunk(level, chunk, pass);
-        });
-    if kinetic || dashpots.is_some() { NodeSums::total(partial) } else { NodeSums::default() }
-}
-
-/// The nodes of a chunk, from node `first` on.
-struct Chunk<'a> {
-    u: &'a mut [Padded],
-    v: &'a mut [Padded],
-    f: &'a mut [Padded],
-    inverse_mass: &'a [f64],
-    first: usize,
-}
-
-/// What is the same for all chunks.
+/// What an update is told.
 #[derive(Clone, Copy)]
-struct Pass<'a> {
-    dt: f64,
-    kinetic: bool,
-    dashpots: Option<&'a Dashpots<'a>>,
+pub(crate) struct Update<'a> {
+    /// Time step (s).
+    pub(crate) dt: f64,
+    /// Whether to sum up the kinetic energy.
+    pub(crate) kinetic: bool,
+    /// The dashpots of mass-proportional damping, if there are any.
+    pub(crate) dashpots: Option<&'a Dashpots>,
+    /// Reference positions of all nodes (m).
+    pub(crate) reference: &'a [Padded],
+    /// That of the element kernels.
+    pub(crate) level: Level,
 }
 
-/// A chunk with instructions of `level`: the same bits with all, since nothing is fused.
-fn advance_chunk(level: Level, chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
-    #[cfg(target_arch = "x86_64")]
-    if matches!(level, Level::Avx512 | Level::Avx2) && level.available() {
-        // SAFETY: the machine has the instructions.
-        return unsafe { update_chunk_wide(chunk, pass) };
+impl NodalState {
+    /// v^{n+1/2} = v^{n-1/2} + dt (f/m - alpha (v^{n-1/2} - v_rigid)) and
+    /// u^{n+1} = u^n + dt v^{n+1/2}; clears the forces.
+    ///
+    /// Nodes of zero inverse mass keep their velocity.
+    pub(crate) fn advance(&mut self, update: &Update<'_>) -> NodeSums {
+        self.chunks().for_each(|chunk| advance_chunk(chunk, update));
+        if !update.kinetic && update.dashpots.is_none() {
+            return NodeSums::default();
+        }
+        NodeSums {
+            kinetic: self.sum(|c| c.kinetic),
+            dashpot_power: self.sum(|c| c.dashpot_power),
+            reaction: [0, 1, 2].map(|i| self.sum(|c| c.reaction[i])),
+        }
     }
-    update_chunk(chunk, pass)
+}
+
+/// A chunk with instructions of a level: the same bits with all, since nothing is fused.
+fn advance_chunk(chunk: Chunk<'_>, update: &Update<'_>) {
+    #[cfg(target_arch = "x86_64")]
+    if matches!(update.level, Level::Avx512 | Level::Avx2) && update.level.available() {
+        // SAFETY: the machine has the instructions.
+        return unsafe { update_chunk_wide(chunk, update) };
+    }
+    update_chunk(chunk, update);
 }
 
 /// # Safety
 /// The machine has AVX2.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-unsafe fn update_chunk_wide(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
-    update_chunk(chunk, pass)
+unsafe fn update_chunk_wide(chunk: Chunk<'_>, update: &Update<'_>) {
+    update_chunk(chunk, update);
 }
 
 #[inline(always)]
-fn update_chunk(chunk: Chunk<'_>, pass: Pass<'_>) -> NodeSums {
-    let Chunk { u, v, f, inverse_mass, first } = chunk;
-    let Pass { dt, kinetic, dashpots } = pass;
-    let nodes = first..first + inverse_mass.len();
-    match (kinetic, dashpots) {
-        (false, None) => update::<false>(u, v, f, inverse_mass, dt),
-        (true, None) => update::<true>(u, v, f, inverse_mass, dt),
-        (false, Some(d)) => damped::<false>(u, v, f, inverse_mass, dt, d, nodes),
-        (true, Some(d)) => damped::<true>(u, v, f, inverse_mass, dt, d, nodes),
-    }
+fn update_chunk(chunk: Chunk<'_>, update: &Update<'_>) {
+    let Chunk { u, v, f, inverse_mass, first, sums } = chunk;
+    let nodes = Nodes { u, v, f, inverse_mass };
+    *sums = match (update.kinetic, update.dashpots) {
+        (false, None) => undamped::<false>(nodes, update.dt),
+        (true, None) => undamped::<true>(nodes, update.dt),
+        (false, Some(dashpots)) => damped::<false>(nodes, first, dashpots, update),
+        (true, Some(dashpots)) => damped::<true>(nodes, first, dashpots, update),
+    };
 }
 
-/// v^{n+1/2} of one node under `force`, as [`advance`] gives it up to round-off.
+/// v^{n+1/2} of a node under `force`, as [`NodalState::advance`] gives it up to round-off.
 pub(crate) fn free_velocity(
-    node: usize,
-    v: [f64; 3],
+    node: &TraceNode,
     force: [f64; 3],
-    inverse_mass: f64,
     dt: f64,
-    dashpots: Option<&Dashpots<'_>>,
+    dashpots: Option<&Dashpots>,
 ) -> [f64; 3] {
+    let &TraceNode { number, reference, velocity: v, inverse_mass } = node;
     let mut after = [0, 1, 2].map(|i: usize| v[i] + dt * inverse_mass * force[i]);
     if let Some(d) = dashpots.filter(|_| inverse_mass > 0.0) {
-        let motion = if d.disk.contains(&node) { d.motion } else { None }.unwrap_or_default();
-        let (rigid, _) = motion.at(d.reference[node]);
+        let motion = if d.disk.contains(&number) { d.motion } else { None }.unwrap_or_default();
+        let (rigid, _) = motion.at(reference);
         for i in 0..3 {
             after[i] -= dt * d.alpha * (v[i] - rigid[i]);
         }
@@ -140,19 +110,17 @@ pub(crate) fn free_velocity(
     after
 }
 
-/// Number of chunks, hence of partial sums, for `nodes` nodes.
-pub(crate) fn chunks(nodes: usize) -> usize {
-    nodes.div_ceil(CHUNK)
+/// Some nodes of a chunk.
+struct Nodes<'a> {
+    u: &'a mut [Padded],
+    v: &'a mut [Padded],
+    f: &'a mut [Padded],
+    inverse_mass: &'a [f64],
 }
 
 #[inline(always)]
-fn update<const KINETIC: bool>(
-    u: &mut [Padded],
-    v: &mut [Padded],
-    f: &mut [Padded],
-    inverse_mass: &[f64],
-    dt: f64,
-) -> NodeSums {
+fn undamped<const KINETIC: bool>(nodes: Nodes<'_>, dt: f64) -> NodeSums {
+    let Nodes { u, v, f, inverse_mass } = nodes;
     let mut twice_kinetic = 0.0;
     for (((u, v), f), &w) in u.iter_mut().zip(v).zip(f).zip(inverse_mass) {
         let before = *v;
@@ -169,35 +137,32 @@ fn update<const KINETIC: bool>(
     NodeSums { kinetic: 0.5 * twice_kinetic, ..NodeSums::default() }
 }
 
-/// The same with dashpots; `nodes` are the chunk's node numbers. The disk's nodes are contiguous,
+/// The same with dashpots; `first` is the number of the first node. The disk's nodes are contiguous,
 /// so that a chunk falls into at most three runs of one body.
 #[inline(always)]
 fn damped<const KINETIC: bool>(
-    u: &mut [Padded],
-    v: &mut [Padded],
-    f: &mut [Padded],
-    inverse_mass: &[f64],
-    dt: f64,
-    dashpots: &Dashpots<'_>,
-    nodes: Range<usize>,
+    nodes: Nodes<'_>,
+    first: usize,
+    dashpots: &Dashpots,
+    update: &Update<'_>,
 ) -> NodeSums {
+    let Nodes { u, v, f, inverse_mass } = nodes;
     let mut sums = NodeSums::default();
-    let within = |n: usize| n.clamp(nodes.start, nodes.end);
-    let (start, end) = (within(dashpots.disk.start), within(dashpots.disk.end));
-    let runs = [(nodes.start..start, false), (start..end, true), (end..nodes.end, false)];
+    let end = first + inverse_mass.len();
+    let [disk_start, disk_end] =
+        [dashpots.disk.start, dashpots.disk.end].map(|n| n.clamp(first, end));
+    let runs = [(first..disk_start, false), (disk_start..disk_end, true), (disk_end..end, false)];
     for (run, on_disk) in runs {
-        let local = run.start - nodes.start..run.end - nodes.start;
+        let local = run.start - first..run.end - first;
         let motion = if on_disk { dashpots.motion } else { None }.unwrap_or_default();
-        let run = damped_run::<KINETIC>(
-            &mut u[local.clone()],
-            &mut v[local.clone()],
-            &mut f[local.clone()],
-            &inverse_mass[local],
-            &dashpots.reference[run],
-            dt,
-            dashpots.alpha,
-            &motion,
-        );
+        let nodes = Nodes {
+            u: &mut u[local.clone()],
+            v: &mut v[local.clone()],
+            f: &mut f[local.clone()],
+            inverse_mass: &inverse_mass[local],
+        };
+        let reference = &update.reference[run];
+        let run = damped_run::<KINETIC>(nodes, reference, update.dt, dashpots.alpha, &motion);
         sums.add(&run);
     }
     sums
@@ -209,15 +174,13 @@ fn damped<const KINETIC: bool>(
 /// into vector instructions; the padding of every operand is zero.
 #[inline(always)]
 fn damped_run<const KINETIC: bool>(
-    u: &mut [Padded],
-    v: &mut [Padded],
-    f: &mut [Padded],
-    inverse_mass: &[f64],
+    nodes: Nodes<'_>,
     reference: &[Padded],
     dt: f64,
     alpha: f64,
     motion: &RigidMotion,
 ) -> NodeSums {
+    let Nodes { u, v, f, inverse_mass } = nodes;
     let [mut power, mut kinetic, mut drags, mut about_z, mut about_x] = [[0.0; 4]; 5];
     for ((((u, v), f), &w), x) in u.iter_mut().zip(v).zip(f).zip(inverse_mass).zip(reference) {
         // nodes that are held or carried move as they are told: no force, no dashpot
@@ -271,26 +234,17 @@ mod tests {
         let mass: Vec<f64> =
             (0..9001).map(|i| if i % 97 == 0 { 0.0 } else { 1.0 + f64::from(i % 13) }).collect();
         let reference = field(0.4);
-        let dashpots =
-            Dashpots { alpha: 4e3, disk: 100..7000, reference: &reference, motion: None };
+        let dashpots = Dashpots { alpha: 4e3, disk: 100..7000, motion: None };
         for dashpots in [None, Some(&dashpots)] {
             for kinetic in [false, true] {
                 let run = |level| {
-                    let (mut u, mut v, mut f) = (field(1e-3), field(40.0), field(1e5));
-                    let mut partial = vec![NodeSums::default(); chunks(u.len())];
-                    let sums = advance(
-                        &mut u,
-                        &mut v,
-                        &mut f,
-                        &mass,
-                        1e-7,
-                        kinetic,
-                        dashpots,
-                        &mut partial,
-                        level,
-                    );
+                    let mut nodes = NodalState::new(field(1e-3), field(40.0), mass.clone());
+                    nodes.force = field(1e5);
+                    let update =
+                        Update { dt: 1e-7, kinetic, dashpots, reference: &reference, level };
+                    let sums = nodes.advance(&update);
                     let sums = [sums.kinetic, sums.dashpot_power].map(f64::to_bits);
-                    (u, v, sums)
+                    (nodes.displacement, nodes.velocity, sums)
                 };
                 let plain = run(Level::Portable);
                 assert!(!kinetic || f64::from_bits(plain.2[0]) != 0.0);

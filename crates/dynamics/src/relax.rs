@@ -10,10 +10,11 @@
 //! above its true one, rocking on the contact.
 
 use crate::hub::Hub;
-use contact::{ContactSums, PenaltyContact};
+use crate::nodal_state::{CHUNK, Chunk, NodalState};
+use contact::PenaltyContact;
 use mesh::Padded;
 use rayon::prelude::*;
-use solid::Solid;
+use solid::{Centrifugal, Solid};
 use thiserror::Error;
 
 /// What is held and what acts during relaxation.
@@ -95,9 +96,6 @@ const FALL: f64 = 1e-6;
 /// Largest growth of the estimated slowest frequency from one check to the next.
 const RISE: f64 = 1.005;
 
-/// Nodes per parallel chunk; fixed, so that partial sums do not depend on the threads.
-const CHUNK: usize = 4096;
-
 /// Relaxes from the undeformed state, the disk moved by `setup.start`; returns the displacements.
 ///
 /// `observe` sees a report every few iterations and returns false to stop.
@@ -112,29 +110,24 @@ pub fn relax(
     // The hub with its nodes is a rigid body whose centre of mass lies on the axis.
     let mut spun = setup.mass[..n].to_vec();
     setup.hub.nodes.iter().for_each(|&i| spun[i as usize] = 0.0);
-    let mut nodes: Vec<Node> = vec![Node::default(); n];
-    for &i in setup.held.iter().chain(&setup.hub.nodes) {
-        nodes[i as usize].fixed = true;
-    }
-    let mut u = vec![Padded::ZERO; n];
-    u[setup.disk.clone()].iter_mut().for_each(|u| u.0[2] = setup.start);
-    let mut force = vec![Padded::ZERO; n];
+    let mut nodes = nodes_at_start(setup, n);
+    nodes.trace_of(contact, &reference);
+    let mut fictitious = vec![Fictitious::default(); n];
     let mut hub = HubMotion { z: setup.start, v: 0.0, mass: 0.0, force_before: 0.0 };
     let (mut contact_bound, mut spring) = (vec![0.0; n], 0.0);
     let mut report = RelaxationReport::default();
     let (mut slowest, mut damping) = (1.0f64, 0.0);
     let mut window = Quotient::default();
-    let mut partial = vec![Quotient::default(); n.div_ceil(CHUNK)];
     for iteration in 0..setup.max_iterations {
         let check = iteration % CHECK == 0;
-        let pull = centrifugal(setup, &spun, &reference, &u, hub.z, &mut force, &mut partial);
-        let sums = solid.subtract_elastic_force(&u, &mut force, check);
-        let touching: ContactSums = contact.apply_frictionless(&reference, &u, &mut force);
+        let pull = centrifugal(&mut nodes, setup, &spun, &reference, hub.z);
+        let sums = solid.subtract_elastic_force(&nodes.displacement, &mut nodes.force, check);
+        let touching = nodes.add_spring_force(contact);
         if check {
             // Pairs close while the bodies settle: the bounds only grow.
             let mut bound = vec![0.0; n];
             contact.nodal_stiffness_bound(&mut bound);
-            for (i, node) in nodes.iter_mut().enumerate() {
+            for (i, node) in fictitious.iter_mut().enumerate() {
                 contact_bound[i] = f64::max(contact_bound[i], bound[i]);
                 node.mass = NODE_SHARE * (setup.stiffness[i] + contact_bound[i]);
             }
@@ -149,14 +142,14 @@ pub fn relax(
             mass: hub.mass * hub.v * hub.v,
             pull: 0.0,
         };
-        let keep = (2.0 - damping) / (2.0 + damping);
-        let kick = 2.0 / (2.0 + damping);
-        hub.v = keep * hub.v + kick * hub_force / hub.mass;
+        let damped =
+            Damped { keep: (2.0 - damping) / (2.0 + damping), kick: 2.0 / (2.0 + damping) };
+        hub.v = damped.keep * hub.v + damped.kick * hub_force / hub.mass;
         hub.z += hub.v;
         hub.force_before = hub_force;
-        advance(setup, keep, kick, hub.v, &mut nodes, &mut u, &force, &mut partial);
-        motion.stiffness += exact_sum::sum(partial.iter().map(|p| p.stiffness));
-        motion.mass += exact_sum::sum(partial.iter().map(|p| p.mass));
+        advance(&mut nodes, &mut fictitious, damped, &setup.disk, hub.v);
+        motion.stiffness += nodes.sum(|p| p.stiffness);
+        motion.mass += nodes.sum(|p| p.mass);
         if check {
             report = RelaxationReport {
                 iterations: iteration,
@@ -172,7 +165,7 @@ pub fn relax(
                 && report.kinetic_ratio <= setup.tolerance
                 && report.force_error <= setup.tolerance.sqrt()
             {
-                return Ok((u, report));
+                return Ok((nodes.displacement, report));
             }
             if !observe(&report) {
                 return Err(RelaxationError::Interrupted);
@@ -193,13 +186,11 @@ pub fn relax(
     Err(RelaxationError::Slow { report, tolerance: setup.tolerance })
 }
 
-/// A node's motion relative to the hub, in fictitious time.
+/// What a node has in fictitious time besides its motion relative to the hub.
 #[derive(Clone, Copy, Debug, Default)]
-struct Node {
-    v: [f64; 3],
+struct Fictitious {
     force_before: [f64; 3],
     mass: f64,
-    fixed: bool,
 }
 
 /// v . K v and v . M~ v of the last step's motion (the Rayleigh quotient), and the centrifugal
@@ -211,73 +202,78 @@ struct Quotient {
     pull: f64,
 }
 
-/// Sets `force` to the centrifugal force of the disk's masses and to zero elsewhere (N); returns
+/// The coefficients of a damped step.
+#[derive(Clone, Copy)]
+struct Damped {
+    keep: f64,
+    kick: f64,
+}
+
+/// The `n` nodes at rest relative to the hub, the disk moved by the start.
+fn nodes_at_start(setup: &Relaxation<'_>, n: usize) -> NodalState<Quotient> {
+    let mut u = vec![Padded::ZERO; n];
+    u[setup.disk.clone()].iter_mut().for_each(|u| u.0[2] = setup.start);
+    let mut inverse_mass: Vec<f64> = setup.mass[..n].iter().map(|m| 1.0 / m).collect();
+    let still = setup.held.iter().chain(&setup.hub.nodes);
+    still.for_each(|&i| inverse_mass[i as usize] = 0.0);
+    NodalState::new(u, vec![Padded::ZERO; n], inverse_mass)
+}
+
+/// Sets the forces to the centrifugal force of the disk's masses and to zero elsewhere (N); returns
 /// its resultant in z.
 fn centrifugal(
+    nodes: &mut NodalState<Quotient>,
     setup: &Relaxation<'_>,
     mass: &[f64],
     reference: &[Padded],
-    u: &[Padded],
     hub: f64,
-    force: &mut [Padded],
-    partial: &mut [Quotient],
 ) -> f64 {
-    let squared = setup.omega * setup.omega;
-    let axis = [setup.hub.centre[0], setup.hub.centre[2] + hub];
-    force.par_chunks_mut(CHUNK).zip(partial.par_iter_mut()).enumerate().for_each(
-        |(chunk, (force, sum))| {
-            sum.pull = 0.0;
-            for (k, f) in force.iter_mut().enumerate() {
-                let i = chunk * CHUNK + k;
-                *f = Padded::ZERO;
-                if setup.disk.contains(&i) {
-                    let pull = mass[i] * squared;
-                    f.0[0] = pull * (reference[i].0[0] + u[i].0[0] - axis[0]);
-                    f.0[2] = pull * (reference[i].0[2] + u[i].0[2] - axis[1]);
-                    sum.pull += f.0[2];
-                }
+    let [x, _, z] = setup.hub.centre;
+    let spin = Centrifugal { axis: [x, z + hub], omega: setup.omega };
+    nodes.chunks().for_each(|Chunk { u, f, first, sums, .. }| {
+        sums.pull = 0.0;
+        for (i, (f, u)) in (first..).zip(f.iter_mut().zip(u)) {
+            *f = Padded::ZERO;
+            if setup.disk.contains(&i) {
+                *f = spin.force(mass[i], reference[i], *u);
+                sums.pull += f.0[2];
             }
-        },
-    );
-    exact_sum::sum(partial.iter().map(|p| p.pull))
+        }
+    });
+    nodes.sum(|p| p.pull)
 }
 
 /// One damped step of all nodes; the disk moves with the hub by `shift` besides.
 fn advance(
-    setup: &Relaxation<'_>,
-    keep: f64,
-    kick: f64,
+    nodes: &mut NodalState<Quotient>,
+    fictitious: &mut [Fictitious],
+    damped: Damped,
+    disk: &std::ops::Range<usize>,
     shift: f64,
-    nodes: &mut [Node],
-    u: &mut [Padded],
-    force: &[Padded],
-    partial: &mut [Quotient],
 ) {
-    nodes
-        .par_chunks_mut(CHUNK)
-        .zip(u.par_chunks_mut(CHUNK))
-        .zip(force.par_chunks(CHUNK))
-        .zip(partial.par_iter_mut())
-        .enumerate()
-        .for_each(|(chunk, (((nodes, u), force), sum))| {
-            *sum = Quotient::default();
-            for (k, ((node, u), f)) in nodes.iter_mut().zip(u).zip(force).enumerate() {
-                if !node.fixed {
-                    let push = kick / node.mass;
-                    for i in 0..3 {
-                        let v = node.v[i];
-                        sum.stiffness += v * (node.force_before[i] - f.0[i]);
-                        sum.mass += node.mass * v * v;
-                        node.force_before[i] = f.0[i];
-                        node.v[i] = keep * v + push * f.0[i];
-                        u.0[i] += node.v[i];
-                    }
-                }
-                if setup.disk.contains(&(chunk * CHUNK + k)) {
-                    u.0[2] += shift;
+    let Damped { keep, kick } = damped;
+    nodes.chunks().zip(fictitious.par_chunks_mut(CHUNK)).for_each(|(chunk, fictitious)| {
+        let Chunk { u, v, f, inverse_mass, first, sums } = chunk;
+        *sums = Quotient::default();
+        let moved = u.iter_mut().zip(v).zip(f.iter().zip(inverse_mass));
+        for (i, (((u, v), (f, w)), node)) in (first..).zip(moved.zip(fictitious)) {
+            // others are held or go with the hub
+            if *w > 0.0 {
+                let push = kick / node.mass;
+                for k in 0..3 {
+                    let before = v.0[k];
+                    sums.stiffness += before * (node.force_before[k] - f.0[k]);
+                    sums.mass += node.mass * before * before;
+                    node.force_before[k] = f.0[k];
+                    v.0[k] = keep * before + push * f.0[k];
+                    u.0[k] += v.0[k];
                 }
             }
-        });
+            if disk.contains(&i) {
+                u.0[2] += shift;
+            }
+        }
+    });
 }
 
 /// Stiffness (N/m) of the closed contact against moving the disk as a whole in z.

@@ -3,7 +3,7 @@
 use crate::guard::{GuardLimits, LostContact};
 use crate::hub::{DriveReaction, Hub};
 use crate::ledger::{Energies, Ledger};
-use crate::nodes::{self, NodeSums};
+use crate::nodal_state::NodalState;
 use crate::system::System;
 use contact::{Contact, ContactSums};
 use mesh::Padded;
@@ -57,12 +57,8 @@ pub struct StepReport {
 /// A system in motion: its state at a full step, with velocities at the half step before.
 pub struct Simulation {
     pub(crate) system: System,
-    pub(crate) inverse_mass: Vec<f64>,
-    pub(crate) displacement: Vec<Padded>,
-    pub(crate) velocity: Vec<Padded>,
-    /// Forces on the nodes (N); zero between two steps.
-    pub(crate) force: Vec<Padded>,
-    pub(crate) partial: Vec<NodeSums>,
+    /// Its forces are zero between two steps.
+    pub(crate) nodes: NodalState,
     pub(crate) dt: f64,
     pub(crate) omega_max: f64,
     pub(crate) step: usize,
@@ -76,16 +72,14 @@ impl Simulation {
     /// A simulation at t = 0.
     pub fn new(setup: Setup) -> Self {
         let Setup { mut system, mut displacement, mut velocity, dt, omega_max } = setup;
-        let inverse_mass = system.inverse_mass();
-        let n = inverse_mass.len();
         system.constrain(&mut displacement, &mut velocity);
+        let mut nodes = NodalState::new(displacement, velocity, system.inverse_mass());
+        if let Some(contact) = system.contact.as_deref() {
+            nodes.trace_of(contact, system.solid.reference());
+        }
         Self {
             system,
-            inverse_mass,
-            displacement,
-            velocity,
-            force: vec![Padded::ZERO; n],
-            partial: vec![NodeSums::default(); nodes::chunks(n)],
+            nodes,
             dt,
             omega_max,
             step: 0,
@@ -113,12 +107,12 @@ impl Simulation {
 
     /// Displacements (m).
     pub fn displacement(&self) -> &[Padded] {
-        &self.displacement
+        &self.nodes.displacement
     }
 
     /// Velocities at the half step before the present (m/s).
     pub fn velocity(&self) -> &[Padded] {
-        &self.velocity
+        &self.nodes.velocity
     }
 
     /// The elements.
@@ -148,7 +142,6 @@ impl Simulation {
 
     /// Bytes held for the time loop, contact apart.
     pub fn bytes(&self) -> usize {
-        self.system.solid.bytes()
-            + self.displacement.len() * (3 * size_of::<Padded>() + size_of::<f64>())
+        self.system.solid.bytes() + self.nodes.bytes()
     }
 }

@@ -56,8 +56,8 @@ impl Simulation {
         let vectors = |field: &[Padded]| field.iter().map(|v| v.xyz()).collect();
         SimulationState {
             step: self.step,
-            displacement: vectors(&self.displacement),
-            velocity: vectors(&self.velocity),
+            displacement: vectors(&self.nodes.displacement),
+            velocity: vectors(&self.nodes.velocity),
             hub: self.system.hub.as_ref().map(|hub| (hub.state, hub.reaction)),
             reactions: self.system.quiet.reactions().collect(),
             ledger: self.ledger,
@@ -77,7 +77,7 @@ impl Simulation {
             let error = RestoreError::Count { what, wanted, found };
             if wanted == found { Ok(()) } else { Err(error) }
         };
-        let nodes = self.displacement.len();
+        let nodes = self.nodes.displacement.len();
         count("displacements", nodes, state.displacement.len())?;
         count("velocities", nodes, state.velocity.len())?;
         count("hubs", usize::from(self.system.hub.is_some()), usize::from(state.hub.is_some()))?;
@@ -87,9 +87,9 @@ impl Simulation {
         let padded = |field: &mut [Padded], from: &[[f64; 3]]| {
             field.iter_mut().zip(from).for_each(|(v, x)| *v = Padded::new(*x));
         };
-        padded(&mut self.displacement, &state.displacement);
-        padded(&mut self.velocity, &state.velocity);
-        self.force.fill(Padded::ZERO);
+        padded(&mut self.nodes.displacement, &state.displacement);
+        padded(&mut self.nodes.velocity, &state.velocity);
+        self.nodes.force.fill(Padded::ZERO);
         if let (Some(hub), Some((motion, reaction))) = (&mut self.system.hub, state.hub) {
             (hub.state, hub.reaction) = (motion, reaction);
         }

@@ -5,9 +5,10 @@
 use crate::dashpots::{Dashpots, RigidMotion};
 use crate::hub::Hub;
 use crate::load::{Fixed, Load};
+use crate::nodal_state::{NodalState, TraceNode};
 use crate::paired;
 use crate::quiet::{QuietEnd, QuietWork};
-use contact::{Contact, ContactSums, FreeMotion, Motion};
+use contact::{Contact, ContactSums};
 use mesh::Padded;
 use solid::{ForceSums, Solid};
 use std::time::{Duration, Instant};
@@ -75,74 +76,73 @@ impl System {
         self.quiet.release(&self.fixed);
     }
 
-    /// Subtracts the internal force (viscous parts with `v^{n-1/2}`) from `force`. Beside it contact follows
-    /// the surfaces, for the time that is returned.
+    /// Subtracts the internal force (viscous parts with `v^{n-1/2}`) from the forces. Beside it contact follows
+    /// the surfaces to `time` with the step `dt` (s), for the time that is returned.
     pub(crate) fn subtract_internal_force(
         &mut self,
-        motion: &Motion<'_>,
-        force: &mut [Padded],
+        nodes: &mut NodalState,
+        [time, dt]: [f64; 2],
         energies: bool,
     ) -> (ForceSums, Duration) {
+        let NodalState { displacement, velocity, force, trace, .. } = nodes;
+        let (displacement, velocity) = (&*displacement, &*velocity);
         let contact = &mut self.contact;
-        self.solid.subtract_internal_force_beside(
-            motion.displacement,
-            motion.velocity,
-            force,
-            energies,
-            |reference| {
-                let start = Instant::now();
-                if let Some(contact) = contact {
-                    contact.follow(&Motion { reference, ..*motion });
-                }
-                start.elapsed()
-            },
-        )
+        let follow = || {
+            let start = Instant::now();
+            if let (Some(contact), Some(trace)) = (contact, trace) {
+                trace.gather_positions(displacement);
+                trace.gather_velocities(velocity);
+                contact.follow(&trace.motion(time, dt));
+            }
+            start.elapsed()
+        };
+        let solid = &mut self.solid;
+        solid.subtract_internal_force_beside(displacement, velocity, force, energies, follow)
     }
 
-    /// Adds given forces and those of the quiet ends.
+    /// Adds given forces and those of the quiet ends at `time` with the step `dt` (s).
     pub(crate) fn add_boundary_force(
         &self,
-        motion: &Motion<'_>,
-        force: &mut [Padded],
+        nodes: &mut NodalState,
+        [time, dt]: [f64; 2],
     ) -> QuietWork {
+        let force = &mut nodes.force;
         // a support bears the body's own force; a given one reaches contact first
         Fixed::clear(&self.fixed, force);
-        self.load.apply(motion.time, force);
-        let work = self.quiet.apply(motion.velocity, motion.inverse_mass, motion.dt, force);
+        self.load.apply(time, force);
+        let work = self.quiet.apply(&nodes.velocity, &nodes.inverse_mass, dt, force);
         paired::share(&self.paired, force);
         work
     }
 
-    /// Adds the contact forces to `force`, which holds all other ones. `free` gives a node's velocity after
-    /// the step under a force.
+    /// Adds the contact forces of the step from `time` with `dt` (s) to all other ones. `free` gives the velocity
+    /// (m/s) of a node after the step under a force (N).
     pub(crate) fn add_contact_force(
         &mut self,
-        motion: &Motion<'_>,
-        free: impl Fn(u32, [f64; 3], Option<&Dashpots<'_>>) -> [f64; 3] + Sync,
-        force: &mut [Padded],
+        nodes: &mut NodalState,
+        time_and_step: [f64; 2],
+        free: impl Fn(&TraceNode, [f64; 3]) -> [f64; 3] + Sync,
     ) -> ContactSums {
-        let dashpots = dashpots(self.mass_damping, &self.disk, self.hub.as_ref(), &self.solid);
         let sums = match &mut self.contact {
             Some(contact) => {
-                let motion = Motion { reference: self.solid.reference(), ..*motion };
-                let free_motion = FreeMotion {
-                    velocity: &|node, force| free(node, force, dashpots.as_ref()),
-                    inverse_mass: motion.inverse_mass,
-                };
-                let sums = contact.apply(&motion, &free_motion, force);
+                let sums = nodes.add_contact_force(&mut **contact, time_and_step, free);
                 contact.follow_first(&self.paired);
                 sums
             }
             None => ContactSums::default(),
         };
-        paired::follow(&self.paired, force);
-        Fixed::clear(&self.fixed, force);
+        paired::follow(&self.paired, &mut nodes.force);
+        Fixed::clear(&self.fixed, &mut nodes.force);
         sums
     }
 
-    /// The dashpots of mass-proportional damping, if there is any.
-    pub(crate) fn dashpots(&self) -> Option<Dashpots<'_>> {
-        dashpots(self.mass_damping, &self.disk, self.hub.as_ref(), &self.solid)
+    /// The dashpots of mass-proportional damping as the hub moves now, if there is any.
+    pub(crate) fn dashpots(&self) -> Option<Dashpots> {
+        (self.mass_damping > 0.0).then(|| Dashpots {
+            alpha: self.mass_damping,
+            disk: self.disk.clone(),
+            motion: self.hub.as_ref().map(RigidMotion::new),
+        })
     }
 
     /// `y += K x` with the stiffness of the undeformed elements and of the contact springs that are closed
@@ -153,18 +153,4 @@ impl System {
             contact.add_stiffness_product(x, y);
         }
     }
-}
-
-fn dashpots<'a>(
-    alpha: f64,
-    disk: &std::ops::Range<usize>,
-    hub: Option<&Hub>,
-    solid: &'a Solid,
-) -> Option<Dashpots<'a>> {
-    (alpha > 0.0).then(|| Dashpots {
-        alpha,
-        disk: disk.clone(),
-        reference: solid.reference(),
-        motion: hub.map(RigidMotion::new),
-    })
 }

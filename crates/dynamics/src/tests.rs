@@ -284,11 +284,11 @@ fn a_node_pushed_through_its_element_makes_the_state_unsound_and_so_does_one_tha
     let mut simulation = carried();
     assert!(simulation.is_sound());
     let node = 62;
-    simulation.displacement[node].0[2] -= 2.2e-3;
+    simulation.nodes.displacement[node].0[2] -= 2.2e-3;
     assert!(!simulation.is_sound());
     let (element, ratio) = simulation.solid().most_folded(simulation.displacement());
     assert!(ratio < 0.0 && simulation.solid().nodes_of(element).contains(&(node as u32)));
-    simulation.displacement[node].0[2] = f64::NAN;
+    simulation.nodes.displacement[node].0[2] = f64::NAN;
     assert!(!simulation.is_sound());
 }
 

@@ -12,6 +12,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod blocks;
+mod centrifugal;
 mod count;
 mod formulation;
 mod full;
@@ -28,6 +29,7 @@ mod stable;
 mod stiffness;
 mod stress;
 
+pub use centrifugal::Centrifugal;
 pub use formulation::{Element, Elements, Formulation, Volumetric};
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
 pub use lanes::Level;

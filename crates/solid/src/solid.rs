@@ -231,11 +231,11 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
     ) -> ForceSums {
-        self.subtract_internal_force_beside(displacement, velocity, force, energies, |_| ()).0
+        self.subtract_internal_force_beside(displacement, velocity, force, energies, || ()).0
     }
 
     /// As [`subtract_internal_force`](Self::subtract_internal_force), while one of the threads does the independent
-    /// work `beside`, which is called with the reference coordinates (m); returns also its result.
+    /// work `beside`; returns also its result.
     ///
     /// # Panics
     /// As [`subtract_internal_force`](Self::subtract_internal_force).
@@ -245,7 +245,7 @@ impl Solid {
         velocity: &[Padded],
         force: &mut [Padded],
         energies: bool,
-        beside: impl FnOnce(&[Padded]) -> R + Send,
+        beside: impl FnOnce() -> R + Send,
     ) -> (ForceSums, R) {
         self.run(displacement, velocity, force, energies, self.viscous, beside)
     }
@@ -260,7 +260,7 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
     ) -> ForceSums {
-        self.run(displacement, &[], force, energies, false, |_| ()).0
+        self.run(displacement, &[], force, energies, false, || ()).0
     }
 
     /// `y += K x` (N) with the stiffness K of the undeformed state. The product is the internal force at the
@@ -271,7 +271,7 @@ impl Solid {
     pub fn add_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
         let negate = |y: &mut [Padded]| y.iter_mut().for_each(|y| *y = Padded(y.0.map(|c| -c)));
         negate(y);
-        self.run(x, &[], y, false, false, |_| ());
+        self.run(x, &[], y, false, false, || ());
         negate(y);
     }
 
@@ -282,7 +282,7 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
         viscous: bool,
-        beside: impl FnOnce(&[Padded]) -> R + Send,
+        beside: impl FnOnce() -> R + Send,
     ) -> (ForceSums, R) {
         let nodes = self.reference.len();
         assert!(displacement.len() >= nodes && force.len() >= nodes);
@@ -313,13 +313,12 @@ impl Solid {
                 );
             }
         };
-        let reference = &self.reference;
         let done_beside = if rayon::current_num_threads() == 1 {
             colours.iter().flatten().for_each(run);
-            beside(reference)
+            beside()
         } else {
             let force = || colours.iter().for_each(|colour| colour.par_iter().for_each(run));
-            rayon::join(force, || beside(reference)).1
+            rayon::join(force, beside).1
         };
         let wanted = energies || viscous;
         let sum = |i: usize| exact_sum::sum(self.sums.iter().map(|s| s[i]));

@@ -1,7 +1,7 @@
 //! The normal springs of penalty contact in equilibrium: their forces, and their part of the tangent.
 
 use crate::link::Link;
-use contact::PenaltyContact;
+use contact::{Contact, PenaltyContact};
 use mesh::Padded;
 
 /// What the normal springs did.
@@ -58,7 +58,10 @@ impl<'a> Springs<'a> {
             }
         } else if let Some(contact) = &mut self.contact {
             contact.expect_jump();
-            let sums = contact.apply_frictionless(reference, u, force);
+            let trace = contact.trace();
+            let (position, mut on_trace) = (trace.positions(reference, u), trace.gather(force));
+            let sums = contact.apply_frictionless(&position, &mut on_trace);
+            contact.trace().scatter(&on_trace, force);
             (pressed.normal_force, pressed.closed) = (sums.normal_force, sums.closed);
         }
         pressed

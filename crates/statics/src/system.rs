@@ -9,7 +9,7 @@ use crate::space::{CHUNK, Space};
 use crate::supports::Axis;
 use mesh::Padded;
 use rayon::prelude::*;
-use solid::Solid;
+use solid::{Centrifugal, Solid};
 
 /// Conjugate-gradient iterations in one Newton step after which it gives up.
 const MOST_CG: usize = 20_000;
@@ -100,17 +100,15 @@ impl<'a> StaticSystem<'a> {
         let spin = self.problem.spin.as_ref().map(|spin| {
             let hub = u[self.problem.supports.tied[spin.hub].nodes[0] as usize];
             let axis = [spin.centre[0] + hub[0], spin.centre[2] + hub[2]];
-            (spin.mass, spin.omega * spin.omega, axis)
+            (spin.mass, Centrifugal { axis, omega: spin.omega })
         });
         force.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, force)| {
             for (k, f) in force.iter_mut().enumerate() {
                 let i = chunk * CHUNK + k;
-                *f = Padded::ZERO;
-                if let (Some((mass, squared, axis)), true) = (spin, spun[i]) {
-                    let pull = mass[i] * squared;
-                    f[0] = pull * (reference[i][0] + u[i][0] - axis[0]);
-                    f[2] = pull * (reference[i][2] + u[i][2] - axis[1]);
-                }
+                *f = match spin {
+                    Some((mass, spin)) if spun[i] => spin.force(mass[i], reference[i], u[i]),
+                    _ => Padded::ZERO,
+                };
             }
         });
         for group in &self.space.groups {

@@ -12,7 +12,7 @@
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Motion, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use contact::{Contact, PenaltyContact, PenaltySettings, PenaltyStiffness, TraceFields};
 use friction::Coulomb;
 use mesh::{Disk, FineZone, Mesh, Padded, Surface};
 use std::f64::consts::TAU;
@@ -62,7 +62,7 @@ struct Rig {
     contact: PenaltyContact,
     reference: Vec<Padded>,
     at: Vec<Padded>,
-    still: Vec<f64>,
+    fields: TraceFields,
 }
 
 impl Rig {
@@ -76,7 +76,8 @@ impl Rig {
         let contact = PenaltyContact::new(mesh, surfaces, settings, None, law)?;
         let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
         let still = vec![0.0; reference.len()];
-        Ok(Self { contact, at: reference.clone(), reference, still })
+        let fields = TraceFields::new(contact.trace(), &reference, &still);
+        Ok(Self { contact, at: reference.clone(), reference, fields })
     }
 
     /// Moves every node to where `place` says, from its index and reference position, and returns the force (N) on
@@ -91,16 +92,10 @@ impl Rig {
             velocity[i] = Padded::new([0, 1, 2].map(|k| (to[k] - x[k]) / DT));
             self.at[i] = Padded::new(to);
         }
-        let motion = Motion {
-            reference: &self.reference,
-            displacement: &displacement,
-            velocity: &velocity,
-            inverse_mass: &self.still,
-            time: 0.0,
-            dt: DT,
-        };
-        let mut force = vec![Padded::ZERO; n];
-        self.contact.apply(&motion, &mut force).force[0]
+        self.fields.gather_positions(&displacement);
+        self.fields.gather_velocities(&velocity);
+        let step = self.fields.step(0.0, DT);
+        self.contact.apply(&step.motion, step.force).force[0]
     }
 }
 

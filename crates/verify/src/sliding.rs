@@ -276,8 +276,8 @@ impl Block {
             ]));
             let mut before = setup.displacement.clone();
             before[body.clone()].iter_mut().for_each(|u| u.0[0] -= dt * speed);
-            let mut unused = vec![Padded::ZERO; before.len()];
-            contact.apply_frictionless(setup.system.solid.reference(), &before, &mut unused);
+            let at = contact.trace().positions(setup.system.solid.reference(), &before);
+            contact.apply_frictionless(&at, &mut vec![Padded::ZERO; at.len()]);
         }
         let contact: Box<dyn Contact> = match method {
             Method::Penalty => Box::new(contact),

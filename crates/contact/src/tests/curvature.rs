@@ -1,10 +1,10 @@
 use super::{Rig, SETTINGS};
-use crate::PenaltySettings;
 use crate::face::{Positions, project};
 use crate::plates::{STEEL, plate, tread};
 use crate::search::Listed;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, norm, sub};
+use crate::{Contact, PenaltySettings};
 use friction::Coulomb;
 use mesh::Padded;
 
@@ -23,12 +23,11 @@ fn turned(x: Vec3, angle: f64) -> Vec3 {
 #[test]
 fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
     let (mesh, faces) = tread(RADIUS, 0.5 * ARC, 8e-3, [CELLS, 4], 2e-3);
-    let surface = ContactSurface::new(&mesh, &faces, STEEL, 0).unwrap();
-    let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+    let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
     let angle = 0.7;
-    let displacement: Vec<Padded> =
-        mesh.nodes.iter().map(|&x| Padded::new(sub(turned(x, angle), x))).collect();
-    let positions = Positions { reference: &reference, displacement: &displacement };
+    let nodes = trace.gather(&mesh.nodes).into_iter();
+    let position: Vec<Padded> = nodes.map(|x| Padded::new(turned(x, angle))).collect();
+    let positions = Positions(&position);
     let mut worst_facet = 0.0_f64;
     for i in 0..200 {
         let phi = (f64::from(i) / 199.0 - 0.5) * 0.8 * ARC;
@@ -78,7 +77,7 @@ fn rolling(curvature: bool) -> (f64, f64) {
         });
         let mut checked = 0;
         for point in rig.contact.points[1].iter().filter(|p| p.is_closed()) {
-            let node = rig.contact.nodes(1)[point.slave as usize] as usize;
+            let node = rig.contact.trace().side(1)[point.slave as usize] as usize;
             let at = rig.reference[node].xyz();
             let gap = libm::hypot(at[0] - x, at[2] - RADIUS + depth) - RADIUS;
             worst = worst.max((point.gap - gap).abs());

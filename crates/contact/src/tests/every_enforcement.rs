@@ -1,12 +1,11 @@
 //! What every enforcement keeps. A new one is tested by one line in `enforcements!` below: its name, how it is
 //! built, and over how many steps its forces turn with the bodies.
 
-use crate::enforcement::FreeMotion;
 use crate::plates::{STEEL, plate, together, tread};
-use crate::tests::K;
+use crate::tests::{K, step_on_trace};
 use crate::vector::{Vec3, add, axpy, cross, norm, sub};
 use crate::{
-    Contact, ContactSums, ExactContact, ExactSettings, Motion, NodalContact, PenaltyContact,
+    Contact, ContactSums, ExactContact, ExactSettings, NodalContact, PenaltyContact,
     PenaltySettings, PenaltyStiffness, Rows,
 };
 use friction::Coulomb;
@@ -122,21 +121,13 @@ impl Masses {
     fn step(&mut self, step: usize) -> ContactSums {
         let given: Vec<Vec3> = (0..self.force.len()).map(|i| self.given(i, step)).collect();
         self.force = given.iter().map(|&f| Padded::new(f)).collect();
-        let motion = Motion {
-            reference: &self.reference,
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-            inverse_mass: &self.inverse_mass,
-            time: step as f64 * Self::DT,
-            dt: Self::DT,
-        };
-        let (velocity, rate) = (&self.velocity, &self.inverse_mass);
-        let free_motion = FreeMotion {
-            velocity: &|n, f| axpy(velocity[n as usize].xyz(), Self::DT * rate[n as usize], f),
-            inverse_mass: rate,
-        };
-        self.contact.follow(&motion);
-        let sums = self.contact.apply(&motion, &free_motion, &mut self.force);
+        let sums = step_on_trace(
+            &mut *self.contact,
+            [&self.reference, &self.displacement, &self.velocity],
+            &self.inverse_mass,
+            [step as f64 * Self::DT, Self::DT],
+            &mut self.force,
+        );
         for i in 0..self.force.len() {
             let kick = Self::DT * self.inverse_mass[i];
             self.velocity[i] = Padded::new(axpy(self.velocity[i].xyz(), kick, self.force[i].xyz()));

@@ -1,7 +1,7 @@
-use crate::enforcement::FreeMotion;
+use super::step_on_trace;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
-use crate::{Contact, ContactSums, ExactContact, ExactSettings, Motion, NodalContact, Rows};
+use crate::{Contact, ContactSums, ExactContact, ExactSettings, NodalContact, Rows};
 use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
 
@@ -61,21 +61,13 @@ impl Masses {
         for (i, (f, x)) in self.force.iter_mut().zip(&self.reference).enumerate() {
             *f = Padded::new(given(usize::from(i >= self.upper), x.xyz()));
         }
-        let motion = Motion {
-            reference: &self.reference,
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-            inverse_mass: &self.inverse_mass,
-            time: 0.0,
-            dt: self.dt,
-        };
-        let (velocity, pace) = (&self.velocity, &self.inverse_mass);
-        let free_motion = FreeMotion {
-            velocity: &|n, f| axpy(velocity[n as usize].xyz(), self.dt * pace[n as usize], f),
-            inverse_mass: pace,
-        };
-        self.contact.follow(&motion);
-        let sums = self.contact.apply(&motion, &free_motion, &mut self.force);
+        let sums = step_on_trace(
+            &mut self.contact,
+            [&self.reference, &self.displacement, &self.velocity],
+            &self.inverse_mass,
+            [0.0, self.dt],
+            &mut self.force,
+        );
         for i in 0..self.force.len() {
             let v =
                 axpy(self.velocity[i].xyz(), self.dt * self.inverse_mass[i], self.force[i].xyz());

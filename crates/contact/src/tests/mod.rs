@@ -9,8 +9,11 @@ mod search;
 mod slip;
 
 use crate::plates::{STEEL, plate, together};
-use crate::vector::{Vec3, add, sub};
-use crate::{ContactSums, Motion, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use crate::vector::{Vec3, add, axpy, sub};
+use crate::{
+    Contact, ContactSums, FreeMotion, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    TraceFields, TraceStep,
+};
 use friction::NodeFriction;
 use mesh::{Mesh, Padded, Surface};
 
@@ -98,15 +101,62 @@ impl Rig {
     }
 
     pub fn apply(&mut self) -> ContactSums {
-        self.force.fill(Padded::ZERO);
-        let motion = Motion {
-            reference: &self.reference,
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-            inverse_mass: &self.inverse_mass,
-            time: 0.0,
-            dt: self.dt,
-        };
-        self.contact.apply(&motion, &mut self.force)
+        let mut fields = self.fields();
+        let step = fields.step(0.0, self.dt);
+        let sums = self.contact.apply(&step.motion, step.force);
+        self.take_forces(&fields);
+        sums
     }
+
+    /// The same with the normal springs alone.
+    pub fn apply_frictionless(&mut self) -> ContactSums {
+        let mut fields = self.fields();
+        let step = fields.step(0.0, self.dt);
+        let sums = self.contact.apply_frictionless(step.motion.position, step.force);
+        self.take_forces(&fields);
+        sums
+    }
+
+    fn fields(&self) -> TraceFields {
+        let mut fields = TraceFields::new(&self.contact.trace, &self.reference, &self.inverse_mass);
+        fields.gather_positions(&self.displacement);
+        fields.gather_velocities(&self.velocity);
+        fields
+    }
+
+    fn take_forces(&mut self, fields: &TraceFields) {
+        self.force.fill(Padded::ZERO);
+        fields.scatter_forces(fields.all(), &mut self.force);
+    }
+}
+
+/// A step of masses without springs at a time and with a step (s): `force` on the nodes of the mesh (N) gets that of
+/// contact, `motion` are their reference positions, displacements and velocities. Contact may neither ask for nor
+/// change the force on a node of the trace that it does not name.
+fn step_on_trace(
+    contact: &mut dyn Contact,
+    motion: [&[Padded]; 3],
+    inverse_mass: &[f64],
+    [time, dt]: [f64; 2],
+    force: &mut [Padded],
+) -> ContactSums {
+    let [reference, displacement, velocity] = motion;
+    let mut fields = TraceFields::new(contact.trace(), reference, inverse_mass);
+    fields.gather_positions(displacement);
+    fields.gather_velocities(velocity);
+    contact.follow(&fields.motion(time, dt));
+    let loaded = contact.loaded().to_vec();
+    fields.step(time, dt).force.fill(Padded([f64::NAN; 4]));
+    fields.gather_forces(loaded.iter().copied(), force);
+    let TraceStep { motion, force: on_trace, .. } = fields.step(time, dt);
+    let free = |node: u32, force: Vec3| {
+        let i = node as usize;
+        axpy(motion.velocity[i].xyz(), dt * motion.inverse_mass[i], force)
+    };
+    let sums = contact.apply(&motion, &FreeMotion { velocity: &free }, on_trace);
+    for (node, f) in on_trace.iter().enumerate() {
+        assert!(loaded.contains(&(node as u32)) || f.0.iter().all(|c| c.is_nan()), "{node}: {f:?}");
+    }
+    fields.scatter_forces(loaded.into_iter(), force);
+    sums
 }

@@ -9,12 +9,13 @@ use proptest::prelude::*;
 /// Every penetration that projecting all nodes on the master from all of its faces finds, against
 /// the closed points.
 fn closed_by_brute_force(rig: &Rig) -> [Vec<u32>; 2] {
-    let positions = Positions { reference: &rig.reference, displacement: &rig.displacement };
+    let position = rig.contact.trace.positions(&rig.reference, &rig.displacement);
+    let positions = Positions(&position);
     [0, 1].map(|slave: usize| {
         let (own, master) = (&rig.contact.sides[slave], &rig.contact.sides[1 - slave]);
-        (0..own.nodes.len() as u32)
+        (0..own.len() as u32)
             .filter(|&i| {
-                let x = positions.at(own.nodes[i as usize]);
+                let x = positions.at(own.node(i));
                 (0..master.faces.len() as u32).step_by(7).any(|f| {
                     project(master, &positions, true, x, f, 0.0, 0.0)
                         .projection

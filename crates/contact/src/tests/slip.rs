@@ -253,7 +253,7 @@ fn the_state_of_a_law_begins_with_the_preload() {
     let memory = Memory { distance: 1e-3, floor: 1e-2 };
     let mut rig = Rig::plates(7, 5, Remembering { steady, memory });
     rig.displacement[..rig.upper].fill(Padded::new([0.0, 0.0, -DEPTH]));
-    rig.contact.apply_frictionless(&rig.reference, &rig.displacement, &mut rig.force);
+    rig.apply_frictionless();
     rig.apply();
     let mut table = rig.contact.nodal_table(0);
     rig.contact.nodal(&mut table);

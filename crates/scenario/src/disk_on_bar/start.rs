@@ -87,8 +87,8 @@ fn preloaded_state(
         Enforcement::Penalty => {
             let mut springs = model.penalty_contact(case, scale)?;
             // closes the springs that touch, for the stable step
-            let mut unused = vec![Padded::ZERO; preloaded.displacement.len()];
-            springs.apply_frictionless(solid.reference(), &preloaded.displacement, &mut unused);
+            let at = springs.trace().positions(solid.reference(), &preloaded.displacement);
+            springs.apply_frictionless(&at, &mut vec![Padded::ZERO; at.len()]);
             Some(springs)
         }
         Enforcement::Exact => None,
