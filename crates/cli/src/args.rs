@@ -2,13 +2,10 @@
 
 use std::ffi::OsString;
 use std::io::Write;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use clap::ArgAction;
 use serde_json::Value;
 
-use crate::embedded::{Embedded, Told};
 use crate::report;
 use crate::stop::Stop;
 
@@ -28,9 +25,6 @@ pub struct Args {
     /// the documents are checked
     #[arg(long, global = true, hide = true)]
     pub check_args: bool,
-    /// The program that holds this command.
-    #[arg(skip)]
-    pub embedded: Option<Embedded>,
     /// The program, and its first arguments, that does the runs of a sweep; empty for this one.
     #[arg(skip)]
     pub program: Vec<OsString>,
@@ -40,37 +34,21 @@ pub struct Args {
 }
 
 impl Args {
-    /// Hands over the document of `--json`.
-    pub fn print_json(&self, document: &Value) {
-        match &self.embedded {
-            Some(embedded) => (embedded.tell)(Told::Document(document.clone())),
-            None => report::print_json(document),
+    /// Shows the results of a command: their document with `--json`, else a page to read.
+    pub fn show(&self, document: &Value, page: impl FnOnce() -> String) {
+        if self.json {
+            report::print_json(document);
+        } else if !self.quiet {
+            // A reader that closed the pipe wants no more.
+            let _ = write!(std::io::stdout(), "{}", page());
         }
     }
 
     /// Says a remark beside the results.
     pub fn say(&self, line: &str) {
-        match &self.embedded {
-            Some(embedded) => (embedded.tell)(Told::Said(line.to_owned())),
+        if !self.quiet {
             // A closed standard error is no reason to panic.
-            None if !self.quiet => drop(writeln!(std::io::stderr(), "{line}")),
-            None => {}
+            let _ = writeln!(std::io::stderr(), "{line}");
         }
-    }
-
-    /// Tells the program that holds this command, if one does.
-    pub fn tell(&self, told: impl FnOnce() -> Told) {
-        if let Some(embedded) = &self.embedded {
-            (embedded.tell)(told());
-        }
-    }
-}
-
-/// The flag that ends a command in order: at the first Ctrl-C or SIGTERM, or by the program that holds
-/// it.
-pub fn stop_flag(args: &Args) -> Arc<AtomicBool> {
-    match &args.embedded {
-        Some(embedded) => Arc::clone(&embedded.stop),
-        None => args.stop.in_order(),
     }
 }

@@ -1,22 +1,17 @@
 //! The commands by their names, and which module does each.
 
 use clap::{Parser, Subcommand};
+use creepage::{
+    BenchOptions, CheckOptions, CompareOptions, Error, FAILED, ImportContactOptions,
+    ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions, SliderOptions,
+    SweepOptions, VerifyOptions,
+};
+use serde_json::Value;
 
 use crate::args::Args;
-use crate::bench::BenchArgs;
-use crate::case_file::load;
-use crate::check::CheckArgs;
-use crate::compare::CompareArgs;
-use crate::failure::Failure;
-use crate::import_contact::ImportArgs;
-use crate::import_k::ImportKArgs;
-use crate::mesh::MeshArgs;
-use crate::plot::PlotArgs;
-use crate::report_page::ReportArgs;
+use crate::progress::{Remarks, SliderWatch, SweepWatch, VerifyWatch};
+use crate::report::{self, bench, check, compare, files, mesh, slider, verify};
 use crate::run::RunArgs;
-use crate::slider::SliderArgs;
-use crate::sweep::SweepArgs;
-use crate::verify::VerifyArgs;
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
 #[derive(Debug, Parser)]
@@ -53,31 +48,31 @@ pub enum Command {
     /// Build the mesh of a case: counts, quality, stable step, memory and run-time estimate
     #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
         cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
-    Mesh(MeshArgs),
+    Mesh(MeshOptions),
     /// Check where and by how much a run violates the contact conditions; exit code 1 beyond a limit
     #[command(after_help = "Examples:\n  creepage check runs/quick\n  creepage check runs/quick \
         --window 1.2e-3:1.5e-3 --limit violating_fraction=0.05\n  creepage check runs/b-falling \
         --map violations.vtkhdf --json > check.json\n  creepage check other-code.vtkhdf --case \
         case.toml --scale approach=1.04e-4\n\nThe measures, their scales and limits: \
         docs/checks.md.")]
-    Check(CheckArgs),
+    Check(CheckOptions),
     /// Compare runs: slip and shear over place and time, means, statistics, growth of a disturbance
     #[command(
         after_help = "Examples:\n  creepage compare runs/coarse runs/fine\n  creepage compare \
         runs/space-memory/runs/* --plot memory.png\n\nWhat the numbers are: docs/checks.md."
     )]
-    Compare(CompareArgs),
+    Compare(CompareOptions),
     /// Draw the figures of a run (those of the papers, histories, slip over space and time, spectra)
     /// or of a sweep (measures over its axes, profiles, maps)
     #[command(
         after_help = "Examples:\n  creepage plot runs/quick\n  creepage plot runs/b-falling \
         --out figures --format svg\n\nWhat each figure shows: docs/checks.md."
     )]
-    Plot(PlotArgs),
+    Plot(PlotOptions),
     /// Write one self-contained HTML page about a run or a sweep: case, numbers, checks, figures
     #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
         runs/b-falling --out b-falling.html")]
-    Report(ReportArgs),
+    Report(ReportOptions),
     /// Run a case many times over a grid of parameters: one table, and a report; exit code 1 if a
     /// run fails
     #[command(
@@ -87,21 +82,21 @@ pub enum Command {
         runs/kt\n\nCtrl-C ends the runs under way in order; --resume goes on. The sweep file, \
         other engines, results: docs/sweeps.md."
     )]
-    Sweep(SweepArgs),
+    Sweep(SweepOptions),
     /// Bring a contact history of another code, as CSV, into the layout that the checks read
     #[command(
         after_help = "Example:\n  creepage import-contact --nodes nodes.csv --faces faces.csv \
         --values values.csv --out contact.vtkhdf\n  creepage check contact.vtkhdf --case case.toml\n\n\
         The columns, with a small example: docs/checks.md."
     )]
-    ImportContact(ImportArgs),
+    ImportContact(ImportContactOptions),
     /// Make a case and a mesh file of an LS-DYNA keyword file of a disk on a bar
     #[command(
         after_help = "Example:\n  creepage import-k meshes/small.k --unit mm-ton-s --out small\n  \
         creepage run small/case.toml\n\nThe cards that are read, and the keys that they become: \
         docs/ls-dyna.md. All others are refused by their line."
     )]
-    ImportK(ImportKArgs),
+    ImportK(ImportKOptions),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,
@@ -113,13 +108,13 @@ pub enum Command {
         creepage slider --method exact --expression \"0.3 + 0.2*exp(-2*s)\"\n  creepage slider \
         --config slider.toml --mass 0.02"
     )]
-    Slider(Box<SliderArgs>),
+    Slider(Box<SliderOptions>),
     /// Run verification problems against their references; exit code 1 if one misses its limit
     #[command(
         after_help = "Examples:\n  creepage verify --list\n  creepage verify hertz-wheel\n  \
         creepage verify --quick --json > verify.json"
     )]
-    Verify(VerifyArgs),
+    Verify(VerifyOptions),
     /// Measure the element kernel and whole step on this machine, beside what its memory and arithmetic
     /// allow
     #[command(
@@ -127,42 +122,78 @@ pub enum Command {
         mesh.zone.size=0.5e-3 --set contact.enforcement='\"exact\"'\n  creepage bench --block 48 \
         --element full --threads 1"
     )]
-    Bench(BenchArgs),
+    Bench(BenchOptions),
 }
 
 /// Runs the command and returns the exit code.
-pub fn dispatch(line: &Line) -> Result<u8, Failure> {
+pub fn dispatch(line: &Line) -> Result<u8, Error> {
     let args = &line.args;
     if args.check_args {
         return check_args(line);
     }
+    let done = |document: &Value, page: fn(&Value) -> String| {
+        args.show(document, || page(document));
+        Ok(0)
+    };
     match &line.command {
         Command::Run(options) => crate::run::command(args, options),
-        Command::Mesh(options) => crate::mesh::command(args, options),
-        Command::Check(options) => crate::check::command(args, options),
-        Command::Compare(options) => crate::compare::command(args, options),
-        Command::Plot(options) => crate::plot::command(args, options),
-        Command::Report(options) => crate::report_page::command(args, options),
-        Command::Sweep(options) => crate::sweep::command(args, options),
-        Command::ImportContact(options) => crate::import_contact::command(args, options),
-        Command::ImportK(options) => crate::import_k::command(args, options),
+        Command::Mesh(options) => done(&creepage::mesh(options, &mut Remarks(args))?, mesh::text),
+        Command::Check(options) => {
+            let found = creepage::check(options)?;
+            args.show(&found.document, || check::text(&found.document));
+            Ok(if found.pass { 0 } else { FAILED })
+        }
+        Command::Compare(options) => done(&creepage::compare(options)?, compare::text),
+        Command::Plot(options) => done(&creepage::plot(options)?.document(), files::figures),
+        Command::Report(options) => done(&creepage::report(options)?.document, files::page),
+        Command::Sweep(options) => sweep(args, options),
+        Command::ImportContact(options) => {
+            done(&creepage::import_contact(options)?, files::contact_history)
+        }
+        Command::ImportK(options) => done(&creepage::import_k(options)?, files::case),
         Command::Schema => {
-            args.print_json(&case::json_schema());
+            report::print_json(&creepage::schema());
             Ok(0)
         }
-        Command::Slider(options) => crate::slider::command(args, options),
-        Command::Verify(options) => crate::verify::command(args, options),
-        Command::Bench(options) => crate::bench::command(args, options),
+        Command::Slider(options) => {
+            let found = creepage::slider(options, &mut SliderWatch::new(args))?;
+            args.show(&found.document(), || slider::text(&found));
+            Ok(found.exit_code())
+        }
+        Command::Verify(options) => {
+            let found = creepage::verify(options, &mut VerifyWatch(args))?;
+            args.show(&found.document, || verify::text(&found));
+            Ok(found.exit_code())
+        }
+        Command::Bench(options) => done(&creepage::bench(options)?, bench::text),
     }
 }
 
+fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {
+    let mut program = args.program.clone();
+    if program.is_empty() {
+        let this = std::env::current_exe().map_err(|error| {
+            let problem = format!("this program cannot find itself to start its runs: {error}");
+            Error::Option { problem, help: None }
+        })?;
+        program.push(this.into());
+    }
+    let options = SweepOptions { program, ..options.clone() };
+    let done = creepage::sweep(&options, &mut SweepWatch::new(args))?;
+    args.show(&done.document, || match (&done.page, &options.plan) {
+        (Some(page), _) => report::sweep::text(&done.document, &done.folder, page),
+        (None, plan) => plan.iter().map(|plan| format!("{}\n", plan.display())).collect(),
+    });
+    Ok(done.exit_code())
+}
+
 /// Reads what a command would compute from, and computes nothing.
-fn check_args(line: &Line) -> Result<u8, Failure> {
-    let args = &line.args;
+fn check_args(line: &Line) -> Result<u8, Error> {
+    let mut remarks = Remarks(&line.args);
     match &line.command {
-        Command::Run(options) => load(args, &options.case, &options.sets).map(|_| 0),
-        Command::Mesh(options) => load(args, &options.case, &options.sets).map(|_| 0),
-        Command::Sweep(options) => crate::sweep::load(options).map(|_| 0),
+        Command::Run(RunArgs { options: RunOptions { case, .. }, .. })
+        | Command::Mesh(MeshOptions { case, .. }) => case.load(&mut remarks).map(|_| 0),
+        Command::Sweep(options) => options.load().map(|_| 0),
         _ => Ok(0),
     }
 }

@@ -1,33 +1,14 @@
-//! The command line as a library: what [`main`] does for a terminal, [`command`] does for a program that
-//! holds it.
+//! The command line: its options, what it prints, and how Ctrl-C ends it. What it does is in the crate `creepage`.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod args;
-mod bench;
-mod case_file;
-mod check;
 mod commands;
-mod compare;
-mod convergence_plot;
-mod embedded;
 mod failure;
-mod import_contact;
-mod import_k;
-mod mesh;
-mod outputs;
-mod plot;
 mod progress;
 mod report;
-mod report_page;
 mod run;
-mod rupture_plot;
-mod slider;
 mod stop;
-mod sweep;
-mod sweep_folder;
-mod threads;
-mod verify;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -35,11 +16,11 @@ use std::io::Write;
 use std::sync::{Arc, atomic::AtomicBool};
 
 use clap::Parser;
+use creepage::{BAD_INPUT, Error};
+use miette::Report;
 
 use args::Args;
 use commands::Line;
-pub use embedded::{Embedded, Told};
-pub use failure::Failure;
 
 /// Runs the command that `words` write, the first of which is the program's name, for the terminal; returns
 /// the exit code. `program` and its first arguments do the runs of a sweep; where it is empty, the program
@@ -61,52 +42,31 @@ pub fn main(words: impl IntoIterator<Item = OsString>, program: Vec<OsString>) -
     });
     match done {
         Ok(code) => code,
-        Err(failure) => {
+        Err(error) => {
             if json {
-                report::print_json(&failure.document());
+                report::print_json(&failure::document(&error));
             }
+            let code = error.exit_code();
             // A closed standard error is no reason to panic.
-            let _ = writeln!(std::io::stderr(), "{:?}", failure.report);
-            failure.code
+            let _ = writeln!(std::io::stderr(), "{:?}", Report::new(error));
+            code
         }
     }
-}
-
-/// Runs the command that `words` write, the first of which is the program's name, for the program
-/// that holds it: nothing is written to the terminal, and documents are told as with `--json`. Returns
-/// the exit code.
-///
-/// # Errors
-/// What [`main`] would end with, after its message.
-pub fn command(
-    words: impl IntoIterator<Item = OsString>,
-    embedded: Embedded,
-) -> Result<u8, Failure> {
-    let mut line = Line::try_parse_from(words).map_err(|error| {
-        let text = error.render().to_string();
-        let report = miette::miette!("{}", text.trim_end().trim_start_matches("error: "));
-        Failure { report, code: failure::BAD_INPUT }
-    })?;
-    let args = &mut line.args;
-    (args.json, args.quiet, args.embedded) = (true, true, Some(embedded));
-    commands::dispatch(&line)
 }
 
 /// A file that reaches the limit of a file's size (`ulimit -f`) is one that cannot be written, as on a full
 /// disk: the system would else end the program without a word.
 #[cfg(unix)]
-fn full_disks_are_errors() -> Result<(), Failure> {
+fn full_disks_are_errors() -> Result<(), Error> {
     use signal_hook::{consts::SIGXFSZ, flag::register};
     // the flag is nobody's: the call that was refused tells
     let unheard = Arc::new(AtomicBool::new(false));
-    register(SIGXFSZ, unheard).map(|_| ()).map_err(|error| Failure {
-        report: miette::miette!("the handler of SIGXFSZ cannot be set: {error}"),
-        code: failure::STOPPED_BY_GUARD,
-    })
+    let failed = |error| Error::System(format!("the handler of SIGXFSZ cannot be set: {error}"));
+    register(SIGXFSZ, unheard).map(drop).map_err(failed)
 }
 
 #[cfg(not(unix))]
-fn full_disks_are_errors() -> Result<(), Failure> {
+fn full_disks_are_errors() -> Result<(), Error> {
     Ok(())
 }
 
@@ -116,10 +76,10 @@ fn usage(error: &clap::Error, words: &[OsString]) -> u8 {
     if error.use_stderr() && wanted {
         let text = error.render().to_string();
         let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-        report::print_json(&failure::failure(message, failure::BAD_INPUT));
+        report::print_json(&failure::failure(message, BAD_INPUT));
     }
     let _ = error.print();
-    if error.use_stderr() { failure::BAD_INPUT } else { 0 }
+    if error.use_stderr() { BAD_INPUT } else { 0 }
 }
 
 fn set_up_messages(args: &Args) {

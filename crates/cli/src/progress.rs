@@ -1,33 +1,60 @@
-//! The progress bar, on a terminal only.
+//! What the terminal shows of a command under way: remarks, and a bar where it is a terminal.
 
 use std::io::{IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use ::sweep::Watched;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use scenario::{Progress, Stage};
+use creepage::{Listener, Problem, Progress, Row, Stage, Watched};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
+
+use crate::args::Args;
+use crate::report::verify;
 
 const TICKS: u64 = 1000;
 
 /// How often a run tells the sweep that it belongs to how far it is.
 const TOLD: Duration = Duration::from_millis(200);
 
+/// Says the remarks of a command, and leaves Ctrl-C to end it at once.
+pub struct Remarks<'a>(pub &'a Args);
+
+impl Listener for Remarks<'_> {
+    fn remark(&mut self, line: &str) {
+        self.0.say(line);
+    }
+}
+
 /// Watches a run: a bar on standard error where that is a terminal, silence elsewhere. For a sweep
 /// it also writes the share that is done to standard output, a number a line.
-pub struct Watch {
+pub struct RunWatch<'a> {
+    args: &'a Args,
     bar: ProgressBar,
     stage: Option<Stage>,
     told: Option<Instant>,
 }
 
-impl Watch {
+impl<'a> RunWatch<'a> {
     /// A watch that has seen nothing yet.
-    pub fn new(quiet: bool, for_sweep: bool) -> Self {
-        Self { bar: bar(quiet), stage: None, told: for_sweep.then(Instant::now) }
+    pub fn new(args: &'a Args, for_sweep: bool) -> Self {
+        let bar = bar(args.quiet, of_stage(Stage::Mesh));
+        Self { args, bar, stage: None, told: for_sweep.then(Instant::now) }
+    }
+}
+
+impl Listener for RunWatch<'_> {
+    fn stop(&mut self) -> Arc<AtomicBool> {
+        self.args.stop.in_order()
     }
 
-    /// Shows how far the run is.
-    pub fn show(&mut self, progress: &Progress) {
+    fn remark(&mut self, line: &str) {
+        self.args.say(line);
+    }
+
+    fn run(&mut self, progress: &Progress) {
+        if progress.stage == Stage::Roll {
+            self.args.stop.hears();
+        }
         if let Some(told) = self.told.as_mut().filter(|told| told.elapsed() >= TOLD)
             && progress.stage == Stage::Roll
         {
@@ -42,7 +69,7 @@ impl Watch {
         }
         if self.stage != Some(progress.stage) {
             self.stage = Some(progress.stage);
-            self.bar.set_style(style(progress.stage));
+            self.bar.set_style(style(of_stage(progress.stage)));
             // The time that is left is judged by the present stage alone.
             self.bar.reset();
         }
@@ -65,75 +92,122 @@ impl Watch {
         let done = progress.step as f64 / progress.steps.max(1) as f64;
         self.bar.set_position((done * TICKS as f64) as u64);
     }
-
-    /// Removes the bar.
-    pub fn finish(&mut self) {
-        self.bar.finish_and_clear();
-    }
 }
 
 /// Watches a sweep: a bar on standard error where that is a terminal, elsewhere a line for every
 /// run that ends.
-pub struct SweepWatch {
+pub struct SweepWatch<'a> {
+    args: &'a Args,
     bar: ProgressBar,
-    /// Name of the sweep, and the runs done as of the last line.
-    lines: Option<(String, usize)>,
-    begun: Instant,
+    /// Runs done as of the last line.
+    told: usize,
+    begun: Option<Instant>,
 }
 
-impl SweepWatch {
+impl<'a> SweepWatch<'a> {
     /// A watch that has seen nothing yet.
-    pub fn new(quiet: bool, name: &str) -> Self {
-        let bar = bar(quiet);
-        let lines = (bar.is_hidden() && !quiet).then(|| (name.to_owned(), 0));
+    pub fn new(args: &'a Args) -> Self {
         let template = "{percent:>3}% {bar:12} {elapsed}, {eta} left, {msg}";
-        let style = ProgressStyle::with_template(template);
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { bar, lines, begun: Instant::now() }
+        Self { args, bar: bar(args.quiet, template), told: 0, begun: None }
+    }
+}
+
+impl Listener for SweepWatch<'_> {
+    fn stop(&mut self) -> Arc<AtomicBool> {
+        self.args.stop.in_order()
     }
 
-    /// Shows how far the sweep is.
-    pub fn show(&mut self, now: &Watched) {
+    fn remark(&mut self, line: &str) {
+        self.bar.suspend(|| self.args.say(line));
+    }
+
+    fn sweep(&mut self, name: &str, now: &Watched) {
+        // its runs end in order, each in its own time
+        self.args.stop.hears();
+        let begun = *self.begun.get_or_insert_with(|| {
+            self.bar.reset();
+            Instant::now()
+        });
         let failed =
             if now.failed > 0 { format!(", {} failed", now.failed) } else { String::new() };
         let (done, all) = (now.completed, now.runs);
         let said = format!("{done} of {all} runs done{failed}, {} running", now.running);
-        if let Some((name, told)) = &mut self.lines
-            && *told != done + now.failed
-        {
-            *told = done + now.failed;
-            let left = self.begun.elapsed().as_secs_f64() * (1.0 / now.fraction - 1.0);
+        if self.bar.is_hidden() && self.told != done + now.failed {
+            self.told = done + now.failed;
+            let left = begun.elapsed().as_secs_f64() * (1.0 / now.fraction - 1.0);
             let left =
                 if left.is_finite() { format!(", about {left:.0} s left") } else { "".into() };
-            // A closed standard error must not end the sweep.
-            let _ = writeln!(std::io::stderr(), "{name}: {said}{left}");
+            self.args.say(&format!("{name}: {said}{left}"));
         }
         self.bar.set_message(said);
         self.bar.set_position((now.fraction * TICKS as f64) as u64);
     }
+}
 
-    /// Removes the bar.
-    pub fn finish(&mut self) {
-        self.bar.finish_and_clear();
+/// Watches the slider: a bar on standard error where that is a terminal.
+pub struct SliderWatch<'a> {
+    args: &'a Args,
+    bar: ProgressBar,
+}
+
+impl<'a> SliderWatch<'a> {
+    /// A watch that has seen nothing yet.
+    pub fn new(args: &'a Args) -> Self {
+        Self { args, bar: bar(args.quiet, "slider  {percent:>3}% {bar:12} {eta} left") }
     }
 }
 
-fn bar(quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::new(TICKS);
-    let visible = !quiet && std::io::stderr().is_terminal();
-    bar.set_draw_target(if visible {
-        ProgressDrawTarget::stderr_with_hz(8)
-    } else {
-        ProgressDrawTarget::hidden()
-    });
-    bar
+impl Listener for SliderWatch<'_> {
+    fn stop(&mut self) -> Arc<AtomicBool> {
+        self.args.stop.in_order()
+    }
+
+    fn remark(&mut self, line: &str) {
+        self.args.say(line);
+    }
+
+    fn slider(&mut self, step: u64, steps: u64) {
+        self.bar.set_length(steps);
+        self.bar.set_position(step);
+        if step == steps {
+            self.bar.finish_and_clear();
+        }
+    }
 }
 
-fn style(stage: Stage) -> ProgressStyle {
-    let template = match stage {
+/// Shows the verification problems as they are done, and leaves Ctrl-C to end them at once.
+pub struct VerifyWatch<'a>(pub &'a Args);
+
+impl Listener for VerifyWatch<'_> {
+    fn remark(&mut self, line: &str) {
+        self.0.say(line);
+    }
+
+    fn verified(&mut self, problem: &Problem, rows: &[Row], seconds: f64) {
+        if !self.0.json && !self.0.quiet {
+            let _ = write!(std::io::stdout(), "{}", verify::rows(problem, rows, seconds));
+        }
+    }
+}
+
+/// A bar that is gone when it is dropped.
+fn bar(quiet: bool, template: &str) -> ProgressBar {
+    let visible = !quiet && std::io::stderr().is_terminal();
+    let target =
+        if visible { ProgressDrawTarget::stderr_with_hz(8) } else { ProgressDrawTarget::hidden() };
+    let bar = ProgressBar::with_draw_target(Some(TICKS), target);
+    bar.with_finish(ProgressFinish::AndClear).with_style(style(template))
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// How far a run is, by its stage.
+fn of_stage(stage: Stage) -> &'static str {
+    match stage {
         Stage::Mesh => "mesh     {spinner}",
         Stage::Preload => "preload  {spinner} {elapsed}, {msg}",
         Stage::Roll => "rolling  {percent:>3}% {bar:12} {eta} left, {msg}",
-    };
-    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+    }
 }

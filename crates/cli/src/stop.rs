@@ -9,9 +9,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use miette::miette;
+use creepage::{Error, INTERRUPTED};
 
-use crate::failure::{Failure, INTERRUPTED, STOPPED_BY_GUARD, failure};
+use crate::failure::failure;
 use crate::report;
 
 /// How long a command has to hear that it is asked to end.
@@ -31,12 +31,11 @@ pub struct Stop {
 
 impl Stop {
     /// Listens to the signals from now on.
-    pub fn listening(json: bool) -> Result<Self, Failure> {
+    pub fn listening(json: bool) -> Result<Self, Error> {
         let stop = Self { json, ..Self::default() };
         let heard = stop.clone();
-        ctrlc::set_handler(move || heard.ask()).map_err(|error| Failure {
-            report: miette!("the handler of Ctrl-C cannot be set: {error}"),
-            code: STOPPED_BY_GUARD,
+        ctrlc::set_handler(move || heard.ask()).map_err(|error| {
+            Error::System(format!("the handler of Ctrl-C cannot be set: {error}"))
         })?;
         Ok(stop)
     }

@@ -2,7 +2,7 @@
 //! solver to round-off, and one that was planted in a copied run.
 #![allow(clippy::unwrap_used)]
 
-use friction::OwnLaw;
+use creepage::{CaseSource, OwnLaw, RunOptions};
 use output::{
     Cells, FieldSpec, GridFile, GridSpec, Provenance, StaticField, TransientGrid, Values,
 };
@@ -12,7 +12,6 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// A law for each of the eight, and their modes; most also with memory.
 const LAWS: [&[&str]; 13] = [
@@ -62,11 +61,15 @@ fn roll(out: &Path, law: &[&str], contact: &[&str], more: &[&str]) {
         .iter()
         .any(|word| law.first().is_some_and(|law| law.contains(word)));
     let text = if has_static { text } else { text.replace("static = 0.3", "") };
-    let case = case::Case::from_text(&text, Path::new("small.toml"), &sets).unwrap();
-    let brought: Arc<dyn OwnLaw> = Arc::new(Brought);
-    let preload_cache = out.parent().map(|folder| folder.join("preloads"));
-    let options = RunOptions { law: Some(brought), preload_cache, ..runs::options(out, 2) };
-    let summary = run::run(&case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    let options = RunOptions {
+        case: CaseSource { path: "small.toml".into(), sets, text: Some(text) },
+        out: Some(out.to_owned()),
+        threads: Some(2),
+        preload_cache: out.parent().map(|folder| folder.join("preloads")),
+        law: Some(Arc::new(Brought)),
+        ..RunOptions::default()
+    };
+    let summary = creepage::run(&options, &mut ()).unwrap().document;
     assert_eq!(summary["status"], "completed", "{law:?} {contact:?}: {summary:#}");
 }
 

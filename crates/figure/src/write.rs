@@ -6,6 +6,7 @@ use files::input;
 use files::output::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use thiserror::Error;
 
 /// Why a figure was not written.
@@ -63,6 +64,15 @@ impl Format {
             Self::Svg => "svg",
             Self::Png => "png",
         }
+    }
+}
+
+impl FromStr for Format {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let known = [Self::Svg, Self::Png].into_iter().find(|format| format.extension() == text);
+        known.ok_or("svg, png, or both with a comma between are needed")
     }
 }
 

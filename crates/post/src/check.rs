@@ -20,6 +20,7 @@ use output::layout::Pairing;
 use pass::Pass;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::str::FromStr;
 
 pub(crate) use pass::judged_faces;
 pub(crate) use scales::Scales;
@@ -34,6 +35,19 @@ pub enum Report {
     Stricter,
     /// One of them.
     Only(Pairing),
+}
+
+impl FromStr for Report {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "stricter" => Ok(Self::Stricter),
+            "before" => Ok(Self::Only(Pairing::Before)),
+            "after" => Ok(Self::Only(Pairing::After)),
+            _ => Err("one of stricter, before, after is needed"),
+        }
+    }
 }
 
 /// What to check.

@@ -1,6 +1,6 @@
 //! A Python function as the friction law.
 
-use friction::OwnLaw;
+use creepage::OwnLaw;
 use numpy::{PyArray1, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -1,14 +1,16 @@
 //! Creepage for Python: the native part of the package `creepage`, whose Python part gives it the form in
 //! which people use it.
 //!
-//! Commands are those of the command line (crate `cli`), held by Python instead of a terminal: the same
-//! documents, messages and exit codes. Results are read through `output`.
+//! Its functions are those of the library (crate `creepage-lib`): the same documents, messages and exit codes. The script
+//! `creepage` is the command line (crate `cli`). Results are read through `output`.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-mod command;
+mod commands;
 mod files;
+mod held;
 mod law;
+mod text;
 
 use pyo3::prelude::*;
 
@@ -16,9 +18,11 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _creepage {
     #[pymodule_export]
-    use crate::command::{command, from_toml, main, toml};
+    use crate::commands::{check, main, mesh, plot, report, run, schema, slider, sweep, verify};
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]
     use crate::law::check_law;
+    #[pymodule_export]
+    use crate::text::{from_toml, toml};
 }

@@ -1,4 +1,4 @@
-"""Cases and the options laid over them, in the words of the command line."""
+"""Cases and the options laid over them, as TOML."""
 
 from __future__ import annotations
 
@@ -39,30 +39,37 @@ def toml_value(value) -> str:
     if isinstance(value, float):
         return repr(value)  # inf and nan as TOML has them
     # what JSON escapes, TOML's basic strings escape alike; it allows no DEL
-    return json.dumps(value).replace("\x7f", "\\u007f")
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def options(given) -> str:
+    """Options of a function, one a line; those that are None or False are left out."""
+    lines = ((name, value) for name, value in plain(given).items() if value is not False)
+    return "".join(f"{name} = {toml_value(value)}\n" for name, value in lines)
 
 
 def sets(overrides) -> list[str]:
-    """``--set KEY=VALUE`` for keys that may be dotted or sections."""
-    words = []
+    """``KEY=VALUE`` for keys that may be dotted or sections."""
+    lines = []
 
     def add(prefix, value):
         if isinstance(value, dict):
             for key, item in value.items():
                 add(f"{prefix}.{key}" if prefix else key, item)
         else:
-            words.extend(["--set", f"{prefix}={toml_value(value)}"])
+            lines.append(f"{prefix}={toml_value(value)}")
 
     add("", plain(overrides))
-    return words
+    return lines
 
 
-def source(case):
-    """The words that name a case and, for a dict, its text."""
+def source(case, overrides) -> dict:
+    """A case, a file or a dict, and the keys laid over it."""
+    over = sets(overrides)
     if isinstance(case, Mapping):
-        named = case.get("name", "case")
-        return f"{named}.toml", _creepage.toml(json.dumps(plain(unfolded(case))))
-    return os.fspath(case), None
+        text = _creepage.toml(json.dumps(plain(unfolded(case))))
+        return {"path": f"{case.get('name', 'case')}.toml", "text": text, "sets": over}
+    return {"path": os.fspath(case), "sets": over}
 
 
 def unfolded(case):

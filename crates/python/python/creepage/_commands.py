@@ -1,13 +1,15 @@
-"""The commands as functions."""
+"""Runs, sweeps, the slider, the verification problems."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 
-from . import _case
+from . import _case, _creepage
 from ._errors import CaseError, RunError
-from ._execute import execute, options
+from ._execute import PROGRAM, execute
 from ._run import Run
+
 
 def run(
     case,
@@ -57,12 +59,9 @@ def run(
         overrides = {**_case.law(law), **overrides}
     elif friction is not None:
         overrides = {"friction": friction, **overrides}
-    path, text = _case.source(case)
-    words = ["run", path, *_case.sets(overrides)]
-    words += options(
-        out=out, threads=threads, resume=resume, force=force, preload_cache=preload_cache
-    )
-    _, summary, folder = execute(words, case=text, law=law, progress=progress)
+    options = {"out": out, "threads": threads, "resume": resume, "force": force}
+    options |= {"case": _case.source(case, overrides), "preload_cache": preload_cache}
+    summary, folder = execute(_creepage.run, options, law, progress=progress)
     result = Run(folder)
     if summary["status"] == "failed":
         diagnosis = summary.get("diagnosis", "the run failed")
@@ -90,8 +89,9 @@ def sweep(
         dict: ``parameters`` and ``runs`` (parameters, status, run, summary, check). A run that
         failed has that status and its reason; none is raised.
     """
-    words = options(out=out, jobs=jobs, threads=threads, memory=memory, resume=resume, force=force)
-    return execute(["sweep", file, *words], progress=progress)[1]
+    options = {"sweep": file, "out": out, "jobs": jobs, "threads": threads, "memory": memory}
+    options |= {"resume": resume, "force": force}
+    return execute(_creepage.sweep, options, PROGRAM, progress=progress)[0]
 
 
 def slider(**settings):
@@ -107,7 +107,10 @@ def slider(**settings):
     Returns:
         dict: x_min, x_max (m), v_max (m/s) and more; with ``tables`` or ``thresholds`` those.
     """
-    return execute(["slider", *options(**settings)])[1]
+    others = ("config", "csv", "plot", "thresholds", "tables")
+    options = {name: settings.pop(name) for name in others if name in settings}
+    given = {name: value for name, value in settings.items() if value is not False}
+    return execute(_creepage.slider, {**options, "settings": given})[0]
 
 
 def verify(*names, quick=False, long=False, list=False, plot=None):
@@ -124,9 +127,10 @@ def verify(*names, quick=False, long=False, list=False, plot=None):
         dict: ``results`` (name, quantity, reference, computed, error, limit, pass, source) and
         ``pass``; with ``list`` the ``problems``. Ctrl-C takes effect between two problems.
     """
-    return execute(["verify", *names, *options(quick=quick, long=long, list=list, plot=plot)])[1]
+    options = {"names": names, "quick": quick, "long": long, "list": list, "plot": plot}
+    return execute(_creepage.verify, options)[0]
 
 
 def schema() -> dict:
     """JSON Schema of a case: every key with its unit, default and range."""
-    return execute(["schema"])[1]
+    return json.loads(_creepage.schema())

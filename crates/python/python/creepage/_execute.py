@@ -1,15 +1,14 @@
-"""Commands of the command line, held by Python."""
+"""Calls of the native functions: what they say while they work, and how they fail."""
 
 from __future__ import annotations
 
 import json
 import logging
-import os
 import sys
 import warnings
 from pathlib import Path
 
-from . import _creepage
+from . import _case
 from ._errors import CaseError, Interrupted, RunError
 from ._progress import listener
 
@@ -17,13 +16,11 @@ from ._progress import listener
 PROGRAM = [sys.executable, "-m", "creepage"]
 
 
-def execute(words, *, case=None, law=None, progress=None):
-    """Run a command; returns its exit code, document and folder, or raises what it fails with."""
+def execute(function, options, *more, progress=None):
+    """Call a native function; returns its document and folder, or raises what it fails with."""
     listen, close = listener(progress, said)
     try:
-        answer = _creepage.command(
-            [os.fspath(word) for word in words], case=case, law=law, program=PROGRAM, listen=listen
-        )
+        answer = function(_case.options(options), *more, listen)
     finally:
         close()
     folder = answer["folder"]
@@ -39,8 +36,7 @@ def execute(words, *, case=None, law=None, progress=None):
             help=answer["help"],
             run=begun(folder) if kind is RunError else None,
         )
-    document = answer["document"]
-    return answer["code"], None if document is None else json.loads(document), folder
+    return json.loads(answer["document"]), folder
 
 
 def begun(folder):
@@ -58,15 +54,3 @@ def said(line):
         warnings.warn(line.removeprefix("warning: "), stacklevel=5)
     else:
         logging.getLogger("creepage").info(line)
-
-
-def options(**given):
-    """Options of the command line: None and False are left out, True is a flag."""
-    words = []
-    for name, value in given.items():
-        if value is None or value is False:
-            continue
-        words.append("--" + name.replace("_", "-"))
-        if value is not True:
-            words.append(os.fspath(value) if isinstance(value, os.PathLike) else str(value))
-    return words

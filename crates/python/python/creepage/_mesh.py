@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from . import _case
+from . import _case, _creepage
 from ._errors import CaseError
-from ._execute import execute, options
+from ._execute import execute
 
 # what the solver asks for, in [mesh.sets]
 NEEDED = ("disk", "bar", "hub", "tread", "top", "clamp")
@@ -33,9 +33,8 @@ class Mesh:
             dict: elements, nodes, bodies (with their sets), quality, stable_dt (s), estimate of
             memory (MB), steps and run time (s).
         """
-        path, text = _case.source(case)
-        words = ["mesh", path, *_case.sets(overrides), *options(out=out)]
-        return execute(words, case=text)[1]
+        options = {"out": out, "case": _case.source(case, overrides)}
+        return execute(_creepage.mesh, options)[0]
 
     @staticmethod
     def from_meshio(mesh, sets=None, *, out, unit="m") -> dict:

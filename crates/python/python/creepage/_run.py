@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import numbers
 import os
 from collections.abc import Mapping
@@ -12,7 +13,7 @@ import numpy as np
 
 from . import _creepage
 from ._errors import CaseError, LimitError
-from ._execute import execute, options
+from ._execute import execute
 
 _NAMES, _LAYOUT = _creepage.layout()
 
@@ -338,10 +339,9 @@ class Run:
         Returns:
             dict: window, steps, nodes, limits, metrics (value, limit, pass, where each), pass.
         """
-        words = ["check", self.path, *options(window=_window(window), pairing=pairing)]
-        for name, value in (limits or {}).items():
-            words += ["--limit", f"{name}={float(value)!r}"]
-        document = execute(words)[1]
+        options = {"run": self.path, "span": _span(window), "pairing": pairing}
+        options["limits"] = [(name, float(value)) for name, value in (limits or {}).items()]
+        document = execute(_creepage.check, options)[0]
         if strict and not document["pass"]:
             broken = [
                 f"{name} = {metric['value']} (limit {metric['limit']})"
@@ -364,14 +364,14 @@ class Run:
         Returns:
             dict: lists of files by the name of the figure.
         """
-        format = format if isinstance(format, str) else ",".join(format)
-        words = options(out=out, format=format, window=_window(window))
-        document = execute(["plot", self.path, *words])[1]
+        formats = format.split(",") if isinstance(format, str) else format
+        options = {"run": self.path, "out": out, "format": list(formats), "span": _span(window)}
+        document = execute(_creepage.plot, options)[0]
         return {each["name"]: [Path(file) for file in each["files"]] for each in document["figures"]}
 
     def report(self, out=None) -> Path:
         """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path."""
-        return Path(execute(["report", self.path, *options(out=out)])[1]["page"])
+        return Path(execute(_creepage.report, {"run": self.path, "out": out})[0]["page"])
 
     def to_pyvista(self, step=-1, what="fields"):
         """A record as a ``pyvista.UnstructuredGrid``.
@@ -391,9 +391,10 @@ class Run:
         return f"<run {self.path}: {self.summary.get('status', 'under way')}>"
 
 
-def _window(window):
-    """A span of time in the words of the command line."""
+def _span(window):
+    """The span of a window, either end of which may be open."""
     if window is None:
-        return None
+        return {}
     start, stop = window
-    return ":".join("" if t is None else repr(float(t)) for t in (start, stop))
+    ends = (-math.inf if start is None else start, math.inf if stop is None else stop)
+    return {"window": [float(t) for t in ends]}

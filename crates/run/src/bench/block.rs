@@ -16,9 +16,10 @@ const DT: f64 = 1e-7;
 const COMPARED: usize = 20;
 
 /// Which element the block is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BlockElement {
     /// One point with hourglass stiffness, as in rolling.
+    #[default]
     OnePoint,
     /// Eight points, as the elements of general codes.
     Full,

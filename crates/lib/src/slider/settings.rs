@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use case::Excerpt;
-use clap::ValueEnum;
 use files::{input, printable};
 use friction::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
 use miette::{Diagnostic, SourceSpan};
@@ -13,78 +12,80 @@ use slider::{Method, ParameterError, Parameters};
 use thiserror::Error;
 
 /// Everything that can be set, as options and, with the same names, as keys of a TOML file.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, clap::Args)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct Settings {
     /// Time stepping [default: implicit]
-    #[arg(long, value_enum)]
+    #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub method: Option<MethodName>,
     /// Time step (s) [default: 1e-4]
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "S", allow_negative_numbers = true))]
     pub dt: Option<f64>,
     /// Simulated time (s) [default: 5]
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "S", allow_negative_numbers = true))]
     pub t_end: Option<f64>,
     /// Velocity of the belt v_ref (m/s) [default: -1]
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M/S", allow_negative_numbers = true))]
     pub belt: Option<f64>,
     /// Normal force F_n (N) [default: 20]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", allow_negative_numbers = true))]
     pub normal_force: Option<f64>,
     /// Mass (kg) [default: 0.01]
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "KG", allow_negative_numbers = true))]
     pub mass: Option<f64>,
     /// Spring k_spring (N/m) [default: 10]
-    #[arg(long, value_name = "N/M", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N/M", allow_negative_numbers = true))]
     pub spring: Option<f64>,
     /// Damping c_damp (N s/m) [default: 0.04]
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "C", allow_negative_numbers = true))]
     pub damping: Option<f64>,
     /// Slip velocity s_adhes up to which implicit and explicit take friction for linear (m/s)
     /// [default: 1e-3]
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M/S", allow_negative_numbers = true))]
     pub adhesion: Option<f64>,
     /// Position at t = 0 (m) [default: 0]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M", allow_negative_numbers = true))]
     pub x0: Option<f64>,
     /// Velocity at t = 0 (m/s) [default: that of the belt]
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M/S", allow_negative_numbers = true))]
     pub v0: Option<f64>,
     /// Friction law [default: exponential, or what --table or --expression gives]
-    #[arg(long, value_enum)]
+    #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub law: Option<LawName>,
     /// Coefficient of friction at rest (coulomb, exponential) [default: 0.5]
-    #[arg(long, value_name = "MU", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "MU", allow_negative_numbers = true))]
     pub mu_static: Option<f64>,
     /// Coefficient at high slip speed (exponential) [default: 0.32]
-    #[arg(long, value_name = "MU", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "MU", allow_negative_numbers = true))]
     pub mu_dynamic: Option<f64>,
     /// Decay k_fric of friction with slip speed (exponential, s/m) [default: 6]
-    #[arg(long, value_name = "S/M", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "S/M", allow_negative_numbers = true))]
     pub decay: Option<f64>,
     /// Friction law as a CSV file: slip speed (m/s), mu
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
     pub table: Option<PathBuf>,
     /// Friction law as a formula in the slip speed s (m/s), for example "0.32 + 0.18*exp(-6*s)"
-    #[arg(long, value_name = "FORMULA")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FORMULA"))]
     pub expression: Option<String>,
     /// Allow friction that rises with slip speed
-    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    #[cfg_attr(feature = "clap", arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true"))]
     pub allow_strengthening: Option<bool>,
     /// Stiffness k_t of the friction spring (penalty, N/m) [default: 1e6]
-    #[arg(long, value_name = "N/M", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N/M", allow_negative_numbers = true))]
     pub stiffness: Option<f64>,
     /// Slip distance d_c over which friction adapts (memory, m) [default: 1e-6]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M", allow_negative_numbers = true))]
     pub memory_distance: Option<f64>,
     /// Slip speed s_0 at which friction adapts at rest (memory, m/s) [default: 1e-2]
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M/S", allow_negative_numbers = true))]
     pub memory_floor: Option<f64>,
 }
 
 /// The methods by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum MethodName {
     /// Backward Euler, Eqs (19)-(27)
     Implicit,
@@ -112,8 +113,9 @@ impl MethodName {
 }
 
 /// The friction laws by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum LawName {
     /// One coefficient
     Coulomb,

@@ -4,18 +4,17 @@ use std::path::{Path, PathBuf};
 
 use ::run::folder::VTKHDF;
 use files::output::{Made, OutputRefused, VTU, check};
-use miette::miette;
 
-use crate::failure::{BAD_INPUT, Failure};
+use crate::Error;
 
 /// Refuses the file of an option where writing it would replace an input, or what this program did not
 /// write.
-pub fn claim(option: &str, path: &Path, made: &Made, inputs: &[PathBuf]) -> Result<(), Failure> {
+pub fn claim(option: &str, path: &Path, made: &Made, inputs: &[PathBuf]) -> Result<(), Error> {
     check(path, made, inputs).map_err(|refused| refusal(option, &refused))
 }
 
 /// The same for a grid; a file of a run is the run's alone.
-pub fn claim_grid(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+pub fn claim_grid(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
     let vtu = path.extension().is_some_and(|ending| ending == "vtu");
     if ::run::folder::is_of_a_run(path) {
         return Err(of_the_run(option, path));
@@ -24,14 +23,12 @@ pub fn claim_grid(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), F
 }
 
 /// The refusal to write over a file of a run.
-pub fn of_the_run(option: &str, path: &Path) -> Failure {
-    let path = path.display();
-    let help = format!("choose another file with {option} FILE");
-    let report = miette!(help = help, "{option} {path}: this is a file of the run itself");
-    Failure { report, code: BAD_INPUT }
+pub fn of_the_run(option: &str, path: &Path) -> Error {
+    let problem = format!("{option} {}: this is a file of the run itself", path.display());
+    Error::option(problem, format!("choose another file with {option} FILE"))
 }
 
-fn refusal(option: &str, refused: &OutputRefused) -> Failure {
+fn refusal(option: &str, refused: &OutputRefused) -> Error {
     let text = files::printable(format!("{option} {refused}").trim_start());
-    Failure { report: miette!(help = refused.remedy(), "{text}"), code: BAD_INPUT }
+    Error::option(text, refused.remedy())
 }

@@ -2,11 +2,24 @@
 
 use std::fmt::Write;
 
-use slider::tables::{TableRow, Tables};
-use slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
+use creepage::{
+    Method, Outcome, Parameters, Slid, TableRow, Tables, Threshold, Thresholds, penalty_stable_step,
+};
+
+/// A run, the thresholds of the explicit method, or the paper's tables.
+pub fn text(found: &Slid) -> String {
+    match found {
+        Slid::Tables(found) => tables(found),
+        Slid::Thresholds(found) => thresholds(found),
+        Slid::Run(run) => {
+            let figures = run.figures.iter().map(|path| format!("{}\n", path.display()));
+            outcome(&run.parameters, run.method, &run.outcome) + &figures.collect::<String>()
+        }
+    }
+}
 
 /// One run.
-pub fn outcome(p: &Parameters, method: Method, out: &Outcome) -> String {
+fn outcome(p: &Parameters, method: Method, out: &Outcome) -> String {
     let mut page = format!("{}, dt {:e} s, {} steps\n", method.name(), p.dt, out.steps);
     let mut say = |name: &str, value: String| {
         let _ = writeln!(page, "  {name:<24}{value}");
@@ -51,7 +64,7 @@ pub fn outcome(p: &Parameters, method: Method, out: &Outcome) -> String {
 }
 
 /// The thresholds of the explicit method.
-pub fn thresholds(found: &Thresholds) -> String {
+fn thresholds(found: &Thresholds) -> String {
     let mut page = String::from("explicit method       formula (s)  bisection (s)  difference\n");
     let mut line = |name: &str, t: Threshold| {
         let _ = match t.bisection {
@@ -78,7 +91,7 @@ pub fn thresholds(found: &Thresholds) -> String {
 }
 
 /// The paper's tables.
-pub fn tables(tables: &Tables) -> String {
+fn tables(tables: &Tables) -> String {
     let mut page = String::new();
     let named = [
         ("Table 2: implicit, refinement of the time step", &tables.table2),

@@ -6,12 +6,12 @@ use files::input;
 use post::PostError;
 use serde_json::Value;
 
-use crate::failure::Failure;
+use crate::Error;
 
 /// What `sweep.json` in `folder` holds; `None` where there is none.
-pub fn read(folder: &Path) -> Result<Option<Value>, Failure> {
+pub fn read(folder: &Path) -> Result<Option<Value>, Error> {
     let path = folder.join("sweep.json");
-    let failed = |reason: String| Failure::from(PostError::Text { path: path.clone(), reason });
+    let failed = |reason: String| Error::from(PostError::Text { path: path.clone(), reason });
     let text = match input::text(&path, input::DOCUMENT) {
         Ok(text) => text,
         Err(error) if error.is_missing() => return Ok(None),

@@ -1,0 +1,39 @@
+//! The files that a command wrote, a line each.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use super::layout::text as word;
+
+/// The figures of `plot`.
+pub fn figures(document: &Value) -> String {
+    let mut page = String::new();
+    for figure in document["figures"].as_array().into_iter().flatten() {
+        let files = figure["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let line = format!("{}  {}", files.collect::<Vec<_>>().join(", "), word(figure, "/about"));
+        let _ = writeln!(page, "{}", line.trim_end());
+    }
+    page
+}
+
+/// The page of `report`.
+pub fn page(document: &Value) -> String {
+    format!("{}\n", word(document, "/page"))
+}
+
+/// The contact history of `import-contact`.
+pub fn contact_history(document: &Value) -> String {
+    let [nodes, faces, steps] = ["nodes", "faces", "steps"].map(|key| &document[key]);
+    format!("{}: {nodes} nodes, {faces} faces, {steps} records\n", word(document, "/file"))
+}
+
+/// The case of `import-k`, and what the keyword file lost.
+pub fn case(document: &Value) -> String {
+    let mut page = String::new();
+    for note in document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        let _ = writeln!(page, "  {note}");
+    }
+    let (case, elements) = (word(document, "/case"), &document["elements"]);
+    page + &format!("{case}: {elements} elements; creepage run {case}\n")
+}

@@ -1,0 +1,102 @@
+//! The figures of a run or a sweep.
+
+use std::path::PathBuf;
+
+use figure::Format;
+use post::{Depth, PostError};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::Error;
+use crate::check::{BasisOptions, SpanOptions, basis};
+use crate::sweep_folder as sweep;
+use crate::values::all_parsed;
+
+/// What to draw.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct PlotOptions {
+    /// Folder of a run or of a sweep, or a file of the layout of contact.vtkhdf
+    #[cfg_attr(feature = "clap", arg(value_name = "RUN_OR_SWEEP"))]
+    pub run: PathBuf,
+    /// Folder of the figures [default: figures in that folder]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "DIR"))]
+    pub out: Option<PathBuf>,
+    /// Kinds of files, with a comma between
+    // none are both
+    #[serde(deserialize_with = "all_parsed")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "svg,png", value_delimiter = ',',
+        default_values = ["svg", "png"]))]
+    pub format: Vec<Format>,
+    /// Over which span of time; lines and maps are those at its end.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub span: SpanOptions,
+    /// What the run is measured against.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub basis: BasisOptions,
+}
+
+/// Figures that were drawn.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// Name of the run or sweep.
+    pub name: String,
+    /// The figures, in order.
+    pub figures: Vec<DrawnFigure>,
+}
+
+/// A figure that was drawn.
+#[derive(Clone, Debug)]
+pub struct DrawnFigure {
+    /// Its name: that of its files, without their endings.
+    pub name: String,
+    /// What it shows.
+    pub about: String,
+    /// Its files, one of each format.
+    pub files: Vec<String>,
+}
+
+impl Drawn {
+    /// The document of `creepage plot --json`.
+    pub fn document(&self) -> Value {
+        let figures = self.figures.iter().map(|DrawnFigure { name, about, files }| {
+            json!({ "name": name, "about": about, "files": files })
+        });
+        json!({ "name": self.name, "figures": figures.collect::<Vec<_>>() })
+    }
+}
+
+/// Draws the figures of a run (those of the papers, histories, slip over space and time, spectra) or of a sweep.
+///
+/// # Errors
+/// Results that cannot be read; a folder that cannot be written to.
+pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
+    let window = options.span.span()?;
+    let (name, folder, figures) = if let Some(sweep) = sweep::read(&options.run)? {
+        let figures = post::sweep_figures(&options.run, &sweep)?;
+        let figures = figures.into_iter().map(|(stem, figure)| (stem, String::new(), figure));
+        (sweep::name(&options.run), options.run.clone(), figures.collect::<Vec<_>>())
+    } else {
+        let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
+        let figures = post::figures(&paths, &mut against, window)?;
+        let figures =
+            figures.into_iter().map(|n| (n.stem.to_owned(), n.about.to_owned(), n.figure));
+        (against.name, paths.folder, figures.collect())
+    };
+    let folder = options.out.clone().unwrap_or_else(|| folder.join("figures"));
+    let formats = match &options.format[..] {
+        [] => &[Format::Svg, Format::Png],
+        some => some,
+    };
+    let mut drawn = Drawn { name, figures: Vec::new() };
+    for (name, about, figure) in figures {
+        let mut files = Vec::new();
+        for format in formats {
+            let path = figure.write_as(&folder, &name, *format).map_err(PostError::from)?;
+            files.push(path.display().to_string());
+        }
+        drawn.figures.push(DrawnFigure { name, about, files });
+    }
+    Ok(drawn)
+}

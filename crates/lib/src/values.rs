@@ -1,0 +1,156 @@
+//! What the values of options must be, and how they are read from the words of a command line.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use crate::Error;
+
+/// What a value must be.
+pub struct Rule<T> {
+    holds: fn(&T) -> bool,
+    wanted: &'static str,
+}
+
+/// Threads, or runs at a time.
+pub const THREADS: Rule<usize> =
+    Rule { holds: |n| (1..=1024).contains(n), wanted: "a whole number from 1 to 1024 is needed" };
+/// Edge of a block, in elements.
+pub const EDGE: Rule<usize> =
+    Rule { holds: |n| (1..=400).contains(n), wanted: "a whole number from 1 to 400 is needed" };
+/// Contact transits.
+pub const TRANSITS: Rule<f64> =
+    Rule { holds: |n| n.is_finite() && *n > 0.0, wanted: "a number greater than 0 is needed" };
+/// Memory (MB).
+pub const MEGABYTES: Rule<f64> =
+    Rule { holds: TRANSITS.holds, wanted: "a positive number of megabytes is needed" };
+/// A window of time (s).
+pub const WINDOW: Rule<[f64; 2]> =
+    Rule { holds: |[from, to]| from <= to, wanted: "the window ends before it begins" };
+/// The file of a mesh.
+pub const MESH: Rule<PathBuf> = Rule {
+    holds: |path| ends(path, &["vtu", "vtkhdf"]),
+    wanted: "the file's name must end in .vtu or .vtkhdf",
+};
+/// The file of a map of violations.
+pub const MAP: Rule<PathBuf> =
+    Rule { holds: |path| ends(path, &["vtkhdf"]), wanted: "the file's name must end in .vtkhdf" };
+/// The file of a figure.
+pub const FIGURE: Rule<PathBuf> = Rule {
+    holds: |path| ends(path, &["svg", "png"]),
+    wanted: "the file's name must end in .svg or .png",
+};
+
+fn ends(path: &Path, endings: &[&str]) -> bool {
+    path.extension().and_then(|ending| ending.to_str()).is_some_and(|it| endings.contains(&it))
+}
+
+impl<T> Rule<T> {
+    /// The value of an option, where it is as it must be.
+    pub fn check(&self, option: &str, value: Option<&T>) -> Result<(), Error> {
+        match value {
+            Some(value) if !(self.holds)(value) => {
+                Err(Error::plain(format!("{option}: {}", self.wanted)))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Refuses options that exclude one another, by which of them are given.
+pub fn exclude(option: (&str, bool), others: &[(&str, bool)]) -> Result<(), Error> {
+    match others.iter().find(|(_, given)| option.1 && *given) {
+        None => Ok(()),
+        Some((other, _)) => {
+            let problem = format!("the argument '{}' cannot be used with '{other}'", option.0);
+            Err(Error::plain(problem))
+        }
+    }
+}
+
+/// As many threads as there are cores.
+pub fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, |n| n.get())
+}
+
+/// Reads a value from its text.
+pub fn parsed<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: FromStr<Err = &'static str>,
+{
+    String::deserialize(deserializer)?.parse().map(Some).map_err(D::Error::custom)
+}
+
+/// Reads values from their texts.
+pub fn all_parsed<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: FromStr<Err = &'static str>,
+{
+    let texts = Vec::<String>::deserialize(deserializer)?;
+    texts.iter().map(|text| text.parse().map_err(D::Error::custom)).collect()
+}
+
+/// Values from the words of a command line.
+#[cfg(feature = "clap")]
+pub mod words {
+    use std::str::FromStr;
+
+    use case::{BlockElement, Level};
+    use ls_dyna::Units;
+
+    use super::{Rule, WINDOW};
+
+    impl<T: FromStr> Rule<T> {
+        /// Reads a value.
+        pub fn read(&self, text: &str) -> Result<T, &'static str> {
+            text.parse().ok().filter(self.holds).ok_or(self.wanted)
+        }
+    }
+
+    /// A window of time (s), either end of which may be left out.
+    pub fn window(text: &str) -> Result<[f64; 2], &'static str> {
+        let wanted = "two times in seconds with a colon between, such as 1.0e-3:1.5e-3, are needed";
+        let (from, to) = text.split_once(':').ok_or(wanted)?;
+        let end = |text: &str, open: f64| match text.trim() {
+            "" => Ok(open),
+            text => text.parse::<f64>().ok().filter(|t| t.is_finite()).ok_or(wanted),
+        };
+        let window = [end(from, f64::NEG_INFINITY)?, end(to, f64::INFINITY)?];
+        Some(window).filter(WINDOW.holds).ok_or(WINDOW.wanted)
+    }
+
+    /// A number by its name.
+    pub fn named(text: &str) -> Result<(String, f64), &'static str> {
+        let wanted = "a name and a number, such as law_error=0.02, are needed";
+        let (name, value) = text.split_once('=').ok_or(wanted)?;
+        Ok((name.trim().to_owned(), value.trim().parse().map_err(|_| wanted)?))
+    }
+
+    /// An instruction set of this machine.
+    pub fn kernels(text: &str) -> Result<Level, &'static str> {
+        match Level::named(text) {
+            Some(level) if level.available() => Ok(level),
+            Some(_) => Err("this machine does not have these instructions"),
+            None => Err("one of avx512, avx2, fused, portable is needed"),
+        }
+    }
+
+    /// Elements of a block.
+    pub fn element(text: &str) -> Result<BlockElement, &'static str> {
+        [BlockElement::OnePoint, BlockElement::Full]
+            .into_iter()
+            .find(|element| element.name() == text)
+            .ok_or("one of one-point, full is needed")
+    }
+
+    /// Units of a keyword file.
+    pub fn units(text: &str) -> Result<Units, &'static str> {
+        Units::parse(text).ok_or(
+            "a length (m, cm, mm, in), a mass (kg, ton, g) and a time (s, ms, us) are needed, as mm-ton-s",
+        )
+    }
+}

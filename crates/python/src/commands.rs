@@ -1,0 +1,108 @@
+//! The functions of the library for Python.
+//!
+//! Each takes its options as TOML text, one key a line with the names of the library's structs, and returns a dict:
+//! `code` (the exit code of the command line), `document` (as JSON text), `folder` (of a run), `interrupted` (by
+//! Ctrl-C), and, where it failed, `error`, `text` (the error as it is shown) and `help`. `listen(kind, what)` hears
+//! how far it is ("run", "sweep": a dict) and remarks ("said": a str).
+
+use crate::held::{Answer, held};
+use crate::law::PythonLaw;
+use creepage::{FAILED, OwnLaw, RunOptions, SweepOptions};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::ffi::OsString;
+use std::sync::Arc;
+
+type Answered<'py> = PyResult<Bound<'py, PyDict>>;
+
+/// Runs a case with the friction law `law`, where the case leaves it to Python.
+#[pyfunction]
+#[pyo3(signature = (options, law, listen))]
+pub fn run<'py>(
+    py: Python<'py>,
+    options: &str,
+    law: Option<Py<PyAny>>,
+    listen: &Bound<'py, PyAny>,
+) -> Answered<'py> {
+    let law = law.map(|law| PythonLaw::new(py, law)).transpose()?.map(Arc::new);
+    let mine = law.clone().map(|law| law as Arc<dyn OwnLaw>);
+    let answer = held(options, listen, move |options: RunOptions, told| {
+        let done = creepage::run(&RunOptions { law: mine, ..options }, told)?;
+        Ok(Answer { code: done.exit_code(), document: done.document })
+    });
+    match law.and_then(|law| law.take_failure()) {
+        Some(error) => Err(error),
+        None => answer,
+    }
+}
+
+/// Builds the mesh of a case.
+#[pyfunction]
+pub fn mesh<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, told| Ok(creepage::mesh(&options, told)?.into()))
+}
+
+/// Checks a run against the contact conditions.
+#[pyfunction]
+pub fn check<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| {
+        let found = creepage::check(&options)?;
+        Ok(Answer { code: if found.pass { 0 } else { FAILED }, document: found.document })
+    })
+}
+
+/// Draws the figures of a run.
+#[pyfunction]
+pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(creepage::plot(&options)?.document().into()))
+}
+
+/// Writes the page about a run.
+#[pyfunction]
+pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(creepage::report(&options)?.document.into()))
+}
+
+/// Runs a sweep; `program` and its first arguments are the command line that does its runs.
+#[pyfunction]
+pub fn sweep<'py>(
+    options: &str,
+    program: Vec<OsString>,
+    listen: &Bound<'py, PyAny>,
+) -> Answered<'py> {
+    held(options, listen, |options: SweepOptions, told| {
+        let done = creepage::sweep(&SweepOptions { program, ..options }, told)?;
+        Ok(Answer { code: done.exit_code(), document: done.document })
+    })
+}
+
+/// Computes with the 1-D slider.
+#[pyfunction]
+pub fn slider<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, told| {
+        let found = creepage::slider(&options, told)?;
+        Ok(Answer { code: found.exit_code(), document: found.document() })
+    })
+}
+
+/// Runs verification problems.
+#[pyfunction]
+pub fn verify<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, told| {
+        let found = creepage::verify(&options, told)?;
+        Ok(Answer { code: found.exit_code(), document: found.document })
+    })
+}
+
+/// JSON Schema of a case, as JSON text.
+#[pyfunction]
+pub fn schema() -> String {
+    creepage::schema().to_string()
+}
+
+/// Runs the command line for the terminal; `words` begin with the program's name, `program` does the runs of a
+/// sweep. Returns the exit code.
+#[pyfunction]
+pub fn main(py: Python<'_>, words: Vec<OsString>, program: Vec<OsString>) -> u8 {
+    py.detach(|| cli::main(words, program))
+}

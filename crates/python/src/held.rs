@@ -1,0 +1,199 @@
+//! A function of the library held by Python: it works beside the interpreter, which stays free for other threads.
+
+use creepage::{Error, Listener, Progress, Stage, Watched};
+use miette::{MietteHandlerOpts, Report};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, Once, PoisonError};
+use std::time::Duration;
+
+/// How often Ctrl-C is looked for.
+const LOOK: Duration = Duration::from_millis(50);
+/// Stack of the thread that does the work: that of a program's first (bytes).
+const STACK: usize = 8 << 20;
+
+/// What a function came to.
+pub struct Answer {
+    /// Exit code of the command line.
+    pub code: u8,
+    /// Its document.
+    pub document: Value,
+}
+
+impl From<Value> for Answer {
+    fn from(document: Value) -> Self {
+        Self { code: 0, document }
+    }
+}
+
+/// What the thread that does the work says.
+enum Event {
+    Said(String),
+    Folder(PathBuf),
+    Run(Progress),
+    Sweep(Watched),
+    Ended(Result<Answer, Error>),
+}
+
+/// Hands what it hears to the thread that holds the interpreter; nobody listens any more only after the end.
+struct Told {
+    stop: Arc<AtomicBool>,
+    events: Sender<Event>,
+}
+
+impl Listener for Told {
+    fn stop(&mut self) -> Arc<AtomicBool> {
+        Arc::clone(&self.stop)
+    }
+
+    fn remark(&mut self, line: &str) {
+        let _ = self.events.send(Event::Said(line.to_owned()));
+    }
+
+    fn folder(&mut self, folder: &Path) {
+        let _ = self.events.send(Event::Folder(folder.to_owned()));
+    }
+
+    fn run(&mut self, progress: &Progress) {
+        let _ = self.events.send(Event::Run(*progress));
+    }
+
+    fn sweep(&mut self, _name: &str, now: &Watched) {
+        let _ = self.events.send(Event::Sweep(now.clone()));
+    }
+}
+
+/// Does `work` with its options, and returns what it came to as a dict (see [`crate::commands`]).
+pub fn held<'py, O: DeserializeOwned + Send + 'static>(
+    options: &str,
+    listen: &Bound<'py, PyAny>,
+    work: impl FnOnce(O, &mut dyn Listener) -> Result<Answer, Error> + Send + 'static,
+) -> PyResult<Bound<'py, PyDict>> {
+    plain_reports();
+    let py = listen.py();
+    let options = match toml::from_str(options) {
+        Ok(read) => read,
+        Err(error) => return answer(py, Err(refused(options, &error)), None, false),
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    let (sender, events) = channel();
+    let mut told = Told { stop: Arc::clone(&stop), events: sender.clone() };
+    let worker = std::thread::Builder::new().stack_size(STACK).spawn(move || {
+        drop(sender.send(Event::Ended(work(options, &mut told))));
+    })?;
+    let events = Mutex::new(events);
+    let (mut raised, mut folder) = (None, None);
+    let ended = loop {
+        let outcome = match py.detach(|| next(&events)) {
+            Ok(Event::Ended(ended)) => break ended,
+            Ok(Event::Folder(path)) => {
+                folder = Some(path);
+                Ok(())
+            }
+            Ok(Event::Said(line)) => listen.call1(("said", line)).map(drop),
+            Ok(Event::Run(progress)) => hear_run(listen, &progress),
+            Ok(Event::Sweep(now)) => hear_sweep(listen, &now),
+            Err(RecvTimeoutError::Timeout) => Ok(()),
+            Err(RecvTimeoutError::Disconnected) => {
+                drop(worker.join());
+                let text = "a command ended in a defect of the program; its message is above";
+                return Err(PyRuntimeError::new_err(text));
+            }
+        };
+        if let Err(error) = outcome.and_then(|()| py.check_signals()) {
+            stop.store(true, Ordering::SeqCst);
+            raised.get_or_insert(error);
+        }
+    };
+    // it has nothing left to do but to end
+    py.detach(|| drop(worker.join()));
+    let interrupted = match raised {
+        Some(error) if !error.is_instance_of::<PyKeyboardInterrupt>(py) => return Err(error),
+        raised => raised.is_some(),
+    };
+    answer(py, ended, folder, interrupted)
+}
+
+/// Options that cannot be read, by the line of the option.
+fn refused(options: &str, error: &toml::de::Error) -> Error {
+    let at = error.span().map_or(0, |span| span.start.min(options.len()));
+    let line = options[..at].matches('\n').count();
+    let option = options.lines().nth(line).unwrap_or_default();
+    Error::Option { problem: format!("{option}: {}", error.message()), help: None }
+}
+
+fn next(events: &Mutex<Receiver<Event>>) -> Result<Event, RecvTimeoutError> {
+    events.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(LOOK)
+}
+
+/// What a function came to, as a dict.
+fn answer<'py>(
+    py: Python<'py>,
+    ended: Result<Answer, Error>,
+    folder: Option<PathBuf>,
+    interrupted: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let answer = PyDict::new(py);
+    answer.set_item("folder", folder)?;
+    answer.set_item("interrupted", interrupted)?;
+    match ended {
+        Ok(Answer { code, document }) => {
+            answer.set_item("code", code)?;
+            answer.set_item("document", document.to_string())?;
+        }
+        Err(error) => {
+            answer.set_item("code", error.exit_code())?;
+            let report = Report::new(error);
+            answer.set_item("error", report.to_string())?;
+            answer.set_item("text", format!("{report:?}"))?;
+            answer.set_item("help", report.help().map(|help| help.to_string()))?;
+        }
+    }
+    Ok(answer)
+}
+
+fn hear_sweep(listen: &Bound<'_, PyAny>, now: &Watched) -> PyResult<()> {
+    let what = PyDict::new(listen.py());
+    what.set_item("runs", now.runs)?;
+    what.set_item("completed", now.completed)?;
+    what.set_item("failed", now.failed)?;
+    what.set_item("running", now.running)?;
+    what.set_item("fraction", now.fraction)?;
+    listen.call1(("sweep", what)).map(drop)
+}
+
+fn hear_run(listen: &Bound<'_, PyAny>, progress: &Progress) -> PyResult<()> {
+    let what = PyDict::new(listen.py());
+    let stage = match progress.stage {
+        Stage::Mesh => "mesh",
+        Stage::Preload => "preload",
+        Stage::Roll => "roll",
+    };
+    what.set_item("stage", stage)?;
+    what.set_item("step", progress.step)?;
+    what.set_item("steps", progress.steps)?;
+    what.set_item("time", progress.time)?;
+    what.set_item("end_time", progress.end_time)?;
+    what.set_item("normal_force", progress.normal_force)?;
+    what.set_item("tangential_force", progress.tangential_force)?;
+    what.set_item("element_steps_per_s", progress.element_steps_per_s)?;
+    listen.call1(("run", what)).map(drop)
+}
+
+/// Reports as the command line prints them, without colours and links.
+fn plain_reports() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        // a hook that is there already only draws them otherwise
+        let _ = miette::set_hook(Box::new(|_| {
+            let look = MietteHandlerOpts::new().wrap_lines(false).context_lines(1);
+            Box::new(look.color(false).unicode(true).terminal_links(false).build())
+        }));
+    });
+}
