@@ -6,7 +6,6 @@ use creepage::{CaseSource, OwnLaw, RunOptions};
 use output::{
     Cells, FieldSpec, GridFile, GridSpec, Provenance, StaticField, TransientGrid, Values,
 };
-use run::RunOptions;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

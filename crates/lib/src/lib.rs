@@ -42,7 +42,7 @@
 //! use std::sync::Arc;
 //! use std::sync::atomic::{AtomicBool, Ordering};
 //!
-//! use creepage::{Listener, MethodName, Settings, Slid, SliderOptions};
+//! use creepage::{Listener, MethodName, Settings, SliderFound, SliderOptions};
 //!
 //! #[derive(Default)]
 //! struct Half(Arc<AtomicBool>);
@@ -65,7 +65,7 @@
 //! };
 //! let options = SliderOptions { settings, ..SliderOptions::default() };
 //! let slid = creepage::slider(&options, &mut Half::default())?;
-//! assert!(matches!(slid, Slid::Run(run) if run.outcome.stopped));
+//! assert!(matches!(slid, SliderFound::Run(run) if run.outcome.stopped));
 //! # Ok(())
 //! # }
 //! ```
@@ -111,11 +111,11 @@ pub use listener::Listener;
 pub use ls_dyna::Units;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
-pub use post::{Checked, Report as Pairing};
+pub use post::{Checked, Pairing, Report as PairingReport};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
 pub use slider::{
-    LawName, MethodName, SettingError, Settings, Slid, SliderOptions, SliderRun, slider,
+    LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
 };
 pub use sweep::{SweepOptions, Swept, sweep};
 pub use verify::{Verified, VerifyOptions, verify};

@@ -55,20 +55,20 @@ pub struct SliderOptions {
 impl SliderOptions {
     /// Refuses what cannot be asked for at once.
     fn exclusive(&self) -> Result<(), Error> {
-        let files = [("--csv <FILE>", self.csv.is_some()), ("--plot <DIR>", self.plot.is_some())];
-        let method = ("--method <METHOD>", self.settings.method.is_some());
-        let parameters = ("--config <FILE.toml>", self.config.is_some());
+        let files = [("--csv", self.csv.is_some()), ("--plot", self.plot.is_some())];
+        let method = ("--method", self.settings.method.is_some());
+        let config = ("--config", self.config.is_some());
         let settings = ("a parameter", self.settings != Settings::default());
         exclude(("--thresholds", self.thresholds), &files)?;
         exclude(("--thresholds", self.thresholds), &[("--tables", self.tables), method])?;
         exclude(("--tables", self.tables), &files)?;
-        exclude(("--tables", self.tables), &[parameters, settings])
+        exclude(("--tables", self.tables), &[config, settings])
     }
 }
 
 /// What the slider gave.
 #[derive(Clone, Debug)]
-pub enum Slid {
+pub enum SliderFound {
     /// Tables 2, 3 and 4 of the paper.
     Tables(Tables),
     /// The time steps above which the explicit method fails (s).
@@ -90,7 +90,7 @@ pub struct SliderRun {
     pub figures: Vec<PathBuf>,
 }
 
-impl Slid {
+impl SliderFound {
     /// The document of `creepage slider --json`.
     pub fn document(&self) -> Value {
         match self {
@@ -123,16 +123,16 @@ impl Slid {
 ///
 /// # Errors
 /// A parameter out of its range, where it was set; numbers that grow without bound; a file that cannot be written.
-pub fn slider(options: &SliderOptions, listener: &mut dyn Listener) -> Result<Slid, Error> {
+pub fn slider(options: &SliderOptions, listener: &mut dyn Listener) -> Result<SliderFound, Error> {
     options.exclusive()?;
     if options.tables {
-        return Ok(Slid::Tables(tables::tables()?));
+        return Ok(SliderFound::Tables(tables::tables()?));
     }
     let sources = Sources::new(&options.settings, options.config.as_deref())?;
     let parameters = sources.parameters()?;
     if options.thresholds {
         let found = ::slider::thresholds(&parameters).map_err(|e| sources.out_of_range(&e))?;
-        return Ok(Slid::Thresholds(found));
+        return Ok(SliderFound::Thresholds(found));
     }
     if options.plot.is_some() {
         figures::drawable(&parameters).map_err(|e| sources.out_of_range(&e))?;
@@ -148,7 +148,7 @@ pub fn slider(options: &SliderOptions, listener: &mut dyn Listener) -> Result<Sl
         let other = sources.method().filter(|m| *m != Method::Implicit);
         figures = plot(&parameters, other.unwrap_or(Method::Explicit), folder, listener)?;
     }
-    Ok(Slid::Run(SliderRun { parameters, method, outcome, figures }))
+    Ok(SliderFound::Run(SliderRun { parameters, method, outcome, figures }))
 }
 
 /// Steps between looks at the stop flag, and at who listens.

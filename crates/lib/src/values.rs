@@ -63,10 +63,7 @@ impl<T> Rule<T> {
 pub fn exclude(option: (&str, bool), others: &[(&str, bool)]) -> Result<(), Error> {
     match others.iter().find(|(_, given)| option.1 && *given) {
         None => Ok(()),
-        Some((other, _)) => {
-            let problem = format!("the argument '{}' cannot be used with '{other}'", option.0);
-            Err(Error::plain(problem))
-        }
+        Some((other, _)) => Err(Error::plain(format!("{} cannot be used with {other}", option.0))),
     }
 }
 
@@ -152,5 +149,61 @@ pub mod words {
         Units::parse(text).ok_or(
             "a length (m, cm, mm, in), a mass (kg, ton, g) and a time (s, ms, us) are needed, as mm-ton-s",
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use crate::{
+        CheckOptions, Error, MeshOptions, PairingReport, RunOptions, SliderOptions, SweepOptions,
+        VerifyOptions,
+    };
+
+    fn refused<T>(found: Result<T, Error>, said: &str) {
+        let error = found.map(drop).unwrap_err();
+        assert!(error.to_string().contains(said) && error.exit_code() == 2, "{error}");
+    }
+
+    #[test]
+    fn values_out_of_their_range_are_refused_by_the_name_of_their_option() {
+        let run = RunOptions { threads: Some(0), ..RunOptions::default() };
+        refused(crate::run(&run, &mut ()), "--threads: a whole number from 1 to 1024");
+        let mesh = MeshOptions { out: Some("mesh.msh".into()), ..MeshOptions::default() };
+        refused(crate::mesh(&mesh, &mut ()), "--out: the file's name must end in .vtu");
+        let mut check = CheckOptions::default();
+        check.span.window = Some([2.0, 1.0]);
+        refused(crate::check(&check), "--window: the window ends before it begins");
+        check.span.window = Some([f64::NAN, 1.0]);
+        refused(crate::check(&check), "--window");
+    }
+
+    #[test]
+    fn options_that_exclude_one_another_are_refused() {
+        let sweep = SweepOptions { resume: true, force: true, ..SweepOptions::default() };
+        refused(crate::sweep(&sweep, &mut ()), "--resume cannot be used with --force");
+        let slider = SliderOptions { tables: true, ..SliderOptions::default() };
+        let plot = SliderOptions { plot: Some("figures".into()), ..slider.clone() };
+        refused(crate::slider(&plot, &mut ()), "--tables cannot be used with --plot");
+        let mut mass = slider;
+        mass.settings.mass = Some(0.1);
+        refused(crate::slider(&mass, &mut ()), "--tables cannot be used with a parameter");
+        let verify = VerifyOptions { list: true, quick: true, ..VerifyOptions::default() };
+        refused(crate::verify(&verify, &mut ()), "--list cannot be used with --quick");
+    }
+
+    #[test]
+    fn options_are_read_from_toml_and_unknown_ones_refused() {
+        let text = "run = 'runs/a'\npairing = 'before'\nspan.window = [-inf, 1e-3]\n\
+                    limits = [['law_error', 0.02]]";
+        let read: CheckOptions = toml::from_str(text).unwrap();
+        assert_eq!(read.run, PathBuf::from("runs/a"));
+        assert_eq!(read.pairing, Some(PairingReport::Only(crate::Pairing::Before)));
+        assert_eq!(read.span.window, Some([f64::NEG_INFINITY, 1e-3]));
+        assert_eq!(read.limits, [("law_error".to_owned(), 0.02)]);
+        let wrong = toml::from_str::<CheckOptions>("pairing = 'both'").unwrap_err();
+        assert_eq!(wrong.message(), "one of stricter, before, after is needed");
+        assert!(toml::from_str::<CheckOptions>("windows = 1").is_err());
     }
 }

@@ -50,15 +50,10 @@ impl Verified {
 
     /// Exit code of the command line: 0, 1 where a quantity misses its limit, 130 when interrupted.
     pub fn exit_code(&self) -> u8 {
-        match self.interrupted {
-            true => INTERRUPTED,
-            false => {
-                if self.pass() {
-                    0
-                } else {
-                    FAILED
-                }
-            }
+        match (self.interrupted, self.pass()) {
+            (true, _) => INTERRUPTED,
+            (false, true) => 0,
+            (false, false) => FAILED,
         }
     }
 }
@@ -71,7 +66,7 @@ impl Verified {
 /// A problem that there is not, or that cannot be computed; figures that cannot be written.
 pub fn verify(options: &VerifyOptions, listener: &mut dyn Listener) -> Result<Verified, Error> {
     let others = [
-        ("[NAME]", !options.names.is_empty()),
+        ("a name", !options.names.is_empty()),
         ("--quick", options.quick),
         ("--plot", options.plot.is_some()),
     ];

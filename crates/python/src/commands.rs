@@ -3,7 +3,7 @@
 //! Each takes its options as TOML text, one key a line with the names of the library's structs, and returns a dict:
 //! `code` (the exit code of the command line), `document` (as JSON text), `folder` (of a run), `interrupted` (by
 //! Ctrl-C), and, where it failed, `error`, `text` (the error as it is shown) and `help`. `listen(kind, what)` hears
-//! how far it is ("run", "sweep": a dict) and remarks ("said": a str).
+//! how far it is ("run", "sweep") and remarks ("said"), as JSON text.
 
 use crate::held::{Answer, held};
 use crate::law::PythonLaw;

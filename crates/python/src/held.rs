@@ -1,12 +1,12 @@
 //! A function of the library held by Python: it works beside the interpreter, which stays free for other threads.
 
-use creepage::{Error, Listener, Progress, Stage, Watched};
+use creepage::{Error, Listener, Progress, Watched};
 use miette::{MietteHandlerOpts, Report};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -34,10 +34,9 @@ impl From<Value> for Answer {
 
 /// What the thread that does the work says.
 enum Event {
-    Said(String),
     Folder(PathBuf),
-    Run(Progress),
-    Sweep(Watched),
+    /// What of, and as JSON.
+    Told(&'static str, Value),
     Ended(Result<Answer, Error>),
 }
 
@@ -53,7 +52,7 @@ impl Listener for Told {
     }
 
     fn remark(&mut self, line: &str) {
-        let _ = self.events.send(Event::Said(line.to_owned()));
+        let _ = self.events.send(Event::Told("said", line.into()));
     }
 
     fn folder(&mut self, folder: &Path) {
@@ -61,11 +60,11 @@ impl Listener for Told {
     }
 
     fn run(&mut self, progress: &Progress) {
-        let _ = self.events.send(Event::Run(*progress));
+        let _ = self.events.send(Event::Told("run", json!(progress)));
     }
 
     fn sweep(&mut self, _name: &str, now: &Watched) {
-        let _ = self.events.send(Event::Sweep(now.clone()));
+        let _ = self.events.send(Event::Told("sweep", json!(now)));
     }
 }
 
@@ -96,9 +95,7 @@ pub fn held<'py, O: DeserializeOwned + Send + 'static>(
                 folder = Some(path);
                 Ok(())
             }
-            Ok(Event::Said(line)) => listen.call1(("said", line)).map(drop),
-            Ok(Event::Run(progress)) => hear_run(listen, &progress),
-            Ok(Event::Sweep(now)) => hear_sweep(listen, &now),
+            Ok(Event::Told(kind, what)) => listen.call1((kind, what.to_string())).map(drop),
             Err(RecvTimeoutError::Timeout) => Ok(()),
             Err(RecvTimeoutError::Disconnected) => {
                 drop(worker.join());
@@ -156,34 +153,6 @@ fn answer<'py>(
         }
     }
     Ok(answer)
-}
-
-fn hear_sweep(listen: &Bound<'_, PyAny>, now: &Watched) -> PyResult<()> {
-    let what = PyDict::new(listen.py());
-    what.set_item("runs", now.runs)?;
-    what.set_item("completed", now.completed)?;
-    what.set_item("failed", now.failed)?;
-    what.set_item("running", now.running)?;
-    what.set_item("fraction", now.fraction)?;
-    listen.call1(("sweep", what)).map(drop)
-}
-
-fn hear_run(listen: &Bound<'_, PyAny>, progress: &Progress) -> PyResult<()> {
-    let what = PyDict::new(listen.py());
-    let stage = match progress.stage {
-        Stage::Mesh => "mesh",
-        Stage::Preload => "preload",
-        Stage::Roll => "roll",
-    };
-    what.set_item("stage", stage)?;
-    what.set_item("step", progress.step)?;
-    what.set_item("steps", progress.steps)?;
-    what.set_item("time", progress.time)?;
-    what.set_item("end_time", progress.end_time)?;
-    what.set_item("normal_force", progress.normal_force)?;
-    what.set_item("tangential_force", progress.tangential_force)?;
-    what.set_item("element_steps_per_s", progress.element_steps_per_s)?;
-    listen.call1(("run", what)).map(drop)
 }
 
 /// Reports as the command line prints them, without colours and links.

@@ -1,7 +1,10 @@
 //! What a run reports to its observer.
 
+use serde::Serialize;
+
 /// The stages of a run, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// The mesh is generated or read, and the elements are set up.
     Mesh,
@@ -12,7 +15,7 @@ pub enum Stage {
 }
 
 /// How far a run is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Progress {
     /// The stage under way.
     pub stage: Stage,

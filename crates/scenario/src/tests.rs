@@ -239,7 +239,7 @@ fn messages_of_cases_and_sweeps_name_only_keys_that_there_are() {
         !is_file && word.split_once('.').is_some_and(|(head, _)| top.contains(&head))
     };
     let mut seen = 0;
-    for above in ["case", "scenario", "run", "sweep", "ls-dyna", "cli"] {
+    for above in ["case", "scenario", "run", "sweep", "ls-dyna", "lib", "cli"] {
         for (path, text) in sources(&crates().join(above).join("src")) {
             for literal in literals(&text) {
                 for word in dotted(&literal).filter(of_a_key) {

@@ -15,6 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
 use files::input;
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::collect::{State, collect_with, state};
@@ -42,7 +43,7 @@ pub struct Budget {
 }
 
 /// How far a sweep is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Watched {
     /// Runs in all.
     pub runs: usize,

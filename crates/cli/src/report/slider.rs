@@ -3,15 +3,16 @@
 use std::fmt::Write;
 
 use creepage::{
-    Method, Outcome, Parameters, Slid, TableRow, Tables, Threshold, Thresholds, penalty_stable_step,
+    Method, Outcome, Parameters, SliderFound, TableRow, Tables, Threshold, Thresholds,
+    penalty_stable_step,
 };
 
 /// A run, the thresholds of the explicit method, or the paper's tables.
-pub fn text(found: &Slid) -> String {
+pub fn text(found: &SliderFound) -> String {
     match found {
-        Slid::Tables(found) => tables(found),
-        Slid::Thresholds(found) => thresholds(found),
-        Slid::Run(run) => {
+        SliderFound::Tables(found) => tables(found),
+        SliderFound::Thresholds(found) => thresholds(found),
+        SliderFound::Run(run) => {
             let figures = run.figures.iter().map(|path| format!("{}\n", path.display()));
             outcome(&run.parameters, run.method, &run.outcome) + &figures.collect::<String>()
         }

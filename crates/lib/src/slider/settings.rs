@@ -69,7 +69,8 @@ pub struct Settings {
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORMULA"))]
     pub expression: Option<String>,
     /// Allow friction that rises with slip speed
-    #[cfg_attr(feature = "clap", arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true"))]
+    #[cfg_attr(feature = "clap", arg(long, num_args = 0..=1, require_equals = true,
+        default_missing_value = "true"))]
     pub allow_strengthening: Option<bool>,
     /// Stiffness k_t of the friction spring (penalty, N/m) [default: 1e6]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N/M", allow_negative_numbers = true))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import time
 
@@ -47,7 +48,8 @@ def listener(progress, messages):
     bar = Bar() if progress is True else None
     hear = bar or progress
 
-    def listen(kind, what):
+    def listen(kind, told):
+        what = json.loads(told)
         if kind == "said":
             messages(what)
         elif hear:
