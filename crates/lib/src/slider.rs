@@ -74,7 +74,7 @@ pub enum SliderFound {
     /// The time steps above which the explicit method fails (s).
     Thresholds(Thresholds),
     /// A run.
-    Run(SliderRun),
+    Run(Box<SliderRun>),
 }
 
 /// A run of the slider.
@@ -148,7 +148,7 @@ pub fn slider(options: &SliderOptions, listener: &mut dyn Listener) -> Result<Sl
         let other = sources.method().filter(|m| *m != Method::Implicit);
         figures = plot(&parameters, other.unwrap_or(Method::Explicit), folder, listener)?;
     }
-    Ok(SliderFound::Run(SliderRun { parameters, method, outcome, figures }))
+    Ok(SliderFound::Run(Box::new(SliderRun { parameters, method, outcome, figures })))
 }
 
 /// Steps between looks at the stop flag, and at who listens.
