@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use case::{BlockElement, Level};
+use ::run::{BlockElement, Level};
 use serde_json::Value;
 
 #[cfg(feature = "clap")]
@@ -44,9 +44,9 @@ pub fn bench(options: &BenchOptions) -> Result<Value, Error> {
     EDGE.check("--block", options.block.as_ref())?;
     let threads = options.threads.unwrap_or_else(all_cores);
     if let Some(n) = options.block {
-        return Ok(case::bench_block(n, options.element, threads, options.kernels)?);
+        return Ok(::run::bench_block(n, options.element, threads, options.kernels)?);
     }
     let (path, sets) = (PathBuf::from("reference.toml"), options.sets.clone());
-    case::bench(threads, options.kernels, &options.sets)
+    ::run::bench(threads, options.kernels, &options.sets)
         .map_err(|error| CaseSource { path, sets, text: None }.placed(error))
 }

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use case::{Case, RunError};
+use ::run::RunError;
+use case::Case;
 use serde::Deserialize;
 
 use crate::{Error, Listener};

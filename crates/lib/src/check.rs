@@ -152,6 +152,6 @@ pub fn basis(run: &Path, options: &BasisOptions, depth: Depth) -> Result<(RunPat
 
 /// What a command reads of a run.
 pub fn inputs(paths: &RunPaths) -> Vec<PathBuf> {
-    let own = case::folder::RUN_FILES.map(|file| paths.folder.join(file));
+    let own = ::run::folder::RUN_FILES.map(|file| paths.folder.join(file));
     own.into_iter().chain([paths.contact.clone(), paths.case.clone()]).collect()
 }

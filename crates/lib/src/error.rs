@@ -1,6 +1,7 @@
 //! Why a command did not come to its end.
 
-use case::{CaseError, RunError};
+use ::run::RunError;
+use case::CaseError;
 use miette::Diagnostic;
 use output::OutputError;
 use post::{ImportError, PostError};

@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use case::{Case, Remedy};
+use case::Case;
 use files::input;
 use ls_dyna::{Units, translate};
+use scenario::Remedy;
 use serde_json::{Value, json};
 
 use crate::Error;
@@ -51,7 +52,7 @@ pub fn import_k(options: &ImportKOptions) -> Result<Value, Error> {
     write(&folder, &mesh, &made.mesh)?;
     write(&folder, &case, &made.case)?;
     // the case is judged as any other, so that what is wrong is told now
-    let found = case::mesh_report(&Case::load(&case, &[])?, None)?;
+    let found = ::run::mesh_report(&Case::load(&case, &[])?, None)?;
     Ok(json!({
         "case": case.display().to_string(),
         "mesh": mesh.display().to_string(),

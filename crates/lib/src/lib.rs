@@ -93,12 +93,13 @@ mod sweep_folder;
 mod values;
 mod verify;
 
+pub use ::run::{BlockElement, Level};
 pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
 pub use ::sweep::Watched;
 pub use ::verify::{PROBLEMS, Problem, Row};
 pub use bench::{BenchOptions, bench};
-pub use case::{BlockElement, Level, Progress, Stage, json_schema as schema};
+pub use case::json_schema as schema;
 pub use case_source::CaseSource;
 pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
 pub use compare::{CompareOptions, compare};
@@ -114,6 +115,7 @@ pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
 pub use post::{Checked, Pairing, Report as PairingReport};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
+pub use scenario::{Progress, Stage};
 pub use slider::{
     LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
 };

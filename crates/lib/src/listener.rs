@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use case::Progress;
+use scenario::Progress;
 use sweep::Watched;
 use verify::{Problem, Row};
 

@@ -34,6 +34,6 @@ pub fn mesh(options: &MeshOptions, listener: &mut dyn Listener) -> Result<Value,
     if let Some(out) = &options.out {
         claim_grid("--out", out, &case::inputs(&case, &options.case.path))?;
     }
-    let found = case::mesh_report(&case, options.out.as_deref());
+    let found = ::run::mesh_report(&case, options.out.as_deref());
     found.map_err(|error| options.case.placed(error))
 }

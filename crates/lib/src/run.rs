@@ -87,8 +87,8 @@ pub fn run(options: &RunOptions, listener: &mut dyn Listener) -> Result<Ran, Err
     let mut source = options.case.clone();
     source.sets.extend(options.deterministic.then(|| "deterministic=true".to_owned()));
     let case = source.load(listener)?;
-    let folder = options.out.clone().unwrap_or_else(|| case::folder::default_folder(&case));
-    let how = case::RunOptions {
+    let folder = options.out.clone().unwrap_or_else(|| ::run::folder::default_folder(&case));
+    let how = ::run::RunOptions {
         out: folder.clone(),
         threads: options.threads.unwrap_or_else(all_cores),
         force: options.force,
@@ -99,6 +99,6 @@ pub fn run(options: &RunOptions, listener: &mut dyn Listener) -> Result<Ran, Err
     };
     let stop = listener.stop();
     listener.folder(&folder);
-    let summary = case::run(&case, &how, &stop, &mut |progress| listener.run(progress));
+    let summary = ::run::run(&case, &how, &stop, &mut |progress| listener.run(progress));
     Ok(Ran { folder, document: summary.map_err(|error| source.placed(error))? })
 }

@@ -96,7 +96,7 @@ where
 pub mod words {
     use std::str::FromStr;
 
-    use case::{BlockElement, Level};
+    use ::run::{BlockElement, Level};
     use ls_dyna::Units;
 
     use super::{Rule, WINDOW};
