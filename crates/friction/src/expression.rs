@@ -42,17 +42,16 @@ impl MatchLiteral for Numeral {
 
 type Formula = FlatEx<f64, Operators, Numeral>;
 
-/// `mu` by a formula, for example `0.32 + 0.18*exp(-6*s)`: the user's hook without writing Rust. Parsed
-/// once. It may use the slip speed `s` (m/s) and, of a node, the contact pressure `p` (Pa), the time `t`
-/// (s) and the position `x` (m).
+/// `mu` by a formula, for example `0.32 + 0.18*exp(-6*s)`, parsed once. It may use the slip speed `s` (m/s) and,
+/// at a contact node, the contact pressure `p` (Pa), the time `t` (s) and the position `x` (m).
 ///
-/// Where its value is no coefficient of friction, not finite or negative, [`FrictionLaw::mu`] and
-/// [`FrictionLaw::mu_at`] return NaN, which stops a run at its guards.
+/// Where its value is negative or not finite, [`FrictionLaw::mu`] and [`FrictionLaw::mu_at`] return NaN, which stops a
+/// run at its guards.
 #[derive(Clone, Debug)]
 pub struct Expression {
     text: String,
     formula: Arc<Formula>,
-    /// The places in [`NAMES`] of the formula's names, in the order in which it takes their values.
+    /// Indices into [`NAMES`] of the formula's names, in the order in which it takes their values.
     arguments: Vec<usize>,
     at_rest: f64,
 }
@@ -68,7 +67,7 @@ pub struct Domain {
     pub along: [f64; 2],
 }
 
-/// Why a text makes no friction law.
+/// Why a text is no friction law.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ExpressionError {
     /// It does not parse.
@@ -109,13 +108,13 @@ pub enum ExpressionError {
     },
 }
 
-/// Slip speeds at which a formula is tried: at rest and from 1e-9 to 1e3 m/s.
+/// Slip speeds (m/s) at which a formula is tested: at rest and from 1e-9 to 1e3 m/s.
 pub(super) fn trial_speeds() -> impl Iterator<Item = f64> {
     std::iter::once(0.0).chain((0..=240).map(|i| libm::pow(10f64, -9.0 + f64::from(i) / 20.0)))
 }
 
 impl Expression {
-    /// Parses a formula in `s` alone and tries it at rest and at slip speeds from 1e-9 to 1e3 m/s.
+    /// Parses a formula in `s` alone and tests it at rest and at slip speeds from 1e-9 to 1e3 m/s.
     ///
     /// # Errors
     /// A formula that does not parse, has names other than `s`, or gives a value that is no
@@ -125,8 +124,8 @@ impl Expression {
         law.checked(&Domain { pressure: 0.0, duration: 0.0, along: [0.0; 2] })
     }
 
-    /// Parses a formula in `s`, `p`, `t` and `x` and tries it over `domain` at those slip speeds: at nine
-    /// pressures (zero and seven decades up to the largest), times and positions each.
+    /// Parses a formula in `s`, `p`, `t` and `x` and tests it over `domain` at the slip speeds of [`Self::new`], for
+    /// nine pressures (zero and seven decades up to the largest), nine times and nine positions.
     ///
     /// # Errors
     /// A formula that does not parse, has other names, or gives a value that is no coefficient of
@@ -137,8 +136,8 @@ impl Expression {
         Self::parse(text, &NAMES, names)?.checked(domain)
     }
 
-    /// The same formula untried, for records of a run that tried it: where its value is no coefficient it is
-    /// NaN, also at rest.
+    /// Parses a formula in `s`, `p`, `t` and `x` without testing it, for the records of a run that has tested it. Its
+    /// static coefficient is the value at `s = p = t = x = 0`.
     ///
     /// # Errors
     /// A formula that does not parse or has other names.
@@ -165,7 +164,7 @@ impl Expression {
     }
 
     fn checked(mut self, domain: &Domain) -> Result<Self, ExpressionError> {
-        // only over what the formula uses
+        // a name that the formula does not use needs one value only
         let steps = |name: usize, most: u32| if self.arguments.contains(&name) { most } else { 0 };
         for i in 0..=steps(1, 8) {
             let decades = f64::from(i) - 8.0;
@@ -190,7 +189,7 @@ impl Expression {
         Ok(self)
     }
 
-    /// What stands for the arguments beyond the slip speed in a message.
+    /// The values of pressure, time and position that the formula uses, for a message.
     fn place(&self, values: [(&str, f64, &str); 3]) -> String {
         let used = self.arguments.iter().filter_map(|&name| values.get(name.checked_sub(1)?));
         used.map(|(name, value, unit)| format!(", {name} = {value} {unit}")).collect()
@@ -216,7 +215,7 @@ impl Expression {
     }
 }
 
-/// Where a name stands as a word of its own, in characters from 1.
+/// Position of a name as a whole word, in characters from 1.
 fn position(text: &str, name: &str) -> usize {
     let word = |c: char| c.is_alphanumeric() || c == '_';
     let found = text.match_indices(name).find(|(at, _)| {
@@ -232,8 +231,7 @@ impl FrictionLaw for Expression {
         self.value([slip_speed, 0.0, 0.0, 0.0])
     }
 
-    /// At rest; of a formula that also depends on the place, there at the largest pressure of its domain,
-    /// at the start and at `x = 0`.
+    /// At rest; with [`Self::over`] at the largest pressure of the domain, at `t = 0` and `x = 0`.
     fn mu_static(&self) -> f64 {
         self.at_rest
     }

@@ -1,9 +1,9 @@
 //! Friction laws: the coefficient of friction as a function of the slip speed, of place, time and pressure,
 //! and of a state; each declared once for the solver, the slider, the checks and the case file.
 //!
-//! A steady law is a [`FrictionLaw`]; [`Lagged`], [`Implicit`] and [`Remembering`] make a law of a contact
-//! node of it, a [`NodeFriction`], which the laws with a state are by themselves. [`Parameters`] makes any of
-//! them from its parameters. [`slip_speed`] solves a node's tangential problem with a law. SI units.
+//! A [`FrictionLaw`] is steady: it has no state. [`Lagged`], [`Implicit`] and [`Remembering`] turn it into the law
+//! of a contact node, a [`NodeFriction`]. Laws with a state implement [`NodeFriction`] themselves. [`Parameters`]
+//! builds any law from the keys of a case file. [`slip_speed`] solves a node's tangential problem. SI units.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

@@ -1,4 +1,4 @@
-//! Friction that remembers: the coefficient follows its steady law over a distance.
+//! Friction with memory: the coefficient follows its steady law over a distance of slip.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,8 +22,8 @@ impl Default for Memory {
 }
 
 impl Memory {
-    /// The coefficient after `dt` (s) of slip at `slip_speed` (m/s), from `mu` before towards
-    /// `steady`: the exact solution for a constant slip speed.
+    /// The coefficient after `dt` (s) of slip at `slip_speed >= 0` (m/s), from `mu` before towards
+    /// `steady`, the coefficient of the steady law: the exact solution for a constant slip speed.
     pub fn advance(&self, mu: f64, steady: f64, slip_speed: f64, dt: f64) -> f64 {
         steady + (mu - steady) * libm::exp(-slip_speed.max(self.floor) * dt / self.distance)
     }

@@ -1,20 +1,20 @@
-//! Friction of a contact node: a law together with the state that it keeps from step to step.
+//! Friction laws of a contact node, whose state is kept from step to step.
 
 use crate::{Coulomb, FrictionLaw, Memory, Place};
 use std::fmt::Debug;
 
-/// A node that has been in contact since the step before, on its way to the state of this step.
+/// A node that was already in contact in the step before, whose state is to be advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slid {
-    /// State of the step before; [`NodeFriction::advance_all`] puts that of this step here.
+    /// State of the step before; [`NodeFriction::advance_all`] overwrites it with that of this step.
     pub state: [f64; 2],
     /// Slip speed of the step before (m/s).
     pub slip_speed: f64,
-    /// Where it is now.
+    /// Its position, time and pressure now.
     pub at: Place,
 }
 
-/// How far back the coefficient of a law reaches.
+/// How much of a node's history the coefficient of a law depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remembers {
     /// This instant alone.
@@ -25,22 +25,22 @@ pub enum Remembers {
     Contact,
 }
 
-/// Friction of a contact node: the bound `|p_tau| <= mu p_n` with a coefficient that may depend on
-/// the slip speed of the same instant, on place, time and pressure, and on two numbers of state,
-/// whose meaning is the law's own.
+/// Friction law of a contact node: the bound `|p_tau| <= mu p_n` with a coefficient that may depend on
+/// the slip speed of the same instant, on position, time and pressure, and on a state of two numbers.
+/// Each law defines their meaning and unit.
 ///
-/// Enforcement keeps the state of each node. In the step in which a node comes into contact it is
-/// [`begin`](Self::begin); in every later step it is first advanced with the slip speed of the step
-/// before, then [`mu`](Self::mu) gives the coefficient of this step.
+/// The enforcement of contact stores the state of each node. In the step in which a node comes into contact the state
+/// is [`begin`](Self::begin). In every later step it is first advanced with the slip speed of the step
+/// before; then [`mu`](Self::mu) gives the coefficient of this step.
 pub trait NodeFriction: Send + Sync + Debug {
     /// State at the beginning of contact.
     fn begin(&self, at: &Place) -> [f64; 2];
 
-    /// State after a step `dt` (s) in which the node slipped at `slip_speed` (m/s).
+    /// State after a step `dt` (s) in which the node slipped at `slip_speed >= 0` (m/s).
     fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2];
 
-    /// [`advance`](Self::advance) of all nodes of a step at once, for laws whose every call has a price.
-    /// The nodes come in a fixed order.
+    /// [`advance`](Self::advance) for all nodes of a step at once, for laws that are expensive to call, such as a
+    /// Python function. The order of the nodes does not depend on the number of threads.
     fn advance_all(&self, nodes: &mut [Slid], dt: f64) {
         for node in nodes {
             node.state = self.advance(node.state, node.slip_speed, &node.at, dt);
@@ -61,10 +61,11 @@ pub trait NodeFriction: Send + Sync + Debug {
         false
     }
 
-    /// Coefficient of friction of a node that has always been at rest.
+    /// Coefficient of friction of a node that has always been at rest; a law without one, such as rate and state,
+    /// documents what it returns.
     fn mu_static(&self) -> f64;
 
-    /// How far back the coefficient reaches.
+    /// How much of the node's history the coefficient depends on.
     fn remembers(&self) -> Remembers {
         Remembers::Contact
     }
@@ -92,8 +93,8 @@ impl NodeFriction for Coulomb {
     }
 }
 
-/// `mu(|s|)` with the slip speed of the step before, as the explicit codes evaluate Eq. (8). The state
-/// is that speed.
+/// `mu(|s|)` with the slip speed of the step before, as explicit codes evaluate Eq. (8) of Vollebregt (2017).
+/// The first number of the state is that speed (m/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lagged<L>(pub L);
 
@@ -119,7 +120,7 @@ impl<L: FrictionLaw> NodeFriction for Lagged<L> {
     }
 }
 
-/// `mu(|s|)` at the slip speed of the same instant, as Eq. (8) says.
+/// `mu(|s|)` at the slip speed of the same instant, as in Eq. (8) of Vollebregt (2017). It has no state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Implicit<L>(pub L);
 
@@ -153,13 +154,13 @@ impl<L: FrictionLaw> NodeFriction for Implicit<L> {
     }
 }
 
-/// A law with memory: the coefficient, which is the state, follows the steady one over a distance of
-/// slip. Out of contact it returns to that at rest.
+/// A law with memory: the coefficient, which is the first number of the state, follows the steady one over a distance
+/// of slip. A node that comes into contact starts with the coefficient at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remembering<L> {
     /// The steady law.
     pub steady: L,
-    /// How the coefficient follows it.
+    /// How the coefficient follows the steady law.
     pub memory: Memory,
 }
 

@@ -1,17 +1,17 @@
-//! The dimensionless numbers of friction that falls with the slip speed, Eq. (8) of Vollebregt
-//! (2017), between elastic bodies: what to expect of a run before it is made.
+//! Dimensionless numbers of friction that falls with the slip speed, Eq. (8) of Vollebregt (2017), between
+//! elastic bodies. They predict, before a run, whether it is well posed.
 
 use crate::Exponential;
 
-/// What the numbers are made of, at one pressure.
+/// The properties of an interface between two elastic bodies that the numbers depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interface {
-    /// Pressure `p_n` (Pa), of a contact its largest.
+    /// Pressure `p_n` (Pa); for a whole contact, its largest.
     pub pressure: f64,
-    /// Radiation impedance of shear `Z` (Pa s/m) of both bodies in series,
-    /// `1/(1/Z_1 + 1/Z_2)` with `Z_i = rho_i c_s,i`: half of that of one for equal bodies.
+    /// Radiation impedance in shear `Z` (Pa s/m) of both bodies in series,
+    /// `1/(1/Z_1 + 1/Z_2)` with `Z_i = rho_i c_s,i`; for equal bodies half of that of one.
     pub impedance: f64,
-    /// Shear modulus of the slip `G*` (Pa): for equal bodies `G/(1 - nu)` along the slip, mode II.
+    /// Effective shear modulus `G*` (Pa); for equal bodies `G/(1 - nu)` in mode II.
     pub modulus: f64,
     /// Reduced mass per area `m*` (kg/m^2) of the two surface layers of elements,
     /// `rho d/4` for equal ones of depth `d`.
@@ -20,20 +20,20 @@ pub struct Interface {
     pub dt: f64,
 }
 
-/// The numbers of falling friction.
+/// The numbers of falling friction; dimensionless where no unit is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Falling {
     /// `R = p_n k (mu_S - mu_D)/Z`. Above 1 three states are possible under one load, and a
-    /// disturbance of wave number `k_x` grows at `|k_x| c_s/sqrt(R^2 - 1)`, without bound as
-    /// the mesh is refined: the law without memory has no solution that meshes converge to.
+    /// disturbance of wave number `k_x` grows at the rate `|k_x| c_s/sqrt(R^2 - 1)`. The rate has no bound as the
+    /// mesh is refined: without memory the problem is ill-posed, and meshes do not converge.
     pub r: f64,
-    /// `N_2 = dt p_n k (mu_S - mu_D)/m*`: negative damping per step against the mass of the surface
-    /// layer.
+    /// `N_2 = dt p_n k (mu_S - mu_D)/m*`: the negative damping of friction over a time step, relative to the mass of
+    /// the surface layer.
     pub n2: f64,
-    /// The least trial shear over pressure at which slip can go on, for `R > 1`:
-    /// `f_min/p_n = mu_D + (mu_S - mu_D) (1 + ln R)/R`.
+    /// The least ratio of trial shear to pressure at which slip can go on, for `R > 1`:
+    /// `mu_D + (mu_S - mu_D) (1 + ln R)/R`.
     pub f_min: Option<f64>,
-    /// Slip speed at `f_min` (m/s), `ln R/k`: between rest and it no state is stable.
+    /// Slip speed at `f_min` (m/s), `ln R/k`, for `R > 1`: between rest and this speed no state is stable.
     pub s_m: Option<f64>,
     /// Slip speed (m/s) to which a point jumps that begins to slip, for `R > 1`: the largest root
     /// of `Z s + mu(s) p_n = mu_S p_n`.
@@ -59,7 +59,7 @@ pub fn falling(law: &Exponential, at: &Interface) -> Option<Falling> {
 }
 
 /// The largest root of `s = q (1 - exp(-k s))`, `q = p_n (mu_S - mu_D)/Z`, by Newton's method from
-/// `s = q`: the difference of both sides is convex, so that the iteration falls towards the root and
+/// `s = q`. The difference of both sides is convex, so that the iteration decreases towards the root and
 /// does not pass it.
 fn jump(law: &Exponential, at: &Interface) -> f64 {
     let q = at.pressure * (law.mu_static - law.mu_dynamic) / at.impedance;
@@ -75,14 +75,15 @@ fn jump(law: &Exponential, at: &Interface) -> f64 {
     s
 }
 
-/// Nucleation length `h_n = 1.158 G* d_c/((mu_S - mu_D) p_n)` (m) of the law with a memory over the
-/// distance `d_c` (m): shorter zones of slip are stable (Uenishi and Rice 2003, for slip weakening at the rate
-/// `(mu_S - mu_D) p_n/d_c`, their 0.579 being half the length).
+/// Nucleation length `h_n = 1.158 G* d_c/((mu_S - mu_D) p_n)` (m) of the law with memory over the slip
+/// `distance = d_c` (m): shorter zones of slip are stable. From Uenishi and Rice (2003), for slip weakening at the rate
+/// `(mu_S - mu_D) p_n/d_c`; their constant 0.579 is for half the length.
 pub fn nucleation_length(law: &Exponential, distance: f64, at: &Interface) -> f64 {
     1.158 * at.modulus * distance / ((law.mu_static - law.mu_dynamic) * at.pressure)
 }
 
-/// `N_1 = dt^2 k_t/m*` of a friction spring with the areal stiffness `k_t` (N/m^3, both passes).
+/// `N_1 = dt^2 k_t/m*` (dimensionless) of a penalty friction spring with the areal stiffness `k_t` (N/m^3, the sum of
+/// both passes).
 pub fn spring_number(areal_stiffness: f64, at: &Interface) -> f64 {
     at.dt * at.dt * areal_stiffness / at.surface_mass
 }

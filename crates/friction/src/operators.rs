@@ -2,8 +2,8 @@
 
 use exmex::{BinOp, FloatOpsFactory, MakeOperators, Operator};
 
-/// What exmex knows by default, with the functions that the standard library takes from the system's C
-/// library (whose variants round differently) taken from `libm` instead.
+/// The default operators of exmex. Functions that the standard library takes from the system's C library, which
+/// rounds differently on other systems, come from `libm` instead.
 #[derive(Clone, Debug)]
 pub(super) struct Operators;
 
@@ -58,7 +58,7 @@ fn unary(name: &str) -> Option<fn(f64) -> f64> {
 mod tests {
     use super::*;
 
-    /// What is no function of a mathematical library: exact in IEEE arithmetic.
+    /// Operators and constants that need no mathematical library: IEEE arithmetic defines every bit.
     const EXACT: [&str; 20] = [
         "*", "/", "+", "-", "min", "max", "abs", "signum", "floor", "round", "ceil", "trunc",
         "fract", "sqrt", "PI", "π", "E", "e", "TAU", "τ",

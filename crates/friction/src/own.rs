@@ -1,44 +1,45 @@
-//! A friction law that whoever starts the run brings along: `friction.law = "python"`.
+//! A friction law that the caller of the program supplies: `friction.law = "python"`.
 
 use crate::{Memory, NodeFriction, Place, Remembers, Slid};
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A coefficient of friction over the slip speed that is not part of this program, and whose every call has
-/// a price: it is asked for all contact nodes at once.
+/// A user's coefficient of friction as a function of the slip speed. It is not part of this program and is expensive to
+/// call, so that it is evaluated for all contact nodes at once.
 ///
-/// A node's coefficient must depend on its own slip speed alone, and be the same whenever it is asked: only
-/// then does a run have the same bits for any number of threads, and after it was resumed.
+/// A node's coefficient must be a function of its own slip speed alone: only then does a run have the same bits for any
+/// number of threads, and after it is resumed.
 pub trait OwnLaw: Send + Sync + Debug {
-    /// Puts the coefficients of friction at `slip_speeds >= 0` (m/s) into `mu`, which is as long.
+    /// Writes the coefficients of friction at `slip_speeds >= 0` (m/s) into `mu`, a slice of the same length.
     ///
-    /// A law that fails leaves finite numbers and tells of it by [`failure`](Self::failure).
+    /// A law that fails writes finite numbers and reports the failure by [`failure`](Self::failure).
     fn mu(&self, slip_speeds: &[f64], mu: &mut [f64]);
 
-    /// Why the law can give no coefficients, once it could not: this ends the run.
+    /// Why an evaluation failed, if one did: this ends the run.
     fn failure(&self) -> Option<String>;
 }
 
-/// An own law at the contact nodes. With the slip speed of the step before, or with memory, the state is the
-/// coefficient, and the law is asked once per step and surface; at the same instant it is asked at
-/// every trial of every node.
+/// A user's law at the contact nodes. With the slip speed of the step before, or with memory, the first number of the
+/// state is the coefficient, and the law is evaluated once per step and surface. With the slip speed of the same
+/// instant it has no state, and is evaluated in every iteration of every node.
 #[derive(Debug)]
 pub struct Own {
     law: Arc<dyn OwnLaw>,
     memory: Option<Memory>,
     implicit: bool,
     at_rest: f64,
-    /// Slip speeds and coefficients of a step.
-    asked: Mutex<[Vec<f64>; 2]>,
+    /// Slip speeds and coefficients of a step, kept to avoid allocations.
+    buffers: Mutex<[Vec<f64>; 2]>,
 }
 
 impl Own {
-    /// `memory` and whether it is asked at the slip speed of the same instant.
+    /// The law, with `memory` if given; `implicit` selects the slip speed of the same instant, and is not meant to be
+    /// combined with memory. Evaluates the law once, at rest.
     pub fn new(law: Arc<dyn OwnLaw>, memory: Option<Memory>, implicit: bool) -> Self {
         let mut at_rest = [0.0];
         law.mu(&[0.0], &mut at_rest);
         let [at_rest] = at_rest;
-        Self { law, memory, implicit, at_rest, asked: Mutex::default() }
+        Self { law, memory, implicit, at_rest, buffers: Mutex::default() }
     }
 
     fn at<const N: usize>(&self, slip_speeds: [f64; N]) -> [f64; N] {
@@ -47,7 +48,7 @@ impl Own {
         mu
     }
 
-    /// The coefficient, which is the state, after a step towards `steady`.
+    /// The state after a step towards the coefficient `steady`.
     fn follow(&self, before: f64, steady: f64, slip_speed: f64, dt: f64) -> [f64; 2] {
         let mu = match self.memory {
             Some(memory) => memory.advance(before, steady, slip_speed, dt),
@@ -74,8 +75,8 @@ impl NodeFriction for Own {
         if self.implicit || nodes.is_empty() {
             return;
         }
-        let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
-        let [slip_speeds, mu] = &mut *asked;
+        let mut buffers = self.buffers.lock().unwrap_or_else(PoisonError::into_inner);
+        let [slip_speeds, mu] = &mut *buffers;
         slip_speeds.clear();
         slip_speeds.extend(nodes.iter().map(|node| node.slip_speed));
         mu.resize(nodes.len(), 0.0);
@@ -89,7 +90,7 @@ impl NodeFriction for Own {
         if self.implicit { self.at([slip_speed])[0] } else { mu }
     }
 
-    /// By central difference, as of any law that does not know its slope.
+    /// By central difference, one-sided at rest.
     fn slope(&self, _state: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
         if !self.implicit {
             return 0.0;
@@ -117,10 +118,11 @@ impl NodeFriction for Own {
     }
 }
 
-/// Slip speeds at which such a law is sampled: at rest, and so many per decade from 1e-6 to 1e2 m/s.
+/// Slip speeds per decade at which a user's law is sampled.
 const PER_DECADE: u32 = 100;
 
-/// Points of a law that was handed over with the run; none of one that failed.
+/// A user's law as points (slip speed in m/s, coefficient): at rest, and from 1e-6 to 1e2 m/s with 100 points per
+/// decade. `None` if the law failed.
 pub fn sampled(law: &dyn OwnLaw) -> Option<Vec<[f64; 2]>> {
     if law.failure().is_some() {
         return None;

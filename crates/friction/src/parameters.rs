@@ -1,4 +1,4 @@
-//! The parameters of the laws: which law has which, their defaults, and the law that they make.
+//! The parameters of the laws: which law has which, their defaults, and the law that they define.
 
 use crate::{
     Coulomb, Exponential, Expression, ExpressionError, Implicit, Lagged, Memory, NodeFriction, Own,
@@ -9,13 +9,13 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Why parameters make no law.
+/// Why parameters define no friction law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LawError {
-    /// A formula that gives no coefficient of friction.
+    /// The formula of an expression is not valid.
     #[error(transparent)]
     Expression(#[from] ExpressionError),
-    /// Points that give none.
+    /// The points of a table are not valid.
     #[error(transparent)]
     Table(#[from] TableError),
 }
@@ -149,19 +149,19 @@ pub enum Kind {
     Python,
 }
 
-/// A law with the names of the parameters that it uses.
+/// A law with the names of the parameters that it uses, as keys of the case file's table `[friction]`.
 pub struct Uses {
     /// The law.
     pub law: Kind,
-    /// Its name.
+    /// The value of the key `law` that selects it.
     pub word: &'static str,
-    /// Those that must be given.
+    /// Parameters that must be given.
     pub needs: &'static [&'static str],
-    /// The others.
+    /// Parameters that may be given.
     pub takes: &'static [&'static str],
 }
 
-/// Which law uses which parameters.
+/// Which law uses which parameters, one entry per [`Kind`].
 pub const USES: [Uses; 8] = [
     Uses { law: Kind::Coulomb, word: "coulomb", needs: &["static"], takes: &[] },
     Uses {
@@ -199,7 +199,7 @@ pub const USES: [Uses; 8] = [
 ];
 
 impl Uses {
-    /// The parameters of a law.
+    /// The entry of a law in [`USES`].
     pub fn of(law: Kind) -> &'static Self {
         USES.iter().find(|uses| uses.law == law).unwrap_or(&USES[0])
     }
@@ -219,7 +219,7 @@ pub fn all_parameters() -> impl Iterator<Item = &'static str> {
 }
 
 impl Parameters {
-    /// The parameters given besides the law.
+    /// The names of the parameters that are given, without `law`.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
         [
             ("static", self.static_.is_some()),
@@ -243,7 +243,8 @@ impl Parameters {
         .filter_map(|(key, given)| given.then_some(key))
     }
 
-    /// Writes the law's defaults out. `exact` says whether contact is enforced exactly.
+    /// Sets parameters of the law that are not given to their defaults. `exact`: contact is enforced exactly, by
+    /// Lagrange multipliers. A missing `distance` counts as zero; [`missing`](Self::missing) reports it.
     pub fn write_defaults(&mut self, exact: bool) {
         match self.law {
             Kind::Exponential => {
@@ -269,17 +270,19 @@ impl Parameters {
         }
     }
 
-    /// A parameter that the law needs and that is not given.
+    /// The first parameter that the law needs and that is not given.
     pub fn missing(&self) -> Option<&'static str> {
         let given = |key: &str| self.given().any(|given| given == key);
         Uses::of(self.law).needs.iter().copied().find(|key| !given(key))
     }
 
-    /// The law, with `formula` to read an expression and what was handed over with the run. Without `own` the
-    /// law `"python"` is no friction: nothing that does without it rolls.
+    /// The law that the parameters define. `formula` parses the text of an expression; `own` is the user's function of
+    /// the law `"python"`. Without `own` that law has the coefficient zero, for callers that only read the case.
+    ///
+    /// Parameters that are not given have their defaults, and needed ones count as zero or empty.
     ///
     /// # Errors
-    /// A formula or points that give no coefficient of self.
+    /// [`LawError`]: `formula` refuses the text, or the points of a table are not valid.
     pub fn node_friction(
         &self,
         formula: impl FnOnce(&str) -> Result<Expression, ExpressionError>,
@@ -350,20 +353,20 @@ impl Parameters {
         }
     }
 
-    /// Eq. (8), if it is this law.
+    /// Eq. (8) with these parameters, if the law is [`Kind::Exponential`].
     pub fn exponential(&self) -> Option<Exponential> {
         (self.law == Kind::Exponential).then(|| self.eq_8())
     }
 }
 
-/// Coefficient at high slip velocity, or after slip, where a case gives none.
+/// Default of `dynamic`: the coefficient at high slip velocity, or after slip.
 pub const DYNAMIC: f64 = 0.32;
-/// Decay (s/m) where an exponential law gives none.
+/// Default of `decay` (s/m).
 const DECAY: f64 = 6.0;
-/// Rate and state where a case gives none: the benchmarks TPV101 and 102 (Harris et al. 2009).
+/// Defaults of rate and state: the benchmarks TPV101 and 102 (Harris et al. 2009).
 const REFERENCE: f64 = 0.6;
 const REFERENCE_SPEED: f64 = 1e-6;
 const DIRECT: f64 = 0.008;
 const EVOLUTION: f64 = 0.012;
-/// V* (m/s) where a case gives none: the benchmarks TPV6 and 7 (Harris et al. 2009).
+/// Default of V* (m/s): the benchmarks TPV6 and 7 (Harris et al. 2009).
 const RELAXATION_SPEED: f64 = 1.0;

@@ -1,4 +1,4 @@
-//! Friction whose shear strength remembers the pressure.
+//! Friction whose shear strength follows changes of pressure gradually.
 
 use crate::{NodeFriction, Place};
 
@@ -8,21 +8,21 @@ use crate::{NodeFriction, Place};
 /// bodies well posed (Ranjith and Rice 2001).
 ///
 /// The state is `tau_s` (Pa), advanced by the exact solution for a slip speed and a pressure that are
-/// constant over the step. The coefficient is `tau_s/p`: the bound is `tau_s`, whatever the pressure does
-/// within the step.
+/// constant over the step. The coefficient is `tau_s/p`, so that the bound on the shear is `tau_s`, however the
+/// pressure changes within the step.
 ///
 /// - *Beginning of contact*: the strength is `mu p` at the pressure of that instant. Exact enforcement
 ///   does not know that pressure yet: the strength starts from zero and follows.
 /// - *End of contact*: the pressure falls to zero and the strength lags behind, so that `tau_s/p` grows
-///   without bound. It is cut at [`MOST`](Self::MOST) times `mu`, where the pressure is a thousandth of
-///   the one that the strength remembers: shear then vanishes with the pressure.
+///   without bound. It is limited to [`MOST`](Self::MOST) times `mu`, which it reaches when the pressure is a
+///   thousandth of `tau_s/mu`: shear then vanishes with the pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrakashClifton {
     /// Coefficient of friction `mu` under constant pressure.
     pub mu: f64,
     /// Distance of slip `L` over which the strength adapts (m).
     pub distance: f64,
-    /// Slip speed `V*` (m/s) that relaxation has at rest.
+    /// Slip speed `V*` (m/s) at which the strength relaxes when the node is at rest.
     pub speed: f64,
 }
 
@@ -43,7 +43,7 @@ impl NodeFriction for PrakashClifton {
     }
 
     fn mu(&self, [strength, _]: [f64; 2], _slip_speed: f64, at: &Place) -> f64 {
-        // also where there is no pressure
+        // a comparison without a division, which also holds at zero pressure
         let most = Self::MOST * self.mu;
         if strength < most * at.pressure { strength / at.pressure } else { most }
     }

@@ -20,48 +20,49 @@ pub enum StateLaw {
 /// (Rice, Lapusta and Ranjith 2001, Eq. 15):
 /// `mu = a asinh( V/(2 V_0) exp( (f_0 + b ln(V_0 theta/L))/a ) )`.
 ///
-/// The coefficient belongs to the slip speed `V` of the same instant, rises with it at a fixed state and
-/// vanishes with it: nothing sticks, what seems to creeps at less than `V_0 exp(-f_0/a)`. In steady
-/// sliding `mu = f_0 + (a - b) ln(V/V_0)`, which falls with the speed where `b > a`.
+/// At a fixed state the coefficient rises with the slip speed `V` and vanishes with it. No node sticks: one that seems
+/// to stick creeps at less than `V_0 exp(-f_0/a)`. In steady sliding `mu = f_0 + (a - b) ln(V/V_0)`, which falls with
+/// the speed where `b > a`.
 ///
-/// The state is `theta` (s), advanced by the exact solution for a slip speed that is constant over the
-/// step. It starts at `initial` wherever a node comes into contact. The second number of the state is the
-/// slip speed of the step before, which the coefficient belongs to if `lagged`.
+/// The first number of the state is `theta` (s), advanced by the exact solution for a slip speed that is constant over
+/// the step. It starts at `initial` wherever a node comes into contact. The second number is the slip speed of the step
+/// before (m/s), at which the coefficient is evaluated if `lagged`; it starts at zero, so that a lagged law has no
+/// friction in the first step of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateState {
     /// Coefficient `f_0` of steady sliding at `reference_speed`.
     pub reference: f64,
     /// Reference speed `V_0` (m/s).
     pub reference_speed: f64,
-    /// Direct effect `a`.
+    /// Direct effect `a` (dimensionless).
     pub direct: f64,
-    /// Effect of the state `b`.
+    /// Effect of the state `b` (dimensionless).
     pub evolution: f64,
     /// Distance of slip `L` over which the state evolves (m).
     pub distance: f64,
-    /// How it does.
+    /// Evolution law of the state.
     pub law: StateLaw,
     /// State of a node that comes into contact (s).
     pub initial: f64,
-    /// Takes the slip speed of the step before instead of that of the same instant.
+    /// Whether the coefficient takes the slip speed of the step before instead of that of the same instant.
     pub lagged: bool,
 }
 
 impl RateState {
-    /// Coefficient of steady sliding at `speed` (m/s): the state is `L/V`.
+    /// Coefficient of steady sliding at `speed > 0` (m/s), where `theta = L/V`.
     pub fn steady(&self, speed: f64) -> f64 {
         let state = [self.distance / speed, speed];
         self.mu(state, speed, &Place::default())
     }
 
-    /// `ln( V/(2 V_0) exp(..) )`, the logarithm of the argument of `asinh`, which itself may overflow.
-    fn argument(&self, theta: f64, speed: f64) -> f64 {
+    /// `ln( V/(2 V_0) exp(..) )`, the logarithm of the argument of `asinh`; the argument itself may overflow.
+    fn log_argument(&self, theta: f64, speed: f64) -> f64 {
         let state = self.evolution * libm::log(self.reference_speed * theta / self.distance);
         libm::log(speed / (2.0 * self.reference_speed)) + (self.reference + state) / self.direct
     }
 }
 
-/// From here on `asinh(e^x) = x + ln 2` to all digits.
+/// For larger x, `asinh(e^x) = x + ln 2` in double precision.
 const LARGE: f64 = 20.0;
 
 impl NodeFriction for RateState {
@@ -71,14 +72,14 @@ impl NodeFriction for RateState {
 
     fn advance(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
         let x = slip_speed * dt / self.distance;
-        // (1 - e^-x)/x and 1 - e^-x
-        let gone = -libm::expm1(-x);
-        let mean = if x > 0.0 { gone / x } else { 1.0 };
+        // 1 - e^-x and (1 - e^-x)/x
+        let decayed = -libm::expm1(-x);
+        let mean = if x > 0.0 { decayed / x } else { 1.0 };
         let theta = match self.law {
             StateLaw::Ageing => theta * libm::exp(-x) + dt * mean,
             // ln(V theta/L) decays as e^-x
             StateLaw::Slip if slip_speed > 0.0 => {
-                theta * libm::exp(-gone * libm::log(slip_speed * theta / self.distance))
+                theta * libm::exp(-decayed * libm::log(slip_speed * theta / self.distance))
             }
             StateLaw::Slip => theta,
         };
@@ -86,7 +87,7 @@ impl NodeFriction for RateState {
     }
 
     fn mu(&self, [theta, before]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
-        let x = self.argument(theta, if self.lagged { before } else { slip_speed });
+        let x = self.log_argument(theta, if self.lagged { before } else { slip_speed });
         self.direct * if x > LARGE { x + LN_2 } else { libm::asinh(libm::exp(x)) }
     }
 
@@ -95,10 +96,11 @@ impl NodeFriction for RateState {
             return 0.0;
         }
         if slip_speed == 0.0 {
-            // of a node at rest: the derivative of asinh is 1 there
-            return self.direct * libm::exp(self.argument(theta, 1.0));
+            // the derivative of asinh is 1 at rest
+            return self.direct * libm::exp(self.log_argument(theta, 1.0));
         }
-        let x = self.argument(theta, slip_speed);
+        let x = self.log_argument(theta, slip_speed);
+        // tanh(asinh(e^x)), since d asinh(y)/d ln y = tanh(asinh(y))
         let tanh = if x > LARGE { 1.0 } else { 1.0 / (1.0 + libm::exp(-2.0 * x)).sqrt() };
         self.direct * tanh / slip_speed
     }
@@ -107,7 +109,7 @@ impl NodeFriction for RateState {
         !self.lagged
     }
 
-    /// The coefficient `f_0`: at rest itself there is none in this law.
+    /// The coefficient `f_0`: this law has no static coefficient, since `mu` vanishes at rest.
     fn mu_static(&self) -> f64 {
         self.reference
     }

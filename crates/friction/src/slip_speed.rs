@@ -1,9 +1,9 @@
-//! The tangential problem of one node: `T s + p_f = T |s_free|` with `p_f` from the law of friction.
+//! The tangential problem of one node with a coefficient that depends on the slip speed of the same instant.
 //!
-//! `s_free` is the slip velocity that the node would have without its own friction. Slip is parallel
-//! to it, and its speed `s` solves `s + c mu(s) = |s_free|` with `c = dt W p_n A` (m/s), or is zero where
-//! `c mu(0) >= |s_free|`: Coulomb's law for a known coefficient, and Eq. (8) of Vollebregt (2017) with the
-//! coefficient at the same instant.
+//! `s_free` is the slip velocity (m/s) that the node would have without its own friction. Slip is parallel
+//! to it, and its speed `s` (m/s) solves `s + c mu(s) = |s_free|`, or is zero where `c mu(0) >= |s_free|`. Here
+//! `c = dt W p_n A` (m/s) with the time step `dt`, the node's entry `W` of the Delassus operator (1/kg), the pressure
+//! `p_n` and the node's area `A`. With a constant coefficient this is Coulomb's law.
 //!
 //! # Selection
 //! Where `c mu` falls faster than `s` rises there are three solutions: adhesion, and two in slip, the
@@ -11,24 +11,28 @@
 //! Paumier 1994): a node that stuck sticks as long as it can; one that slipped slips as long as there
 //! is a solution in slip, and takes the fastest.
 
-/// Bisections and Newton steps at most.
-const ROUNDS: usize = 100;
+/// Newton steps and bisections at most.
+const MOST_ITERATIONS: usize = 100;
 
-/// A coefficient of friction and its slope (s/m) over the slip speed (m/s).
+/// A coefficient of friction as a function of the slip speed.
 pub trait Curve {
-    /// Both at a slip speed.
+    /// Coefficient and its derivative (s/m) at the slip speed `speed >= 0` (m/s).
     fn at(&self, speed: f64) -> (f64, f64);
 }
 
 impl<F: Fn(f64) -> (f64, f64)> Curve for F {
-    /// Both at a slip speed.
     fn at(&self, speed: f64) -> (f64, f64) {
         self(speed)
     }
 }
 
-/// Slip speed (m/s) and coefficient of friction with a coefficient that depends on the speed; no
-/// speed where the node sticks.
+/// Slip speed (m/s) and coefficient of friction of a node; `None` where it sticks.
+///
+/// `free` is `|s_free|` (m/s) and `c` as in the module's equation (m/s), both at least zero. `slipped` says whether
+/// the node slipped in the step before; it selects the branch where there are several solutions.
+///
+/// `mu` should not rise to a peak at a speed above zero and fall beyond it. The search comes from above; for such a law
+/// it may end above the peak and return `None` although the only solution is slip at a lower speed.
 pub fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option<(f64, f64)> {
     let sticks = c * mu.at(0.0).0 >= free;
     if sticks && !slipped {
@@ -37,20 +41,20 @@ pub fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option<(f64, 
     fastest(free, c, mu).filter(|(speed, _)| *speed > 0.0)
 }
 
-/// Whether adhesion and slip are both solutions.
+/// Whether adhesion and slip are both solutions; arguments as for [`solve`].
 pub fn is_non_unique(free: f64, c: f64, mu: &impl Curve) -> bool {
     c * mu.at(0.0).0 >= free && fastest(free, c, mu).is_some_and(|(speed, _)| speed > 0.0)
 }
 
 /// The largest root of `F(s) = s + c mu(s) - free`, by Newton's method from above, where `F > 0`.
 ///
-/// On the way down `F` falls along a curve that is convex for laws that level off, so that Newton's
-/// steps do not pass the root. Where one does, the root lies in between and is bracketed.
+/// For laws that level off at high speed `F` is convex, so that Newton's steps do not pass the root. Where one
+/// does, the root is bracketed, and bisection takes over where Newton's step leaves the bracket.
 fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
     // F(free) = c mu >= 0
     let (mut above, mut below) = (free, f64::NAN);
     let mut s = free;
-    for _ in 0..ROUNDS {
+    for _ in 0..MOST_ITERATIONS {
         let (value, slope) = mu.at(s);
         let f = s + c * value - free;
         if f.abs() <= f64::EPSILON * (free + c * value) {
@@ -129,7 +133,7 @@ mod tests {
         assert_eq!(solve(0.0, C, false, &curve), None);
     }
 
-    /// Eq. (8) with steel's impedance: T = Z/p at 1 GPa, R = 86.
+    /// Eq. (8) with the impedance of steel: c = p/Z at 1 GPa, R = 86.
     fn paper(s: f64) -> (f64, f64) {
         let above = 0.18 * libm::exp(-6.0 * s);
         (0.32 + above, -6.0 * above)

@@ -1,19 +1,19 @@
-//! Friction that weakens with the slip made so far.
+//! Friction that weakens with accumulated slip.
 
 use crate::{NodeFriction, Place};
 
 /// `mu = mu_S - (mu_S - mu_D) min(|slip|/d_0, 1)`: linear slip weakening (Ida 1972; Andrews 1976), the
 /// law of the dynamic rupture benchmarks (Harris et al. 2009, TPV3).
 ///
-/// The state is the slip path since the surfaces met, `integral |s| dt` (m). A node that leaves contact
-/// forgets it: friction is static again where the node next comes into contact, and nowhere else.
+/// The first number of the state is the slip path since the node came into contact, `integral |s| dt` (m). It starts
+/// again at zero when a node that left contact comes into contact again; rest does not heal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipWeakening {
     /// Coefficient before slip, `mu_S`.
     pub mu_static: f64,
     /// Coefficient after a slip of `distance`, `mu_D`.
     pub mu_dynamic: f64,
-    /// Distance of slip `d_0` over which it falls (m).
+    /// Distance of slip `d_0` over which the coefficient falls (m).
     pub distance: f64,
 }
 

@@ -1,10 +1,10 @@
-//! The friction laws that a user can choose by name.
+//! The steady friction laws that a user can choose by name.
 
 use crate::expression::{self, Expression};
 use crate::{Coulomb, Exponential, FrictionLaw, Place, Table};
 use thiserror::Error;
 
-/// A friction law without memory, as plain data.
+/// A friction law without state, as plain data.
 #[derive(Clone, Debug)]
 pub enum SteadyLaw {
     /// One coefficient.
@@ -34,7 +34,8 @@ pub struct Strengthens {
 }
 
 impl SteadyLaw {
-    /// `-mu'(0)`, the slope with which friction falls at the onset of slip (s/m).
+    /// `-mu'(0)`, the slope with which friction falls at the onset of slip (s/m). A formula must depend on the slip
+    /// speed alone.
     pub fn fall_at_rest(&self) -> f64 {
         match self {
             Self::Coulomb(_) => 0.0,
@@ -51,11 +52,12 @@ impl SteadyLaw {
         }
     }
 
-    /// Where friction rises with slip speed, if it does; a formula is tried from 1e-9 to 1e3 m/s.
+    /// Two slip speeds between which friction rises, if it does. A formula is evaluated from 1e-9 to 1e3 m/s, at zero
+    /// pressure, time and position.
     pub fn strengthens(&self) -> Option<Strengthens> {
         let rise = |pair: [[f64; 2]; 2]| {
             let [[slower, before], [faster, after]] = pair;
-            // the rounding of a formula is no rise
+            // rounding in a formula does not count as a rise
             (after > before * (1.0 + 1e-12)).then_some(Strengthens {
                 slower,
                 faster,

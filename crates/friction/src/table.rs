@@ -9,7 +9,7 @@ pub struct Table {
     points: Vec<[f64; 2]>,
 }
 
-/// Why points make no friction law.
+/// Why points define no friction law.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum TableError {
     /// No points.
@@ -54,7 +54,8 @@ impl Table {
     /// strictly rising.
     ///
     /// # Errors
-    /// Points that are missing, out of range or out of order.
+    /// [`TableError`]: no points, a number that is negative or not finite, speeds that do not rise, or a first speed
+    /// above zero.
     pub fn new(points: Vec<[f64; 2]>) -> Result<Self, TableError> {
         let Some(&[first, _]) = points.first() else { return Err(TableError::Empty) };
         for (i, &[speed, mu]) in points.iter().enumerate() {

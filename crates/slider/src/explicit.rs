@@ -2,7 +2,7 @@
 
 use crate::{Parameters, State};
 
-/// One step: friction with the slip velocity of the step before, Euler forward for the velocity,
+/// One step: friction at the slip velocity of the step before, forward Euler for the velocity,
 /// the trapezoidal rule for the position.
 pub fn explicit_step(p: &Parameters, state: State) -> State {
     let mu = p.mu(state.slip); // (28)

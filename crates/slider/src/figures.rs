@@ -12,19 +12,19 @@ use figure::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
 /// Time, and the block at that time.
 type Sample = (f64, State);
 
-/// Pixel columns for which lines are thinned.
+/// Lines are thinned for so many columns of pixels.
 const COLUMNS: usize = 1500;
 
-/// Most steps of a run that is drawn: every step is kept, in 40 bytes.
+/// Most steps of a run that is drawn: every step is kept, in 48 bytes.
 const MOST_DRAWN: f64 = 2e7;
 
-/// Most steps of the map's run at its smallest time step: minutes for the whole map.
+/// Most steps of a run of the map at its smallest time step; the whole map then takes minutes.
 const MOST_MAPPED: f64 = 5e8;
 
-/// Whether the figures can be drawn in the memory and time that a machine has.
+/// Checks that the figures need no more than about 1 GB of memory for a run, and minutes for the map.
 ///
 /// # Errors
-/// A time step or an end with too many steps.
+/// A time step or an end that gives too many steps.
 pub fn drawable(p: &Parameters) -> Result<(), ParameterError> {
     if p.end / p.dt > MOST_DRAWN {
         let allowed = "at least t_end/2e7 for figures: they keep every step in memory";
@@ -57,7 +57,7 @@ fn panel(title: &str, y: Axis, series: Vec<Series>, [from, to]: [f64; 2]) -> Pan
     Panel { title: title.into(), x, y, fill: None, series, marks: Vec::new() }
 }
 
-/// The panels of x and v, of s, and of the forces against time.
+/// The panels of x, of v, of s, and of the forces against time.
 fn panels(p: &Parameters, title: &str, samples: &[Sample], span: [f64; 2]) -> [Panel; 4] {
     let spring = |s: &State| -p.damping * s.v - p.spring * s.x;
     let forces = vec![
@@ -93,8 +93,8 @@ pub fn figure_6(p: &Parameters, methods: [Method; 2]) -> Result<Figure, BlowUp> 
     Ok(Figure { size: [960, 960], columns: 2, panels: rows.collect(), caption: String::new() })
 }
 
-/// Figure 7: the coefficient of friction that each method used against the slip speed at the same
-/// time, over the law.
+/// Figure 7: for two methods, the coefficient of friction used in each step against the slip speed at its end, over
+/// the curve of the law.
 ///
 /// # Errors
 /// A run that blows up.
@@ -132,7 +132,8 @@ fn dots_apart(points: &[[f64; 2]], cell: [f64; 2]) -> Vec<[f64; 2]> {
     points.iter().filter(|p| seen.insert(place(p))).copied().collect()
 }
 
-/// Figure 8: the explicit method, zoomed in.
+/// Figure 8: x, v, s, mu and the forces of one method against time, from `span[0]` to `span[1]` (s); in the paper the
+/// explicit one.
 ///
 /// # Errors
 /// A run that blows up.
@@ -147,8 +148,8 @@ pub fn figure_8(p: &Parameters, method: Method, span: [f64; 2]) -> Result<Figure
     Ok(Figure { size: [640, 1000], columns: 1, panels, caption: String::new() })
 }
 
-/// The map of the time step: x_min and the slip in adhesion against dt from 1e-7 to 1e-3 s, with
-/// the explicit method's thresholds.
+/// The map of the time step: x_min and the slip in adhesion against dt from 1e-7 to 1e-3 s, for the explicit, implicit,
+/// penalty and exact methods, with the explicit method's thresholds by formula.
 pub fn time_step_map(p: &Parameters) -> Figure {
     let methods = [
         (Method::Explicit, -7, colour::RED),

@@ -2,7 +2,7 @@
 
 use crate::{Parameters, State};
 
-/// How a step's equation was solved.
+/// How many iterations a step took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Iterations {
     /// Picard iterations.
@@ -17,8 +17,8 @@ const MOST_PICARD: u32 = 2000;
 /// Imbalance at which Eq (24) counts as solved, relative to the sum of its terms.
 const TOLERANCE: f64 = 1e-14;
 
-/// Eq (24) of one step, with the slip velocity as the unknown: v^{n+1} = v_ref + s keeps the digits
-/// of a slip far below the belt's velocity.
+/// Eq (24) of one step, with the slip velocity as the unknown: a slip velocity far below the belt's then keeps its
+/// digits, which v^{n+1} = v_ref + s would lose.
 #[derive(Clone, Copy, Debug)]
 pub struct ImplicitEquation {
     /// m + c dt + k dt^2 (kg).
@@ -39,8 +39,8 @@ impl ImplicitEquation {
         }
     }
 
-    /// Right-hand minus left-hand side of Eq (24) (kg m/s) at a slip velocity, and the sum of the
-    /// magnitudes of its terms, against which it is small.
+    /// Right-hand minus left-hand side of Eq (24) at a slip velocity (m/s), and the sum of the magnitudes of its terms,
+    /// the scale of its rounding error (both kg m/s).
     pub fn imbalance(&self, p: &Parameters, slip: f64) -> [f64; 2] {
         let (friction, left) = (p.dt * p.friction(slip), self.inertia * (p.belt + slip));
         let scale = self.known.abs() + friction.abs() + left.abs() + self.inertia * slip.abs();
@@ -48,12 +48,12 @@ impl ImplicitEquation {
     }
 }
 
-/// One step.
+/// One step, and the iterations it took.
 ///
-/// In sliding Picard iterates Eq (25), `s += imbalance/inertia`; in adhesion, where friction is
-/// nearly linear in the slip, Eq (27), `s += imbalance/(inertia + adhesion)`. Iterates that jump
-/// over the whole adhesion zone are set to v_ref, as in the paper. Where Picard does not converge,
-/// the root is bracketed.
+/// In sliding, Picard iteration uses Eq (25), `s += imbalance/inertia`. In adhesion, where friction is
+/// nearly linear in the slip velocity, it uses Eq (27), `s += imbalance/(inertia + adhesion)`. An iterate that jumps
+/// over the whole adhesion zone is replaced by v = v_ref, as in the paper. Where Picard iteration does not converge,
+/// the root is found by bisection.
 pub fn implicit_step(p: &Parameters, state: State) -> (State, Iterations) {
     let equation = ImplicitEquation::new(p, &state);
     let mut count = Iterations::default();
@@ -68,7 +68,7 @@ pub fn implicit_step(p: &Parameters, state: State) -> (State, Iterations) {
         let weight = equation.inertia + if adhesive { equation.adhesion } else { 0.0 };
         let next = slip + imbalance / weight; // (25), (27)
         if next == slip {
-            return (advanced(p, &state, slip), count); // no closer number exists
+            return (advanced(p, &state, slip), count); // converged to the last bit
         }
         let next_adhesive = next.abs() <= p.adhesion;
         let skips = !adhesive && !next_adhesive && slip * next < 0.0;

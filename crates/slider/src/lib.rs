@@ -1,5 +1,6 @@
-//! The 1-D slider of Vollebregt (2017), section 6: a block on a belt, held by a spring, with
-//! friction that falls with slip velocity. Equation numbers are that paper's.
+//! The 1-D slider of Vollebregt (2017), section 6: a block on a moving belt, held by a spring and a damper, with
+//! friction that falls with slip velocity. Equation, table and figure numbers are those of that paper. SI units;
+//! positions, velocities and forces are along the belt, in a fixed frame, positive towards +x.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

@@ -1,4 +1,4 @@
-//! What becomes of x_min and of adhesion as the time step changes.
+//! How x_min and the slip in adhesion depend on the time step.
 
 use crate::{Method, Parameters, penalty_stable_step, run, unobserved};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ pub struct MapPoint {
     pub dt: f64,
     /// Smallest position (m).
     pub x_min: f64,
-    /// Root mean square of the slip velocity in the first adhesion, [`crate::Outcome`] (m/s).
+    /// Root mean square of the slip velocity in the first adhesion (m/s), as in [`crate::Outcome`].
     pub adhesion_slip: f64,
 }
 
@@ -22,12 +22,12 @@ pub(crate) fn map_end(p: &Parameters) -> f64 {
     p.end.min(1.2 * p.reach() / p.belt.abs())
 }
 
-/// Steps per decade of dt.
+/// Points of the map per decade of dt.
 const PER_DECADE: i32 = 24;
 
-/// Runs at time steps between the decades `10^from` and `10^to`, up to the first collapse.
+/// Runs up to the first collapse, with time steps from `10^from` to `10^to` s, 24 per decade, in rising order.
 ///
-/// Steps at which the method blows up or, with a penalty, the spring is unstable, are left out.
+/// Time steps at which the run blows up, or the friction spring of the penalty method is unstable, are left out.
 pub fn map(p: &Parameters, method: Method, from: i32, to: i32) -> Vec<MapPoint> {
     let end = map_end(p);
     (from * PER_DECADE..=to * PER_DECADE)

@@ -1,4 +1,4 @@
-//! Table 1, and what the further methods need.
+//! The parameters of Table 1, and those of the methods that are not in the paper.
 
 use crate::State;
 use friction::{Exponential, FrictionLaw, Memory, SteadyLaw};
@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Parameters of the slider; the default is Table 1.
 #[derive(Clone, Debug)]
 pub struct Parameters {
-    /// Velocity of the belt v_ref (m/s).
+    /// Velocity of the belt v_ref (m/s); its sign is the direction.
     pub belt: f64,
     /// Normal force F_n (N).
     pub normal_force: f64,
@@ -17,13 +17,13 @@ pub struct Parameters {
     pub spring: f64,
     /// Damper c_damp (N s/m).
     pub damping: f64,
-    /// Slip velocity s_adhes below which friction is linear, Eq (18) (m/s).
+    /// Slip speed s_adhes below which the friction force is linear in the slip velocity, Eq (18) (m/s).
     pub adhesion: f64,
-    /// mu(s); Eq (17) in the paper.
+    /// Coefficient of friction mu(s); Eq (17) in the paper.
     pub law: SteadyLaw,
     /// Stiffness k_t of the friction spring of the penalty method (N/m).
     pub stiffness: f64,
-    /// Memory of friction of the memory method.
+    /// Memory of the coefficient of friction, of [`crate::Method::Memory`].
     pub memory: Memory,
     /// Time step (s).
     pub dt: f64,
@@ -59,7 +59,7 @@ impl Default for Parameters {
     }
 }
 
-/// Most steps of a run: about a minute of the explicit method.
+/// Most steps of a run, `end/dt`: about a minute of the explicit method.
 pub const MOST_STEPS: f64 = 1e10;
 
 /// A parameter outside its range.
@@ -83,7 +83,7 @@ impl Parameters {
     /// The parameters, if every one is within its range.
     ///
     /// # Errors
-    /// The first parameter that is not.
+    /// The first parameter that is out of range, or `dt` if the run would take more than [`MOST_STEPS`].
     pub fn checked(self) -> Result<Self, ParameterError> {
         let positive = [
             ("dt", self.dt, "s"),
@@ -106,7 +106,7 @@ impl Parameters {
                 ("mu_dynamic", law.mu_dynamic, ""),
                 ("decay", law.decay, "s/m"),
             ]),
-            // checked when they were made
+            // checked when they were constructed
             SteadyLaw::Table(_) | SteadyLaw::Expression(_) => {}
         }
         for (key, value, unit) in positive {
@@ -133,7 +133,7 @@ impl Parameters {
         Ok(self)
     }
 
-    /// The block at t = 0: no force in the friction spring, friction rested.
+    /// The block at t = 0: no force in the friction spring, the coefficient of friction at rest.
     pub fn start(&self) -> State {
         State {
             x: self.x0,
@@ -144,32 +144,33 @@ impl Parameters {
         }
     }
 
-    /// mu at a slip velocity (m/s).
+    /// Coefficient of friction at a slip velocity (m/s).
     #[inline]
     pub fn mu(&self, slip: f64) -> f64 {
         self.law.mu(slip.abs())
     }
 
-    /// mu_S, the coefficient at rest.
+    /// Coefficient of friction at rest, mu_S.
     #[inline]
     pub fn mu_static(&self) -> f64 {
         self.law.mu_static()
     }
 
-    /// F_fric (N) of a coefficient `mu` at a slip velocity, Eq (18): -mu F_n s/max(s_adhes, |s|).
+    /// Friction force F_fric on the block (N) of a coefficient `mu` at a slip velocity (m/s), Eq (18):
+    /// -mu F_n s/max(s_adhes, |s|).
     #[inline]
     pub fn regularised(&self, mu: f64, slip: f64) -> f64 {
         -mu * self.normal_force * slip / self.adhesion.max(slip.abs())
     }
 
-    /// F_fric(s) (N), Eqs (17) and (18).
+    /// Friction force F_fric(s) on the block (N) at a slip velocity (m/s), Eqs (17) and (18).
     #[inline]
     pub fn friction(&self, slip: f64) -> f64 {
         self.regularised(self.mu(slip), slip)
     }
 
-    /// Position (m, a magnitude) at which the spring pulls with static friction: mu_S F_n/k_spring;
-    /// infinite without a spring.
+    /// Extension of the spring at which it pulls with static friction, mu_S F_n/k_spring (m); infinite without a
+    /// spring.
     pub fn reach(&self) -> f64 {
         self.mu_static() * self.normal_force / self.spring
     }

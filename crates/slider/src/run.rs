@@ -18,7 +18,7 @@ pub enum Method {
     Penalty,
     /// Explicit with exact friction.
     Exact,
-    /// Explicit with exact friction that remembers.
+    /// Explicit with exact friction with memory.
     Memory,
 }
 
@@ -27,7 +27,7 @@ impl Method {
     pub const ALL: [Self; 5] =
         [Self::Implicit, Self::Explicit, Self::Penalty, Self::Exact, Self::Memory];
 
-    /// Its name.
+    /// Its name on the command line and in figures.
     pub fn name(self) -> &'static str {
         match self {
             Self::Implicit => "implicit",
@@ -46,19 +46,19 @@ pub struct Outcome {
     pub x_min: f64,
     /// Largest position after t = 0.7 s (m); NaN for a run that ends before.
     pub x_max: f64,
-    /// Largest velocity (m/s).
+    /// Largest velocity (m/s), with its sign.
     pub v_max: f64,
     /// Root mean square of the slip velocity (m/s) in the first adhesion, from t = 0 until the
     /// spring pulls with half of static friction; NaN if the block does not start at rest on the
     /// belt.
     pub adhesion_slip: f64,
-    /// Slip after the first capture, if the run has one.
+    /// Slip in the two windows after the first capture; `None` if the run ends or collapses before they have passed.
     pub ringing: Option<Ringing>,
     /// Steps taken.
     pub steps: u64,
-    /// Whether the run was stopped before its end.
+    /// Whether the observer stopped the run before its end.
     pub stopped: bool,
-    /// Picard iterations of all steps; zero for the other methods.
+    /// Picard iterations of all steps; like the next two, zero for methods other than the implicit one.
     pub picard: u64,
     /// Most Picard iterations of one step.
     pub most_picard: u32,
@@ -66,7 +66,7 @@ pub struct Outcome {
     pub fallbacks: u64,
 }
 
-/// A run whose numbers left the finite ones.
+/// A run whose position or velocity grew beyond 1e30 or is not a number.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error(
     "the {} method blew up in step {step}, t = {time:.6e} s: x = {:e} m, v = {:e} m/s; a smaller dt is needed",
@@ -75,11 +75,11 @@ pub struct Outcome {
 pub struct BlowUp {
     /// The method.
     pub method: Method,
-    /// Step of the first number out of bounds.
+    /// The first step, from 1, with such a number.
     pub step: u64,
     /// Its time (s).
     pub time: f64,
-    /// The state.
+    /// The state after it.
     pub state: State,
 }
 
@@ -89,11 +89,11 @@ const RUNAWAY: f64 = 1e30;
 /// Start of the time over which `x_max` is taken (s): after the first collapse.
 const AFTER_COLLAPSE: f64 = 0.7;
 
-/// Runs the slider; `observe` sees time and state at t = 0 and after every step, and may stop the
-/// run.
+/// Runs the slider from t = 0 to `p.end`, at least one step. `observe` is called with time (s) and state at t = 0 and
+/// after every step, and may stop the run. The parameters are not checked ([`Parameters::checked`]).
 ///
 /// # Errors
-/// A blow-up; `observe` has seen all steps before it.
+/// [`BlowUp`]; `observe` was called for all steps before it.
 pub fn run(
     p: &Parameters,
     method: Method,
@@ -117,7 +117,7 @@ pub fn run(
     }
 }
 
-/// An observer that looks on.
+/// An observer for [`run`] that does nothing.
 pub fn unobserved(_: f64, _: &State) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
@@ -157,7 +157,7 @@ fn steps(
         if time > AFTER_COLLAPSE {
             out.x_max = out.x_max.max(state.x);
         }
-        watch.see(p, time, &state);
+        watch.observe(p, time, &state);
         out.steps = step;
         if observe(time, &state).is_break() {
             out.stopped = step < steps;

@@ -1,9 +1,9 @@
-//! Tables 2, 3 and 4 of Vollebregt (2017), printed and computed.
+//! Tables 2, 3 and 4 of Vollebregt (2017): the printed values beside computed ones.
 
 use crate::{BlowUp, Method, Parameters, collapse_step, run, unobserved};
 use serde::Serialize;
 
-/// x_min, x_max over t > 0.7 s (m) and v_max (m/s).
+/// The characteristic values of a run that the tables list.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Characteristics {
     /// Smallest position (m).
@@ -14,7 +14,7 @@ pub struct Characteristics {
     pub v_max: f64,
 }
 
-/// A row: parameters, computed values, printed values.
+/// A row of a table: parameters, computed values, printed values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TableRow {
     /// Mass (kg).
@@ -23,12 +23,12 @@ pub struct TableRow {
     pub damping: f64,
     /// Time step (s).
     pub dt: f64,
-    /// Computed here.
+    /// Computed values.
     #[serde(flatten)]
     pub computed: Characteristics,
-    /// Printed in the paper.
+    /// Values printed in the paper.
     pub paper: Characteristics,
-    /// Whether the run is chaotic: explicit, with a step above dt_2, it collapses out of chatter,
+    /// Whether the run is chaotic: an explicit run with a step above dt_2 collapses out of chatter,
     /// and its digits depend on the last bit of every operation.
     pub chaotic: bool,
 }
@@ -36,11 +36,11 @@ pub struct TableRow {
 /// The three tables.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tables {
-    /// Implicit, refinement of the time step.
+    /// Table 2: implicit method, refinement of the time step.
     pub table2: Vec<TableRow>,
-    /// Implicit, mass and damping.
+    /// Table 3: implicit method, variation of mass and damping.
     pub table3: Vec<TableRow>,
-    /// Explicit, refinement of the time step.
+    /// Table 4: explicit method, refinement of the time step.
     pub table4: Vec<TableRow>,
 }
 

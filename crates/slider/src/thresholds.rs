@@ -1,31 +1,31 @@
 //! The two thresholds of the explicit method's time step: by formula, and by bisection on runs.
 //!
-//! With `Lambda = dt mu_S F_n/(m s_adhes)` the map of the slip velocity over a step in adhesion is
-//! `s -> (1 - Lambda) s + Lambda p s_adhes`, p the pull of the spring over static friction.
-//! - It is stable up to `Lambda = 2`: **dt_1**. Above, the block chatters in adhesion.
-//! - Chatter starts its largest kick at the edge of the adhesion zone; two steps later the slip is
-//!   `s_adhes (1 + Lambda (Lambda - 2)(1 - p))`. If friction has fallen below the pull there, the
+//! With `Lambda = dt mu_S F_n/(m s_adhes)` a step in adhesion maps the slip velocity as
+//! `s -> (1 - Lambda) s + Lambda p s_adhes`, where p is the pull of the spring over static friction.
+//! - The map is stable up to `Lambda = 2`, the step **dt_1**. Above, the block chatters in adhesion.
+//! - The largest excursion of chatter starts at the edge of the adhesion zone; two steps later the slip velocity is
+//!   `s_adhes (1 + Lambda (Lambda - 2)(1 - p))`. If friction at this velocity is less than the pull, the
 //!   block collapses. With the slope `kappa = -mu'(0)` that happens at pulls well below static
-//!   friction once `Lambda (Lambda - 2) kappa s_adhes >= mu_S`: **dt_2**.
+//!   friction once `Lambda (Lambda - 2) kappa s_adhes >= mu_S`, from the step **dt_2** on.
 
 use crate::{ParameterError, Parameters, State, explicit_step};
 
-/// A threshold by both routes.
+/// A threshold of the time step, found in two ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Threshold {
     /// By the formula (s).
     pub formula: f64,
-    /// By bisection on runs (s); `None` if runs at a third and at three times the formula do not
-    /// bracket it.
+    /// By bisection on runs (s); `None` if runs at a third and at three times `formula` do not
+    /// bracket the threshold.
     pub bisection: Option<f64>,
 }
 
 /// Both thresholds of the explicit method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thresholds {
-    /// Above it the block chatters in adhesion.
+    /// dt_1: above it the block chatters in adhesion.
     pub chatter: Threshold,
-    /// Above it the chatter makes the block collapse too early; `None` for a law that does not
+    /// dt_2: above it chatter makes the block collapse too early; `None` for a law that does not
     /// fall with slip speed.
     pub collapse: Option<Threshold>,
 }
@@ -45,10 +45,12 @@ pub fn collapse_step(p: &Parameters) -> Option<f64> {
 /// Most steps of a run up to the static pull: with 16 starts and 20 bisections about a minute.
 const MOST_STEPS: f64 = 2e7;
 
-/// Both thresholds for the parameters `p`; its time step, start and end are not used.
+/// Both thresholds for the parameters `p`, whose time step, start and end are not used.
+///
+/// The damper is taken as weak: its force at the velocity of the belt must be far below static friction.
 ///
 /// # Errors
-/// Parameters with which the block never sticks or never breaks loose, or so slowly that the
+/// A parameter with which the block never sticks or never breaks loose, or sticks for so many steps that the
 /// bisection would take too long.
 pub fn thresholds(p: &Parameters) -> Result<Thresholds, ParameterError> {
     let needed = [
@@ -101,7 +103,7 @@ fn bisect(
 /// Steps over which a disturbance may grow.
 const GROWTH: u64 = 100_000;
 
-/// Whether a disturbance of half the adhesion zone has not died out of the unloaded block.
+/// Whether a disturbance of half the adhesion zone has not decayed while the spring is almost unloaded.
 fn chatters(p: &Parameters, dt: f64) -> bool {
     let p = Parameters { dt, x0: 0.0, v0: p.belt + 0.5 * p.adhesion, ..p.clone() };
     // the load stays below a tenth of static friction
@@ -115,15 +117,14 @@ fn chatters(p: &Parameters, dt: f64) -> bool {
     change.is_nan() || change >= 1e-3 * p.adhesion
 }
 
-/// Starts that are tried: chatter is chaotic, and one run may pass the moments at which a kick is
-/// large enough.
+/// Number of starts: chatter is chaotic, and a single run may miss the excursions that are large enough.
 const STARTS: u32 = 16;
 
 /// Share of the static pull below which a collapse counts as early.
 const EARLY: f64 = 0.99;
 
-/// Whether the block collapses before the spring pulls with 99 % of the friction that adhesion can
-/// bear, mu(s_adhes) F_n, from any of several starts.
+/// Whether the block, from any of several starts, collapses before the spring pulls with 99 % of the friction that
+/// adhesion can bear, mu(s_adhes) F_n.
 fn collapses_early(p: &Parameters, dt: f64) -> bool {
     let bearable = p.mu(p.adhesion) * p.normal_force / p.spring;
     (0..STARTS).any(|start| {
@@ -132,7 +133,7 @@ fn collapses_early(p: &Parameters, dt: f64) -> bool {
         let mut state: State = p.start();
         while state.x.abs() < EARLY * bearable {
             state = explicit_step(&p, state);
-            // driven back by the spring
+            // a collapse: the spring drives the block back
             if state.v * p.belt < 0.0 && state.x * p.belt > 0.0 {
                 return true;
             }
