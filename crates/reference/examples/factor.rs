@@ -1,10 +1,10 @@
-//! What a Cholesky factor of disk and bar costs, beside a whole contact problem by conjugate gradients.
+//! Time and memory of a Cholesky factorisation of disk and bar, to compare with a whole contact problem by conjugate
+//! gradients.
 //!
-//!     cargo run --release -p creepage-statics --example factor -- 4e-3
+//!     cargo run --release -p creepage-reference --example factor -- 4e-3
 //!     cargo run --release -p creepage-statics --example hertz -- 4e-3 1.0
 //!
-//! The argument is the element size (m). One thread; one size a call, since the peak of memory is that of
-//! the process.
+//! The argument is the element size (m). One thread. One size per call, since the peak memory is that of the process.
 #![allow(clippy::unwrap_used)]
 
 use mesh::{Bar, Disk, FineZone};

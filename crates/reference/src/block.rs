@@ -1,4 +1,4 @@
-//! Two equal half-spaces as finite bodies: a block that is large beside the contact, on its own
+//! Two equal half-spaces as finite bodies: a block that is large compared with the contact, pressed on its own
 //! mirror image.
 
 use crate::sparse::{ElementStiffness, SparseError};
@@ -8,7 +8,7 @@ use solid::Material;
 use statics::{Axis, Supports, Tied};
 use thiserror::Error;
 
-/// The largest elements, over the half extent of the block.
+/// Size of the largest elements over the half extent of the block.
 const COARSEST: f64 = 0.25;
 
 /// How the block continues across y.
@@ -24,14 +24,15 @@ pub enum Lateral {
     PlaneStrain,
 }
 
-/// A block below z = 0 with its far sides held, finely meshed about the origin.
+/// A block below z = 0 with its far sides held, finely meshed around the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     /// Size of the elements where contact may be (m).
     pub size: f64,
-    /// Half extent of the potential contact along x and y (m), rounded up to whole elements.
+    /// Half extent of the potential contact along x and y (m), rounded up to whole elements; in plane strain y is not
+    /// used.
     pub reach: [f64; 2],
-    /// Depth of the fine elements (m).
+    /// Depth of the fine elements (m), rounded up to whole elements.
     pub depth: f64,
     /// Half length, half width and height of the block (m).
     pub extent: f64,
@@ -39,14 +40,14 @@ pub struct Block {
     pub growth: f64,
     /// How the block continues across y.
     pub lateral: Lateral,
-    /// What it is made of.
+    /// Its material.
     pub material: Material,
 }
 
 /// Why a block has no influence matrix.
 #[derive(Debug, Error)]
 pub enum BlockError {
-    /// Its mesh cannot be made.
+    /// Its mesh cannot be generated.
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// Its stiffness cannot be factored.
@@ -61,7 +62,7 @@ impl Block {
     /// The mesh of the block.
     ///
     /// # Errors
-    /// [`MeshError`] for sizes that make none.
+    /// [`MeshError`] for sizes of which no graded mesh can be made.
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         let Self { size: h, extent, growth, .. } = *self;
         let whole = |r: f64| ((r / h - 1e-9).ceil() * h).max(h);
@@ -104,11 +105,11 @@ impl Block {
         Supports { held, tied }
     }
 
-    /// The influence of the block on its mirror image ([`Influence::mirrored`]); `gap` is that of
-    /// the undeformed surfaces (m) at x and y.
+    /// The influence matrix of the block and its mirror image ([`Influence::mirrored`]). `element` is the stiffness of
+    /// an element; `gap` is the gap of the undeformed surfaces (m) at x and y (m).
     ///
     /// # Errors
-    /// [`BlockError`].
+    /// [`BlockError`]: no mesh, a stiffness that cannot be factored, or no node in the potential contact.
     pub fn influence(
         &self,
         element: &ElementStiffness<'_>,

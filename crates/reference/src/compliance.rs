@@ -1,4 +1,4 @@
-//! The compliance of a body as its contact surface feels it.
+//! The compliance of bodies condensed to the nodes of their contact surface.
 
 use crate::sparse::{ElementStiffness, NONE, SparseError, StiffnessMatrix, Symbolic, Unknowns};
 use faer::Mat;
@@ -6,7 +6,8 @@ use mesh::Mesh;
 use solid::Material;
 use statics::Supports;
 
-/// Displacements of some nodes of supported bodies per force on them: the block of K^-1 (m/N).
+/// Displacements of some nodes of supported bodies per force on these nodes: their block of K^-1 (m/N), in the global
+/// frame.
 pub struct SurfaceCompliance {
     nodes: Vec<u32>,
     /// Row of each node and axis in `matrix`, or [`NONE`] where the node is held.
@@ -15,24 +16,25 @@ pub struct SurfaceCompliance {
     size: FactorSize,
 }
 
-/// What a factorisation cost.
+/// Size of a factorisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorSize {
-    /// Unknown displacements.
+    /// Number of unknown displacements.
     pub unknowns: usize,
-    /// Entries of the factor.
+    /// Number of stored entries of the factor.
     pub entries: usize,
 }
 
 impl SurfaceCompliance {
-    /// Condenses the bodies of `mesh` to `nodes` by a Cholesky factorisation in which the unknowns
-    /// of those nodes come last.
+    /// Condenses the bodies of `mesh` to `nodes` (mesh indices) by a Cholesky factorisation in which the unknowns
+    /// of those nodes come last. `materials` has one entry per body.
     ///
-    /// Everything is linear about the undeformed state. Supports must hold the bodies by
-    /// themselves: a group that is only loaded moves freely, and the stiffness is singular.
+    /// Everything is linear about the undeformed state. Of `supports` only the kind counts, held, tied or loaded, and
+    /// not the given displacements and forces. Supports must hold the bodies by themselves: a body whose only support
+    /// is a loaded group moves freely, and its stiffness is singular.
     ///
     /// # Errors
-    /// [`SparseError`].
+    /// [`SparseError`], in all its variants.
     pub fn new(
         mesh: &Mesh,
         materials: &[Material],
@@ -57,18 +59,21 @@ impl SurfaceCompliance {
         Ok(Self { nodes: nodes.to_vec(), row, matrix, size })
     }
 
-    /// The nodes (mesh indices).
+    /// The nodes (mesh indices), in the order in which they were given.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
     }
 
-    /// What the factorisation cost.
+    /// Size of the factorisation.
     pub fn size(&self) -> FactorSize {
         self.size
     }
 
-    /// Displacement of node `i` (an index into [`nodes`](Self::nodes)) along the axes per unit
-    /// force on node `j` along the axes (m/N), `[axis of i][axis of j]`; zero where held.
+    /// Displacement of node `i` per force on node `j` (m/N), `[axis of i][axis of j]` with the global axes; zero where
+    /// held. `i` and `j` are indices into [`nodes`](Self::nodes).
+    ///
+    /// # Panics
+    /// If an index is out of range.
     pub fn block(&self, i: usize, j: usize) -> [[f64; 3]; 3] {
         self.row[i].map(|r| {
             self.row[j].map(|c| {

@@ -1,10 +1,10 @@
 //! Nested dissection of a mesh graph by planes (George 1973): the elimination order that keeps the
 //! Cholesky factor of a three-dimensional body small.
 
-/// Parts of at most this many vertices are eliminated as they come.
+/// Parts of at most this many vertices are not divided further.
 const LEAF: usize = 24;
 
-/// A part is cut no further from its middle than this fraction of its vertices.
+/// A part is divided no further from its middle than this fraction of its vertices.
 const BALANCE: f64 = 0.2;
 
 /// An undirected graph: the neighbours of each vertex, ascending, itself left out.
@@ -58,9 +58,9 @@ impl Graph {
 
 /// Elimination order of the vertices in `part`, which lie at the points `at`.
 ///
-/// Each part is cut by the coordinate plane near its middle that needs the fewest separating
-/// vertices; both halves come before their separator. Coordinates decide ties by index: the order
-/// depends on the input alone.
+/// Each part is divided by the coordinate plane near its middle that needs the fewest separating
+/// vertices; both halves come before their separator. Vertices of equal coordinate are ordered by index, so that the
+/// order depends on the input alone.
 pub(crate) fn nested_dissection(graph: &Graph, at: &[[f64; 3]], part: Vec<u32>) -> Vec<u32> {
     let mut order = Vec::with_capacity(part.len());
     let mut halves = Halves { of: vec![0; at.len()], stamp: 0 };
@@ -68,13 +68,14 @@ pub(crate) fn nested_dissection(graph: &Graph, at: &[[f64; 3]], part: Vec<u32>) 
     order
 }
 
-/// Which half of the present cut a vertex lies in: `stamp` the lower, `stamp + 1` the upper,
-/// anything else outside.
+/// The half of the current cut in which each vertex lies: `stamp` the lower, `stamp + 1` the upper; any other number
+/// is left from an earlier cut and means neither. A new stamp saves clearing the list.
 struct Halves {
     of: Vec<u32>,
     stamp: u32,
 }
 
+/// Appends the elimination order of `part` to `order`.
 fn dissect(
     graph: &Graph,
     at: &[[f64; 3]],
@@ -93,18 +94,18 @@ fn dissect(
             best = Some(cut);
         }
     }
-    let Some([lower, upper, separator]) = best else { return };
-    if lower.is_empty() && upper.is_empty() {
+    let Some([first, second, separator]) = best else { return };
+    if first.is_empty() && second.is_empty() {
         order.extend(separator);
         return;
     }
     drop(part);
-    dissect(graph, at, lower, halves, order);
-    dissect(graph, at, upper, halves, order);
+    dissect(graph, at, first, halves, order);
+    dissect(graph, at, second, halves, order);
     order.extend(separator);
 }
 
-/// Lower half, upper half and separator of a cut across `axis`.
+/// The two halves and the separator of a cut across `axis`. The half from which the separator is taken comes first.
 fn cut(
     graph: &Graph,
     at: &[[f64; 3]],
@@ -125,17 +126,17 @@ fn cut(
         |v: u32, other: u32| graph.neighbours(v).iter().any(|&n| halves.of[n as usize] == other);
     let border = |side: &[u32], other| side.iter().filter(|&&v| touches(v, other)).count();
     let (lower, upper) = sorted.split_at(middle);
-    let (kept, cut, other) = if border(lower, high) <= border(upper, low) {
+    let (kept, divided, other) = if border(lower, high) <= border(upper, low) {
         (upper, lower, high)
     } else {
         (lower, upper, low)
     };
-    let (separator, rest) = cut.iter().partition(|&&v| touches(v, other));
+    let (separator, rest) = divided.iter().partition(|&&v| touches(v, other));
     [rest, kept.to_vec(), separator]
 }
 
-/// Where to cut a sorted part: at the change of coordinate nearest to its middle, so that the
-/// vertices of one plane of a grid stay together, or in the middle if there is none nearby.
+/// Index at which a sorted part is divided: the change of coordinate nearest to its middle, so that the
+/// vertices of one plane of a grid stay together, or the middle if there is none within [`BALANCE`].
 fn between_planes(sorted: &[u32], key: impl Fn(u32) -> f64) -> usize {
     let n = sorted.len();
     let extent = key(sorted[n - 1]) - key(sorted[0]);

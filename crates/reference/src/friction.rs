@@ -1,36 +1,38 @@
-//! Coulomb friction on a contact area with given normal forces, in condensed form.
+//! Coulomb friction on a contact area with given normal forces, for bodies condensed to their surface.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 use thiserror::Error;
 
-/// The condition of Coulomb holds to this fraction of the largest bound.
+/// Coulomb's law holds to this fraction of the largest bound.
 const TOLERANCE: f64 = 1e-11;
 
-/// Newton's steps between two stretches of relaxation.
+/// Newton steps of a round.
 const NEWTON: usize = 25;
 
-/// Sweeps of block Gauss–Seidel after a stretch of Newton that did not converge.
+/// Sweeps of block Gauss–Seidel after the first round of Newton steps that did not converge; k times as many after
+/// the k-th.
 const SWEEPS: usize = 40;
 
+/// Rounds at most.
 const ROUNDS: usize = 40;
 
-/// Relative rigid motion of the bodies along one tangent over a step.
+/// Relative rigid motion of the bodies along one tangent (t1 or t2 of [`crate::Influence`]) over a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rigid {
-    /// The motion of the master relative to the slave (m).
+    /// A given motion of the master relative to the slave (m).
     Moved(f64),
-    /// Whatever gives this force on the slave (N).
+    /// The motion that gives this sum of the tangential forces on the slave (N).
     Forced(f64),
 }
 
 /// Why the tangential problem has no solution, or was not solved.
 #[derive(Debug, Error, PartialEq)]
 pub enum FrictionError {
-    /// More force than friction carries.
+    /// The required force is not below the sum of the friction bounds.
     #[error("a tangential force of {force} N exceeds what friction carries, {most} N")]
     Slides {
-        /// The force asked for (N).
+        /// The required force (N).
         force: f64,
         /// Sum of the bounds (N).
         most: f64,
@@ -41,7 +43,7 @@ pub enum FrictionError {
          bound at point {point}"
     )]
     Stalled {
-        /// Largest violation over the largest bound.
+        /// Largest violation of Coulomb's law over the largest bound.
         violation: f64,
         /// Index among the points in contact.
         point: usize,
@@ -59,7 +61,7 @@ pub(crate) struct Solution {
     pub moved: [f64; 2],
 }
 
-/// Points in contact: the displacement that tangential forces cause, and what friction carries.
+/// The tangential problem of the points in contact: their compliance and friction bounds.
 pub(crate) struct Coulomb<'a> {
     /// Tangential displacement per force among the contact points (m/N), by point, then t1, t2.
     pub compliance: MatRef<'a, f64>,
@@ -68,13 +70,14 @@ pub(crate) struct Coulomb<'a> {
 }
 
 impl Coulomb<'_> {
-    /// Forces p with slip s = offset + W p - b at every point and Coulomb's law
-    /// |p| <= g, p = -g s/|s| where s is not zero.
+    /// Forces p with slip s = offset + W p - b at every point, b the rigid motion, and Coulomb's law
+    /// |p| <= g, p = -g s/|s| where s is not zero. `offset` (m) and the first guess `start` (N) are by point, then t1,
+    /// t2.
     ///
     /// The law in one equation is p = P(p - r s) with P the projection on the disk of radius g
-    /// (Alart and Curnier 1991). For given normal forces and a symmetric W it is the minimum of a
-    /// convex function, so the solution is unique: semismooth Newton finds it in a few steps;
-    /// where it wanders, sweeps of block Gauss–Seidel, which always descend, bring it back.
+    /// (Alart and Curnier 1991). For given normal forces and a symmetric W the solution minimises a
+    /// convex function and is unique. Semismooth Newton finds it in a few steps;
+    /// where it does not converge, sweeps of block Gauss–Seidel, which always descend, give a better start.
     pub fn solve(
         &self,
         offset: &[f64],
@@ -84,8 +87,8 @@ impl Coulomb<'_> {
         self.alternate(offset, rigid, start, ROUNDS)
     }
 
-    /// The same by Newton's method alone, for a W that is not symmetric: no descent to fall back
-    /// on, so that failure says nothing of whether there is a solution.
+    /// The same by Newton's method alone, for a W that is not symmetric. There is no function to minimise then, and a
+    /// failure does not mean that there is no solution.
     pub fn solve_directly(
         &self,
         offset: &[f64],
@@ -104,8 +107,8 @@ impl Coulomb<'_> {
     ) -> Result<Solution, FrictionError> {
         let m = self.bound.len();
         let most: f64 = self.bound.iter().sum();
-        let asked = rigid.map(|r| if let Rigid::Forced(f) = r { f } else { 0.0 });
-        let force = libm::hypot(asked[0], asked[1]);
+        let required = rigid.map(|r| if let Rigid::Forced(f) = r { f } else { 0.0 });
+        let force = libm::hypot(required[0], required[1]);
         if force.is_nan() || force >= most {
             return Err(FrictionError::Slides { force, most });
         }
@@ -148,7 +151,7 @@ impl Coulomb<'_> {
         }
     }
 
-    /// The weight r of the slip in p - r s: the inverse of the point's own compliance.
+    /// The weight r of the slip in p - r s (N/m): the inverse of the point's own mean compliance.
     fn weight(&self, i: usize) -> f64 {
         let w = self.compliance;
         2.0 / (w[(2 * i, 2 * i)] + w[(2 * i + 1, 2 * i + 1)])
@@ -160,7 +163,8 @@ impl Coulomb<'_> {
         [2 * i, 2 * i + 1].map(|k| state.force[k] - r * state.slip[k])
     }
 
-    /// Largest |p - P(p - r s)| over the largest bound, and where; a missing force counts too.
+    /// Largest |p - P(p - r s)| over the largest bound, and its point. The error of a required force, over the sum
+    /// `most` of the bounds, counts too, at point 0.
     fn violation(&self, state: &State, rigid: [Rigid; 2], most: f64) -> (f64, usize) {
         let largest = self.bound.iter().fold(0.0f64, |m, g| m.max(*g));
         let mut worst = (0.0, 0);
@@ -190,7 +194,7 @@ impl Coulomb<'_> {
         let mut matrix = Mat::<f64>::zeros(size, size);
         let mut right = Mat::<f64>::zeros(size, 1);
         let w = self.compliance;
-        // Row operators: dp coefficient (own) and ds coefficient (own 2x2), per point.
+        // Per point, the 2x2 coefficients of dp (`own`) and of ds (`slip`) in its two rows.
         let mut own = vec![[[0.0; 2]; 2]; m];
         let mut slip = vec![[[0.0; 2]; 2]; m];
         for (i, &g) in self.bound.iter().enumerate() {
@@ -279,6 +283,7 @@ impl Coulomb<'_> {
     }
 }
 
+/// An iterate, as in [`Solution`].
 struct State {
     force: Vec<f64>,
     slip: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Relative displacement of two surfaces per force between them: W = G K^-1 G^T.
+//! Influence matrix: relative displacement of two surfaces per force between them, W = G K^-1 G^T.
 
 use crate::SurfaceCompliance;
 use faer::Mat;
@@ -11,18 +11,21 @@ use thiserror::Error;
 pub struct Point {
     /// Its node (mesh index).
     pub node: u32,
-    /// Its reference position (m).
+    /// Its reference position, x, y, z (m).
     pub at: [f64; 3],
-    /// The area whose traction it stands for (m^2).
+    /// Nodal area: a force over it is a traction (m^2).
     pub area: f64,
     /// Distance of the undeformed surfaces along the normal (m).
     pub gap: f64,
 }
 
 impl Point {
-    /// The nodes of `surface` that lie `within` the potential contact, by node, with `gap` of
-    /// their position; areas are those of the whole surface, so that a point inside it has its
-    /// full share whatever the choice.
+    /// The nodes of `surface` whose reference position is `within` the potential contact, in the order of their
+    /// numbers, with `gap` (m) of that position. Nodal areas are those of the whole surface and do not depend on
+    /// `within`.
+    ///
+    /// # Panics
+    /// If `surface` is not one of `mesh`.
     pub fn on_surface(
         mesh: &Mesh,
         surface: &Surface,
@@ -44,16 +47,16 @@ impl Point {
     }
 }
 
-/// Why an influence matrix cannot be set up.
+/// Why an influence matrix cannot be computed.
 #[derive(Debug, Error, PartialEq)]
 pub enum InfluenceError {
-    /// A point's node is not one of the compliance.
+    /// The node of a point, or of a master face below it, is not one of the compliance.
     #[error("node {node} is a contact point, but the compliance does not hold it")]
     Unknown {
         /// The node.
         node: u32,
     },
-    /// A slave node has no master face before it.
+    /// A slave node has no closest-point projection on a master face.
     #[error(
         "node {node} at x = {x} m, y = {y} m has no face of the other surface before it; \
          shrink the potential contact area or extend that surface"
@@ -66,20 +69,20 @@ pub enum InfluenceError {
         /// Its coordinate along y (m).
         y: f64,
     },
-    /// There is no point at all.
+    /// There are no points.
     #[error("the potential contact area holds no node")]
     Empty,
 }
 
-/// Potential contact points with the relative displacement that forces between them cause.
+/// Points of potential contact and their influence matrix: the relative displacements that forces between the bodies
+/// cause.
 ///
 /// Relative means slave minus master; a force acts on the slave, its opposite on the master. The
-/// normal n points from the master to the slave; tangents are t1, nearest to x, and
-/// t2 = n x t1, so that for n = z they are x and y.
+/// normal n points from the master to the slave. Tangents are t1, the tangent nearest to x, and
+/// t2 = n x t1; for n = z they are x and y.
 pub struct Influence {
     pub(crate) points: Vec<Point>,
-    /// Component of the normal along z: a rigid approach by d along -z closes the gap by d times
-    /// this.
+    /// Component of each point's normal along z: a rigid approach by d along -z closes the gap by d times it.
     pub(crate) closing: Vec<f64>,
     /// Normal displacement per normal force (m/N), n x n.
     pub(crate) normal: Mat<f64>,
@@ -90,12 +93,12 @@ pub struct Influence {
 }
 
 impl Influence {
-    /// A body pressed on its own mirror image in a plane z = constant: the normal is z.
+    /// A body with the compliance F pressed on its own mirror image in a plane z = constant; the normal is z.
     ///
     /// The image has the compliance R F R with R = diag(1, 1, -1), hence W = F + R F R: twice the
-    /// body's own within the normal and within the tangential directions, and no coupling between
-    /// them. This is exact for two bodies of equal material and equal shape, the half-spaces of
-    /// Hertz and Carter among them; the curvature enters by `gap` alone.
+    /// body's own compliance within the normal and within the tangential directions, and no coupling between
+    /// them. This is exact for two bodies of equal material and equal shape, such as the half-spaces of
+    /// Hertz and Carter. Curvature enters by the gap of the points alone.
     ///
     /// # Errors
     /// [`InfluenceError::Unknown`], [`InfluenceError::Empty`].
@@ -103,7 +106,7 @@ impl Influence {
         compliance: &SurfaceCompliance,
         points: Vec<Point>,
     ) -> Result<Self, InfluenceError> {
-        let at = places(compliance, &points)?;
+        let at = compliance_indices(compliance, &points)?;
         let n = points.len();
         let mut normal = Mat::zeros(n, n);
         let mut shear = Mat::zeros(2 * n, 2 * n);
@@ -122,14 +125,14 @@ impl Influence {
         Ok(Self { points, closing: vec![1.0; n], normal, shear, coupling: None })
     }
 
-    /// The slave nodes `points` against the faces of a master surface: `master` holds the nodes of
-    /// the faces under the points, `surface` the faces and `mesh` their coordinates.
+    /// Two different bodies: the slave nodes `points` against the faces of the master's `surface`. `slave` must contain
+    /// the nodes of the points, `master` those of the faces below them; `mesh` is the mesh of `surface`.
     ///
-    /// Kinematics are those of the reference configuration: the projection of a node on its face and
-    /// the normal stay. The normal is that of the exact master surface where there is one.
+    /// Kinematics are those of the reference configuration: the projection of a node and its normal do not change. The
+    /// normal is that of the smooth master surface if it has one, and z otherwise.
     ///
     /// # Errors
-    /// [`InfluenceError`].
+    /// [`InfluenceError`], in all its variants.
     pub fn between(
         slave: &SurfaceCompliance,
         points: Vec<Point>,
@@ -137,7 +140,7 @@ impl Influence {
         surface: &Surface,
         mesh: &Mesh,
     ) -> Result<Self, InfluenceError> {
-        let at = places(slave, &points)?;
+        let at = compliance_indices(slave, &points)?;
         let projections = points
             .iter()
             .map(|p| Projection::find(p, master, surface, mesh))
@@ -177,13 +180,13 @@ impl Influence {
         Ok(Self { points, closing, normal, shear, coupling: Some(coupling) })
     }
 
-    /// The same contact through penalty springs of the given areal stiffness (N/m^3), normal and
-    /// tangential; `None` leaves a direction as it is.
+    /// The same contact with penalty springs of the given areal stiffness (N/m^3), normal and
+    /// tangential; `None` adds no spring in a direction.
     ///
-    /// A spring k A in series with the bodies adds 1/(k A) to its point's own displacement: the
-    /// bias of a penalty method against exact enforcement, without its dynamics.
+    /// A spring k A in series with the bodies adds 1/(k A) to its point's own compliance. This shows the
+    /// bias of a penalty method without its dynamics.
     pub fn with_springs(&self, normal: Option<f64>, tangential: Option<f64>) -> Self {
-        let mut sprung = Self {
+        let mut other = Self {
             points: self.points.clone(),
             closing: self.closing.clone(),
             normal: self.normal.clone(),
@@ -192,26 +195,26 @@ impl Influence {
         };
         for (i, p) in self.points.iter().enumerate() {
             if let Some(k) = normal {
-                sprung.normal[(i, i)] += 1.0 / (k * p.area);
+                other.normal[(i, i)] += 1.0 / (k * p.area);
             }
             if let Some(k) = tangential {
                 for a in [2 * i, 2 * i + 1] {
-                    sprung.shear[(a, a)] += 1.0 / (k * p.area);
+                    other.shear[(a, a)] += 1.0 / (k * p.area);
                 }
             }
         }
-        sprung
+        other
     }
 
-    /// The same bodies with other gaps (m), those of the points at x and y: another shape, or the
-    /// same shape elsewhere on the grid.
+    /// The same bodies with another `gap` (m) of the points as a function of x and y (m): another shape, or the
+    /// same shape at another place on the grid.
     pub fn with_gaps(&self, gap: impl Fn(f64, f64) -> f64) -> Self {
         let mut other = self.with_springs(None, None);
         other.points.iter_mut().for_each(|p| p.gap = gap(p.at[0], p.at[1]));
         other
     }
 
-    /// The same contact of bodies that yield as a whole besides: every point moves tangentially by
+    /// The same contact with a compliance common to all points: every point also moves tangentially by
     /// `compliance` (m/N) times the sum of the tangential forces.
     pub fn with_bulk(&self, compliance: f64) -> Self {
         let mut bulk = self.with_springs(None, None);
@@ -230,19 +233,26 @@ impl Influence {
         &self.points
     }
 
-    /// Normal displacement of point `i` per normal force on point `j` (m/N).
+    /// Normal displacement of point `i` per normal force on point `j` (m/N); indices into [`points`](Self::points).
+    ///
+    /// # Panics
+    /// If an index is out of range.
     pub fn normal(&self, i: usize, j: usize) -> f64 {
         self.normal[(i, j)]
     }
 
-    /// Tangential displacement of point `i` per tangential force on point `j` (m/N).
+    /// Tangential displacement of point `i` per tangential force on point `j` (m/N), `[tangent of i][tangent of j]`;
+    /// indices into [`points`](Self::points).
+    ///
+    /// # Panics
+    /// If an index is out of range.
     pub fn shear(&self, i: usize, j: usize) -> [[f64; 2]; 2] {
         [0, 1].map(|a| [0, 1].map(|b| self.shear[(2 * i + a, 2 * j + b)]))
     }
 }
 
-/// A direction in which a point cannot move (on a plane of symmetry) takes no force: a compliance
-/// of its own, coupled to nothing, keeps the matrix regular and that force zero.
+/// In a direction in which a point cannot move (on a plane of symmetry) its row and column of the matrix are zero. A
+/// diagonal entry keeps the matrix regular; the force of that direction is then zero.
 fn regularise(shear: &mut Mat<f64>) {
     for k in 0..shear.nrows() {
         if shear[(k, k)] == 0.0 {
@@ -251,8 +261,11 @@ fn regularise(shear: &mut Mat<f64>) {
     }
 }
 
-/// Where the nodes of the points stand in the compliance.
-fn places(compliance: &SurfaceCompliance, points: &[Point]) -> Result<Vec<usize>, InfluenceError> {
+/// Indices of the nodes of the points in the compliance.
+fn compliance_indices(
+    compliance: &SurfaceCompliance,
+    points: &[Point],
+) -> Result<Vec<usize>, InfluenceError> {
     if points.is_empty() {
         return Err(InfluenceError::Empty);
     }
@@ -264,9 +277,9 @@ fn places(compliance: &SurfaceCompliance, points: &[Point]) -> Result<Vec<usize>
         .collect()
 }
 
-/// Where a slave node meets the master surface.
+/// The projection of a slave node on the master surface.
 struct Projection {
-    /// Nodes of the face (places in the master's compliance) and their shape functions.
+    /// Nodes of the face (indices in the master's compliance) and their shape functions.
     weights: [(usize, f64); 4],
     /// t1, t2, n.
     frame: [[f64; 3]; 3],
@@ -285,12 +298,12 @@ impl Projection {
         let t2 =
             [n[1] * t1[2] - n[2] * t1[1], n[2] * t1[0] - n[0] * t1[2], n[0] * t1[1] - n[1] * t1[0]];
         let frame = [t1, t2, n];
-        // The projection lies where the normal through the node meets the face: in the plane of the
-        // tangents both have the same coordinates.
-        let place = |x: [f64; 3]| [dot(t1, x), dot(t2, x)];
-        let target = place(point.at);
+        // The projection lies where the normal through the node meets the face: node and projection have the same
+        // coordinates along the tangents.
+        let tangential = |x: [f64; 3]| [dot(t1, x), dot(t2, x)];
+        let target = tangential(point.at);
         for face in &surface.faces {
-            let corners = face.nodes.map(|m| place(mesh.nodes[m as usize]));
+            let corners = face.nodes.map(|m| tangential(mesh.nodes[m as usize]));
             let Some(shape) = inside(corners, target) else { continue };
             let mut weights = [(0, 0.0); 4];
             for (k, node) in face.nodes.iter().enumerate() {
@@ -310,7 +323,7 @@ impl Projection {
     }
 }
 
-/// Shape functions of the bilinear quadrilateral at `target`, if it lies inside.
+/// Shape functions of the bilinear quadrilateral at `target`, if it lies inside; by Newton's method.
 fn inside(corners: [[f64; 2]; 4], target: [f64; 2]) -> Option<[f64; 4]> {
     const EDGE: f64 = 1.0 + 1e-7;
     for axis in 0..2 {

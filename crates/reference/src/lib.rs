@@ -1,10 +1,12 @@
-//! References for rolling contact without inertia: exact contact conditions on finite bodies as meshed. No
-//! penalty, no time stepping. SI units.
+//! Reference solutions of rolling contact without inertia: exact contact conditions on meshed finite bodies, without
+//! penalty and without time stepping. SI units.
 //!
-//! The bodies are reduced to their contact surface: a sparse Cholesky factorisation gives the compliance of
-//! the surface nodes ([`SurfaceCompliance`]), two bodies make an influence matrix W = G K^-1 G^T
-//! ([`Influence`]), and on it stand normal contact ([`press`]), the Cattaneo shift and rolling ([`Rolling`]).
-//! One factorisation meets many right-hand sides.
+//! The bodies are condensed to their contact surface. A sparse Cholesky factorisation gives the compliance of
+//! the surface nodes ([`SurfaceCompliance`]), and two bodies give an influence matrix W = G K^-1 G^T
+//! ([`Influence`]). With it, normal contact ([`press`]), the Cattaneo shift and rolling ([`Rolling`]) are solved.
+//! One factorisation serves all of these problems.
+//!
+//! Global frame: x is the direction of rolling, y lateral, z up.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

@@ -1,14 +1,14 @@
-//! What a contact patch is described by.
+//! Measures of a contact patch: size, peak pressure and shear, stick.
 
 use crate::{Adhesion, Influence, Pressed, Rolling};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
-/// Points with less than this fraction of the largest pressure do not enter the fit of an
-/// ellipsoid: the edge of the patch cuts through their area.
+/// Points with less than this fraction of the largest pressure are left out of the fit of an
+/// ellipsoid: the edge of the patch may cut through their area.
 const FITTED: f64 = 0.3;
 
-/// Hertz's ellipsoid through the pressures of a patch.
+/// Hertz's ellipsoid of pressure, centred at x = y = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid {
     /// Largest pressure (Pa).
@@ -19,10 +19,10 @@ pub struct Ellipsoid {
     pub b: f64,
 }
 
-/// Least squares of p^2 = p0^2 (1 - x^2/a^2 - y^2/b^2) over the inner points of the patch: the
-/// size of the patch finer than its grid.
+/// Fits p^2 = p0^2 (1 - x^2/a^2 - y^2/b^2) to the pressures at the inner points of the patch by least squares. The
+/// half axes resolve the size of the patch more finely than the grid does.
 ///
-/// `None` where the points do not determine it.
+/// `None` where the points do not determine the ellipsoid.
 pub fn ellipsoid(influence: &Influence, pressed: &Pressed) -> Option<Ellipsoid> {
     let pressure = pressed.pressure(influence);
     let peak = pressure.iter().fold(0.0f64, |m, p| m.max(*p));
@@ -54,13 +54,13 @@ pub fn ellipsoid(influence: &Influence, pressed: &Pressed) -> Option<Ellipsoid> 
     (found.p0.is_finite() && found.a.is_finite() && !found.b.is_nan()).then_some(found)
 }
 
-/// Largest shear traction of a patch (Pa).
+/// Largest shear traction of a patch (Pa), force over area of a point.
 pub fn peak_shear(influence: &Influence, rolling: &Rolling<'_>) -> f64 {
     let shear = rolling.contact().iter().zip(rolling.force());
     shear.map(|(&i, f)| libm::hypot(f[0], f[1]) / influence.points()[i].area).fold(0.0, f64::max)
 }
 
-/// Fraction of the area in contact that sticks.
+/// Fraction of the contact area that sticks (dimensionless).
 pub fn stick_fraction(influence: &Influence, rolling: &Rolling<'_>) -> f64 {
     let (mut stick, mut all) = (0.0, 0.0);
     for (&i, state) in rolling.contact().iter().zip(rolling.adhesion()) {
@@ -73,10 +73,11 @@ pub fn stick_fraction(influence: &Influence, rolling: &Rolling<'_>) -> f64 {
     stick / all
 }
 
-/// Where stick ends on the line of points nearest to y = 0 (m): at its rearmost sticking point.
-/// The slip of a step belongs to the middle of the pitch ahead of its point, so that the border
-/// lies between the middles ahead of the last slipping and of the first sticking point. `None` if
-/// all of the line slips.
+/// The x at which stick ends on the line of points nearest to y = 0 (m): that of its rearmost sticking point.
+///
+/// The slip of a step belongs to the middle of the pitch ahead of its point. So the border
+/// lies between the middles ahead of the last slipping and of the first sticking point, around that x. `None` if
+/// the whole line slips.
 pub fn stick_border(influence: &Influence, rolling: &Rolling<'_>) -> Option<f64> {
     let points = influence.points();
     let nearest = points.iter().fold(f64::INFINITY, |m, p| m.min(p.at[1].abs()));

@@ -1,14 +1,14 @@
-//! Frictionless contact in condensed form, by an active set.
+//! Frictionless contact of bodies condensed to their surface, by an active set.
 
 use crate::Influence;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use thiserror::Error;
 
-/// Changes of the active set before giving up: it settles in ten or so.
+/// Changes of the active set at most; about ten are usual.
 const ROUNDS: usize = 100;
 
-/// What presses the bodies together.
+/// How the bodies are pressed together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Press {
     /// Rigid approach of the slave along -z (m).
@@ -26,7 +26,7 @@ pub enum PressError {
         /// Least gap at the given approach (m).
         gap: f64,
     },
-    /// A load that pulls, or no number.
+    /// The load is not a finite number above zero.
     #[error("a load of {load} N does not press")]
     Load {
         /// The load (N).
@@ -42,18 +42,18 @@ pub enum PressError {
     },
 }
 
-/// Two bodies pressed together.
+/// Two bodies pressed together. The lists have one entry per point of [`Influence::points`], except `contact`.
 #[derive(Clone, Debug)]
 pub struct Pressed {
-    /// Approach of the bodies (m).
+    /// Rigid approach of the slave along -z (m).
     pub approach: f64,
     /// Normal force on each point (N), not negative.
     pub force: Vec<f64>,
-    /// Gap at each point (m): zero in contact but for round-off.
+    /// Gap at each point (m): zero in contact, up to round-off.
     pub gap: Vec<f64>,
-    /// The points in contact.
+    /// The points in contact, ascending indices.
     pub contact: Vec<usize>,
-    /// Changes of the active set.
+    /// Active sets tried.
     pub rounds: usize,
 }
 
@@ -63,23 +63,29 @@ impl Pressed {
         self.force.iter().sum()
     }
 
-    /// Pressure at each point (Pa): force over area.
+    /// Pressure at each point (Pa): force over area. `influence` is the one that was pressed.
     pub fn pressure(&self, influence: &Influence) -> Vec<f64> {
         self.force.iter().zip(influence.points()).map(|(f, p)| f / p.area).collect()
     }
 }
 
 /// Presses the bodies together without friction:
-/// gap = g_0 - d c + W_nn f >= 0, f >= 0, gap f = 0 at every point (Signorini).
+/// gap = g_0 - d c + W_nn f >= 0, f >= 0, gap f = 0 at every point (Signorini), with the undeformed gap g_0 (m), the
+/// approach d (m), the component c of the normal along z, the normal forces f (N) and their influence matrix W_nn
+/// (m/N).
 ///
-/// `shear` is a tangential force on the points (N, by point, then t1, t2) whose effect on the
-/// gap is counted where the two directions are coupled.
+/// `shear` is a tangential force on the points (N, by point, then t1, t2). Its effect on the
+/// gap is included where the influence matrix couples the two directions.
 ///
 /// The active set is that of the semismooth Newton method (Hintermüller, Ito and Kunisch 2002):
-/// points with f/W_ii > gap, exactly complementary when it no longer changes.
+/// the points with W_ii f > gap. When it no longer changes, complementarity is exact. Whether the contact reaches the
+/// border of the potential contact area is not checked.
 ///
 /// # Errors
-/// [`PressError`].
+/// [`PressError`]: no contact, a load that does not press, or an active set that keeps changing.
+///
+/// # Panics
+/// If `shear` is shorter than two entries per point and the directions are coupled.
 pub fn press(
     influence: &Influence,
     by: Press,
@@ -104,7 +110,7 @@ pub fn press(
             if !pressing {
                 return Err(PressError::Load { load });
             }
-            // The first guess: the points that are nearest, as many as it takes to be a patch.
+            // The first guess: the quarter of the points with the least gaps.
             let mut nearest: Vec<usize> = (0..n).collect();
             nearest.sort_by(|&a, &b| open[a].total_cmp(&open[b]).then(a.cmp(&b)));
             nearest.truncate(n.div_ceil(4));
@@ -136,7 +142,7 @@ pub fn press(
                 open[i] - approach * influence.closing[i] + pushed
             })
             .collect();
-        // Points of the set have their force, the others their gap: only the sign decides.
+        // The gap of a point of the set is zero, and the force of any other: the sign of the other of the two decides.
         let mut in_set = vec![false; n];
         contact.iter().for_each(|&i| in_set[i] = true);
         let next: Vec<usize> =
@@ -168,7 +174,7 @@ fn active_forces(
             _ => open[i],
         }
     });
-    // W_nn is positive definite; should round-off say otherwise, LU still solves.
+    // W_nn is positive definite; if round-off prevents a Cholesky factor, LU still solves.
     let solution = match matrix.llt(faer::Side::Lower) {
         Ok(llt) => llt.solve(&right),
         Err(_) => matrix.partial_piv_lu().solve(&right),

@@ -1,12 +1,12 @@
 //! Friction between two bodies that are pressed together: the Cattaneo shift, and rolling in steps
-//! of one pitch of the grid.
+//! of one pitch of the grid of contact points.
 
 use crate::friction::{Coulomb, FrictionError, Rigid, Solution};
 use crate::{Influence, Pressed};
 use faer::Mat;
 use thiserror::Error;
 
-/// Two coordinates of the grid are the same within this fraction of its pitch.
+/// Coordinates of the grid that differ by less than this fraction of its pitch are the same.
 const SAME: f64 = 0.05;
 
 /// No point upstream: the leading edge of the grid.
@@ -15,26 +15,27 @@ const NONE: usize = usize::MAX;
 /// Why rolling cannot be computed.
 #[derive(Debug, Error, PartialEq)]
 pub enum RollingError {
-    /// The points are no grid that is uniform along x.
+    /// The points do not form a grid that is uniform along x.
     #[error("rolling needs points at one pitch along x; at x = {x} m, y = {y} m there is none")]
     Grid {
-        /// Coordinate of the point without its neighbour (m).
+        /// Coordinate x of the point without a neighbour (m).
         x: f64,
-        /// Coordinate of the point without its neighbour (m).
+        /// Its coordinate y (m).
         y: f64,
     },
-    /// The contact reaches the border of the potential contact area.
+    /// The contact reaches the leading or trailing border of the potential contact area; its lateral borders are not
+    /// checked.
     #[error(
         "contact reaches the border of the potential contact area at x = {x} m, y = {y} m; \
          enlarge it"
     )]
     Border {
-        /// Where (m).
+        /// Coordinate x of the point at the border (m).
         x: f64,
-        /// Where (m).
+        /// Its coordinate y (m).
         y: f64,
     },
-    /// No friction, or no number.
+    /// The coefficient of friction is not a finite number above zero.
     #[error("a coefficient of friction of {mu} cannot be used")]
     Friction {
         /// The coefficient.
@@ -53,7 +54,7 @@ pub enum RollingError {
     },
 }
 
-/// A steady state of rolling is reached when no force changes by more than this fraction of the
+/// Rolling is steady when no force changes by more than this fraction of the
 /// largest bound over a step.
 const STEADY: f64 = 1e-8;
 
@@ -66,40 +67,43 @@ pub enum Adhesion {
     Slip,
 }
 
-/// Two bodies in contact with friction of Coulomb, in the frame that moves with the contact.
+/// Two bodies in contact with Coulomb friction, in the frame that moves with the contact. Vectors of two numbers are
+/// along the tangents t1 and t2 of [`Influence`], x and y where the normal is z.
 ///
 /// The slave rolls towards +x: particles enter the contact at its leading edge, at +x, and leave
-/// at -x. Over a step of one pitch h the particle at a point comes from the point upstream, so
-/// that with w the tangential displacement of the slave relative to the master (Kalker 1990)
+/// at -x. Over a step of one pitch h the particle at a point comes from the point upstream, the neighbour at +x. With w
+/// the tangential displacement of the slave relative to the master, the slip of point i is (Kalker 1990)
 ///
 /// s_i = w_i(t) - w_up(i)(t - dt) - xi h.
 ///
-/// Creepage xi is that of the master relative to the slave over the speed of rolling: a slave
+/// Creepage xi is the rigid velocity of the master relative to the slave over the speed of rolling: a slave
 /// driven faster than it rolls, xi_x = (omega R - V)/V > 0, receives a force along +x. Spin is
-/// zero. A displacement common to all points cancels in the steady state: the compliance of the
-/// bodies at large does not change the creepage of steady rolling.
+/// zero. A displacement common to all points cancels in the steady state, so that the compliance of the
+/// bodies far from the contact does not change the creepage of steady rolling.
 ///
-/// Normal forces are those given: they are not changed by the tangential ones.
+/// Normal forces are given: the tangential ones do not change them.
 pub struct Rolling<'a> {
     influence: &'a Influence,
     contact: Vec<usize>,
     bound: Vec<f64>,
-    /// Compliance among the contact points.
+    /// Tangential compliance among the contact points (m/N).
     matrix: Mat<f64>,
     /// The point upstream of each point; [`NONE`] at the leading edge of the grid.
     upstream: Vec<usize>,
     pitch: f64,
-    /// Displacement due to the normal forces, all points.
+    /// Tangential displacement of all points due to the normal forces (m), by point, then t1, t2.
     pressed: Vec<f64>,
+    /// Force (N) and slip (m) of the contact points, by point, then t1, t2.
     force: Vec<f64>,
     slip: Vec<f64>,
     moved: [f64; 2],
-    /// Displacement of all points at the end of the last step.
+    /// Tangential displacement of all points at the end of the last step (m).
     displacement: Vec<f64>,
 }
 
 impl<'a> Rolling<'a> {
-    /// Bodies pressed together, without tangential force, with friction coefficient `mu`.
+    /// Bodies pressed together, without tangential force, with the coefficient of friction `mu`. `pressed` is a result
+    /// of [`crate::press`] with the same `influence`.
     ///
     /// # Errors
     /// [`RollingError::Grid`], [`RollingError::Border`], [`RollingError::Friction`].
@@ -110,9 +114,9 @@ impl<'a> Rolling<'a> {
         }
         let (upstream, pitch) = upstream(influence)?;
         let contact = pressed.contact.clone();
-        let mut fed = vec![false; upstream.len()];
-        upstream.iter().filter(|&&u| u != NONE).for_each(|&u| fed[u] = true);
-        if let Some(&i) = contact.iter().find(|&&i| upstream[i] == NONE || !fed[i]) {
+        let mut has_downstream = vec![false; upstream.len()];
+        upstream.iter().filter(|&&u| u != NONE).for_each(|&u| has_downstream[u] = true);
+        if let Some(&i) = contact.iter().find(|&&i| upstream[i] == NONE || !has_downstream[i]) {
             let [x, y, _] = influence.points[i].at;
             return Err(RollingError::Border { x, y });
         }
@@ -143,8 +147,8 @@ impl<'a> Rolling<'a> {
         })
     }
 
-    /// Moves the bodies along the tangents without rolling: the problem of Cattaneo and Mindlin
-    /// when it is the first step.
+    /// Moves the bodies along the tangents t1 and t2 without rolling; as the first step, the problem of Cattaneo and
+    /// Mindlin.
     ///
     /// # Errors
     /// [`RollingError::Step`].
@@ -153,7 +157,7 @@ impl<'a> Rolling<'a> {
         self.step(rigid, before)
     }
 
-    /// Rolls by one pitch; the rigid motion over the step is the creepage times the pitch.
+    /// Rolls by one pitch. `rigid` is along t1 and t2; a given motion is the creepage times the pitch.
     ///
     /// # Errors
     /// [`RollingError::Step`].
@@ -162,12 +166,12 @@ impl<'a> Rolling<'a> {
         self.step(rigid, before)
     }
 
-    /// Rolls until the forces no longer change, at most `steps` pitches, and returns the number.
+    /// Rolls until the forces no longer change, at most `steps` pitches, and returns the number of pitches.
     ///
     /// A first guess solves for the state that one pitch of rolling reproduces,
-    /// s_i = w_i - w_up(i) - xi h with both displacements of the same state: one system in place
-    /// of hundreds of steps. Where Newton's method does not find it, rolling starts from the
-    /// present state; in either case it is rolling itself that says whether the state is steady.
+    /// s_i = w_i - w_up(i) - xi h with both displacements of the same state: one system instead
+    /// of hundreds of steps. If Newton's method does not find it, rolling starts from the
+    /// current state. In either case steps of rolling decide whether the state is steady.
     ///
     /// # Errors
     /// [`RollingError::Step`], [`RollingError::Unsteady`].
@@ -203,6 +207,7 @@ impl<'a> Rolling<'a> {
         friction.solve_directly(&offset, rigid, &self.force).ok()
     }
 
+    /// One step; `before` gives the point at which the particle of a contact point was before it.
     fn step(
         &mut self,
         rigid: [Rigid; 2],
@@ -222,7 +227,7 @@ impl<'a> Rolling<'a> {
         Ok(())
     }
 
-    /// Takes over forces, slip and rigid motion, and the displacements that go with them.
+    /// Sets forces, slip and rigid motion, and computes the displacements of all points from them.
     fn take(&mut self, solution: Solution) {
         self.force = solution.force;
         self.slip = solution.slip;
@@ -241,28 +246,28 @@ impl<'a> Rolling<'a> {
         self.pitch
     }
 
-    /// The contact points (indices into [`Influence::points`]), to which the lists below belong.
+    /// The contact points (indices into [`Influence::points`]); lists by contact point are in this order.
     pub fn contact(&self) -> &[usize] {
         &self.contact
     }
 
-    /// Tangential force on the slave at each contact point (N).
+    /// Tangential force on the slave at each contact point (N), along t1 and t2.
     pub fn force(&self) -> Vec<[f64; 2]> {
         self.force.chunks_exact(2).map(|p| [p[0], p[1]]).collect()
     }
 
-    /// What friction carries at each contact point (N).
+    /// Friction bound of each contact point, mu times its normal force (N).
     pub fn bound(&self) -> &[f64] {
         &self.bound
     }
 
-    /// Slip of the slave relative to the master at each contact point over the last step (m);
-    /// over the pitch and times the speed of rolling it is the slip velocity.
+    /// Slip of the slave relative to the master at each contact point over the last step (m), along t1 and t2. Divided
+    /// by the pitch and multiplied by the speed of rolling it is the slip velocity (m/s).
     pub fn slip(&self) -> Vec<[f64; 2]> {
         self.slip.chunks_exact(2).map(|s| [s[0], s[1]]).collect()
     }
 
-    /// State of each contact point in the last step: slip where the force is the bound.
+    /// State of each contact point in the last step: slip where the force is the bound, within 1e-9 of it.
     pub fn adhesion(&self) -> Vec<Adhesion> {
         let bounds = self.bound.iter().zip(self.force.chunks_exact(2));
         bounds
@@ -273,18 +278,18 @@ impl<'a> Rolling<'a> {
             .collect()
     }
 
-    /// Sum of the tangential forces on the slave (N).
+    /// Sum of the tangential forces on the slave (N), along t1 and t2.
     pub fn total(&self) -> [f64; 2] {
         let sum = |a: usize| self.force.iter().skip(a).step_by(2).sum();
         [sum(0), sum(1)]
     }
 
-    /// Rigid motion of the master relative to the slave over the last step (m).
+    /// Rigid motion of the master relative to the slave over the last step (m), along t1 and t2.
     pub fn moved(&self) -> [f64; 2] {
         self.moved
     }
 
-    /// Creepage of the last step: the rigid motion over the pitch.
+    /// Creepage of the last step (dimensionless): the rigid motion over the pitch, along t1 and t2.
     pub fn creepage(&self) -> [f64; 2] {
         self.moved.map(|b| b / self.pitch)
     }
@@ -295,7 +300,7 @@ fn upstream(influence: &Influence) -> Result<(Vec<usize>, f64), RollingError> {
     let points = &influence.points;
     let mut order: Vec<usize> = (0..points.len()).collect();
     let at = |i: usize| points[i].at;
-    // The pitch is the least distance of two columns.
+    // The pitch is the least distance between two columns of points.
     let mut xs: Vec<f64> = points.iter().map(|p| p.at[0]).collect();
     xs.sort_by(f64::total_cmp);
     let span = xs[xs.len() - 1] - xs[0];

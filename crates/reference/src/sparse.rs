@@ -17,28 +17,28 @@ use statics::{Axis, Supports};
 use thiserror::Error;
 
 /// Stiffness of one hexahedron with given corners (m) and material, about the undeformed state
-/// (N/m), by node, then by axis: [`solid::element_stiffness`] with an element's options.
+/// (N/m); row `3 node + axis`, and columns alike. For example [`solid::element_stiffness`] with an element's options.
 pub type ElementStiffness<'a> = dyn Fn(&[[f64; 3]; 8], &Material) -> [[f64; 24]; 24] + Sync + 'a;
 
 /// No unknown: the node is held in that direction.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// Unknowns of tied groups with more neighbours than this (a hub, not a pair of nodes) are
-/// eliminated late, next to the surface: they would join whatever they are eliminated with.
+/// eliminated late, just before the surface: eliminated earlier, they would couple all their neighbours.
 const MANY_NEIGHBOURS: usize = 200;
 
-/// A pivot below this fraction of its unknown's own stiffness is round-off: the stiffness of a
-/// supported body falls by the number of elements between it and its support, not by this.
+/// A pivot below this fraction of its unknown's diagonal stiffness is round-off. In a supported body elimination
+/// reduces a pivot only by about the number of elements up to the support.
 const LOST: f64 = 1e-12;
 
-/// All arithmetic of a factorisation runs on one thread: the same bits on any machine load, and
-/// two bodies are factored side by side instead.
+/// All arithmetic of a factorisation runs on one thread, for the same bits on any machine load. Callers factor
+/// several bodies in parallel instead.
 const SERIAL: Par = Par::Seq;
 
 /// Why a stiffness cannot be assembled or factored.
 #[derive(Debug, Error)]
 pub enum SparseError {
-    /// Number of materials and of bodies differ.
+    /// The numbers of materials and of bodies differ.
     #[error("{bodies} bodies need as many materials, not {materials}")]
     Materials {
         /// Bodies in the mesh.
@@ -46,7 +46,7 @@ pub enum SparseError {
         /// Materials given.
         materials: usize,
     },
-    /// A support names a node that does not exist.
+    /// A support, or the list of nodes to eliminate last, has a node that does not exist.
     #[error("a support names node {node}, the mesh has {nodes}")]
     Node {
         /// The node named.
@@ -66,7 +66,7 @@ pub enum SparseError {
          freely, or an element around this node is inverted"
     )]
     NotPositive {
-        /// A node of the unknown whose pivot failed.
+        /// A node of the unknown whose pivot failed (mesh index).
         node: usize,
         /// 0, 1, 2 for x, y, z.
         axis: usize,
@@ -89,15 +89,17 @@ pub struct Unknowns {
     /// Unknown of each node and axis, or [`NONE`].
     of: Vec<[u32; 3]>,
     count: usize,
-    /// Unknowns of the nodes asked to come last.
+    /// Number of unknowns of the nodes that are eliminated last.
     last: usize,
+    /// Free nodes and tied groups as vertices; those of one element are neighbours.
     graph: Graph,
+    /// Unknown of each vertex and axis, or [`NONE`].
     dofs: Vec<[u32; 3]>,
 }
 
 impl Unknowns {
     /// Numbers the unknowns of `mesh` under `supports` by nested dissection; those of the nodes
-    /// in `last` are eliminated last, in their order.
+    /// in `last` (mesh indices) are eliminated last, in their order.
     ///
     /// # Errors
     /// [`SparseError::Node`], [`SparseError::Twice`], [`SparseError::NothingFree`].
@@ -190,12 +192,15 @@ impl Unknowns {
         self.count
     }
 
-    /// Number of unknowns of the nodes asked to come last.
+    /// Number of unknowns of the nodes that are eliminated last.
     pub fn last(&self) -> usize {
         self.last
     }
 
-    /// Unknown of a node along an axis; `None` where it is held.
+    /// Unknown of a node (mesh index) along an axis (0, 1, 2 for x, y, z); `None` where it is held.
+    ///
+    /// # Panics
+    /// If the node or the axis does not exist.
     pub fn of(&self, node: usize, axis: usize) -> Option<usize> {
         let dof = self.of[node][axis];
         (dof != NONE).then_some(dof as usize)
@@ -223,7 +228,8 @@ pub struct StiffnessMatrix {
 }
 
 impl StiffnessMatrix {
-    /// Assembles the elements of all bodies, one material per body, in the order of the mesh.
+    /// Assembles the elements of all bodies, one material per body, in the order of the mesh. `unknowns` are those of
+    /// the same mesh.
     ///
     /// # Errors
     /// [`SparseError::Materials`].
@@ -263,7 +269,7 @@ impl StiffnessMatrix {
         Ok(matrix)
     }
 
-    /// The entries that the graph allows, all zero.
+    /// The matrix with an entry for every pair of unknowns that are neighbours in the graph, all zero.
     fn pattern(unknowns: &Unknowns) -> Self {
         let mut vertex_of = vec![0; unknowns.count];
         for (v, dofs) in unknowns.dofs.iter().enumerate() {
@@ -300,7 +306,7 @@ pub struct Symbolic {
 }
 
 impl Symbolic {
-    /// Analyses the pattern of `matrix`; the unknowns are eliminated in their own order.
+    /// Analyses the pattern of `matrix`; the unknowns are eliminated in the order of their numbers.
     ///
     /// # Errors
     /// [`SparseError::Memory`].
@@ -315,12 +321,13 @@ impl Symbolic {
             .map_err(|_| SparseError::Memory { unknowns: pattern.nrows() })
     }
 
-    /// Entries of the factor.
+    /// Number of stored entries of the factor.
     pub fn entries(&self) -> usize {
         self.symbolic.len_val()
     }
 
-    /// The factor L of `matrix` = L L^T.
+    /// The factor L of `matrix` = L L^T. `matrix` and `unknowns` are those of which the structure was made, or have
+    /// the same pattern.
     ///
     /// # Errors
     /// [`SparseError::NotPositive`], [`SparseError::Memory`].
@@ -366,14 +373,14 @@ pub struct Factor<'a> {
 }
 
 impl Factor<'_> {
-    /// Solves K X = B in place; `right` holds `columns` right-hand sides (N) one after the other
-    /// and returns the displacements (m).
+    /// Solves K X = B in place. `right` holds `columns` right-hand sides (N) one after the other, each by unknown, and
+    /// is overwritten with the displacements (m).
     ///
     /// # Errors
     /// [`SparseError::Memory`].
     ///
     /// # Panics
-    /// If `right` is not as long as unknowns times columns.
+    /// If the length of `right` is not the number of unknowns times `columns`.
     pub fn solve(&self, right: &mut [f64], columns: usize) -> Result<(), SparseError> {
         let n = self.symbolic.nrows();
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(columns, SERIAL);
@@ -389,8 +396,8 @@ impl Factor<'_> {
         Ok(())
     }
 
-    /// An unknown whose pivot is nothing but the round-off of its stiffness: where a body is free
-    /// to move, the sign of the last pivot is chance.
+    /// An unknown whose pivot is only the round-off of its stiffness. Where a body is free to move, the last pivot is
+    /// such a number, and may be positive by chance.
     fn lost_pivot(&self, matrix: &StiffnessMatrix) -> Option<usize> {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return None };
         let factor = SupernodalLltRef::new(symbolic, &self.values);

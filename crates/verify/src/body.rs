@@ -1,4 +1,4 @@
-//! What the dynamic problems share: steel, elastic bodies set up for central difference, and sums
+//! Shared by the dynamic problems: materials, elastic bodies set up for central difference, and sums
 //! over nodes.
 
 use contact::BodyMaterial;
@@ -9,14 +9,15 @@ use solid::{Element, Elements, Level, Material, Solid, SolidError, Viscosity};
 /// The steel of the ladder.
 pub(crate) const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 
-/// Steel to shear, without lateral strain under pressure: that would push free sides apart.
+/// A material with the shear modulus of [`STEEL`] and Poisson's ratio zero: pressure then causes no lateral strain,
+/// which would push free sides apart.
 pub(crate) const SHEARED: Material =
     Material { young: STEEL.young / (1.0 + STEEL.poisson), poisson: 0.0, density: STEEL.density };
 
 /// The elements of most problems.
 pub(crate) const ONE_POINT: Element = Element { hourglass: 0.05 };
 
-/// Lanczos steps for the largest frequency and the margin on it, as in rolling runs.
+/// Lanczos steps for the largest frequency, and the safety factor on it, as in rolling runs.
 const LANCZOS: usize = 40;
 const MARGIN: f64 = 1.01;
 
@@ -74,7 +75,7 @@ pub(crate) fn side_nodes<'a>(mesh: &'a Mesh, body: usize, side: &str) -> &'a [u3
     mesh.bodies[body].node_sets.get(side).map_or(&[], |nodes| nodes)
 }
 
-/// What contact needs to know of a material.
+/// The properties of a material that contact uses.
 pub(crate) fn contact_material(material: &Material) -> BodyMaterial {
     BodyMaterial { bulk_modulus: material.bulk(), density: material.density }
 }

@@ -1,6 +1,6 @@
 //! A rolling cylinder: Carter (1926).
 //!
-//! In plane strain the creepage at the share q = Q/(mu N) is mu a/R (1 - sqrt(1 - q)), and the zone of
+//! In plane strain the creepage at q = Q/(mu N) is mu a/R (1 - sqrt(1 - q)), and the zone of
 //! stick is the strip of half width a sqrt(1 - q) at the leading edge (Johnson 1985, Sec. 8.3).
 //! First order of convergence is that of the method: slip is a difference over one pitch of forces
 //! that act at its ends.
@@ -56,15 +56,15 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Creepage; border of stick (m) and points not in the state of their side of it, with the apex on a
-/// node.
+/// Creepage, as a mean over a pitch; and with the apex on a node the border of stick (m) and the number of points whose
+/// state is not that of their side of the border.
 fn rolled(slice: &HalfSpaces<'_>, share: f64) -> Result<[f64; 3], Cause> {
     let force = Rigid::Forced(share * MU * slice.load);
     let [creepage] = slice
         .over_a_pitch(|influence, _| Ok([slice.roll(influence, MU, |_| force)?.creepage()[0]]))?;
     let rolling = slice.roll(&slice.influence, MU, |_| force)?;
     let border = stick_border(&slice.influence, &rolling).ok_or("nothing sticks")?;
-    // a point within an element of the end of the patch carries next to nothing, in either state
+    // a point within an element of the end of the patch carries almost no force, and may be in either state
     let inside = LINE.half_axes[0] - 0.999 * slice.size;
     let states = rolling.contact().iter().zip(rolling.adhesion());
     let astray = states.filter(|(i, state)| {

@@ -1,13 +1,14 @@
 //! A sphere pressed on a flat and shifted: Cattaneo (1938), Mindlin (1949).
 //!
-//! Stick ends at the radius c = a (1 - Q/(mu N))^(1/3), the shift is
-//! 3 mu N (2 - nu)/(16 G a) (1 - (1 - Q/(mu N))^(2/3)). What a block that ends at L misses of the shift
-//! falls like 1/L, as the approach of the bodies does: the shift extrapolated from two blocks is that
-//! of the half-space but for terms of (a/L)^3.
+//! Stick ends at the radius c = a (1 - Q/(mu N))^(1/3), and the relative shift of two equal bodies is
+//! 3 mu N (2 - nu)/(8 G a) (1 - (1 - Q/(mu N))^(2/3)). The part of the shift that a block ending at L lacks
+//! falls as 1/L, as for the approach of the bodies: the shift extrapolated from two blocks is that
+//! of the half-space up to terms of (a/L)^3.
 //!
-//! What friction has in reserve, mu p - q, is mu p_0 (c/a) sqrt(1 - r^2/c^2) where the surfaces stick and nothing
-//! where they slip: an ellipsoid as Hertz's, whose radius c follows from its mean of r^2. A count of the nodes that stick
-//! changes by whole nodes, and a node sticks with the whole of its area: by half an element the radius is then too large.
+//! The reserve of friction, mu p - q, is mu p_0 (c/a) sqrt(1 - r^2/c^2) where the surfaces stick and zero
+//! where they slip. This is an ellipsoid like Hertz's, whose radius c follows from its mean of r^2. A radius from the
+//! number of sticking nodes would change by whole nodes and, since a node sticks with its whole area, be too large by
+//! half an element.
 
 use crate::convergence::Convergence;
 use crate::half_space::{
@@ -50,8 +51,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Radius of stick (m) and shift (m) at each share of the sliding force, over
-/// a pitch.
+/// Radius of stick (m) and shift (m) at each Q/(mu N) of [`TABLE`], means over a pitch.
 fn shifted(h: f64, extent: f64) -> Result<[f64; 6], Cause> {
     let blocks = HalfSpaces::new(&SPHERE, SPHERE.block(h, extent, Lateral::Symmetric))?;
     blocks.over_a_pitch(|influence, apex| contacts(&blocks, influence, apex))

@@ -6,19 +6,19 @@
 //! exchanged: pressure, duration and velocities are those of Saint-Venant's one-dimensional impact
 //! (Goldsmith 1960, "Impact", Ch. III; Johnson 1985, "Contact mechanics", Sec. 11.1).
 //!
-//! The bars are one element thick with nu = 0. What is left at the parting as vibration of the
-//! mesh falls with the mesh size, and the contact springs, whose areal stiffness is K/h per pass,
-//! are as stiff as one element: one mesh study covers both. A front of a lattice of pitch h is
-//! (h^2 L)^(1/3) wide after the way L (Airy's front; Skalak 1957, J. Appl. Mech. 24: 59–64, for the inertia of the section), so that
-//! errors fall as h^(2/3); they scatter about it, since where in the ringing of the front the bars
-//! part changes from mesh to mesh.
+//! The bars are one element thick with nu = 0. The vibration of the mesh that is left when the bars part
+//! falls with the mesh size, and the contact springs, whose areal stiffness is K/h per pass,
+//! are as stiff as one element: one mesh study covers both. A front in a lattice of pitch h is
+//! (h^2 L)^(1/3) wide after the distance L (Airy's front; Skalak 1957, J. Appl. Mech. 24: 59–64, for the inertia of
+//! the section), so that errors fall as h^(2/3). They scatter about that, since the phase of the ringing at which the
+//! bars part changes from mesh to mesh.
 //!
-//! Energy is conserved but for the steps in which the contact springs k close and open: the
-//! trapezoidal work of a step that brings the gap from a > 0 to -g is k g (g + a)/2, the energy
+//! Energy is conserved except in the steps in which the contact springs k close and open. In a step that brings the
+//! gap from a > 0 to -g the trapezoidal work is k g (g + a)/2 and the energy
 //! stored k g^2/2; the difference is at most k (g + a)^2/8.
 //!
 //! Exact contact has no springs. The masses of the two end faces lose the energy of their own impact,
-//! which falls with the mesh.
+//! which falls with the mesh size.
 //!
 //! The contact time is twice the mean time of the force, 2 int F t dt/int F dt, which is its length
 //! for a constant force; the pressure is the mean over the middle half of 2L/c with the weight sin^2
@@ -41,9 +41,11 @@ const MATERIAL: Material = Material { poisson: 0.0, ..STEEL };
 const SPEED: f64 = 1e-6;
 const SOURCE: &str = "Saint-Venant's impact of bars, Goldsmith (1960)";
 
-/// What one mesh shows.
+/// The results of one mesh.
 struct Collision {
+    /// Contact time (s).
     duration: f64,
+    /// Mean pressure (Pa).
     pressure: f64,
     /// Kinetic energy after over before.
     kinetic: f64,
@@ -74,7 +76,7 @@ fn study(size: Size, exact: bool) -> Outcome {
     let c = (MATERIAL.young / MATERIAL.density).sqrt();
     let meshes = cells.iter().map(|&n| Ok((LENGTH / n as f64, collide(n, c, exact)?)));
     let meshes: Vec<(f64, Collision)> = meshes.collect::<Result<_, Cause>>()?;
-    // what finite strain may change; exact contact is near enough to see it
+    // the effect of finite strain; only exact contact is accurate enough to show it
     let strain = if exact { SPEED / c } else { 0.0 };
     let row = |quantity: &str, reference: f64, value: fn(&Collision) -> f64| {
         let values = meshes.iter().map(|(h, m)| (*h, value(m)));

@@ -1,13 +1,14 @@
-//! What contact of bodies that turn must do exactly: gaps of a disk that is a polygon, and friction that turns with its face.
+//! Contact of bodies that turn: gaps of a disk that is meshed as a polygon, and friction that turns with its face.
 //!
-//! *Gap.* A rigid disk rolls over a plane. The faces of its mesh cut the circle off by up to the sag h^2/(8R), which moves
-//! under the contact as the disk rolls; gaps corrected with the circle are those of the circle at every node of the plane
-//! and every angle. The projection of a node is found to 1e-8 of half a face, and so is the gap, over the sag.
+//! *Gap.* A rigid disk rolls over a plane. The faces of its mesh lie inside the circle by up to the sag h^2/(8R), and
+//! move under the contact as the disk rolls. Gaps with the correction of curvature are those of the circle at every
+//! node of the plane and every angle. The projection of a node is found to 1e-8 of half a face, hence the gap to 1e-8
+//! of the sag.
 //!
-//! *Friction.* A block pressed on another and shifted within what sticks is loaded by friction springs. Both
-//! turn together through 2 pi, about an axis across the normal and along it: nothing moves relative to anything else, and the
-//! force of friction turns with the faces. Positions are rounded in each step, and the springs are stretched by that:
-//! the limit is that of all steps, over the stretch, for the three components of both ends.
+//! *Friction.* A block is pressed on another and shifted so little that it sticks, which loads its friction springs.
+//! Both turn together through 2 pi, about an axis oblique to the normal. Nothing moves relative to anything else,
+//! and the friction force turns with the faces. Positions are rounded in each step, which stretches the springs:
+//! the limit is the sum over all steps, over the stretch, for the three components of both ends.
 
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
@@ -30,8 +31,8 @@ pub(crate) fn run(_: Size) -> Outcome {
     run_with(SETTINGS.curvature, |_, _| Ok(()))
 }
 
-/// The problem with or without the correction of the gap, and with something done `between` the steps of a turn by
-/// the rotation vector given.
+/// The problem with or without the correction of curvature. `between` is called before each step of a turn with the
+/// contact and the rotation vector of the step (rad).
 pub(crate) fn run_with(
     curvature: bool,
     between: impl Fn(&mut PenaltyContact, [f64; 3]) -> Result<(), Cause>,
@@ -57,9 +58,10 @@ pub(crate) fn run_with(
     ])
 }
 
-/// Bodies whose motion is given.
+/// Bodies with a prescribed motion.
 struct Rig {
     contact: PenaltyContact,
+    /// Reference and current positions of the nodes (m).
     reference: Vec<Padded>,
     at: Vec<Padded>,
     fields: TraceFields,
@@ -80,8 +82,8 @@ impl Rig {
         Ok(Self { contact, at: reference.clone(), reference, fields })
     }
 
-    /// Moves every node to where `place` says, from its index and reference position, and returns the force (N) on
-    /// the first body.
+    /// Moves every node to `place` of its index and reference position (m), and returns the force (N) on the first
+    /// body.
     fn step(&mut self, place: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> [f64; 3] {
         let n = self.reference.len();
         let (mut displacement, mut velocity) = (vec![Padded::ZERO; n], vec![Padded::ZERO; n]);
@@ -99,7 +101,7 @@ impl Rig {
     }
 }
 
-/// Largest distance of a gap from the circle's over the sag, as a disk rolls by some faces.
+/// Largest difference of a gap from that of the circle, over the sag, as a disk rolls over several faces.
 fn gaps(curvature: bool) -> Result<f64, Cause> {
     let (radius, size, depth) = (0.46, 2e-3, 2e-5);
     let zone = FineZone {
@@ -112,7 +114,7 @@ fn gaps(curvature: bool) -> Result<f64, Cause> {
         coarsest: 0.1,
     };
     let disk = mesh::disk(&Disk { radius, hub_radius: 0.40, width: 8e-3, crown: None }, &zone)?;
-    // of another pitch, so that its nodes pass under all of a face
+    // of another pitch, so that its nodes meet all parts of a face
     let mut plane = mesh::block([21, 3, 1], [0.04, 6e-3, size]);
     plane.nodes.iter_mut().for_each(|x| *x = [x[0] - 0.02, x[1] - 3e-3, x[2] - size]);
     let mesh = mesh::join(&[disk, plane]);
@@ -145,7 +147,7 @@ const PRESSED: f64 = 4e-6;
 const SHIFT: f64 = 1e-6;
 const STEPS: u32 = 240;
 
-/// Difference of the force of friction from the turned one, over it, the largest of a turn through 2 pi.
+/// Largest difference of the contact force from the turned one, over the friction force, in a turn through 2 pi.
 fn turned_friction(
     between: impl Fn(&mut PenaltyContact, [f64; 3]) -> Result<(), Cause>,
 ) -> Result<f64, Cause> {

@@ -1,4 +1,4 @@
-//! Mesh convergence: observed order, Richardson's extrapolation, and the uncertainty that follows.
+//! Mesh convergence: observed order, Richardson's extrapolation, and the uncertainty that follows from them.
 
 use serde::Serialize;
 
@@ -7,11 +7,11 @@ use serde::Serialize;
 pub struct Sample {
     /// Mesh size (m).
     pub size: f64,
-    /// The quantity.
+    /// The quantity, in its own unit.
     pub value: f64,
 }
 
-/// A quantity on meshes of falling size.
+/// A quantity on meshes of falling size. In formulas index 1 is the finest mesh, and r = h_2/h_1.
 ///
 /// The uncertainty is the grid convergence index of Roache (1994), "Perspective: a method for
 /// uniform reporting of grid refinement studies", J. Fluids Eng. 116: a safety factor times the
@@ -27,20 +27,19 @@ pub struct Convergence {
 /// Where the order of convergence comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Order {
-    /// From the meshes; this one where they show none.
+    /// From the meshes, or this assumed order where they show none.
     Observed(f64),
-    /// From theory, for values too scattered to show it.
+    /// Known, for values too scattered to show it.
     Scattered(f64),
     /// From theory.
     Theory(f64),
 }
 
-/// Observed orders that are believed: below, refinement hardly helps; above, the difference of
-/// two meshes vanishes by chance.
-const BELIEVED: std::ops::RangeInclusive<f64> = 0.5..=4.0;
+/// Observed orders that count as such: below, refinement hardly helps; above, two meshes agree by chance.
+const PLAUSIBLE: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
 impl Convergence {
-    /// Values by mesh size, in any order; `assumed` is the order of convergence to use where three
+    /// Samples (mesh size in m, value) in any sequence; `assumed` is the order of convergence to use where three
     /// meshes do not show one.
     pub fn new(samples: impl IntoIterator<Item = (f64, f64)>, assumed: f64) -> Self {
         let mut samples: Vec<_> =
@@ -49,17 +48,15 @@ impl Convergence {
         Self { samples, order: Order::Observed(assumed) }
     }
 
-    /// The same for a quantity whose order is known by theory and whose values scatter about it, so
-    /// that an order seen by three meshes would be chance: `order` is used with the factor for an
-    /// order that is not shown.
+    /// The same for a quantity whose order is known but whose values scatter, so
+    /// that an order observed on three meshes would be chance: `order` is used with the safety factor 3.
     pub fn with_known_order(samples: impl IntoIterator<Item = (f64, f64)>, order: f64) -> Self {
         Self { order: Order::Scattered(order), ..Self::new(samples, order) }
     }
 
-    /// The same for a quantity whose order the theory of the method gives. It is used to
-    /// extrapolate whatever the meshes show; where the last three oscillate about their trend, half
-    /// their range is the least uncertainty (Stern, Wilson, Coleman and Paterson 2001, J. Fluids
-    /// Eng. 123: 793–802).
+    /// The same for a quantity whose order the theory of the method gives. That order is used to
+    /// extrapolate even where the meshes show another. Where the three finest values oscillate, the uncertainty is at
+    /// least half their range (Stern, Wilson, Coleman and Paterson 2001, J. Fluids Eng. 123: 793–802).
     pub fn by_theory(samples: impl IntoIterator<Item = (f64, f64)>, order: f64) -> Self {
         Self { order: Order::Theory(order), ..Self::new(samples, order) }
     }
@@ -75,8 +72,8 @@ impl Convergence {
     }
 
     /// Observed order from the three finest meshes: the p with
-    /// `(f_3 - f_2)/(f_2 - f_1) = (h_3^p - h_2^p)/(h_2^p - h_1^p)`; `None` where differences do not
-    /// fall at a believable order.
+    /// `(f_3 - f_2)/(f_2 - f_1) = (h_3^p - h_2^p)/(h_2^p - h_1^p)`. `None` with fewer meshes, for
+    /// [`Convergence::with_known_order`], or where p is not between 0.5 and 4.
     pub fn order(&self) -> Option<f64> {
         let [.., c, b, a] = self.samples[..] else { return None };
         if matches!(self.order, Order::Scattered(_)) {
@@ -88,8 +85,8 @@ impl Convergence {
                 / (libm::pow(b.size, p) - libm::pow(a.size, p))
                 - ratio
         };
-        let (mut low, mut high) = (*BELIEVED.start(), *BELIEVED.end());
-        // the left-hand side rises with p
+        let (mut low, mut high) = (*PLAUSIBLE.start(), *PLAUSIBLE.end());
+        // `excess` rises with p
         if !(excess(low) <= 0.0 && excess(high) >= 0.0) {
             return None;
         }
@@ -100,7 +97,7 @@ impl Convergence {
         Some(0.5 * (low + high))
     }
 
-    /// The order that the error is estimated with, and the safety factor.
+    /// The order with which the error is estimated, and the safety factor.
     fn used(&self) -> (f64, f64) {
         match self.order {
             Order::Observed(assumed) => self.order().map_or((assumed, 3.0), |p| (p, 1.25)),
@@ -117,8 +114,8 @@ impl Convergence {
         if turns { 0.5 * (a.max(b).max(c) - a.min(b).min(c)) } else { 0.0 }
     }
 
-    /// Richardson's estimate of what the finest value still lacks.
-    fn lacking(&self) -> f64 {
+    /// Richardson's estimate of the correction to the finest value.
+    fn correction(&self) -> f64 {
         let [.., b, a] = self.samples[..] else { return f64::NAN };
         (a.value - b.value) / (libm::pow(b.size / a.size, self.used().0) - 1.0)
     }
@@ -128,7 +125,7 @@ impl Convergence {
         if self.samples.len() < 2 {
             return f64::INFINITY;
         }
-        let index = self.used().1 * self.lacking().abs();
+        let index = self.used().1 * self.correction().abs();
         match self.order {
             Order::Theory(_) => index.max(self.oscillation()),
             _ => index,
@@ -136,12 +133,12 @@ impl Convergence {
     }
 
     /// The value extrapolated to a mesh size of zero with the order given by theory, else the
-    /// observed, else the assumed one.
+    /// observed, else the assumed one; NaN with fewer than two meshes.
     pub fn extrapolated(&self) -> f64 {
-        self.finest() + self.lacking()
+        self.finest() + self.correction()
     }
 
-    /// How the uncertainty came about, in words.
+    /// How the uncertainty was determined, in words.
     pub fn explain(&self) -> String {
         let seen = match (self.order, self.order()) {
             (Order::Theory(p), Some(seen)) => format!("order {p} by theory, {seen:.2} observed"),

@@ -1,61 +1,62 @@
-//! How a small disturbance of steady sliding grows when friction falls and remembers.
+//! How a small disturbance of steady sliding grows under falling friction with memory.
 //!
 //! Two equal elastic half-spaces slide past one another at V under the pressure p, out of the plane of
 //! the disturbance (mode III). Friction follows Eq. (8) with a memory, above its floor,
 //! `d(mu)/dt = -(s/d_c)(mu - mu_steady(s))`. The displacement of the disturbance is
-//! `±(D/2) exp(i k x + q t - a |z|)` with `a^2 = k^2 + q^2/c_s^2`, Re a > 0, and the shear of the bodies
-//! loses `(G/2) a D` while friction gains `p dmu`. To first order `q dmu = -(V/d_c)(dmu - mu' q D)`, so that
+//! `±(D/2) exp(i k x + q t - a |z|)` with `a^2 = k^2 + q^2/c_s^2`, Re a > 0. The shear stress of the bodies
+//! at the interface falls by `(G/2) a D`, and friction rises by `p dmu`. To first order
+//! `q dmu = -(V/d_c)(dmu - mu' q D)`, so that
 //!
 //! `(G/2) sqrt(k^2 + q^2/c_s^2) + p mu'(V) q/(1 + q d_c/V) = 0`,
 //!
-//! the half-spaces' part as in Geubelle and Rice (1995), J. Mech. Phys. Solids 43: 1791–1824. With `w = k c_s`,
-//! `R = -p mu'/Z`, `Z = rho c_s/2`, `T = d_c/V` and q, T in units of w this reads
+//! where the term of the half-spaces is that of Geubelle and Rice (1995), J. Mech. Phys. Solids 43: 1791–1824. With
+//! `w = k c_s`, `R = -p mu'/Z`, `Z = rho c_s/2`, `T = d_c/V` and q, T in units of w this reads
 //!
 //! `sqrt(1 + q^2) (1 + T q) = R q`.
 //!
-//! What it says:
+//! Consequences:
 //!
-//! - For T = 0 and R > 1, `q = 1/sqrt(R^2 - 1)`: growth with k without bound, the law alone is ill-posed. For
-//!   R < 1, `q = ±i/sqrt(1 - R^2)`: waves that neither grow nor decay, whatever they radiate.
-//! - With memory growth is bounded: that of long waves tends to `(R - 1)/T`, that of short ones, `T >> R`, falls as
-//!   `R^2/T^3`.
-//! - But *they never decay*. On the imaginary axis the root on the left is real for |q| < 1 and imaginary beyond
-//!   (with the sign of q, by radiation), and neither fits the right-hand side for any T > 0: no root crosses the axis.
-//!   As T goes to 0 there are two roots on the right of it, for R > 1 and for R < 1 (where the pair
-//!   above grows at `T R^2/(1 - R^2)^2`), hence for every T. Without inertia, `1 + T q = R q`
-//!   would decay for T > R; waves along the interface take its place.
+//! - For T = 0 and R > 1, `q = 1/sqrt(R^2 - 1)`: the growth rate rises with k without bound, and the law without
+//!   memory is ill-posed. For R < 1, `q = ±i/sqrt(1 - R^2)`: waves that neither grow nor decay.
+//! - With memory the growth rate is bounded. That of long waves tends to `(R - 1)/T`; that of short ones, `T >> R`,
+//!   falls as `R^2/T^3`.
+//! - But *disturbances never decay*. On the imaginary axis the square root is real for |q| < 1 and imaginary beyond
+//!   (with the sign of q, by radiation). In neither case can the left-hand side equal the right-hand side for T > 0: no
+//!   root crosses the axis. As T goes to 0 there are two roots to the right of it, for R > 1 and for R < 1 (where the
+//!   pair above grows at `T R^2/(1 - R^2)^2`), hence for every T. Without inertia the equation would be
+//!   `1 + T q = R q`, whose root decays for T > R; with inertia waves along the interface grow instead.
 
 use nalgebra::{Complex, Matrix4};
 
-/// What a disturbance of steady sliding feels.
+/// The parameters of the stability of steady sliding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sliding {
     /// Shear wave speed `c_s` (m/s).
     pub wave_speed: f64,
     /// Impedance `Z = rho c_s/2` of both bodies in series (Pa s/m).
     pub impedance: f64,
-    /// `-p mu'(V)`, what friction loses with slip speed (Pa s/m).
+    /// `-p mu'(V)`, by which the friction stress falls with slip speed (Pa s/m).
     pub falling: f64,
     /// `d_c/V` (s).
     pub delay: f64,
 }
 
 impl Sliding {
-    /// The fastest growing root at the wave number `k > 0` (1/s), of a pair the one with Im >= 0.
+    /// The fastest growing root q (1/s) at the wave number `k > 0` (1/m); of a conjugate pair the one with Im >= 0.
     pub fn growth(&self, k: f64) -> Option<Complex<f64>> {
         let w = k * self.wave_speed;
         let q = fastest(self.falling / self.impedance, self.delay * w)?;
         Some(q * w)
     }
 
-    /// The decay `a` into either body (1/m) of a disturbance that grows at `q` (1/s).
+    /// The decay `a` into either body (1/m) of a disturbance with wave number `k` (1/m) and growth `q` (1/s).
     pub fn decay(&self, k: f64, q: Complex<f64>) -> Complex<f64> {
         (k * k + (q / self.wave_speed).powi(2)).sqrt()
     }
 }
 
-/// The root of `sqrt(1 + q^2) (1 + T q) = R q` of largest real part with Re sqrt > 0, Im q >= 0: of the squared
-/// equation's four those that solve it unsquared.
+/// The root of `sqrt(1 + q^2) (1 + T q) = R q` with the largest real part, with Re sqrt > 0 and Im q >= 0. The squared
+/// equation has four roots; those that solve the equation itself are kept.
 fn fastest(r: f64, t: f64) -> Option<Complex<f64>> {
     let c = [2.0 / t, (1.0 + t * t - r * r) / (t * t), 2.0 / t, 1.0 / (t * t)];
     let companion = Matrix4::new(

@@ -1,14 +1,14 @@
-//! What finite bodies change: the disk on the bar as they are meshed beside half-spaces, and the
-//! approach of blocks beside Hertz's.
+//! The effect of finite bodies: the meshed disk on the bar compared with half-spaces, and the
+//! approach of blocks compared with that of Hertz.
 //!
-//! Half-spaces are compared as blocks with elements of the same size, so that the difference is that
+//! The half-spaces are blocks with elements of the same size, so that the difference is that
 //! of the models and not of the mesh. Hertz's patch is that of paraboloids on half-spaces: bodies of
-//! radius R differ by terms of order a/R. The pressure stretches a disk and a bar differently: without
-//! any force the disk turns a little more than V/R, by strains of order p0/E times a/R. How much, and in which sense, follows
-//! from what pressure alone does to the surfaces, without any friction, strip by strip.
+//! radius R differ by terms of order a/R. Pressure stretches the surfaces of disk and bar differently. Therefore a disk
+//! that rolls without tangential force turns slightly faster than V/R, by strains of order p0/E times a/R. This
+//! creepage follows from the strains that pressure alone, without friction, causes at the surfaces, strip by strip.
 //!
-//! A block that ends at L misses the part of the approach that lies beyond, d = d_inf - A/L - B/L^3:
-//! far from the patch the load is a point load, and what the size of the patch adds falls with two
+//! A block that ends at L lacks the part of the approach that lies beyond, d = d_inf - A/L - B/L^3:
+//! far from the patch the load is a point load, and the effect of the size of the patch falls with two
 //! more powers of L.
 
 use crate::body::STEEL;
@@ -42,8 +42,8 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// The wheel and half-spaces with elements of the same size, coarse to fine, one after the other: the memory
-/// of the finest is the most there is.
+/// Results for the wheel and for half-spaces with elements of the same size (m), coarse to fine. The meshes run one
+/// after the other, so that the peak of memory is that of the finest.
 pub(crate) fn rolled(meshes: &[f64]) -> Result<Vec<(f64, [Rolled; 2])>, Cause> {
     let one = |&h: &f64| {
         let (wheel, block) = rayon::join(
@@ -90,14 +90,15 @@ pub(crate) fn disk_on_bar(found: &[(f64, [Rolled; 2])], free: impl Fn(&Rolled) -
     rows
 }
 
-/// What a contact of the wheel shows.
+/// Results of one contact of the wheel.
 pub(crate) struct Rolled {
     /// p0 (Pa), a and b (m).
     patch: [f64; 3],
-    /// Creepage without force.
+    /// Creepage of free rolling, without tangential force.
     pub(crate) free: f64,
-    /// The same by what pressure alone stretches, strip by strip.
+    /// The same from the strains that pressure alone causes, strip by strip.
     strips: f64,
+    /// Creepage at each of [`TRACTIONS`].
     creepage: Vec<f64>,
 }
 
@@ -114,11 +115,12 @@ fn roll(influence: &Influence, load: f64) -> Result<Rolled, Cause> {
     Ok(Rolled { patch, free, strips: stretched(influence, &pressed)?, creepage: creepages })
 }
 
-/// The creepage at which the difference e of strain along x that pressure causes does not drive: in a strip that
-/// sticks the force is that of `xi - e` with the weight `sqrt((a + x)/(a - x))`, a half its length and x from its middle
-/// to the leading edge (Johnson 1985, Secs. 8.2 and 8.3), and all strips together bear none.
+/// The creepage xi of free rolling. Pressure causes a difference e of strain along x between the surfaces. In a strip
+/// that sticks the force is the integral of `xi - e` with the weight `sqrt((a + x)/(a - x))`, where a is half its
+/// length and x is counted from its middle towards the leading edge (Johnson 1985, Secs. 8.2 and 8.3). The forces of
+/// all strips together vanish.
 fn stretched(influence: &Influence, pressed: &Pressed) -> Result<f64, Cause> {
-    // next to no friction: what slips over a pitch is what the surfaces stretch
+    // with almost no friction the slip over a pitch is the strain of the surfaces times the pitch
     let mut rolling = Rolling::new(influence, pressed, 1e-12)?;
     rolling.roll([Rigid::Moved(0.0); 2])?;
     let h = rolling.pitch();
@@ -180,7 +182,7 @@ fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     Ok(Influence::between(&above?, points, &below?, top, &bar)?)
 }
 
-/// The approach of the sphere and the flat for infinite blocks.
+/// The approach of the sphere and the flat, extrapolated to infinite blocks.
 fn approach(size: Size) -> Result<Row, Cause> {
     const EXTENTS: [f64; 3] = [0.015, 0.03, 0.06];
     let found = on_meshes(sizes(size, &SPHERE_SIZES), |h| {

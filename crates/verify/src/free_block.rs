@@ -5,8 +5,8 @@
 //! starts without displacement, hence without force: a start velocity at t = -dt/2, 0 or dt/2 is the
 //! same in central difference, u^1 = dt v^0.
 //!
-//! The density is the one at which the references were made: 7800 kg/m^3 meets all of them in every
-//! digit, 7850 none (n = 4: -1.073219e-6 m).
+//! The density is 7800 kg/m^3, as in the references: with it all of them are met in every
+//! digit, with 7850 kg/m^3 none (n = 4: -1.073219e-6 m).
 
 use crate::body::at_rest;
 use crate::problem::{Outcome, Size};
@@ -17,8 +17,8 @@ use solid::{Level, Material, Solid, SolidError, Viscosity, Volumetric};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
 
-/// The references are of small strain and of 1 m/s at the top; so much slower, finite strain is
-/// small strain to a part in 1e9.
+/// Start velocity over that of the references, which are of small strain with 1 m/s at the top. At this velocity finite
+/// strain equals small strain to a part in 1e9.
 const SCALE: f64 = 1e-6;
 
 const REFERENCES: [(usize, f64); 4] =
@@ -28,7 +28,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     run_with(size, |_| {})
 }
 
-/// The problem with the masses (kg) of the nodes that `reweigh` makes.
+/// The problem with the masses of the nodes (kg) changed by `reweigh`.
 pub(crate) fn run_with(size: Size, reweigh: impl Fn(&mut [f64])) -> Outcome {
     let blocks = match size {
         Size::Quick => &REFERENCES[..3],

@@ -1,8 +1,8 @@
-//! Half-spaces as finite bodies: the blocks of the static problems, and contacts of Hertz on them.
+//! Half-spaces as finite bodies: the blocks of the static problems, and Hertz contacts on them.
 //!
-//! A body on its own mirror image stands for two equal half-spaces ([`reference::Block`]). What the
-//! block, which ends at L, changes in a patch of half axis a is the field of the traction far away:
-//! of order (a/L)^3 in the strain over the patch, (a/L)^2 in plane strain.
+//! A body on its own mirror image represents two equal half-spaces ([`reference::Block`]). A block that ends at L
+//! changes the field that the traction of a patch of half axis a causes at that distance: this is of order (a/L)^3 in
+//! the strain over the patch, (a/L)^2 in plane strain.
 
 use crate::body::STEEL;
 use crate::problem::{Cause, Size};
@@ -25,8 +25,8 @@ pub(crate) struct Hertz {
     pub(crate) p0: f64,
     /// Load (N); of a line contact N/m.
     pub(crate) load: f64,
-    /// The size of the elements (m) that are graded by 1.7 outside the fine zone; the grading of
-    /// finer ones is finer alike.
+    /// The element size (m) at which elements grow by the factor 1.7 outside the fine zone. Finer meshes are graded
+    /// more gently, so that all meshes are similar.
     coarse: f64,
 }
 
@@ -58,7 +58,7 @@ pub(crate) const LINE: Hertz = Hertz {
 };
 
 impl Hertz {
-    /// The block under it, with elements of `size` about the patch.
+    /// The block for this contact, with elements of `size` (m) around the patch and half extent `extent` (m).
     pub(crate) fn block(&self, size: f64, extent: f64, lateral: Lateral) -> Block {
         let [a, b] = self.half_axes;
         Block {
@@ -72,7 +72,7 @@ impl Hertz {
         }
     }
 
-    /// What a block that ends at `extent` may change in the patch, as a share.
+    /// The relative change that a block ending at `extent` (m) may cause in the patch, and its name.
     pub(crate) fn body(&self, extent: f64) -> (f64, &'static str) {
         let [a, b] = self.half_axes;
         if b > 0.0 {
@@ -90,7 +90,7 @@ pub(crate) struct HalfSpaces<'a> {
     lateral: Lateral,
     /// Size of the elements (m).
     pub(crate) size: f64,
-    /// The load on that part (N).
+    /// The load on those parts (N).
     pub(crate) load: f64,
 }
 
@@ -106,14 +106,14 @@ impl<'a> HalfSpaces<'a> {
         Ok(Self { hertz, influence, lateral, size, load })
     }
 
-    /// Mean of what `measure` finds with the apex at four places within one cell of the grid:
-    /// which nodes the edge of a patch takes in changes with its place on the grid, by a few percent
-    /// on coarse grids, and is no part of the convergence.
+    /// Means of the quantities of `measure`, which gets the influence matrix and the x of the apex (m), with the apex
+    /// at four places within one cell of the grid. Which nodes lie inside the patch depends on its place on the grid;
+    /// on coarse grids this changes results by a few per cent, which is not a matter of convergence.
     pub(crate) fn over_a_pitch<const N: usize>(
         &self,
         measure: impl Fn(&Influence, f64) -> Result<[f64; N], Cause> + Sync,
     ) -> Result<[f64; N], Cause> {
-        // each row and each column of a 4 x 4 subdivision of the cell once
+        // one in each row and each column of a 4 x 4 subdivision of the cell
         let places = [[-0.375, -0.125], [-0.125, 0.375], [0.125, -0.375], [0.375, 0.125]];
         let found: Vec<[f64; N]> = places
             .par_iter()
@@ -136,7 +136,7 @@ impl<'a> HalfSpaces<'a> {
         Ok([fit.p0, fit.a, fit.b, pressed.approach])
     }
 
-    /// Steady rolling along x; `along` gives the force (N) or, from the pitch (m), the motion over it.
+    /// Steady rolling along x; `along` maps the pitch (m) to the force (N), or to the motion over a pitch (m).
     pub(crate) fn roll<'b>(
         &self,
         influence: &'b Influence,
@@ -160,15 +160,15 @@ fn gap(hertz: &Hertz, lateral: Lateral, apex: [f64; 2]) -> impl Fn(f64, f64) -> 
     move |x, y| (x - apex[0]).powi(2) / (2.0 * rx) + (y - across).powi(2) / (2.0 * ry)
 }
 
-/// What a mesh of each size shows.
+/// The result of `solve` on meshes of each size (m).
 pub(crate) fn on_meshes<T: Send>(
     sizes: &[f64],
-    show: impl Fn(f64) -> Result<T, Cause> + Sync,
+    solve: impl Fn(f64) -> Result<T, Cause> + Sync,
 ) -> Result<Vec<(f64, T)>, Cause> {
-    sizes.par_iter().map(|&h| Ok((h, show(h)?))).collect()
+    sizes.par_iter().map(|&h| Ok((h, solve(h)?))).collect()
 }
 
-/// One of several quantities by mesh size.
+/// The k-th of several quantities, with the mesh size (m).
 pub(crate) fn column<const N: usize>(
     found: &[(f64, [f64; N])],
     k: usize,
@@ -176,7 +176,7 @@ pub(crate) fn column<const N: usize>(
     found.iter().map(move |(h, values)| (*h, values[k]))
 }
 
-/// The first three sizes at quick size, all in full.
+/// The first three of the element sizes for [`Size::Quick`], all for [`Size::Full`].
 pub(crate) fn sizes(size: Size, all: &[f64]) -> &[f64] {
     match size {
         Size::Quick => &all[..all.len().min(3)],
@@ -191,7 +191,7 @@ pub(crate) const SPHERE_SIZES: [f64; 4] =
 pub(crate) const WHEEL_SIZES: [f64; 4] = [1.4e-3, 1e-3, 0.714e-3, 0.5e-3];
 /// Element sizes for the line (m).
 pub(crate) const LINE_SIZES: [f64; 4] = [1e-3, 0.5e-3, 0.25e-3, 0.125e-3];
-/// Where the blocks end (m).
+/// Half extents of the blocks (m).
 pub(crate) const SPHERE_EXTENT: f64 = 0.02;
 pub(crate) const WHEEL_EXTENT: f64 = 0.08;
 pub(crate) const LINE_EXTENT: f64 = 0.15;

@@ -1,7 +1,7 @@
-//! Normal contact by exact enforcement beside Hertz (1882), and what penalty springs change.
+//! Normal contact by exact enforcement compared with Hertz (1882), and the bias of penalty springs.
 //!
-//! The size of the patch comes from the ellipsoid fitted to the nodal pressures. First order of
-//! convergence is that of the method: the patch ends between two nodes.
+//! The size of the patch comes from the ellipsoid fitted to the nodal pressures. Convergence is of first
+//! order, since the patch ends between two nodes.
 
 use crate::body::STEEL;
 use crate::convergence::Convergence;
@@ -64,11 +64,11 @@ pub(crate) fn wheel(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Element of the mesh that the springs of the penalty method act on (m): their areal stiffness is
-/// SF K/d with its depth d, and their bias hardly depends on the mesh that measures it.
+/// Depth d of the elements for which the penalty method sets its springs (m): their areal stiffness is
+/// SF K/d. Their bias hardly depends on the mesh on which it is measured.
 const DEPTH: f64 = 0.5e-3;
 
-/// Areal stiffness of the springs of a scale factor (N/m^3).
+/// Areal stiffness (N/m^3) of the springs with the scale factor `scale`.
 fn areal(scale: f64) -> f64 {
     scale * STEEL.bulk() / DEPTH
 }
@@ -79,8 +79,8 @@ fn normal_springs() -> Outcome {
     let blocks = HalfSpaces::new(&WHEEL, WHEEL.block(h, WHEEL_EXTENT, Lateral::Symmetric))?;
     let exact = &blocks.influence;
     let peak = |scale: Option<f64>| -> Result<f64, Cause> {
-        let sprung = exact.with_springs(scale.map(areal), None);
-        let pressure = blocks.press(&sprung)?.pressure(&sprung);
+        let with_springs = exact.with_springs(scale.map(areal), None);
+        let pressure = blocks.press(&with_springs)?.pressure(&with_springs);
         Ok(pressure.into_iter().fold(0.0, f64::max))
     };
     let without = peak(None)?;
@@ -95,8 +95,8 @@ fn normal_springs() -> Outcome {
         let quantity = format!("penalty SF {scale}: p0 over that of exact contact, less 1");
         rows.push(Row::new(quantity, [given, found], 1.0, digit, SPRINGS));
     }
-    // p0 = exact (1 - c/SF + d/SF^2): the compliance 1/SF plays the part of a mesh size, and SF 0.3
-    // shows what its second power leaves
+    // p0 = exact (1 - c/SF + d/SF^2): the compliance 1/SF takes the place of a mesh size, and SF 0.3
+    // shows the effect of its second power
     let compliances = biases[1..].iter().map(|(scale, bias)| (1.0 / scale, 1.0 + bias));
     let study = Convergence::new(compliances, 1.0);
     let limit = (study.uncertainty(), "convergence with 1/SF (GCI, SF 0.3, 1, 3)");
@@ -114,8 +114,9 @@ fn tangential_springs(meshes: &[f64]) -> Outcome {
         let blocks = HalfSpaces::new(&WHEEL, WHEEL.block(h, WHEEL_EXTENT, Lateral::Symmetric))?;
         blocks.over_a_pitch(|influence, _| {
             let creepage = |spring: Option<f64>| -> Result<f64, Cause> {
-                let sprung = influence.with_springs(None, spring);
-                let rolling = blocks.roll(&sprung, 0.5, |_| Rigid::Forced(0.28 * blocks.load))?;
+                let with_springs = influence.with_springs(None, spring);
+                let force = |_| Rigid::Forced(0.28 * blocks.load);
+                let rolling = blocks.roll(&with_springs, 0.5, force)?;
                 Ok(rolling.creepage()[0])
             };
             let without = creepage(None)?;

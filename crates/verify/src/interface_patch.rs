@@ -1,16 +1,16 @@
 //! The patch test of an interface: uniform pressure across two meshes that do not match.
 //!
-//! A block with n elements an edge lies on one with m, both pressed together by a uniform pressure;
-//! with nu = 0 the exact solution is that pressure everywhere. Contact is exact, in one pass, with the rows
-//! of dynamics. Node to face spreads a node's force to the corners of one face by its shape functions,
-//! which is not what a uniform pressure on the faces gives them: it passes where the meshes match, and its
-//! error elsewhere stands beside that of mortar rows, which pass: their nodal forces and weights are
-//! integrals over the faces. The test is one of statics, without the ringing of a dynamic one: both take
-//! gaps and weights from the same integrals.
+//! A block with n elements per edge lies on one with m, both pressed together by a uniform pressure;
+//! with nu = 0 the exact solution is that pressure everywhere. Contact is exact, in one pass, with the contact
+//! constraints of dynamics. A node-to-face constraint distributes a node's force to the corners of one face by its
+//! shape functions, unlike a uniform pressure on the faces. It passes where the meshes match; elsewhere its error is
+//! shown beside that of mortar constraints, which pass, since their nodal forces and weights are integrals over the
+//! faces. The test is static, to avoid the ringing of a dynamic one; statics and dynamics take gaps and weights from
+//! the same integrals.
 //!
-//! The measure is the pressure of the slaves, force over nodal area; where the meshes do not match without the
-//! edges of the interface, where areas are cut. The limit is what a residual of the equilibrium makes of the
-//! pressure of the node with the least area, if that node bears all of it.
+//! The measure is the pressure of the slave nodes, force over nodal area. Where the meshes do not match, the
+//! edges of the interface, where faces overlap in part only, are left out. The limit is the pressure error of the node
+//! with the least area if that node bears the whole residual of the equilibrium.
 
 use crate::body::{STEEL, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
@@ -30,7 +30,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     run_with(size, |_| {})
 }
 
-/// The problem with contact on surfaces whose areas are those of the mesh that `reshape` makes.
+/// The problem with contact set up on a mesh that was changed by `reshape`, and elements on the unchanged one.
 pub(crate) fn run_with(size: Size, reshape: impl Fn(&mut Mesh)) -> Outcome {
     let finest = match size {
         Size::Quick => 1,
@@ -42,7 +42,7 @@ pub(crate) fn run_with(size: Size, reshape: impl Fn(&mut Mesh)) -> Outcome {
         let (slaves, masters) = (finest * slaves, finest * masters);
         let meshes = format!("{slaves} on {masters} elements");
         let pressures = |rows| pressures(rows, slaves, masters, &reshape);
-        // on the edges where the meshes match; a corner has a quarter of an element
+        // nodal area over that of an element: a corner, where edges count, has a quarter
         let least = if slaves == masters { 0.25 } else { 1.0 };
         let nodes = (slaves * slaves) as f64 / least;
         let limit =
@@ -88,7 +88,7 @@ fn pressures(
         surfaces.map(|s| (s, contact_material(&MATERIAL))),
         &ExactSettings { slave: Some(0), curvature: false, rows },
     )?;
-    // pressed by rigid plates: the solution is uniform as well
+    // pressed by a rigid plate: the solution is uniform as well
     let press = Tied {
         nodes: side_nodes(&mesh, 0, "z+").to_vec(),
         axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-PRESSURE * EDGE * EDGE)],

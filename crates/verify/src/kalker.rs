@@ -1,9 +1,9 @@
-//! Kalker's coefficients: the slope of the creep–force curve without creepage.
+//! Kalker's coefficients: the slope of the creep–force curve at zero creepage.
 //!
-//! F_x = G c^2 C11 xi_x, F_y = G c^2 C22 xi_y with c^2 = a b (Kalker 1990). The slope falls linearly
-//! with the creepage: twice the slope at a small creepage less that at twice as much is that at none.
+//! F_x = G c^2 C11 xi_x, F_y = G c^2 C22 xi_y with c^2 = a b (Kalker 1990). The secant slope falls linearly
+//! with a small creepage: twice the slope at xi less that at 2 xi is the slope at zero.
 //! A displacement common to all points cancels in the slip of steady rolling, and with it the
-//! compliance of the bodies at large: what the finite block leaves is of order (a/L)^3.
+//! compliance far from the contact: the effect of the finite block is of order (a/L)^3.
 
 use crate::body::STEEL;
 use crate::convergence::Convergence;
@@ -19,7 +19,8 @@ const MU: f64 = 0.3;
 const SMALL: f64 = 1e-4;
 const SOURCE: &str = "CONTACT (Vollebregt), extrapolated to h = 0";
 
-/// A coarse far mesh: what it changes is common to all points, and cancels.
+/// Growth of elements far from the contact: a coarse mesh there changes displacements common to all points, which
+/// cancel.
 const GROWTH: f64 = 1.6;
 
 pub(crate) fn circle(size: Size) -> Outcome {
@@ -27,7 +28,7 @@ pub(crate) fn circle(size: Size) -> Outcome {
     const SIZES: [f64; 4] = [1.8663e-3 / 5.0, 1.8663e-3 / 7.0, 1.8663e-3 / 9.8, 1.8663e-3 / 13.72];
     let mut rows = Vec::new();
     for (poisson, references) in [(0.25, [4.1125, 3.6676]), (0.3, [4.2941, 3.7281])] {
-        // the same E* makes the same patch
+        // the same E* gives the same patch
         let one = |nu: f64| 1.0 - nu * nu;
         let young = STEEL.young * one(poisson) / one(STEEL.poisson);
         let material = Material { poisson, young, ..STEEL };
@@ -82,7 +83,7 @@ fn coefficients(
     })
 }
 
-/// Force over creepage along an axis, without creepage (N).
+/// Force over creepage along an axis, extrapolated to zero creepage (N).
 fn slope(blocks: &HalfSpaces<'_>, influence: &Influence, axis: usize) -> Result<f64, Cause> {
     let pressed = blocks.press(influence)?;
     let secant = |creepage: f64| -> Result<f64, Cause> {

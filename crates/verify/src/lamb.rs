@@ -1,6 +1,6 @@
-//! Lamb's problem: a vertical load that appears at a point of a half-space.
+//! Lamb's problem: a vertical load suddenly applied at a point of a half-space.
 //!
-//! Lamb (1904), Phil. Trans. R. Soc. A 203: 1–42. For a load P that appears at once, the surface at the
+//! Lamb (1904), Phil. Trans. R. Soc. A 203: 1–42. For a load P applied as a step in time, the surface at the
 //! distance r moves vertically by w = (1 - nu) P/(2 pi G r) U(tau), tau = c_s t/r, with
 //! (Pekeris 1955, Proc. Natl. Acad. Sci. 41: 469–480, for nu = 1/4; Mooney 1974, Bull. Seismol. Soc.
 //! Am. 64: 473–491; Kausel 2012, Proc. R. Soc. A 468: 3610–3624, for any nu)
@@ -8,28 +8,28 @@
 //!   U = 0                     before the P wave, tau < a = c_s/c_p
 //!   U = (1 - sum_j T_j)/2      a < tau < 1
 //!   U = 1 - T_R                1 < tau < gamma = c_s/c_R
-//!   U = 1                     after the Rayleigh wave: the static answer, at once
+//!   U = 1                     after the Rayleigh wave: at once the static solution
 //!
 //!   T_j = (1 - 2 X_j)^2/(4 prod_(k /= j) (X_j - X_k)) sqrt((a^2 - X_j)/(tau^2 - X_j))
 //!
 //! where X_j = (c_s/c)^2 are the roots of the rationalised Rayleigh equation,
-//! 16 (1 - a^2) X^3 - 8 (3 - 2 a^2) X^2 + 8 X - 1 = 0, and X_R = gamma^2 the real one above 1. Written
-//! so, the sum is real for any nu; it starts from U(a) = 0 since the T_j are there the divided
-//! differences of (1 - 2X)^2/4, whose sum is its leading coefficient, 1.
+//! 16 (1 - a^2) X^3 - 8 (3 - 2 a^2) X^2 + 8 X - 1 = 0, and X_R = gamma^2 the real one above 1. In
+//! this form the sum is real for any nu. It starts from U(a) = 0, since the sum of the T_j is there the divided
+//! difference of (1 - 2X)^2/4, which is its leading coefficient, 1.
 //!
-//! The load here is a pressure on a square patch, rising by a smoothstep: the reference is U averaged
-//! over the patch and folded with the rate of the load.
+//! The load here is a pressure on a square patch that rises by a smoothstep: the reference is U averaged
+//! over the patch and convolved with the rate of the load.
 //!
-//! A quarter of the half-space is meshed, rollers on its planes of symmetry, and so large that nothing
-//! comes back from its far sides in the time of interest: no quiet end plays a part.
+//! A quarter of the half-space is meshed, with rollers on its planes of symmetry. It is so large that no wave
+//! comes back from its far sides in the time of interest: no quiet end is needed.
 //!
-//! The element and the load on its nodes are of second order; grid waves that follow the fronts scatter
-//! the values about it by some tenths of a per cent, so that the order is taken as known.
+//! The element and the load on its nodes are of second order. Grid waves behind the fronts scatter
+//! the values by some tenths of a per cent, so that the order is taken as known.
 //!
-//! *Rayleigh speed.* The surface rises before the Rayleigh wave and falls with it; the time at which
+//! *Rayleigh speed.* The surface rises before the Rayleigh wave and falls with it. The time at which
 //! it passes the middle is taken at two distances. The distance over the difference of the times is an
-//! apparent speed, some per cent below c_R so close to the load, since the near field decays faster
-//! than the Rayleigh wave. The closed form under the same load gives the same apparent speed; the ratio
+//! apparent speed. So close to the load it is some per cent below c_R, since the near field decays faster
+//! than the Rayleigh wave. The closed form under the same load has the same apparent speed; the ratio
 //! of the two, times c_R, is the speed that is compared with the root of Rayleigh's equation.
 
 use crate::body::{STEEL, at_rest, rollers};
@@ -121,12 +121,12 @@ impl Trace {
         last.iter().map(|(_, w)| w).sum::<f64>() / last.len() as f64
     }
 
-    /// The least displacement: the surface rises just before the Rayleigh wave lets it down.
+    /// The least displacement: the surface rises, against the load, just before the Rayleigh wave.
     fn dip(&self) -> f64 {
         self.0.iter().map(|(_, w)| *w).fold(0.0, f64::min)
     }
 
-    /// The time at which the displacement passes the middle between dip and tail for the last time.
+    /// The time (s) at which the displacement last passes the middle between dip and tail.
     fn arrival(&self) -> f64 {
         let middle = 0.5 * (self.dip() + self.tail());
         let rises = self.0.windows(2).rev().find(|p| p[0].1 < middle && p[1].1 >= middle);
@@ -136,7 +136,7 @@ impl Trace {
     }
 }
 
-/// The closed form for a point load that appears at once.
+/// The closed form for a point load applied as a step.
 struct Lamb {
     /// c_s/c_p.
     a: f64,
@@ -144,7 +144,7 @@ struct Lamb {
     gamma: f64,
     /// T_R = `rayleigh`/sqrt(gamma^2 - tau^2).
     rayleigh: f64,
-    /// Integral of U from a to 1, at equal steps.
+    /// Integral of U from a to points at equal steps up to 1.
     table: Vec<f64>,
 }
 
@@ -214,7 +214,7 @@ impl Lamb {
         self.table[cells] + (tau - 1.0) - self.rayleigh * (angle(tau) - angle(1.0))
     }
 
-    /// The answer at the distance `r` to the load on the patch, rising by a smoothstep S:
+    /// The displacement at the distance `r` (m) under the load on the patch, which rises by a smoothstep S:
     /// int S'(s) w(t - s) ds = int S''(s) int_0^(t - s) w ds, averaged over the patch.
     fn trace(&self, r: f64, times: &Times) -> Trace {
         const STEPS: usize = 400;

@@ -1,9 +1,9 @@
 //! The verification ladder: problems with a known answer, from the patch test to rolling contact,
 //! that any user can run.
 //!
-//! A [`Problem`] gives [`Row`]s: a quantity computed here beside its reference. The limit of a row
-//! never comes from its result: it is round-off for what the method does exactly, and otherwise the
-//! uncertainty that the problem's own mesh convergence shows ([`Convergence`]).
+//! A [`Problem`] gives [`Row`]s: a computed quantity beside its reference. The limit of a row
+//! does not depend on its own error. It is round-off for what the method does exactly; the uncertainty that the
+//! problem's mesh convergence shows ([`Convergence`]); or a number that the problem prescribes ([`Row::asked`]).
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

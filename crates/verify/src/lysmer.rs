@@ -1,18 +1,17 @@
-//! What a quiet end sends back.
+//! The reflection of a wave at a quiet end.
 //!
 //! Lysmer and Kuhlemeyer (1969), J. Eng. Mech. Div. ASCE 95: 859–877: a dashpot rho c_p per area
-//! absorbs a plane P wave at normal incidence entirely. On a mesh the lumped end node is half a
-//! layer of mass ahead of the dashpot, and the reflection falls with (k h)^2. A Gaussian pulse
-//! (waves.rs) runs to the end x+ of the column; when all of it has arrived, the largest velocity left
-//! is compared with the pulse's, and the energy left with its energy.
+//! absorbs a plane P wave at normal incidence entirely. On a mesh the lumped mass of the end node, half a
+//! layer, is in front of the dashpot, and the reflection falls with (k h)^2. A Gaussian pulse
+//! (waves.rs) runs to the end x+ of the column. When all of it has arrived, the largest velocity that is left
+//! is compared with that of the pulse, and the energy that is left with its energy.
 //!
 //! *nu = 0*: free sides, the bar speed is c_p. *nu = 0.3*: sides on rollers. *Bar*: free sides and
-//! nu = 0.3: the bar wave runs at sqrt(E/rho) and meets the dashpot rho c_p A of the confined wave, so
-//! that by theory R = (c_p - c)/(c_p + c) of its amplitude comes back: quiet ends are quiet for P
-//! waves only.
+//! nu = 0.3. The bar wave runs at c = sqrt(E/rho) and meets the dashpot rho c_p A of the confined wave, so
+//! that in theory R = (c_p - c)/(c_p + c) of its amplitude is reflected: quiet ends absorb P waves only.
 //!
-//! The ladder asks 1 % of a quiet end, hence 1e-4 of the energy; where the mesh study shows less, less is the limit.
-//! The amplitude falls with h^2, the energy with h^4.
+//! A quiet end must reflect less than 1 % of the amplitude, hence 1e-4 of the energy; where the mesh study gives a
+//! smaller uncertainty, that is the limit. The amplitude falls with h^2, the energy with h^4.
 
 use crate::body::STEEL;
 use crate::convergence::Convergence;
@@ -26,8 +25,8 @@ use solid::Material;
 const LENGTH: f64 = 0.2;
 const WIDTH: f64 = 0.075 * LENGTH;
 
-/// Amplitude and energy that are asked of a quiet end, and their order.
-const ASKED: [(&str, f64, f64); 2] = [("amplitude", 1e-2, 2.0), ("energy", 1e-4, 4.0)];
+/// Largest reflected amplitude and energy that pass, as shares of the pulse's, and their orders of convergence.
+const REQUIRED: [(&str, f64, f64); 2] = [("amplitude", 1e-2, 2.0), ("energy", 1e-4, 4.0)];
 const SOURCE: &str = "Lysmer and Kuhlemeyer (1969)";
 
 pub(crate) fn run(size: Size) -> Outcome {
@@ -39,12 +38,13 @@ pub(crate) fn run(size: Size) -> Outcome {
     for (what, poisson, confined) in [("nu = 0", 0.0, false), ("nu = 0.3, confined", 0.3, true)] {
         let material = Material { poisson, ..STEEL };
         let meshes = reflections(cells, material, confined, material.c_p())?;
-        for (k, (name, asked, order)) in ASKED.into_iter().enumerate() {
+        for (k, (name, required, order)) in REQUIRED.into_iter().enumerate() {
             let study = Convergence::new(meshes.iter().map(|(h, r)| (*h, r[k])), order);
             let quantity = format!("{what}: {name} sent back over the pulse's");
             let from = study.explain();
             let limit = (study.uncertainty(), from.as_str());
-            let row = Row::new(quantity, [0.0, study.finest()], 1.0, limit, SOURCE).at_most(asked);
+            let row =
+                Row::new(quantity, [0.0, study.finest()], 1.0, limit, SOURCE).at_most(required);
             rows.push(Row { meshes: study.samples().to_vec(), order: study.order(), ..row });
         }
     }
@@ -61,7 +61,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Amplitude and energy that come back, over those of the pulse, by mesh size.
+/// Reflected amplitude and energy over those of the pulse, with the mesh size (m).
 fn reflections(
     cells: &[usize],
     material: Material,
@@ -86,7 +86,7 @@ fn reflection(n: usize, material: Material, confined: bool, c: f64) -> Result<[f
         energies.kinetic + energies.internal + energies.hourglass
     };
     let start = energy(&mut simulation);
-    // the pulse has left the end by six of its widths
+    // by then the reflection of the pulse's middle would be more than six of its widths away from the end
     while simulation.time() < LENGTH / c {
         simulation.step(false);
     }

@@ -1,4 +1,4 @@
-//! The patch test and rigid rotation: what an element must do exactly.
+//! The patch test, rigid rotation and hourglass modes, for which elements must be exact.
 //!
 //! *Patch.* Nodes of the seven-element cube of MacNeal and Harder (1985) are displaced by
 //! u = H X with finite strains of 10 to 20 %. An element that passes has the same deformation
@@ -9,7 +9,7 @@
 //! *Rotation.* Under u = (R - I) X the strain E vanishes, so that stress and force do at any angle.
 //!
 //! *Hourglass.* A unit cube deformed by one of its four hourglass modes, u_i = a Gamma along one axis, has no mean
-//! gradient and so no stress; what resists is the hourglass stiffness alone, with the energy 2 kappa (lambda + 2G) a^2
+//! gradient and so no stress. Only the hourglass stiffness resists, with the energy 2 kappa (lambda + 2G) a^2
 //! (Flanagan and Belytschko 1981: K_h = kappa (lambda + 2G) B:B/(24 V), B:B = 3/2, q = 8 a).
 //!
 //! All limits are round-off: a strain of order one is a difference of numbers of order one, exact
@@ -26,7 +26,7 @@ type Matrix = [[f64; 3]; 3];
 
 const ROUND_OFF: (f64, &str) = (1e-12, "round-off of fewer than 1000 products of order one");
 
-/// Unsymmetric, so that it turns the element as well.
+/// Displacement gradient H, not symmetric, so that it turns the element as well.
 const GRADIENT: Matrix = [[0.12, 0.05, -0.08], [-0.03, -0.10, 0.06], [0.07, -0.02, 0.15]];
 
 pub(crate) fn patch(_: Size) -> Outcome {
@@ -50,7 +50,7 @@ pub(crate) fn patch_with(element: Element) -> Outcome {
     let exact = cauchy(&f, &first_piola);
     let mut rows = Vec::new();
     for (k, name) in ["xx", "yy", "zz", "xy", "yz", "xz"].into_iter().enumerate() {
-        // the element that is furthest off
+        // the element with the largest error
         let worst = stress.iter().map(|s| s[k]).fold(exact[k], |worst, s| {
             if (s - exact[k]).abs() >= (worst - exact[k]).abs() { s } else { worst }
         });
@@ -118,8 +118,8 @@ pub(crate) fn rotation(_: Size) -> Outcome {
     Ok(vec![row("largest stress over E", worst_stress), row("largest force over E A", worst_force)])
 }
 
-/// Energy of each hourglass mode of a unit cube along each axis, the one farthest off, over that of [`ONE_POINT`]'s
-/// coefficient.
+/// Energy of an hourglass mode of a unit cube over its closed form with the coefficient of [`ONE_POINT`]; of all modes
+/// and axes the ratio farthest from 1.
 fn hourglass_energy(element: Element) -> Result<f64, solid::SolidError> {
     let cube = mesh::block([1; 3], [1.0; 3]);
     let mut solid = steel(&cube, element)?;

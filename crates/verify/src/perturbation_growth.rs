@@ -1,21 +1,21 @@
 //! Growth of a disturbance of steady sliding under falling friction with memory.
 //!
-//! The theory stands in [`crate::dispersion`]. Two blocks slide past one another across the plane of the
-//! mesh. A quarter of the wavelength is meshed: the end x = 0 is a mirror plane, on the other the mode is
-//! zero, and as on the far ends the nodes there move on at the steady speed. So the mode is the longest
-//! wave that fits; a change of uniform sliding, which would outgrow it for R > 1, does not. The start is the
-//! steady state and a hundred-thousandth of the mode that grows fastest by theory, in displacement, velocity and
-//! coefficient of friction. Measured is the part of the slip speed along cos(k x). A mode that were not
-//! the solver's own would change until it is; the first quarter of the run is left for that. A real root is the slope of
-//! the logarithm, a complex one follows from the recurrence that any `Re(A exp(q t))` obeys (Prony).
+//! The theory is in [`crate::dispersion`]. Two blocks slide past one another along y, across the x-z plane of the
+//! mode. A quarter of the wavelength is meshed. The end x = 0 is a mirror plane; at the other end the mode is
+//! zero, and the nodes there, like those of the far ends, move at the steady speed. So the mode is the longest
+//! wave that fits. A change of uniform sliding, which would grow faster for R > 1, is excluded. The initial state is
+//! steady sliding plus the mode that grows fastest in theory, with a slip speed of 1e-5 of the steady one, in
+//! displacement, velocity and coefficient of friction. The component of the slip speed along cos(k x) is measured. The
+//! first quarter of the run is left out, in which the mode of the half-spaces adapts to that of the mesh. A real root
+//! is the slope of the logarithm; a complex one follows from the recurrence that any `Re(A exp(q t))` obeys (Prony).
 //!
-//! Eq (8) as between steel bodies at 1 GPa with k = 6 s/m. The blocks bear a millionth of that with friction that falls
-//! as much faster over speeds and distances as much smaller: the same equation, with strains that stay linear. Numbers are
-//! given as at 1 GPa.
+//! The law is Eq (8) with k = 6 s/m, between steel bodies at 1 GPa. The blocks bear a millionth of that pressure, with
+//! all slip speeds and slip distances a millionth as large: the same dispersion equation, with strains that stay
+//! linear. Numbers are given for 1 GPa.
 //!
-//! What else could grow is kept out: elements are fully integrated, for a mode of opposite slip on the two free
-//! sides is a soft hourglass mode of one-point elements; they are few enough heights wide that such slip stretches them;
-//! and Poisson's ratio is zero, or pressure would push the free sides apart. There is no damping.
+//! Other growing modes are excluded. Elements are fully integrated, since opposite slip on the two free
+//! sides is a soft hourglass mode of one-point elements; they are so few heights wide that such slip strains them.
+//! Poisson's ratio is zero, since pressure would push the free sides apart. There is no damping.
 
 use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
@@ -30,7 +30,7 @@ use nalgebra::{Complex, Matrix2, Vector2};
 use solid::{Level, Solid, Viscosity, Volumetric};
 use std::f64::consts::PI;
 
-/// Part of 1 GPa that presses the blocks; speeds and memory are this part too.
+/// Pressure, slip speeds and distance of memory of the model over those at 1 GPa.
 const SCALE: f64 = 1e-6;
 const PRESSURE: f64 = 1e9 * SCALE;
 const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 / SCALE };
@@ -49,22 +49,23 @@ const CASES: [[f64; 3]; 10] = [
     [0.8, 2.0, 40.0],
 ];
 
-/// Slip of the disturbance over that of steady sliding.
+/// Slip speed of the disturbance over that of steady sliding.
 const SEED: f64 = 1e-5;
-/// Elements a wavelength and a length 1/a of decay, at refinement 1.
+/// Elements per wavelength and per length 1/Re(a) of decay, at refinement 1.
 const PER_WAVE: f64 = 40.0;
 const PER_DECAY: f64 = 5.0;
-/// Depth of the blocks: what the far ends send back is `exp(-DEPTH)` of the mode.
+/// Both blocks are together so many lengths of decay deep: a mode reflected by a far end returns with `exp(-DEPTH)` of
+/// its amplitude.
 const DEPTH: f64 = 16.0;
 /// Width of the elements over their height.
 const WIDE: f64 = 10.0;
-/// The run ends when the mode has grown by e to this power, or after so many radians of a shear wave
+/// The run ends when the mode has grown by the factor exp(`GROWN`), or after `LONGEST` radians of a shear wave
 /// along the interface.
 const GROWN: f64 = 4.0;
 const LONGEST: f64 = 300.0;
 
-/// Error that is asked at most.
-const ASKED: f64 = 0.1;
+/// Largest relative error that passes.
+const REQUIRED: f64 = 0.1;
 const SOURCE: &str = "linear stability of sliding between half-spaces (dispersion.rs)";
 
 pub(crate) fn run(size: Size) -> Outcome {
@@ -85,30 +86,34 @@ pub(crate) fn run(size: Size) -> Outcome {
         };
         let (growth, exact) = (study(|q| q.re), mode.growth);
         let values = [exact.re, growth.finest()];
-        let row = Row::asked(format!("{case}: growth rate (1/s)"), values, ASKED, SOURCE);
+        let row = Row::asked(format!("{case}: growth rate (1/s)"), values, REQUIRED, SOURCE);
         rows.push(Row { meshes: growth.samples().to_vec(), order: growth.order(), ..row });
-        // beside the point where two real roots meet, a mesh may still have the two
+        // near the point where two real roots meet, the root of a mesh may still be real
         if exact.im > 0.5 * exact.re {
             let frequency = study(|q| q.im);
-            // two parts of one root, whose error has no direction of its own
+            // the error of a complex root has no preferred direction: both parts have the same uncertainty
             let uncertain = libm::hypot(growth.uncertainty(), frequency.uncertainty()) / exact.im;
             let from = format!("{}, of the complex root", frequency.explain());
             let (what, limit) = (format!("{case}: frequency (rad/s)"), (uncertain, from.as_str()));
             let row = Row::new(what, [exact.im, frequency.finest()], exact.im, limit, SOURCE);
             let meshes = frequency.samples().to_vec();
-            rows.push(Row { meshes, order: frequency.order(), ..row }.at_most(ASKED));
+            rows.push(Row { meshes, order: frequency.order(), ..row }.at_most(REQUIRED));
         }
     }
     Ok(rows)
 }
 
-/// The fastest growing mode of a wave number; in displacement `±D/2 cos(k x) exp(q t - a |z|)`, whose slip
-/// speed at t = 0 is `SEED` V.
+/// The fastest growing mode of a wave number, with the displacement `±D/2 cos(k x) exp(q t - a |z|)` along y and the
+/// slip speed `SEED` V at t = 0.
 struct Mode {
+    /// Speed V of steady sliding (m/s), of the model.
     speed: f64,
     memory: Memory,
+    /// k (1/m).
     wave_number: f64,
+    /// q (1/s).
     growth: Complex<f64>,
+    /// a (1/m).
     decay: Complex<f64>,
 }
 
@@ -133,7 +138,7 @@ impl Mode {
         0.5 * PI / self.wave_number
     }
 
-    /// Elements along it.
+    /// Elements along that width.
     fn cells(&self, refinement: f64) -> usize {
         let decay = PER_DECAY * self.decay.re * self.width();
         (refinement * decay.max(0.25 * PER_WAVE)).ceil() as usize
@@ -155,9 +160,9 @@ impl Mode {
         (LAW.slope(self.speed) * SEED * self.speed / delayed).re
     }
 
-    /// The root that a run shows.
+    /// The root q (1/s) measured in a run.
     fn measure(&self, refinement: f64) -> Result<Complex<f64>, Cause> {
-        let mut simulation = Simulation::new(self.sliding(refinement)?);
+        let mut simulation = Simulation::new(self.setup(refinement)?);
         let mut table = match simulation.contact() {
             Some(contact) => contact.nodal_table(0),
             None => return Err("no contact".into()),
@@ -191,15 +196,15 @@ impl Mode {
         Ok(prony(settled, self.growth, simulation.dt()))
     }
 
-    /// Steady sliding with the mode.
-    fn sliding(&self, refinement: f64) -> Result<Setup, Cause> {
+    /// Steady sliding plus the mode.
+    fn setup(&self, refinement: f64) -> Result<Setup, Cause> {
         let (cells, h) = (self.cells(refinement), self.cell(refinement));
         let deep = (0.5 * DEPTH / (self.decay.re * h)).ceil() as usize;
         let size = [self.width(), WIDE * h, deep as f64 * h];
         let upper = mesh::block([cells, 1, deep], size);
         let mut lower = upper.clone();
         lower.nodes.iter_mut().for_each(|x| x[2] -= size[2]);
-        // round-off there would be a gap, and its closing a blow
+        // round-off at z = 0 would be a gap, and closing it an impact
         lower.nodes.iter_mut().filter(|x| x[2].abs() < 0.5 * h).for_each(|x| x[2] = 0.0);
         let mesh = mesh::join(&[upper, lower]);
         let mut setup = at_rest(&mesh, SHEARED, 0.67, None)?;
@@ -224,18 +229,18 @@ impl Mode {
                 let speed = 0.5 * side * self.speed + (mode * self.growth * before).re;
                 setup.velocity[n] = Padded::new([0.0, speed, 0.0]);
                 if (size[0] - x).min(size[2] - z.abs()) < 0.5 * h {
-                    // no force changes the velocity of what drives the blocks
+                    // these nodes drive the blocks: no force changes their velocity
                     setup.system.mass[n] = f64::INFINITY;
                     setup.velocity[n] = Padded::new([0.0, 0.5 * side * self.speed, 0.0]);
-                    // and contact, which has no say there, is to leave it alone
+                    // a small gap keeps contact, which could not move these nodes, from acting on them
                     if inside {
                         setup.displacement[n].0[2] = side * 1e-6 * approach;
                     }
                 }
             }
         }
-        // The free sides would have to carry the complementary shear. What its couple does to the surfaces
-        // is taken away, or pressure would differ from one side to the other.
+        // On the free sides the complementary shear stress vanishes, unlike in the bodies. These loads balance its
+        // couple at the interface; without them the pressure would differ from one side to the other.
         for hex in &mesh.hexes {
             for &node in hex {
                 let [_, y, z] = mesh.nodes[node as usize];
@@ -248,7 +253,7 @@ impl Mode {
 
         let material = contact_material(&SHEARED);
         let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
-        let law = Begun {
+        let law = MemoryFromMode {
             law: Remembering { steady: LAW, memory: self.memory },
             steady: LAW.mu(self.speed),
             mode: self.friction(),
@@ -262,17 +267,17 @@ impl Mode {
     }
 }
 
-/// Friction with memory that begins in the state of a mode instead of at rest.
+/// Friction with memory whose state starts from steady sliding plus a mode instead of from rest.
 #[derive(Debug)]
-struct Begun {
+struct MemoryFromMode {
     law: Remembering<Exponential>,
-    /// Coefficient of steady sliding, and the mode's at x = 0.
+    /// Coefficient of steady sliding, and that of the mode at x = 0.
     steady: f64,
     mode: f64,
     wave_number: f64,
 }
 
-impl NodeFriction for Begun {
+impl NodeFriction for MemoryFromMode {
     fn begin(&self, at: &Place) -> [f64; 2] {
         [self.steady + self.mode * libm::cos(self.wave_number * at.position[0]), 0.0]
     }
@@ -290,7 +295,7 @@ impl NodeFriction for Begun {
     }
 }
 
-/// Rate (1/s) of the exponential nearest to `values`, one every `dt`: the least-squares slope of the logarithm.
+/// Growth rate (1/s) of `values`, one every `dt` (s): the least-squares slope of the logarithm of their magnitude.
 fn slope(values: &[f64], dt: f64) -> f64 {
     let middle = 0.5 * (values.len() as f64 - 1.0);
     let (mut along, mut squares) = (0.0, 0.0);
@@ -302,9 +307,9 @@ fn slope(values: &[f64], dt: f64) -> f64 {
     along / squares / dt
 }
 
-/// The q of `Re(A exp(q t))` nearest to `values`, one every `dt`: with `e = exp(q m dt)` three values m steps apart
-/// obey `A_2 - 2 Re(e) A_1 + |e|^2 A_0 = 0`, here in the sense of least squares; m is about a radian
-/// of `expected`.
+/// The q (1/s) of the `Re(A exp(q t))` nearest to `values`, one every `dt` (s). With `e = exp(q m dt)` three values m
+/// steps apart obey `A_2 - 2 Re(e) A_1 + |e|^2 A_0 = 0`, here in the sense of least squares; m steps are about 1/|q| of
+/// the `expected` root.
 fn prony(values: &[f64], expected: Complex<f64>, dt: f64) -> Complex<f64> {
     let m = (1.0 / (expected.norm() * dt)).ceil() as usize;
     let mut normal = Matrix2::zeros();

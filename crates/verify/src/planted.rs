@@ -1,7 +1,7 @@
-//! Errors in the physics, planted on purpose, and the rows of the ladder that catch them at quick size.
+//! Mutation tests: deliberate errors in the physics, and the rows of the ladder that detect them at [`Size::Quick`].
 //!
-//! A problem takes what is planted as an input of its own: nothing of this is in the program. The table in
-//! docs/verification.md names each fault with its row; the errors and the limit are printed by
+//! Problems take a deliberate error as an argument; the program itself contains none. The table in
+//! docs/verification.md names each error with its row; the numbers of that table are printed by
 //! `cargo test --release -p creepage-verify --lib planted -- --nocapture --test-threads=1`.
 #![allow(clippy::unwrap_used)]
 
@@ -15,10 +15,10 @@ use friction::{Implicit, Lagged};
 use mesh::Mesh;
 use solid::Element;
 
-/// The documents' table of faults.
+/// The document with the table of faults.
 const TABLE: &str = include_str!("../../../docs/verification.md");
 
-/// The row passes without the fault and fails with it, and stands in the table.
+/// Asserts that the row passes without the fault and fails with it, and that the table has it.
 fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: Outcome) {
     let row = |found: Outcome| -> Row {
         let found = found.unwrap().into_iter().find(|row| row.quantity.contains(quantity));
@@ -30,7 +30,7 @@ fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: 
     assert!(TABLE.lines().any(|found| found == line), "docs/verification.md lacks: {line}");
     assert!(sound.pass, "without the fault: {sound:?}");
     assert!(!planted.pass, "with the fault: {planted:?}");
-    // a fault must not pass by the limit that it makes for itself, nor fail by that alone
+    // a fault may also change its row's own limit: its error must exceed that of the sound problem
     assert!(planted.error > sound.limit || planted.error.is_nan(), "{planted:?}");
 }
 
@@ -85,7 +85,7 @@ fn friction_of_the_step_before_is_caught_by_the_law_of_the_same_step() {
         shear_column::run(Size::Quick),
         shear_column::run_with(Size::Quick, || Box::new(Lagged(shear_column::LAW))),
     );
-    // and the same friction by another way does not trip it
+    // the same friction made in another way passes
     let same = shear_column::run_with(Size::Quick, || Box::new(Implicit(shear_column::LAW)));
     assert!(same.unwrap().iter().all(|row| row.pass));
 }

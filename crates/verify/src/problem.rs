@@ -15,7 +15,7 @@ pub enum Size {
 /// A verification problem.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem {
-    /// Name on the command line.
+    /// Name on the command line, unique.
     pub name: &'static str,
     /// What it verifies, in one sentence.
     pub about: &'static str,
@@ -29,9 +29,9 @@ pub type Cause = Box<dyn std::error::Error + Send + Sync>;
 #[derive(Debug, Error)]
 #[error("verification problem '{name}': {cause}")]
 pub struct VerifyError {
-    /// The problem.
+    /// The name of the problem.
     pub name: &'static str,
-    /// What went wrong in it.
+    /// The error of the solver.
     pub cause: Cause,
 }
 
@@ -42,7 +42,7 @@ impl Problem {
     /// Runs the problem.
     ///
     /// # Errors
-    /// A solver that fails; a row that does not pass is no error.
+    /// [`VerifyError`] if a solver fails; a row that does not pass is no error.
     pub fn run(&self, size: Size) -> Result<Vec<Row>, VerifyError> {
         let rows = (self.run)(size).map_err(|cause| VerifyError { name: self.name, cause })?;
         Ok(rows.into_iter().map(|row| Row { name: self.name, ..row }).collect())

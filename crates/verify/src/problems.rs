@@ -180,7 +180,7 @@ pub const PROBLEMS: &[Problem] = &[
     },
 ];
 
-/// The problem of a name.
+/// The problem with a name; `None` if there is none.
 pub fn find(name: &str) -> Option<&'static Problem> {
     PROBLEMS.iter().find(|problem| problem.name == name)
 }

@@ -1,17 +1,17 @@
-//! Steady rolling by explicit dynamics, with penalty and with exact contact, beside CONTACT.
+//! Steady rolling by explicit dynamics, with penalty and with exact contact, compared with CONTACT.
 //!
 //! The reference case A (Coulomb friction 0.5, 100 kN, wheel on crown) rolls 60 mm at the creepages
-//! at which CONTACT finds T/N = 0.15, 0.28 and 0.40; means over the last 20 mm. The bias of the
+//! at which CONTACT finds T/N = 0.15, 0.28 and 0.40. Results are means over the last 20 mm. The bias of the
 //! penalty is removed by extrapolation: penetration and elastic slip of the springs are
 //! proportional to 1/SF, so that `v = v_b + (v_b - v_a)/(SF_b/SF_a - 1)`.
 //!
-//! A run has a creepage and gives a force; the creepage at CONTACT's own T/N follows with the slope
-//! of CONTACT's creep-force curve there. It is counted from free rolling: the disk on the bar turns faster than V/R without
-//! any force, half-spaces do not (finite_body.rs).
+//! A run prescribes the creepage and yields the force; the creepage at CONTACT's T/N follows with the slope
+//! of CONTACT's creep-force curve there. It is counted from free rolling: without tangential force the disk on the bar
+//! turns faster than V/R, unlike half-spaces (finite_body.rs).
 //!
-//! The method is of first order, as static contact on such a mesh is: the patch ends between two nodes. Creepage
-//! and peak shear are compared extrapolated to h = 0; the limit is the grid convergence index and what the bodies' shape
-//! changes of half-spaces, a over the smaller radius.
+//! Convergence is of first order, as for static contact on such a mesh, since the patch ends between two nodes.
+//! Creepage and peak shear are compared after extrapolation to h = 0. The limit is the grid convergence index plus the
+//! effect of the shape of the bodies, a over the smaller radius.
 
 use crate::convergence::Convergence;
 use crate::half_space::WHEEL;
@@ -22,7 +22,7 @@ use run::RunOptions;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-/// What is computed is the reference case itself.
+/// The reference case A.
 const CASE: &str = include_str!("../../../cases/zhao-li/a-coulomb.toml");
 
 const SOURCE: &str = "CONTACT (Vollebregt), h -> 0: creepage, stick border on y = 0, peak shear";
@@ -33,7 +33,7 @@ struct Reference {
     traction: f64,
     /// Creepage.
     creepage: f64,
-    /// d(T/N)/d(creepage) at it, from the creep-force curve.
+    /// Slope d(T/N)/d(creepage) of the creep-force curve at this creepage.
     slope: f64,
     /// Border of stick on y = 0 (m).
     border: f64,
@@ -65,20 +65,24 @@ const REFERENCES: [Reference; 3] = [
     },
 ];
 
-/// Scale factors of the penalty from which is extrapolated.
+/// Scale factors SF of the penalty for the extrapolation.
 const FACTORS: [f64; 2] = [0.3, 1.0];
 
-/// What a run is judged by.
+/// The results of a run.
 #[derive(Clone, Copy)]
 struct Rolled {
+    /// Creepage at the T/N of the reference.
     creepage: f64,
+    /// Border of stick on y = 0 (m).
     border: f64,
+    /// Peak shear (Pa).
     peak: f64,
+    /// Relative error of the energy balance.
     balance: f64,
 }
 
-/// What is asked of the creepage at most.
-const ASKED: f64 = 0.05;
+/// Largest relative error of the creepage that passes.
+const REQUIRED: f64 = 0.05;
 /// Creepage of free rolling of the disk on the bar (finite_body.rs, 1 mm).
 const FREE: f64 = 2.2e-5;
 
@@ -103,8 +107,8 @@ pub(crate) fn run_exact(size: Size) -> Outcome {
     series(size, references, |reference, h| rolled(reference, h, &exact))
 }
 
-/// The references on meshes of 2 mm and, in full, 1 mm. Coarser ones have two elements and a half in the half length
-/// of the patch, and show no order.
+/// The rows of `references` on meshes of 2 mm and, at [`Size::Full`], 1 mm. A coarser mesh has two and a half elements
+/// in the half length of the patch and shows no order of convergence.
 fn series(
     size: Size,
     references: &[Reference],
@@ -155,17 +159,17 @@ fn judged(reference: &Reference, found: &[(f64, Rolled)]) -> Vec<Row> {
     ];
     if found.len() == 1 {
         // one mesh shows no uncertainty
-        rows.push(Row::asked(what, [reference.creepage, creepage.finest()], ASKED, SOURCE));
+        rows.push(Row::asked(what, [reference.creepage, creepage.finest()], REQUIRED, SOURCE));
         return rows;
     }
     let row = Row::extrapolated(&what, reference.creepage, &creepage, bodies, SOURCE);
-    rows.push(row.at_most(ASKED));
+    rows.push(row.at_most(REQUIRED));
     let peak = at("peak shear (Pa)");
     rows.push(Row::extrapolated(&peak, reference.peak, &study(|r| r.peak), bodies, SOURCE));
     rows
 }
 
-/// Extrapolated to SF -> infinity; the balance error is the larger one.
+/// Results extrapolated to SF -> infinity; the balance error is the larger of the two.
 fn without_penalty(soft: Rolled, stiff: Rolled) -> Rolled {
     let beyond = 1.0 / (FACTORS[1] / FACTORS[0] - 1.0);
     let at = |of: fn(&Rolled) -> f64| of(&stiff) + beyond * (of(&stiff) - of(&soft));
@@ -185,7 +189,7 @@ struct Missing {
     key: &'static str,
 }
 
-/// The case with elements of `h` (m) at the reference's creepage, with more keys set.
+/// Runs the case with elements of `h` (m) at the creepage of the reference, with `more` keys set.
 fn rolled(reference: &Reference, h: f64, more: &[String]) -> Result<Rolled, crate::problem::Cause> {
     let creepage = reference.creepage;
     let mut sets = vec![

@@ -4,20 +4,20 @@ use crate::Convergence;
 use crate::convergence::Sample;
 use serde::Serialize;
 
-/// One quantity of a problem.
+/// One quantity of a problem. `reference` and `computed` have the unit that `quantity` names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Name of the problem.
     pub name: &'static str,
     /// The quantity, with its unit.
     pub quantity: String,
-    /// What it should be.
+    /// Reference value.
     pub reference: f64,
-    /// What it is.
+    /// Computed value.
     pub computed: f64,
-    /// |computed - reference|, over the scale of the quantity.
+    /// |computed - reference| over a scale of the quantity (dimensionless).
     pub error: f64,
-    /// Largest error that passes.
+    /// Largest error that passes (dimensionless).
     pub limit: f64,
     /// Whether it passes.
     pub pass: bool,
@@ -25,11 +25,11 @@ pub struct Row {
     pub source: String,
     /// Where the limit comes from.
     pub limit_from: String,
-    /// The same quantity on each mesh, coarse to fine; empty for one mesh.
+    /// The same quantity on each mesh, coarse to fine; empty where there is no mesh study.
     pub meshes: Vec<Sample>,
     /// Observed order of convergence, if three meshes show one.
     pub order: Option<f64>,
-    /// The fields that the quantity was read from, coarse to fine, for a figure; empty for most.
+    /// The fields from which the quantity was computed, coarse to fine, for a figure; empty for most quantities.
     #[serde(skip)]
     pub fields: Vec<Field>,
 }
@@ -37,7 +37,7 @@ pub struct Row {
 /// Values at the points of a rectangular grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// What it was found with.
+    /// Label of the mesh or method.
     pub name: String,
     /// Mesh size (m).
     pub size: f64,
@@ -45,12 +45,15 @@ pub struct Field {
     pub x: Vec<f64>,
     /// Grid lines along y (m).
     pub y: Vec<f64>,
-    /// The values, x fastest; infinite where there is none.
+    /// The values, x fastest; infinite or NaN where there is none.
     pub values: Vec<f64>,
 }
 
 impl Field {
-    /// The value at a point inside the grid, bilinear in its cell.
+    /// The value at a point (m) inside the grid, bilinear in its cell.
+    ///
+    /// # Panics
+    /// If the grid has fewer than two lines along an axis, or fewer values than points.
     pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
         let place = |line: &[f64], x: f64| {
             let last = line.len().saturating_sub(2);
@@ -71,8 +74,8 @@ impl Field {
 }
 
 impl Row {
-    /// A quantity whose error is measured against `scale`, with a limit that does not come from a
-    /// mesh study.
+    /// A quantity whose error is |computed - reference| over `scale`, in the unit of the quantity, with a limit on that
+    /// error and where the limit comes from. An error that is not a number does not pass.
     pub fn new(
         quantity: impl Into<String>,
         [reference, computed]: [f64; 2],
@@ -88,7 +91,7 @@ impl Row {
             computed,
             error,
             limit,
-            // an error that is not a number fails
+            // false for NaN
             pass: error <= limit,
             source: source.into(),
             limit_from: limit_from.into(),
@@ -98,9 +101,9 @@ impl Row {
         }
     }
 
-    /// A quantity on the finest of several meshes; the limit is the uncertainty that they show,
-    /// relative to the reference, plus `model`, the share that the reference's own model may
-    /// differ, which a measurement of its own must have shown.
+    /// A quantity on the finest of several meshes, with the error relative to `reference`, which must not be zero. The
+    /// limit is the uncertainty that the meshes show, relative to the reference, plus that of the
+    /// `model`: by how much the computed problem differs from the model of the reference, as a share, and why.
     pub fn converged(
         quantity: impl Into<String>,
         reference: f64,
@@ -112,7 +115,7 @@ impl Row {
         Self::with_meshes(quantity.into(), [reference, computed], convergence, model, source)
     }
 
-    /// A quantity extrapolated to a mesh size of zero; the limit is that of [`Row::converged`].
+    /// A quantity extrapolated to a mesh size of zero; arguments and limit as of [`Row::converged`].
     pub fn extrapolated(
         quantity: &str,
         reference: f64,
@@ -143,16 +146,17 @@ impl Row {
         Self { meshes: convergence.samples().to_vec(), order: convergence.order(), ..row }
     }
 
-    /// The same with the limit that the specification asks for, where that is less.
-    pub(crate) fn at_most(self, asked: f64) -> Self {
-        if self.limit <= asked {
+    /// The same row with the limit reduced to `required` where it is larger.
+    pub(crate) fn at_most(self, required: f64) -> Self {
+        if self.limit <= required {
             return self;
         }
-        let limit_from = format!("asked: {asked:e}, less than by {}", self.limit_from);
-        Self { limit: asked, pass: self.error <= asked, limit_from, ..self }
+        let limit_from = format!("asked: {required:e}, less than by {}", self.limit_from);
+        Self { limit: required, pass: self.error <= required, limit_from, ..self }
     }
 
-    /// A quantity with the largest error that the specification of this program asks for.
+    /// A quantity with a prescribed limit on its error relative to the reference; `values` are reference and computed
+    /// value.
     pub fn asked(quantity: impl Into<String>, values: [f64; 2], limit: f64, source: &str) -> Self {
         Self::new(quantity, values, values[0], (limit, "asked of this problem"), source)
     }

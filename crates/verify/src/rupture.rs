@@ -2,28 +2,28 @@
 //!
 //! A plane in a full space of `c_p` 6000 m/s, `c_s` 3464 m/s, `rho` 2670 kg/m^3 bears 120 MPa of pressure
 //! and 70 MPa of shear along x. Its friction weakens linearly with slip from 0.677 to 0.525 over 0.40 m
-//! on a fault 30 km long and 15 km wide, and is never overcome outside. In a square of 3 km edge at the
+//! on a fault 30 km long and 15 km wide; outside it does not slip. In a square of 3 km edge at the
 //! middle the shear is 81.6 MPa, just above the strength of 81.24 MPa: slip begins there at t = 0,
-//! and the rupture runs from there over the fault (Harris et al. 2009, Seismol. Res. Lett. 80: 119–126; the version in a
-//! full space, without a free surface, is that of Day, Dalguer, Lapusta and Liu 2005, J. Geophys. Res. 110: B12307).
+//! and the rupture runs from there over the fault (Harris et al. 2009, Seismol. Res. Lett. 80: 119–126; the version in
+//! a full space, without a free surface, is that of Day, Dalguer, Lapusta and Liu 2005, J. Geophys. Res. 110: B12307).
 //!
 //! # Loads
-//! The elements bear what is added to the initial stress only. The initial stress is present as the
-//! forces that it exerts on either side of the fault, constant loads on the nodes; these balance the
+//! The elements carry the change from the initial stress only. The initial stress is applied as the
+//! forces that it exerts on either side of the fault, constant loads on the nodes. These balance the
 //! traction at t = 0, so that the traction of contact is the total one. The shear of each face is
-//! spread over its nodes by area: on the edge of the square it is 75.8 MPa, at its corners 72.9 MPa.
+//! distributed to its nodes by area: on the edge of the square it is 75.8 MPa, at its corners 72.9 MPa.
 //!
 //! # A quarter
-//! Loads along x that are even in x and y. Reflection in y = 0 leaves them as they are:
-//! `u_y = 0` there. Reflection in x = 0 turns the sign of all of them, hence
-//! `u(-x) = (u_x, -u_y, -u_z)`: on x = 0 u_y and u_z vanish. (Half a turn about the y axis, the third symmetry, makes u_z
-//! continuous and the change of pressure zero all over the fault; it is not used, and the pressure is a check.)
-//! The other sides are free and so far that no wave comes back to the fault from them during the run.
+//! The loads are along x and even in x and y. Reflection in y = 0 does not change them: `u_y = 0` there.
+//! Reflection in x = 0 reverses the sign of all of them, hence
+//! `u(-x) = (u_x, -u_y, -u_z)`: on x = 0 u_y and u_z vanish. (The third symmetry, half a turn about the y axis, makes
+//! u_z continuous and the change of pressure zero all over the fault. It is not used; the pressure is a check.)
+//! The other sides are free and so far away that no wave comes back to the fault from them during the run.
 //!
 //! # Scale
 //! Elasticity is linear here and friction scales with the pressure: a model with a thousandth of all stresses and of
-//! d_0 slips a thousandth as far and as fast at the same times. This is that model, so that strain stays
-//! linear and nodes stay opposite one another; all that is reported is scaled back.
+//! d_0 slips a thousandth as far and as fast at the same times. That model is computed, so that strain stays
+//! linear and nodes stay opposite one another. All reported values are scaled back.
 //!
 //! # Rupture time
 //! The time at which the slip speed of a node first exceeds 1 mm/s, linear in between two steps. The reference
@@ -31,10 +31,10 @@
 //! repository elygeo/coseis, as used by Ely, Day and Minster (2009, Geophys. J. Int. 177: 1140–1150).
 //!
 //! # Mesh
-//! Uniform on the fault and up to 1.5 km from its plane, coarser outside. Nothing is damped. Two layers of
+//! Uniform on the fault and up to 1.5 km from its plane, coarser outside. There is no damping. Two layers of
 //! elements on either side of the fault are fully integrated, as below the contact of rolling runs: one-point
-//! elements resist a slip that alternates from node to node by their hourglass stiffness only, and
-//! on 300 m, where the front is hardly wider than an element, every other node then ruptures late and the front is
+//! elements resist a slip that alternates from node to node by their hourglass stiffness only. With elements of
+//! 300 m, where the front is hardly wider than an element, every other node would then rupture late and the front be
 //! slow.
 
 use crate::body::{ONE_POINT, at_rest_with, contact_material, side_nodes};
@@ -74,8 +74,8 @@ const SQUARE: f64 = 1.5e3;
 const ENDS: [f64; 3] = [38.5e3, 34.5e3, 30e3];
 /// Uniform elements reach so far beyond the fault's edges and from its plane (m).
 const MARGINS: [f64; 3] = [0.5e3, 0.5e3, 1.5e3];
-/// Elements grow by a third of their size on the fault per km outside, up to six times it: meshes of all sizes
-/// are alike.
+/// Outside, elements grow by 1/3 of the size on the fault per km (1/m), up to six times that size, so that
+/// meshes of all sizes are similar.
 const GROWTH: f64 = 1.0 / 3e3;
 const COARSEST: f64 = 6.0;
 /// Fully integrated layers on either side of the fault.
@@ -85,7 +85,7 @@ const LAYERS: usize = 2;
 const END: f64 = 10.0;
 
 /// Rupture times of the boundary integral solution (s) on the quarter, `x` and `y` in km; each is the mean of
-/// the four cells of 100 m around the point. In the square all is ruptured at once.
+/// the four cells of 100 m around the point. NaN in the square, which ruptures at t = 0.
 #[rustfmt::skip]
 const BOUNDARY_INTEGRAL: [[f64; 15]; 8] = [
     [f64::NAN, f64::NAN, 0.635, 1.068, 1.501, 1.949, 2.386, 2.791, 3.176, 3.546, 3.907, 4.263, 4.609, 4.956, 5.297],
@@ -135,17 +135,17 @@ impl NodeFriction for OnFault {
     }
 }
 
-/// What one mesh shows, in units of the benchmark.
+/// The results of one mesh, scaled back to the benchmark.
 #[derive(Debug)]
 struct Rupture {
-    /// Rupture time of the nodes inside the fault, infinite for those that never did.
+    /// Rupture time of the nodes inside the fault (s), infinite for those that did not rupture.
     front: Field,
     /// Slip of the same nodes [`SINCE`] after that (m), infinite where the run ended before.
     slip: Field,
     checks: Checks,
 }
 
-/// What must hold to round-off at every node in every step: the worst of the run.
+/// Conditions that must hold at every node in every step: the largest violations of the run.
 #[derive(Clone, Copy, Debug, Default)]
 struct Checks {
     /// Distance of a slipping node's traction from the law of its own slip path, over the static strength.
@@ -211,8 +211,8 @@ fn initial_stress(mesh: &Mesh, surfaces: [&mesh::Surface; 2]) -> Vec<(u32, [f64;
     force.into_iter().collect()
 }
 
-/// The model on elements of `h` (m), a table for the contact of its upper side, and a watch over it.
-fn model(h: f64) -> Result<(Setup, NodalContact, Watch), Cause> {
+/// The model with elements of `h` (m), a table for the contact of its upper side, and the monitor of that side.
+fn model(h: f64) -> Result<(Setup, NodalContact, Monitor), Cause> {
     let mesh = quarter(h)?;
     let full = beside_fault(&mesh);
     let elements = Elements::mixed(ONE_POINT, &full, Volumetric::default());
@@ -233,54 +233,56 @@ fn model(h: f64) -> Result<(Setup, NodalContact, Watch), Cause> {
         Box::new(OnFault(LAW)),
     )?;
     let table = contact.nodal_table(0);
-    let watch = Watch::new(&mesh, &table, h);
+    let monitor = Monitor::new(&mesh, &table, h);
     setup.system.contact = Some(Box::new(contact));
-    Ok((setup, table, watch))
+    Ok((setup, table, monitor))
 }
 
 fn rupture(h: f64) -> Result<Rupture, Cause> {
-    let (setup, mut table, mut watch) = model(h)?;
+    let (setup, mut table, mut monitor) = model(h)?;
     let dt = setup.dt;
     let mut simulation = Simulation::new(setup);
     let mut checks = Checks::default();
-    while simulation.time() < END && !watch.is_done() {
+    while simulation.time() < END && !monitor.is_done() {
         let report = simulation.step(simulation.steps().is_multiple_of(10));
         let Some(contact) = simulation.contact() else { return Err("no contact".into()) };
         contact.nodal(&mut table);
-        watch.read(&table, report.time, dt, &mut checks);
+        monitor.read(&table, report.time, dt, &mut checks);
         let [on_upper, on_lower] = report.contact.force;
         let sum = norm([0, 1, 2].map(|i| on_upper[i] + on_lower[i]));
         worst(&mut checks.resultant, sum / report.contact.normal_force);
     }
     checks.energy = simulation.ledger().balance_error();
-    checks.slip = watch.path.iter().fold(0.0, |most, slip| most.max(*slip));
-    Ok(Rupture { front: watch.field(&watch.time), slip: watch.field(&watch.late), checks })
+    checks.slip = monitor.path.iter().fold(0.0, |most, slip| most.max(*slip));
+    let (front, slip) = (monitor.field(&monitor.time), monitor.field(&monitor.late));
+    Ok(Rupture { front, slip, checks })
 }
 
-/// Follows the nodes of the upper side.
-struct Watch {
-    /// Nodes inside the fault along x and y.
+/// Records rupture and slip of the nodes of the upper side.
+struct Monitor {
+    /// Number of nodes inside the fault along x and y.
     counts: [usize; 2],
+    /// Size of the elements on the fault (m).
     h: f64,
-    /// Row of each of them in the table, x fastest.
+    /// Row of each of these nodes in the table, x fastest.
     rows: Vec<usize>,
-    /// Rows of the barrier.
+    /// Rows of the nodes of the barrier.
     barrier: Vec<usize>,
-    /// Of each node inside: slip speed of the step before, slip path, rupture time, in the model's units.
+    /// Of each node inside: slip speed of the step before (m/s) and slip path (m), of the model; rupture time (s).
     speed: Vec<f64>,
     path: Vec<f64>,
     time: Vec<f64>,
-    /// Slip path [`SINCE`] after the rupture time, infinite before.
+    /// Slip path [`SINCE`] after the rupture time (m), scaled back; infinite before.
     late: Vec<f64>,
 }
 
 /// Slip is compared this long after the arrival of the rupture (s).
 const SINCE: f64 = 2.0;
-/// Where: the reference's stations (m), and its slip there (m), `data/TPV3-BI-P1-Slip.npy` and `-P2-`.
+/// Stations of the reference (m), and its slip there (m), `data/TPV3-BI-P1-Slip.npy` and `-P2-`.
 const SLIPS: [(&str, [f64; 2], f64); 2] =
     [("7.45 km along strike", [7450.0, 50.0], 2.105), ("5.95 km along dip", [50.0, 5950.0], 1.648)];
 
-impl Watch {
+impl Monitor {
     fn new(mesh: &Mesh, table: &NodalContact, h: f64) -> Self {
         let counts = FAULT.map(|edge| (edge / h).round() as usize);
         let mut rows = vec![usize::MAX; counts[0] * counts[1]];
@@ -308,7 +310,7 @@ impl Watch {
         }
     }
 
-    /// Takes the contact of the step that starts at `time`.
+    /// Reads the contact of the step of `dt` (s) that starts at `time` (s), and updates the checks.
     fn read(&mut self, table: &NodalContact, time: f64, dt: f64, checks: &mut Checks) {
         let middle = time + 0.5 * dt;
         let at = Place::default();
@@ -354,7 +356,7 @@ impl Watch {
 /// State of a node that slips in [`NodalContact`].
 const SLIPS_STATE: u8 = 2;
 
-/// Keeps the larger of two numbers, and what is no number.
+/// Keeps the larger of two numbers; once NaN, it stays NaN.
 fn worst(most: &mut f64, value: f64) {
     if value > *most || value.is_nan() {
         *most = value;
@@ -412,16 +414,16 @@ pub(crate) fn run(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// Order of elements and time step, where the meshes show none.
+/// Order of convergence of elements and time step, assumed where the meshes show none.
 const ORDER: f64 = 2.0;
 /// Time step (s) and cells (m) of the boundary integral solution.
 const STEP: f64 = 0.0096;
 const CELL: f64 = 100.0;
 const SOURCE: &str = "boundary integral solution of Day et al. (2005), cells of 100 m";
 
-/// Arrivals at places ever farther along a line: a front that is late at one place is late by as much at all beyond,
-/// so that no place is less certain (s) than those beyond it. Beside the square, where the order of
-/// the start mixes with that of the front, the own mesh study of a place says less.
+/// Limits the uncertainty of arrivals, in rising distance along a line. A front that is late at one place is late by at
+/// least as much at all places beyond, so that no place is less certain (s) than those beyond it. The mesh study of a
+/// place near the square is weaker, since there the order of the start mixes with that of the front.
 fn no_later_than_beyond(mut arrivals: Vec<Row>) -> Vec<Row> {
     let mut beyond = f64::INFINITY;
     for row in arrivals.iter_mut().rev() {
@@ -481,8 +483,8 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
     f64::sqrt(sum / n)
 }
 
-/// Rupture times all over the fault beside the reference's. The limit is the rms uncertainty of the
-/// single places, each by its own mesh study.
+/// Rupture times all over the fault compared with the reference. The limit is the rms uncertainty of the
+/// single places, each from its own mesh study.
 fn whole_fault(runs: &[Rupture]) -> Row {
     let mean = places().map(|(_, t)| t).sum::<f64>() / places().count() as f64;
     let study = |at| Convergence::new(runs.iter().map(|r| (r.front.size, r.front.at(at))), ORDER);
@@ -515,7 +517,7 @@ fn falling_differences(runs: &[Rupture]) -> Option<Row> {
 
 impl Checks {
     fn rows(&self, h: f64) -> Vec<Row> {
-        /// The Gauss–Seidel sweeps of exact contact end there.
+        /// The Gauss–Seidel sweeps of exact contact end at this relative change.
         const SWEPT: (f64, &str) = (1e-12, "tolerance of the sweeps");
         let law = "the law of friction, at every node in every step";
         let zero = |quantity: &str, value: f64, limit: (f64, &str), source: &str| {

@@ -1,7 +1,7 @@
 //! Falling friction, Eq. (8) of Vollebregt (2017), between two half-spaces sheared in one dimension.
 //!
 //! Two columns of hexahedra are pressed together at p and sheared by waves that arrive from both
-//! sides. With tau the shear stress that the stuck interface would bear, the balance at the interface
+//! sides. With tau the shear stress that a sticking interface would bear, the balance at the interface
 //! is `tau - Z s = mu(s) p`, `Z = rho c_s/2` (Andrews 1985; Ionescu and Paumier 1994). For
 //! `R = p k (mu_S - mu_D)/Z > 1` it has three solutions between
 //! `f_min = mu_D + (mu_S - mu_D)(1 + ln R)/R` and mu_S in units of p. With perfect delay the interface
@@ -11,17 +11,17 @@
 //! The columns bear a thousandth of that pressure with k a thousand times as large: the same R with
 //! strains that stay linear, and all speeds are a thousandth.
 //!
-//! The stress that arrives rises slowly from below mu_S p to 0.51 p, so that an onset that is early or late shows
-//! as what it is, and comes back to mu_S p, where the slip speed is that of the jump: perfect delay keeps the
-//! interface in slip. Then it falls slowly to where slip ends.
+//! The stress that arrives rises slowly from below mu_S p to 0.51 p, so that an early or late onset is resolved. It
+//! comes back to mu_S p, where the slip speed is that of the jump, since perfect delay keeps the
+//! interface in slip. Then it falls slowly until slip ends.
 //!
-//! The columns are one element wide. All nodes are fixed across the plane of shear and, but for those
-//! of the interface, along the normal, as the supports of a one-dimensional motion; elements are
-//! flat, so that the couple of the complementary shear changes the pressure by a fraction of a per mille only, and
-//! their Poisson's ratio is zero, or pressure would push the free sides apart and fall.
+//! The columns are one element wide. Motion is along y. All nodes are fixed along x and, except those
+//! of the interface, along z, as supports of a one-dimensional motion. Elements are
+//! flat, so that the couple of the complementary shear changes the pressure by a fraction of a per mille only.
+//! Poisson's ratio is zero, since pressure would push the free sides apart and fall.
 //! The elements have Kelvin–Voigt damping of 0.2 time steps: the mesh rings after the jump, and falling
-//! friction does not damp that. What moves is the node's y. Incoming waves are given as the initial state, displacement and
-//! velocity of `u = f(z + c t)`.
+//! friction does not damp that. Incoming waves are given as the initial displacement and velocity of
+//! `u = f(z + c t)`.
 
 use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
@@ -38,7 +38,7 @@ pub(crate) const SCALE: f64 = 1e-3;
 pub(crate) const PRESSURE: f64 = 1e9 * SCALE;
 pub(crate) const LAW: Exponential =
     Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 / SCALE };
-/// Length of each column (m) and its width over the element's height.
+/// Length of each column (m), and width over height of the elements.
 pub(crate) const LENGTH: f64 = 0.4;
 const FLAT: f64 = 5000.0;
 /// The tolerance of the sweeps of exact contact.
@@ -46,8 +46,8 @@ const SWEPT: (f64, &str) = (1e-12, "tolerance of the sweeps");
 
 const SOURCE: &str = "tau - Z s = mu(s) p with perfect delay (Ionescu and Paumier 1994)";
 
-/// The stress over p that the stuck interface bears when the part of the waves at a share of the columns has
-/// arrived: share and stress at the corners of a broken line.
+/// The shear stress over p of a sticking interface as a broken line of the share of the columns' length from which the
+/// waves have arrived: share and stress at its corners.
 #[derive(Clone, Copy)]
 pub(crate) struct Waves(pub(crate) &'static [[f64; 2]]);
 
@@ -87,17 +87,17 @@ fn between(line: &[[f64; 2]], x: f64) -> f64 {
     low + (high - low) * (x - from) / (to - from)
 }
 
-/// What the interface does.
+/// The results of one mesh. "Stuck" stresses are those that a sticking interface would bear.
 struct Jumps {
-    /// Shear stress over pressure at the onset of slip, the stuck one.
+    /// Stuck shear stress over p at the onset of slip.
     onset: f64,
-    /// Slip speed at mu_S p (m/s, as at 1 GPa): the mean with the weight sin^2 against the mesh's ringing.
+    /// Slip speed at mu_S p (m/s, as at 1 GPa): the mean with the weight sin^2, against the ringing of the mesh.
     speed: f64,
     /// Stuck shear stress over p when slip ends.
     arrest: f64,
-    /// By which the stuck shear stress over p changes in a step at the onset and at the end.
+    /// Change of the stuck shear stress over p in a time step, at the onset and at the end.
     resolved: [f64; 2],
-    /// Largest distance of the shear of slip from mu(s) p of the same step, over mu_S p.
+    /// Largest difference of the shear stress in slip from mu(s) p of the same step, over mu_S p.
     off_law: f64,
     /// Steps with more than one solution.
     non_unique: usize,
@@ -155,8 +155,8 @@ pub(crate) fn run_with(size: Size, law: impl Fn() -> Box<dyn NodeFriction>) -> O
     ])
 }
 
-/// What finite strain may change of the speed at a stress over p, as a share: pressure takes p off the shear modulus G,
-/// hence p/G of the stress tau, of which the slip speed is what friction leaves, (tau - mu_D p)/Z.
+/// Relative change of the slip speed by finite strain at a stress over p: pressure reduces the shear modulus G by p,
+/// and so the stress tau by the share p/G; the slip speed is (tau - mu_D p)/Z.
 pub(crate) fn strain(stress: f64) -> f64 {
     PRESSURE / SHEARED.shear() * stress / (stress - LAW.mu_dynamic)
 }
@@ -221,8 +221,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
         }
     };
 
-    // a little damping, or the mesh's ringing after the jump ends slip early: with falling friction
-    // nothing else damps the interface
+    // without damping the ringing of the mesh after the jump would end slip early: falling friction does not damp it
     let viscosity = Viscosity { kelvin_voigt: 0.2 * step, ..Viscosity::default() };
     let element = Element { hourglass: 0.05 };
     setup.system.solid = Solid::new(&mesh, &[SHEARED; 2], element, viscosity, Level::detect())?;

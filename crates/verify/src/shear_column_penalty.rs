@@ -1,14 +1,14 @@
-//! The shear column of [`crate::shear_column`] with penalty springs and friction of the step before, as the
-//! explicit codes have it: does it tend to Eq (8) as the mesh and the step are refined at one k_t?
+//! The shear column of [`crate::shear_column`] with penalty springs and friction of the step before, as in
+//! explicit codes: does it tend to Eq (8) as the mesh and the time step are refined at a fixed k_t?
 //!
-//! To one half of it. In slip the spring is of no matter, and the speed after the jump and the stress at which slip ends are
-//! those of the law. But a stuck interface gives, by the speed `s_e = (d tau/dt)/k_t` of its spring as the stress
-//! rises, and friction that looks at nodal velocities takes that for slip. The stress that the stuck interface
-//! could bear, of which `Z s_e` is not sent on, ends stick at
+//! Only in part. In slip the spring has no effect: the speed after the jump and the stress at which slip ends are
+//! those of the law. But while a sticking interface is loaded, its spring stretches at the speed
+//! `s_e = (d tau/dt)/k_t`. Friction that depends on nodal velocities takes this speed for slip, and the interface
+//! transmits `Z s_e` less than a rigid one. So stick ends at
 //!
 //! `tau = mu(s_e) p + Z s_e`, not at mu_S p,
 //!
-//! whatever mesh and step; at mu_S p as k_t goes to infinity only.
+//! for any mesh and time step; it tends to mu_S p only as k_t goes to infinity.
 
 use crate::body::SHEARED;
 use crate::convergence::Convergence;
@@ -29,23 +29,24 @@ const PEAK: f64 = 0.502;
 const RISE: f64 = 0.15;
 const HOLD: f64 = 0.45;
 const WAVES: Waves = Waves(&[[0.0, 0.0], [RISE, PEAK], [HOLD, PEAK], [1.0, 0.31]]);
-/// Elements of the mesh on which time is refined, and by how much.
+/// Elements of the mesh on which the time step is refined, and by which factor.
 const REFINED: (usize, f64) = (400, 16.0);
-const ASKED: f64 = 0.01;
+/// Largest relative error of the stress at which stick ends that passes.
+const REQUIRED: f64 = 0.01;
 const STEP: &str = "one time step, in which the stress rises";
 const LAWS: &str = "tau - Z s = mu(s) p with perfect delay (Ionescu and Paumier 1994)";
 const SPRINGS: &str = "mu(s_e) p + Z s_e, s_e = (d tau/dt)/k_t: the spring's give counts as slip";
 const FACT: (f64, &str) = (0.0, "a fact, 1 for yes");
 
-/// What the interface does.
+/// The results of one mesh.
 #[derive(Clone, Copy)]
 struct Found {
-    /// Stress over p at the onset of slip and at its end, that of the stuck interface.
+    /// Stress over p, that of a sticking interface, at the onset of slip and at its end.
     onset: f64,
     end: f64,
-    /// By which the stress over p rises in a step.
+    /// Rise of the stress over p in a time step.
     resolved: f64,
-    /// Slip velocity while the stress holds (m/s, as at 1 GPa), mean with the weight sin^2.
+    /// Slip speed while the stress is constant (m/s, as at 1 GPa), mean with the weight sin^2.
     speed: f64,
 }
 
@@ -60,11 +61,11 @@ pub(crate) fn run(size: Size) -> Outcome {
         let size = |&n: &usize| LENGTH / n as f64;
         Convergence::with_known_order(meshes.iter().map(size).zip(found.iter().map(of)), 1.0)
     };
-    let own = |k: f64, found: &[Found]| {
+    let spring_row = |k: f64, found: &[Found]| {
         let exact = spring_onset(k);
         let step = found.last().map_or(f64::NAN, |f| f.resolved) / exact;
         Row::converged(stick_ends(k), exact, &study(found, |f| f.onset), (step, STEP), SPRINGS)
-            .at_most(ASKED)
+            .at_most(REQUIRED)
     };
     let [soft, middle, stiff] = STIFFNESS;
     let found = on_meshes(soft)?;
@@ -85,7 +86,7 @@ pub(crate) fn run(size: Size) -> Outcome {
             (0.0, ""),
             LAWS,
         ),
-        own(soft, &found),
+        spring_row(soft, &found),
         Row::new("k_t 3.5e13: whether stick ends at mu_S p", [0.0, reached], 1.0, FACT, SPRINGS),
     ];
 
@@ -94,14 +95,14 @@ pub(crate) fn run(size: Size) -> Outcome {
     let values = [spring_onset(soft), found.onset];
     let what =
         "k_t 3.5e13, a sixteenth of the step: stress over p at which stick ends, its own theory";
-    rows.push(Row::asked(what, values, ASKED, SPRINGS));
+    rows.push(Row::asked(what, values, REQUIRED, SPRINGS));
 
-    rows.push(own(middle, &on_meshes(middle)?));
+    rows.push(spring_row(middle, &on_meshes(middle)?));
     // the stiffest spring rings: its values scatter, and two meshes may agree by chance
     let found = on_meshes(stiff)?;
     let onset = study(&found, |f| f.onset);
     let values = [spring_onset(stiff), onset.finest()];
-    rows.push(with_meshes(Row::asked(stick_ends(stiff), values, ASKED, SPRINGS), &onset));
+    rows.push(with_meshes(Row::asked(stick_ends(stiff), values, REQUIRED, SPRINGS), &onset));
     Ok(rows)
 }
 
@@ -116,8 +117,8 @@ fn with_meshes(row: Row, study: &Convergence) -> Row {
 /// The stress over p at which a spring of stiffness `k` ends stick.
 fn spring_onset(k: f64) -> f64 {
     let rise = PEAK * PRESSURE / (RISE * LENGTH / SHEARED.c_s());
-    let give = rise / k;
-    LAW.mu(give) + impedance() * give / PRESSURE
+    let speed = rise / k;
+    LAW.mu(speed) + impedance() * speed / PRESSURE
 }
 
 fn shear(cells: usize, k: f64, finer: f64) -> Result<Found, Cause> {

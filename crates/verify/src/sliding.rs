@@ -1,33 +1,33 @@
-//! A block sliding on a plane: Coulomb friction of penalty and of exact contact against rigid-body
+//! A block sliding on a plane: Coulomb friction of penalty and of exact contact compared with rigid-body
 //! mechanics.
 //!
-//! *Stop.* A block under the weight m g slides at v_0: x = v_0 t - mu g t^2/2 until it stops at
-//! v_0^2/(2 mu g), and stays. *Incline.* On a plane at the angle alpha the block sticks for
+//! *Stop.* A block under the weight m g slides with the start velocity v_0: x = v_0 t - mu g t^2/2 until it stops at
+//! v_0^2/(2 mu g), and stays there. *Incline.* On a plane at the angle alpha the block sticks for
 //! tan(alpha) < mu and slides with a = g (sin(alpha) - mu cos(alpha)) above (Coulomb 1781).
 //!
-//! The block is elastic, the friction springs of the contact are, and the plane is a held body. With
-//! the weight p = rho g H per area and k_t the areal stiffness of both passes they give by
-//! d = mu p/k_t + mu rho g H^2/(2G), and that is what the limits are made of:
-//! - a block that slides already: 2 d, for loading at once, at the start and again at the stop;
-//! - a block held at the share s = tan(alpha)/mu of its friction, loaded at once: the springs hold
+//! The block and the friction springs of the contact are elastic; the plane is a held body. With
+//! the weight p = rho g H per area and k_t the areal stiffness of both passes, friction displaces the block elastically
+//! by d = mu p/k_t + mu rho g H^2/(2G). The limits follow from d:
+//! - a block that slides already: 2 d, for a sudden load, at the start and again at the stop;
+//! - a block held at the share s = tan(alpha)/mu of its friction, loaded suddenly: the springs hold
 //!   mu m g from d on, and the work of the load is used up at s x = x - d/2, hence d/(2 (1 - s)) for
-//!   s > 1/2; and 2 d for loading at once where that is more;
-//! - a block that starts to slide: while its springs load it gains at most the speed
-//!   v_1 = sqrt(2 g sin(alpha) d), the load's work over d, and runs ahead by v_1 t.
+//!   s > 1/2; or 2 d, for a sudden load, where that is more;
+//! - a block that starts to slide: while its springs are loaded it gains at most the speed
+//!   v_1 = sqrt(2 g sin(alpha) d), from the work of the load over d, and runs ahead by v_1 t.
 //!
-//! Exact contact has no springs: d is then what the block itself gives, mu rho g H^2/(2G). What a block does that
-//! slides on it is known closer:
-//! - while it slides, its centre obeys m x'' = -mu N and m (g + z'') = N, whatever the block does within: x is
-//!   off by mu times the rise and fall of the centre, at most twice the sag under the weight, rho g H^2/(3E);
-//! - at the stop the block lets go of its shear, 2 d at once; so much may be missing in the way and the heat;
-//! - what has stopped stays: the nodes on the plane stick, to a rounding in each step.
+//! Exact contact has no springs: d is then that of the block alone, mu rho g H^2/(2G). For a sliding block the limits
+//! are closer:
+//! - while it slides, its centre of mass obeys m x'' = -mu N and m (g + z'') = N, however the block deforms: the error
+//!   of x is mu times the rise and fall of the centre, at most twice the sag under the weight, rho g H^2/(3E);
+//! - at the stop the shear of the block is released suddenly, 2 d: so much may be missing in the distance and the heat;
+//! - a block that has stopped stays: the nodes on the plane stick, up to a rounding in each step.
 //!
-//! With mortar rows the plane has another pitch than the block, 0.8 of it.
+//! With mortar constraints the elements of the plane are 0.8 times as long as those of the block.
 //!
 //! The block first settles under its weight, with critically damped contact springs, or on exact
-//! contact with damping in proportion to mass. Where the springs' dampers are missing the elements have
+//! contact with damping in proportion to mass. With exact contact, which has no dampers, the elements then have
 //! Kelvin–Voigt damping of 0.3 time steps: an elastic body of finite height that slides steadily on a rigid
-//! one is unstable without damping, whatever the law of friction, by waves between its faces that grow at
+//! one is unstable without damping for any law of friction, by waves between its faces that grow at
 //! a rate in inverse proportion to its height (Brener, Weikamp, Spatschek, Bar-Sinai and Bouchbinder 2016, J. Mech.
 //! Phys. Solids 89: 149–173).
 
@@ -46,19 +46,20 @@ use solid::{Element, Level, Material, Solid, Viscosity};
 pub(crate) const MU: f64 = 0.3;
 /// Acceleration (m/s^2) that lets a millimetre block stop within some thousand steps.
 const GRAVITY: f64 = 2e4;
-/// Edges of the block (m): so flat that friction does not lift its rear, mu H/2 < L/6.
+/// Edges of the block (m), so flat that friction does not lift its rear: mu H/2 < L/6.
 const BLOCK: [f64; 3] = [8e-3, 4e-3, 2e-3];
-/// No Poisson effect: a column under its weight stays straight.
+/// Without Poisson's effect the sides of the block stay straight under its weight.
 const MATERIAL: Material = Material { poisson: 0.0, ..STEEL };
 /// Length of the plane, from one block's length behind the block (m).
 const PLANE: f64 = 40e-3;
-/// Time to settle (s), some ten periods of the block on its springs.
+/// Time to settle (s), about ten periods of the block on its springs.
 const SETTLING: f64 = 6e-5;
 /// Areal stiffness of both passes (N/m^3), normal and tangential.
 const SPRING: f64 = 4e13;
 
-/// Share of the give in the limit of a sliding block: doubled, at the start and at the stop.
+/// Multiple of d in the limit of a sliding block: doubled by a sudden load, at the start and at the stop.
 const SUDDEN: f64 = 4.0;
+
 /// How contact is enforced.
 #[derive(Clone, Copy, PartialEq)]
 enum Method {
@@ -96,19 +97,19 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
     let (time, distance) = (v0 / (MU * GRAVITY), v0 * v0 / (2.0 * MU * GRAVITY));
     let (sliding, limit) = match method {
         Method::Penalty => {
-            let limit = (SUDDEN * give(method) / distance, FROM);
+            let limit = (SUDDEN * elastic_displacement(method) / distance, FROM);
             (limit, limit)
         }
         Method::Exact(_) => {
             let sag = MATERIAL.density * GRAVITY * BLOCK[2].powi(2) / (3.0 * MATERIAL.young);
             let sliding = (2.0 * MU * sag / distance, SAG);
-            (sliding, (2.0 * give(method) / distance, FROM))
+            (sliding, (2.0 * elastic_displacement(method) / distance, FROM))
         }
     };
     let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], v0, mu)?;
     let mut earlier = 0.0;
     if method == Method::Penalty {
-        // it books the step that ended at t = 0 in the first step
+        // the first step of penalty contact adds the heat of the step that ended at t = 0
         block.simulation.step(false);
         earlier = block.simulation.ledger().friction;
     }
@@ -124,14 +125,14 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
     let x = block.slide_until(1.2 * time);
     let stop = [distance, x];
     rows.push(Row::new("distance to the stop (m)", stop, distance, limit, "v0^2/(2 mu g)"));
-    let (steps, projection) = (block.simulation.steps(), block.projection());
+    let (steps, base) = (block.simulation.steps(), block.base_displacement());
     let later = block.slide_until(1.5 * time);
     let (creep, held) = match method {
         Method::Penalty => (later - x, limit),
         Method::Exact(_) => {
             let roundings = (block.simulation.steps() - steps) as f64 * f64::EPSILON;
             (
-                block.projection() - projection,
+                block.base_displacement() - base,
                 (roundings, "one rounding of the displacement per step"),
             )
         }
@@ -166,9 +167,9 @@ fn inclines(size: Size, method: Method) -> Outcome {
     for share in [0.5, 0.9] {
         let angle = libm::atan(share * MU);
         let x = Block::new(size, method, weight(angle), 0.0, MU)?.slide_until(time);
-        // a block without friction sets the scale
+        // the distance of a block without friction is the scale
         let free = 0.5 * GRAVITY * libm::sin(angle) * time * time;
-        let held = f64::max(2.0, 0.5 / (1.0 - share)) * give(method);
+        let held = f64::max(2.0, 0.5 / (1.0 - share)) * elastic_displacement(method);
         rows.push(Row::new(
             format!("tan(angle) = {share} mu: x over that without friction"),
             [0.0, x / free],
@@ -182,8 +183,8 @@ fn inclines(size: Size, method: Method) -> Outcome {
         let acceleration = GRAVITY * (libm::sin(angle) - MU * libm::cos(angle));
         let x = Block::new(size, method, weight(angle), 0.0, MU)?.slide_until(time);
         let exact = 0.5 * acceleration * time * time;
-        let ahead =
-            (2.0 * GRAVITY * libm::sin(angle) * give(method)).sqrt() * time + SUDDEN * give(method);
+        let d = elastic_displacement(method);
+        let ahead = (2.0 * GRAVITY * libm::sin(angle) * d).sqrt() * time + SUDDEN * d;
         rows.push(Row::new(
             format!("tan(angle) = {share} mu: 2 x/t^2 (m/s^2)"),
             [acceleration, 2.0 * x / (time * time)],
@@ -200,7 +201,7 @@ fn weight(angle: f64) -> [f64; 3] {
 }
 
 /// d = mu p/k_t + mu rho g H^2/(2G) (m).
-fn give(method: Method) -> f64 {
+fn elastic_displacement(method: Method) -> f64 {
     let pressure = MATERIAL.density * GRAVITY * BLOCK[2];
     let spring = match method {
         Method::Penalty => MU * pressure / SPRING,
@@ -211,10 +212,11 @@ fn give(method: Method) -> f64 {
 
 struct Block {
     simulation: Simulation,
+    /// Masses of its nodes and their sum (kg).
     masses: Vec<f64>,
     mass: f64,
     /// Its nodes on the plane.
-    projections: Vec<u32>,
+    base: Vec<u32>,
 }
 
 impl Block {
@@ -232,7 +234,7 @@ impl Block {
         };
         let block = mesh::block(cells, BLOCK);
         let h = BLOCK[0] / cells[0] as f64;
-        // mortar rows are for meshes that do not match
+        // meshes that do not match, for which mortar constraints are meant
         let pitch = if method == Method::Exact(Rows::Mortar) { 0.8 } else { 1.0 };
         let cells_along = |length: f64| (length / (pitch * h)).round() as usize;
         let plane_cells = [cells_along(PLANE), cells_along(BLOCK[1]), 1];
@@ -268,7 +270,7 @@ impl Block {
         setup.displacement.copy_from_slice(settling.displacement());
         let dt = setup.dt;
         if speed > 0.0 {
-            // it slid before t = 0: contact has seen the step that led here
+            // the block slid before t = 0: contact needs the positions of the step before
             setup.velocity[body.clone()].fill(Padded::new([
                 speed + 0.5 * dt * MU * GRAVITY,
                 0.0,
@@ -289,8 +291,8 @@ impl Block {
         setup.system.contact = Some(contact);
         let masses = setup.system.mass[body].to_vec();
         let mass = masses.iter().sum();
-        let projections = side_nodes(&mesh, 0, "z-").to_vec();
-        Ok(Self { simulation: Simulation::new(setup), masses, mass, projections })
+        let base = side_nodes(&mesh, 0, "z-").to_vec();
+        Ok(Self { simulation: Simulation::new(setup), masses, mass, base })
     }
 
     /// Steps to the time `t` (the centre of mass is interpolated within the last step) and returns
@@ -308,12 +310,12 @@ impl Block {
     }
 
     /// Mean displacement along x of the nodes on the plane (m).
-    fn projection(&self) -> f64 {
+    fn base_displacement(&self) -> f64 {
         let u = self.simulation.displacement();
-        self.projections.iter().map(|&n| u[n as usize].0[0]).sum::<f64>()
-            / self.projections.len() as f64
+        self.base.iter().map(|&n| u[n as usize].0[0]).sum::<f64>() / self.base.len() as f64
     }
 
+    /// Displacement of the centre of mass along x (m).
     fn centre(&self) -> f64 {
         let u = self.simulation.displacement();
         self.masses.iter().zip(u).map(|(m, u)| m * u.0[0]).sum::<f64>() / self.mass

@@ -1,10 +1,10 @@
-//! Steady rolling of the reference wheel on its crown beside CONTACT.
+//! Steady rolling of the reference wheel on its crown compared with CONTACT.
 //!
 //! CONTACT (Vollebregt; Kalker 1990) solves the same quasi-static problem on half-spaces with
 //! boundary elements. Its creepages, areas and peaks are extrapolated to h = 0; its profiles along
 //! y = 0 are those of its finest grid, 0.05 mm (data/steady-rolling-y0.csv).
 //!
-//! First order of convergence is that of the method (carter.rs).
+//! Convergence is of first order (carter.rs).
 
 use crate::convergence::Convergence;
 use crate::half_space::{HalfSpaces, WHEEL, WHEEL_EXTENT, WHEEL_SIZES, column, on_meshes, sizes};
@@ -80,7 +80,7 @@ pub(crate) fn steady(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// A quantity on the finest mesh, with a limit of its own.
+/// A quantity on the finest mesh, with a limit that is not that of its mesh study.
 fn on_finest(
     what: String,
     study: &Convergence,
@@ -93,7 +93,7 @@ fn on_finest(
     Row { meshes: study.samples().to_vec(), order: study.order(), ..row }
 }
 
-/// Creepage, peak shear (Pa), share of stick, border of stick (m) and the differences of the
+/// Creepage, peak shear (Pa), share of stick, border of stick (m) and the rms differences of the
 /// three profiles.
 fn rolled(blocks: &HalfSpaces<'_>, traction: f64, table: &Profiles) -> Result<[f64; 7], Cause> {
     let force = |_| Rigid::Forced(traction * blocks.load);
@@ -149,7 +149,8 @@ impl Profiles {
         std::array::from_fn(|k| left[k] + part * (right[k] - left[k]))
     }
 
-    /// What a node at x stands for: the mean with the weight of its shape function.
+    /// The profiles as a node at x of a mesh of size h (m) represents them: means with the weight of its shape
+    /// function.
     fn node(&self, x: f64, h: f64) -> [f64; 3] {
         const SAMPLES: i32 = 16;
         let (mut sum, mut weights) = ([0.0; 3], 0.0);
@@ -191,7 +192,7 @@ impl Profiles {
         squares.map(|s| s / f64::from(points))
     }
 
-    /// Rms change of a profile that moves by half an element.
+    /// Rms change of the k-th profile when it moves by half an element of size h (m).
     fn moved(&self, k: usize, h: f64) -> f64 {
         let ends = [self.grid[0], self.grid[0] + self.grid[1] * self.values.len() as f64];
         let n = 200;

@@ -4,13 +4,13 @@
 //! the mean time of passage is the centroid of the particle velocity's square, and the distance
 //! over the difference of the means is the speed of the pulse.
 //!
-//! *Stress.* The bar flies at v against a rigid wall. Behind the front that runs back from the wall
-//! at c the material is at rest under the stress sigma = rho c v: momentum rho A c t v is lost in t
+//! *Stress.* The bar hits a rigid wall at v. Behind the front that runs back from the wall
+//! at c the material is at rest under the stress sigma = rho c v: the bar loses the momentum rho A c t v in the time t
 //! (Kolsky 1953, "Stress waves in solids", Ch. III; Achenbach 1973, Sec. 3.1). The stress is the
 //! mean over the half of the bar next to the wall, with the weight sin^2 (2 pi x/L) against the
 //! ringing of the mesh behind the front, when the front is at three quarters.
 //! Finite strain changes the stress by the factor 1 - 3/4 v/c (the St. Venant–Kirchhoff shock:
-//! sigma = rho c_s v with c_s^2 = c^2 (1 - 3/2 v/c)); at v = 1 um/s that is 1e-10.
+//! sigma = rho U v with the shock speed U, U^2 = c^2 (1 - 3/2 v/c)); at v = 1 um/s that is 1e-10.
 //!
 //! *Bar*: free sides, nu = 0.3, c = sqrt(E/rho). The section is one element, so that a finer mesh is
 //! also a more slender bar: the dispersion of the mesh and that of lateral inertia (Pochhammer;
@@ -94,9 +94,9 @@ pub(crate) fn bar_setup(
     Ok(setup)
 }
 
-/// Sets off a Gaussian pulse of displacement from `centre` to +x with the speed `c`: the velocity
-/// -c du/dx half a step before t = 0. Free sides contract with it by u_y = -`contraction` du/dx
-/// (y - y_0), with Poisson's ratio; held sides do not.
+/// Sets the initial state of a Gaussian pulse of displacement at `centre` (m), with the width `width` (m), that runs to
+/// +x at the speed `c` (m/s): the velocity is -c du/dx half a step before t = 0. The sides contract by
+/// u_y = -`contraction` du/dx (y - y_0): Poisson's ratio for free sides, zero for held ones.
 pub(crate) fn set_off_pulse(
     setup: &mut Setup,
     nodes: &[[f64; 3]],
@@ -108,19 +108,22 @@ pub(crate) fn set_off_pulse(
     let amplitude = 1e-6 * width;
     let middle = [1, 2].map(|i: usize| 0.5 * nodes.iter().map(|x| x[i]).fold(0.0, f64::max));
     for (i, x) in nodes.iter().enumerate() {
-        let arms = [x[1] - middle[0], x[2] - middle[1]];
+        let from_axis = [x[1] - middle[0], x[2] - middle[1]];
         let slopes = |s: f64| {
             let u = amplitude * libm::exp(-s * s);
             [u, -2.0 * s / width * u, (4.0 * s * s - 2.0) / (width * width) * u]
         };
         let s = (x[0] - centre) / width;
         let [u, strain, _] = slopes(s);
-        setup.displacement[i] =
-            Padded::new([u, -contraction * strain * arms[0], -contraction * strain * arms[1]]);
+        setup.displacement[i] = Padded::new([
+            u,
+            -contraction * strain * from_axis[0],
+            -contraction * strain * from_axis[1],
+        ]);
         // half a step earlier the pulse stood further left; d/dt = -c d/dx
         let [_, strain, bend] = slopes(s + 0.5 * c * setup.dt / width);
         let rate = contraction * c * bend;
-        setup.velocity[i] = Padded::new([-c * strain, rate * arms[0], rate * arms[1]]);
+        setup.velocity[i] = Padded::new([-c * strain, rate * from_axis[0], rate * from_axis[1]]);
     }
 }
 
