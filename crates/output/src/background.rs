@@ -1,4 +1,4 @@
-//! Writing beside the time loop, which then need not wait for compression.
+//! Writing on a thread beside the time loop, which then does not wait for compression.
 
 use crate::checkpoint::sync_file;
 use crate::{Checkpoint, History, Kept, OutputError, Results, TransientGrid, Values};
@@ -9,27 +9,28 @@ use std::thread::JoinHandle;
 /// The HDF5 files of one run.
 #[derive(Debug)]
 pub struct RunFiles {
-    /// `fields.vtkhdf`
+    /// Writer of `fields.vtkhdf`.
     pub fields: TransientGrid,
-    /// `contact.vtkhdf`
+    /// Writer of `contact.vtkhdf`.
     pub contact: TransientGrid,
-    /// `history.h5`
+    /// Writer of `history.h5`.
     pub history: History,
 }
 
-/// A thread that owns the files of a run and appends what it is sent, in that order, so that the
-/// files hold the same bits as without it.
+/// A thread that owns the files of a run and appends what it is sent, in the order of sending, so that
+/// the files hold the same bits as without it.
 ///
-/// Data are copied into buffers that come back for reuse, per file, since their sizes differ by
-/// orders of magnitude; when [`Self::BUFFERS`] of a file are under way, the sender waits for one.
-/// An error stops the thread and is returned by the next call.
+/// Data are copied into buffers, which the thread returns for reuse. Each file has buffers of its own,
+/// since their sizes differ by orders of magnitude; where all [`Self::BUFFERS`] of a file are in use, the
+/// sender waits for one. An error stops the thread and is returned by a later call.
 #[derive(Debug)]
 pub struct BackgroundWriter {
     sender: Sender<Message>,
     spare: [Receiver<Buffer>; 3],
-    made: [usize; 3],
-    /// Checkpoints under way, one at most, and those that are written.
-    kept: (usize, Receiver<()>),
+    /// Buffers allocated for each file.
+    allocated: [usize; 3],
+    /// Number of checkpoints sent and not yet known to be written (one at most), and the signals of those written.
+    checkpoints: (usize, Receiver<()>),
     thread: Option<JoinHandle<Result<RunFiles, OutputError>>>,
 }
 
@@ -41,8 +42,8 @@ enum Target {
     History,
 }
 
-/// Makes a checkpoint of what belongs to it of the result files.
-type Make = dyn FnOnce(Results) -> Result<Checkpoint, OutputError> + Send;
+/// Makes a checkpoint from the lengths and checksums of the result files.
+type MakeCheckpoint = dyn FnOnce(Results) -> Result<Checkpoint, OutputError> + Send;
 
 enum Message {
     Append {
@@ -50,9 +51,9 @@ enum Message {
         time: f64,
         buffer: Buffer,
     },
-    /// A checkpoint for a folder, and a result file beside those of this thread.
-    Keep {
-        make: Box<Make>,
+    /// A checkpoint to be written to a folder, and a result file that another writer owns.
+    Checkpoint {
+        make: Box<MakeCheckpoint>,
         folder: PathBuf,
         beside: Option<(PathBuf, Kept)>,
     },
@@ -74,7 +75,7 @@ struct Shape {
 }
 
 impl BackgroundWriter {
-    /// Buffers per file (fields, contact, history): each holds one snapshot or block of rows.
+    /// Buffers for each file (fields, contact, history); each holds one snapshot or block of rows.
     pub const BUFFERS: [usize; 3] = [1, 8, 4];
 
     /// Starts the thread.
@@ -84,22 +85,29 @@ impl BackgroundWriter {
     pub fn start(files: RunFiles) -> Result<Self, OutputError> {
         let (sender, inbox) = channel();
         let pools = [(); 3].map(|()| channel());
-        let outbox = pools.each_ref().map(|(give, _)| give.clone());
-        let (done, kept) = channel();
+        let outbox = pools.each_ref().map(|(sender, _)| sender.clone());
+        let (done, written) = channel();
         let thread = std::thread::Builder::new()
             .spawn(move || write_all(files, &inbox, &outbox, &done))
             .map_err(|cause| OutputError::Thread { cause })?;
-        let spare = pools.map(|(_, take)| take);
-        Ok(Self { sender, spare, made: [0; 3], kept: (0, kept), thread: Some(thread) })
+        let spare = pools.map(|(_, receiver)| receiver);
+        let (allocated, checkpoints) = ([0; 3], (0, written));
+        Ok(Self { sender, spare, allocated, checkpoints, thread: Some(thread) })
     }
 
-    /// Sends a snapshot for `fields.vtkhdf`; see [`TransientGrid::append`].
+    /// Sends a snapshot at `time` (s) for `fields.vtkhdf`; see [`TransientGrid::append`].
+    ///
+    /// # Errors
+    /// The first error of the thread, whatever it wrote; then [`OutputError::Stopped`].
     pub fn append_fields(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.send(Target::Fields, time, |buffer| buffer.fill(values))
     }
 
-    /// Sends a snapshot for `fields.vtkhdf` that `fill` writes into the buffer itself, field after
-    /// field in the order of the file: no second copy of a large model.
+    /// Sends a snapshot at `time` (s) for `fields.vtkhdf` that `fill` writes directly into the buffer, field
+    /// after field in the order of the file. This saves a copy.
+    ///
+    /// # Errors
+    /// As for [`Self::append_fields`].
     pub fn append_fields_with(
         &mut self,
         time: f64,
@@ -108,47 +116,61 @@ impl BackgroundWriter {
         self.send(Target::Fields, time, |buffer| fill(&mut Snapshot(buffer)))
     }
 
-    /// Sends a snapshot for `contact.vtkhdf`; see [`TransientGrid::append`].
+    /// Sends a snapshot at `time` (s) for `contact.vtkhdf`; see [`TransientGrid::append`].
+    ///
+    /// # Errors
+    /// As for [`Self::append_fields`].
     pub fn append_contact(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.send(Target::Contact, time, |buffer| buffer.fill(values))
     }
 
     /// Sends rows for `history.h5`; see [`History::append`].
+    ///
+    /// # Errors
+    /// As for [`Self::append_fields`].
     pub fn append_history(&mut self, rows: &[f64]) -> Result<(), OutputError> {
         self.send(Target::History, 0.0, |buffer| buffer.numbers.extend_from_slice(rows))
     }
 
-    /// Sends what makes a checkpoint for `folder`. It is called with the lengths and sums of the files once everything
-    /// sent before is in them and on the disk, and `beside`, which holds so much, with them. Waits only for a
-    /// checkpoint before that is not yet written.
+    /// Has a checkpoint written to `folder`. The thread calls `make` with the lengths and checksums of the result
+    /// files, once everything sent before is in them and they are synced to the disk. `beside` is a result file
+    /// that the caller writes itself (`probes.h5`), with its length and checksums; it is synced with them. Returns
+    /// at once unless an earlier checkpoint is not yet written.
+    ///
+    /// # Errors
+    /// As for [`Self::append_fields`].
     pub fn keep(
         &mut self,
         make: impl FnOnce(Results) -> Result<Checkpoint, OutputError> + Send + 'static,
         folder: &Path,
         beside: Option<(PathBuf, Kept)>,
     ) -> Result<(), OutputError> {
-        if self.kept.0 > 0 {
+        if self.checkpoints.0 > 0 {
             self.wait_for_checkpoint()?;
         }
-        let message = Message::Keep { make: Box::new(make), folder: folder.to_owned(), beside };
+        let message =
+            Message::Checkpoint { make: Box::new(make), folder: folder.to_owned(), beside };
         if self.sender.send(message).is_err() {
             return join(self.thread.take()).and(Err(OutputError::Stopped));
         }
-        self.kept.0 += 1;
+        self.checkpoints.0 += 1;
         Ok(())
     }
 
     fn wait_for_checkpoint(&mut self) -> Result<(), OutputError> {
-        match self.kept.1.recv() {
+        match self.checkpoints.1.recv() {
             Ok(()) => {
-                self.kept.0 -= 1;
+                self.checkpoints.0 -= 1;
                 Ok(())
             }
             Err(_) => join(self.thread.take()).and(Err(OutputError::Stopped)),
         }
     }
 
-    /// Waits until everything is written and returns the files.
+    /// Waits until everything is written and returns the writers of the files.
+    ///
+    /// # Errors
+    /// As for [`Self::append_fields`].
     pub fn finish(self) -> Result<RunFiles, OutputError> {
         let Self { sender, thread, .. } = self;
         drop(sender);
@@ -162,9 +184,9 @@ impl BackgroundWriter {
         fill: impl FnOnce(&mut Buffer),
     ) -> Result<(), OutputError> {
         let file = target as usize;
-        let mut buffer = if self.made[file] < Self::BUFFERS[file] {
+        let mut buffer = if self.allocated[file] < Self::BUFFERS[file] {
             self.spare[file].try_recv().unwrap_or_else(|_| {
-                self.made[file] += 1;
+                self.allocated[file] += 1;
                 Buffer::default()
             })
         } else {
@@ -182,12 +204,12 @@ impl BackgroundWriter {
     }
 }
 
-/// A snapshot being filled.
+/// A snapshot of a grid that is being written into a buffer, field after field.
 #[derive(Debug)]
 pub struct Snapshot<'a>(&'a mut Buffer);
 
 impl Snapshot<'_> {
-    /// The next field: a vector at every point.
+    /// Writes the next field: a vector x, y, z at every point, in the units of the field.
     pub fn vectors(&mut self, values: impl ExactSizeIterator<Item = [f64; 3]>) {
         let count = values.len();
         self.0.numbers.reserve_exact(3 * count);
@@ -195,7 +217,8 @@ impl Snapshot<'_> {
         self.0.shapes.push(Shape { components: 3, integer: false, count });
     }
 
-    /// The next field: `count` symmetric tensors, written by `fill`.
+    /// Writes the next field: `fill` writes `count` symmetric tensors, xx yy zz xy yz xz, over zeros, in the units
+    /// of the field.
     pub fn tensors(&mut self, count: usize, fill: impl FnOnce(&mut [[f64; 6]])) {
         let numbers = &mut self.0.numbers;
         let start = numbers.len();
@@ -270,11 +293,11 @@ fn write_all(
                     Target::Contact => files.contact.append(time, &buffer.values())?,
                     Target::History => files.history.append(&buffer.numbers)?,
                 }
-                // A sender that has finished takes no buffers back.
+                // A sender that has finished no longer receives buffers.
                 let _ = outbox[target as usize].send(buffer);
             }
-            Message::Keep { make, folder, beside } => {
-                keep(&files, make, &folder, beside)?;
+            Message::Checkpoint { make, folder, beside } => {
+                write_checkpoint(&files, make, &folder, beside)?;
                 let _ = done.send(());
             }
         }
@@ -282,10 +305,10 @@ fn write_all(
     Ok(files)
 }
 
-/// Results first: a checkpoint must not speak of what a power cut can still take away.
-fn keep(
+/// Syncs the results first: a checkpoint must not refer to data that a power cut can still remove.
+fn write_checkpoint(
     files: &RunFiles,
-    make: Box<Make>,
+    make: Box<MakeCheckpoint>,
     folder: &Path,
     beside: Option<(PathBuf, Kept)>,
 ) -> Result<(), OutputError> {

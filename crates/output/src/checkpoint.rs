@@ -1,14 +1,14 @@
-//! Checkpoints: the whole state of a run at a step, from which it goes on with the same bits.
+//! Checkpoints: the whole state of a run at a step, from which it is resumed with the same bits.
 //!
-//! `checkpoint.h5` holds what serde makes of the state, and the lengths and sums of the run's result files at that
-//! step, both as postcard: compact, and every bit of a number reads back. It is written under another name, synced and
-//! renamed, and the one before stays as `checkpoint-1.h5`; the root attribute `sha256`, over provenance and both datasets, proves it
-//! whole.
+//! `checkpoint.h5` holds the state of the run and the lengths and checksums of its result files at that step,
+//! both serialised by serde in the format postcard: compact, and every bit of a number reads back. It is written
+//! under another name, synced and renamed; the previous one stays as `checkpoint-1.h5`. The root attribute
+//! `sha256`, over provenance and both datasets, shows whether it is intact.
 
-use crate::grid::place;
+use crate::checksums::{Kept, hexadecimal};
+use crate::grid::dataset_spec;
 use crate::hdf5::{Creator, Source, read_error};
 use crate::layout::attribute;
-use crate::sums::{Kept, hexadecimal};
 use crate::{FieldSpec, OutputError, Provenance};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -20,9 +20,9 @@ use std::path::Path;
 /// Names of the checkpoints of a run, the newest first.
 pub const CHECKPOINTS: [&str; 2] = ["checkpoint.h5", "checkpoint-1.h5"];
 
-/// Root attribute with the form of the file; another is refused.
+/// Root attribute with the version of the file's form; other versions are refused.
 const FORM: &str = "checkpoint_form";
-/// This one: what serde makes of results and state, as postcard.
+/// The version written here: results and state as postcard.
 const THIS_FORM: &str = "2";
 /// Root attribute with the SHA-256 of provenance, results and state, in hexadecimal.
 const CHECKSUM: &str = "sha256";
@@ -31,7 +31,7 @@ const STEP: &str = "step";
 /// Root attributes that are not further ones of the provenance.
 const OWN: [&str; 6] =
     [attribute::VERSION, attribute::CASE_HASH, attribute::CREATED, FORM, STEP, CHECKSUM];
-/// The step and what of the result files belongs to it.
+/// The step, and the parts of the result files that belong to it.
 static RESULTS: FieldSpec = FieldSpec::label(
     "results",
     "1",
@@ -41,7 +41,7 @@ static RESULTS: FieldSpec = FieldSpec::label(
 static STATE: FieldSpec =
     FieldSpec::label("state", "1", "postcard: everything that goes on from step to step");
 
-/// What of each result file belongs to a checkpoint.
+/// The part of each result file that belongs to a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Results {
     /// Of `fields.vtkhdf`.
@@ -50,28 +50,28 @@ pub struct Results {
     pub contact: Kept,
     /// Of `history.h5`.
     pub history: Kept,
-    /// Of `probes.h5`; nothing where the run has none.
+    /// Of `probes.h5`; the default where the run has none.
     pub probes: Kept,
 }
 
-/// A checkpoint.
+/// The state of a run after a step, with the parts of its result files that belong to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
-    /// Where it comes from; its further attributes are kept too.
+    /// Provenance of the run; its further attributes are kept too.
     pub provenance: Provenance,
     /// Steps done.
     pub step: u64,
-    /// What of the result files belongs to it.
+    /// The parts of the result files that belong to it.
     pub results: Results,
     /// The state, as postcard.
     state: Vec<u8>,
 }
 
 impl Checkpoint {
-    /// The checkpoint of a state: every bit of it reads back.
+    /// A checkpoint after `step` steps. Every bit of `state` reads back.
     ///
     /// # Errors
-    /// A state that has no length, such as an iterator's.
+    /// A state that postcard cannot serialise, such as a sequence of unknown length.
     pub fn new(
         provenance: Provenance,
         step: u64,
@@ -81,15 +81,18 @@ impl Checkpoint {
         Ok(Self { provenance, step, results, state: bytes_of(state)? })
     }
 
-    /// The state.
+    /// The state, as the type of which it was made.
     ///
     /// # Errors
-    /// It is of another type.
+    /// A state of another type.
     pub fn state<S: DeserializeOwned>(&self) -> Result<S, OutputError> {
         postcard::from_bytes(&self.state).map_err(|cause| OutputError::State { cause })
     }
 
-    /// Writes it as the newest of `folder`; the newest so far becomes the one before.
+    /// Writes it to `folder` as the newest of [`CHECKPOINTS`]; the newest so far becomes the previous one.
+    ///
+    /// # Errors
+    /// A file that cannot be written, synced or renamed.
     pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
         let [newest, before] = CHECKPOINTS.map(|name| folder.join(name));
         let results = bytes_of(&(self.step, &self.results))?;
@@ -99,8 +102,8 @@ impl Checkpoint {
         provenance.attributes.push((CHECKSUM.into(), sum));
         let mut file = Creator::new(&newest, &provenance)?;
         file.count(&[], STEP, self.step as i64)?;
-        file.plain(&place(&[], &RESULTS), &results)?;
-        file.plain(&place(&[], &STATE), &self.state)?;
+        file.plain(&dataset_spec(&[], &RESULTS), &results)?;
+        file.plain(&dataset_spec(&[], &STATE), &self.state)?;
         file.close_by(|partial| {
             match fs::rename(&newest, &before) {
                 Err(cause) if cause.kind() != io::ErrorKind::NotFound => return Err(cause),
@@ -110,7 +113,10 @@ impl Checkpoint {
         })
     }
 
-    /// Reads one and proves it whole.
+    /// Reads the checkpoint at `path` and verifies its checksum.
+    ///
+    /// # Errors
+    /// [`OutputError::Form`] for one of another version; a file that cannot be read or whose checksum differs.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         let file = Source::open(path)?;
         let refuse = |reason: &str| read_error(path, reason.to_owned());
@@ -137,7 +143,7 @@ impl Checkpoint {
         Ok(Self { provenance, step, results, state })
     }
 
-    /// A further attribute of the provenance.
+    /// The further attribute `name` of the provenance.
     pub fn text(&self, name: &str) -> Option<&str> {
         let attributes = &self.provenance.attributes;
         attributes.iter().find(|(n, _)| n == name).map(|(_, text)| text.as_str())
@@ -163,7 +169,7 @@ fn checksum(provenance: &Provenance, datasets: [&[u8]; 2]) -> String {
     hexadecimal(&sum.finalize())
 }
 
-/// Brings the content of a result file to the disk.
+/// Syncs the content of a result file to the disk.
 #[expect(clippy::disallowed_methods, reason = "a file of the run itself, of which nothing is read")]
 pub(crate) fn sync_file(path: &Path) -> Result<(), OutputError> {
     File::open(path)
@@ -171,7 +177,7 @@ pub(crate) fn sync_file(path: &Path) -> Result<(), OutputError> {
         .map_err(|cause| OutputError::Append { path: path.to_owned(), reason: cause.to_string() })
 }
 
-/// Brings renamings to the disk, where the system can.
+/// Syncs renamings in a folder to the disk, where the system can.
 #[expect(clippy::disallowed_methods, reason = "a folder, of which nothing is read")]
 fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }

@@ -1,12 +1,12 @@
-//! How well a mean is known: 95 % confidence intervals, of independent values and of a series in time.
+//! 95 % confidence intervals of a mean: over independent values, and over a time series.
 
-/// Numbers of batches that are tried, most first; between 10 and 30 little changes (Schmeiser 1982).
+/// Numbers of batches that are tried, the larger first; between 10 and 30 little changes (Schmeiser 1982).
 const BATCHES: [usize; 2] = [20, 10];
-/// Quantile of the standard normal distribution that one in twenty exceeds.
+/// The 0.95 quantile of the standard normal distribution.
 const ONE_IN_TWENTY: f64 = 1.644_854;
 
-/// Mean and half the width of its 95 % confidence interval (Student 1908) of independent values; none of
-/// fewer than two, or where one is not a number.
+/// Mean of independent values and half the width of its 95 % confidence interval (Student 1908), both in the
+/// unit of the values; `None` for fewer than two values or where one is not finite.
 pub fn interval(values: &[f64]) -> Option<[f64; 2]> {
     let count = values.len() as f64;
     if values.len() < 2 || values.iter().any(|value| !value.is_finite()) {
@@ -18,8 +18,12 @@ pub fn interval(values: &[f64]) -> Option<[f64; 2]> {
     Some([mean, student(values.len() - 1) * of_mean])
 }
 
-/// Records in successive batches of equal weight, each by the share of it in the batch: `weights` are the
-/// times (s) that the records stand for.
+/// Divides the records of a time series into `count` successive batches of equal weight. `weights` are the times
+/// (s) that the records stand for. Each batch lists its records with the part (s) of their weight that lies in
+/// the batch.
+///
+/// # Panics
+/// Where `count` is 0 and a weight is positive.
 pub fn batches(weights: &[f64], count: usize) -> Vec<Vec<(usize, f64)>> {
     let whole: f64 = weights.iter().sum();
     let length = whole / count as f64;
@@ -31,7 +35,7 @@ pub fn batches(weights: &[f64], count: usize) -> Vec<Vec<(usize, f64)>> {
         while from < to {
             let batch = ((from / length) as usize).min(count - 1);
             let end = if batch + 1 == count { to } else { to.min(length * (batch + 1) as f64) };
-            // an end that rounds to its beginning belongs to the next batch
+            // where the end rounds to the beginning, the rest of the record stays in this batch
             let end = if end > from { end } else { to };
             found[batch].push((record, end - from));
             from = end;
@@ -40,13 +44,14 @@ pub fn batches(weights: &[f64], count: usize) -> Vec<Vec<(usize, f64)>> {
     found
 }
 
-/// Half the width of the 95 % confidence interval of a mean over time, by the means of successive batches
-/// (Conway 1963): of `of`, a number of each batch. The batches must be unrelated: none where neighbours
-/// correlate by the ratio of von Neumann (1941), which one in twenty does by chance, or where a record takes
-/// more than half of a batch.
+/// Half the width of the 95 % confidence interval of a mean over time, by the method of batch means (Conway
+/// 1963). `of` gives the mean of a batch from its records, as [`batches`] lists them; `weights` are the times
+/// (s) that the records stand for. 20 batches are tried, then 10.
 ///
 /// # Errors
-/// Why there is none.
+/// The reason why there is no interval: a record weighs more than half a batch, a batch has no value, or
+/// neighbouring batches correlate by the ratio of von Neumann (1941), which happens by chance one time in
+/// twenty.
 pub fn of_batches(
     weights: &[f64],
     of: impl Fn(&[(usize, f64)]) -> f64,
@@ -75,10 +80,13 @@ pub fn of_batches(
     Err(why)
 }
 
-/// The same of the mean of a number that every record has.
+/// As [`of_batches`], for the weighted mean of `values`, one for each record.
 ///
 /// # Errors
-/// Why there is none.
+/// As there.
+///
+/// # Panics
+/// Where there are fewer values than weights.
 pub fn of_series(weights: &[f64], values: &[f64]) -> Result<f64, &'static str> {
     of_batches(weights, |batch| {
         let whole: f64 = batch.iter().map(|(_, weight)| weight).sum();
@@ -86,12 +94,12 @@ pub fn of_series(weights: &[f64], values: &[f64]) -> Result<f64, &'static str> {
     })
 }
 
-/// Correlation of successive values by their squared differences, 1 - sum (x_{i+1} - x_i)^2 / (2 sum (x_i - m)^2);
-/// 0 where all are one.
+/// Correlation of successive values by their squared differences, 1 - sum (x_{i+1} - x_i)^2 / (2 sum (x_i - m)^2),
+/// m their mean; 0 where all values are equal.
 fn correlation(values: &[f64], mean: f64) -> f64 {
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     let steps: f64 = values.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
-    // what is left of equal numbers is round-off
+    // the squares of equal numbers are round-off
     if squares <= (1e-12 * mean).powi(2) { 0.0 } else { 1.0 - 0.5 * steps / squares }
 }
 

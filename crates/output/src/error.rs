@@ -26,7 +26,7 @@ pub enum OutputError {
         /// What the system or the HDF5 library said.
         reason: String,
     },
-    /// Another process writes to the file, or has replaced it.
+    /// Another process has written to the file or replaced it.
     #[error(
         "{} was changed by another process: it holds {found} rows where this one left {left}, so this one has \
          stopped; look for a second process in its folder, and begin the run anew", path.display()
@@ -50,7 +50,7 @@ pub enum OutputError {
         /// What the system or the HDF5 library said.
         reason: String,
     },
-    /// A checkpoint of a form that this version does not know.
+    /// A checkpoint of a form that this version does not read.
     #[error("{} was written by another version of creepage, in a form that this one does not read", path.display())]
     Form {
         /// The file.
@@ -64,7 +64,7 @@ pub enum OutputError {
         /// What shows it.
         reason: String,
     },
-    /// The data handed over do not have the shape that the file was created with.
+    /// Names or shapes of data that the file cannot take.
     #[error("cannot write to {}: {problem}", path.display())]
     Shape {
         /// The file.
@@ -81,13 +81,13 @@ pub enum OutputError {
         /// What the system said.
         cause: std::io::Error,
     },
-    /// A state that cannot be kept, or is of another type than the one that was kept.
+    /// A state that cannot be serialised, or is read as another type than it was written.
     #[error("the state of the run does not go through a checkpoint: {cause}")]
     State {
         /// What postcard said.
         cause: postcard::Error,
     },
-    /// The background writer is gone: an earlier error was already returned, or it panicked.
+    /// The background writer has stopped: its error was already returned, or it panicked.
     #[error(
         "the background writer has stopped; what was written before is readable; the first error \
          that it reported says why"
@@ -96,7 +96,7 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// The file, if what it holds is the reason.
+    /// The file, if its content is the reason.
     pub fn damaged(&self) -> Option<&Path> {
         match self {
             Self::Read { path, .. } | Self::Form { path } | Self::Damaged { path, .. } => {
@@ -118,7 +118,7 @@ pub struct NotWritten {
 }
 
 impl NotWritten {
-    /// What to do about it.
+    /// What the user can do, as half a sentence.
     pub fn remedy(&self) -> &'static str {
         "the run has stopped; check that its folder is still there and that the disk has room"
     }

@@ -1,19 +1,19 @@
-//! What a dataset of a file is: name, units, shape, meaning.
+//! The declaration of a dataset: name, units, shape, meaning.
 
 use std::borrow::Cow;
 
-/// Name, units and shape of a field, or of a column over time, which is a scalar.
+/// Name, units, shape and meaning of a field of a grid, or of a column of a history, which is a scalar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldSpec {
     /// Name of the dataset and of the array in viewers.
     pub name: Cow<'static, str>,
-    /// SI units, `"1"` for a pure number.
+    /// SI units as text, such as `m/s`; `1` for a pure number.
     pub units: Cow<'static, str>,
     /// Numbers per point or cell: 1, 3 or 6.
     pub components: usize,
-    /// Stored as unsigned bytes instead of `f64`.
+    /// Whether it is stored as unsigned bytes instead of `f64`.
     pub integer: bool,
-    /// On cells instead of points.
+    /// Whether its values belong to cells instead of points.
     pub on_cells: bool,
     /// What the field is, in a phrase.
     pub description: Cow<'static, str>,
@@ -47,18 +47,18 @@ shapes! {
     scalar: 1, false, false;
     /// Components x, y, z at every point.
     vector: 3, false, false;
-    /// A small integer at every point.
+    /// An integer from 0 to 255 at every point.
     label: 1, true, false;
     /// A number on every cell.
     cell_scalar: 1, false, true;
     /// A symmetric tensor on every cell, xx yy zz xy yz xz.
     cell_tensor: 6, false, true;
-    /// A small integer on every cell.
+    /// An integer from 0 to 255 on every cell.
     cell_label: 1, true, true;
 }
 
 impl FieldSpec {
-    /// Its shape in words: how many numbers, and at what.
+    /// Its shape in words, as in the tables of `docs/files.md`: `vector`, `label, cells`.
     pub fn shape(&self) -> String {
         let numbers = match (self.integer, self.components) {
             (true, _) => "label",

@@ -1,17 +1,17 @@
 //! One transient VTKHDF unstructured grid with a mesh that does not change.
 
 use crate::OutputError;
+use crate::checksums::{Checksums, Kept};
 use crate::field::FieldSpec;
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, fix_headers, undo};
+use crate::hdf5::{Appender, Creator, DatasetSpec, Growing, Kind, cut_to_go_on, fix_headers, undo};
 use crate::layout::{CONSTANT, MESH, STEP_COUNT, STEPS, STEPS_GROUP, data_path, step_path};
 use crate::provenance::Provenance;
-use crate::sums::{Kept, Sums};
 use std::path::{Path, PathBuf};
 
 /// Connectivity of a grid whose cells all have one shape; point indices from 0.
 #[derive(Clone, Copy, Debug)]
 pub enum Cells<'a> {
-    /// Eight-node bricks in `VTK_HEXAHEDRON` order (VTK cell type 12).
+    /// Eight-node hexahedra in the order of `VTK_HEXAHEDRON` (VTK cell type 12).
     Hexahedra(&'a [[u32; 8]]),
     /// Four-node faces, counter-clockwise seen from outside (VTK cell type 9).
     Quads(&'a [[u32; 4]]),
@@ -56,7 +56,7 @@ pub enum Values<'a> {
     Vector(&'a [[f64; 3]]),
     /// Symmetric tensor in VTK's order: xx, yy, zz, xy, yz, xz.
     Tensor(&'a [[f64; 6]]),
-    /// One small integer each (a label or a state).
+    /// One integer from 0 to 255 each (a label or a state).
     Integer(&'a [u8]),
 }
 
@@ -98,12 +98,12 @@ pub struct StaticField<'a> {
 }
 
 impl<'a> StaticField<'a> {
-    /// The bodies of the cells.
+    /// The field `body`: a label for each cell, 0 disk, 1 bar.
     pub fn body(labels: &'a [u8]) -> Self {
         Self { spec: CONSTANT.body.clone(), values: Values::Integer(labels) }
     }
 
-    /// Tributary areas of the points (m2).
+    /// The field `area`: the tributary area of each point (m2).
     pub fn area(areas: &'a [f64]) -> Self {
         Self { spec: CONSTANT.area.clone(), values: Values::Scalar(areas) }
     }
@@ -114,7 +114,7 @@ impl<'a> StaticField<'a> {
 pub struct GridSpec<'a> {
     /// Reference coordinates (m).
     pub points: &'a [[f64; 3]],
-    /// Connectivity.
+    /// Cells by their points.
     pub cells: Cells<'a>,
     /// Fields stored once, such as `body`.
     pub constant: &'a [StaticField<'a>],
@@ -129,11 +129,15 @@ pub struct TransientGrid {
     points: usize,
     cells: usize,
     steps: usize,
-    sums: Sums,
+    sums: Checksums,
 }
 
 impl TransientGrid {
     /// Writes mesh, constant fields and metadata to `path` (replacing what is there) and closes it.
+    ///
+    /// # Errors
+    /// An empty grid, a cell with a point that the grid does not have, fields whose names repeat or are not
+    /// allowed, values of another shape than their field; a file that cannot be written.
     pub fn create(
         path: impl AsRef<Path>,
         grid: &GridSpec<'_>,
@@ -149,12 +153,15 @@ impl TransientGrid {
         file.close_with_headers_fixed(|path| {
             fix_headers(path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, 0)
         })?;
-        writer.sums = Sums::of_new(&writer.path, writer.names())?;
+        writer.sums = Checksums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }
 
-    /// Goes on with a file at `path` that was created with the same grid and fields, cut off behind
-    /// the snapshots that are kept; [`prove`](crate::prove) says whether it still holds them.
+    /// Continues a file at `path` that was created with the same grid and fields, truncated to the snapshots of
+    /// `kept`; [`prove`](crate::prove) says whether it still holds them.
+    ///
+    /// # Errors
+    /// As for [`Self::create`]; a file that has fewer snapshots or is damaged.
     pub fn reopen(
         path: impl AsRef<Path>,
         grid: &GridSpec<'_>,
@@ -165,11 +172,11 @@ impl TransientGrid {
         let mut writer = Self { steps, ..Self::at(path.as_ref(), grid, fields) };
         writer.check_grid(grid)?;
         cut_to_go_on(&writer.path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, steps)?;
-        writer.sums = Sums::of_kept(kept, writer.names());
+        writer.sums = Checksums::of_kept(kept, writer.names());
         Ok(writer)
     }
 
-    /// The datasets to which a snapshot appends.
+    /// The extendible datasets, to which a snapshot appends.
     fn growing(&self) -> Vec<Growing> {
         let one = |name: String, kind| Growing { name, kind, components: 1, rows: 1 };
         let mut all = Vec::new();
@@ -180,17 +187,17 @@ impl TransientGrid {
                 components: spec.components,
                 rows: self.count(spec.on_cells),
             });
-            all.push(one(offset_path(&spec.name, spec.on_cells), Kind::Whole));
+            all.push(one(offset_path(&spec.name, spec.on_cells), Kind::Int64));
         }
         for (name, on_cells) in &self.constant_names {
-            all.push(one(offset_path(name, *on_cells), Kind::Whole));
+            all.push(one(offset_path(name, *on_cells), Kind::Int64));
         }
         all.push(one(step_path(&STEPS.times), Kind::Real));
-        all.extend(counts_of_step().map(|(name, _)| one(name, Kind::Whole)));
+        all.extend(counts_of_step().map(|(name, _)| one(name, Kind::Int64)));
         all
     }
 
-    /// Their names.
+    /// Names of the extendible datasets.
     fn names(&self) -> impl Iterator<Item = String> + use<> {
         self.growing().into_iter().map(|dataset| dataset.name)
     }
@@ -204,16 +211,20 @@ impl TransientGrid {
             points: grid.points.len(),
             cells: grid.cells.count(),
             steps: 0,
-            sums: Sums::default(),
+            sums: Checksums::default(),
         }
     }
 
-    /// Appends one snapshot: `values` in the order of the fields given to [`Self::create`].
+    /// Appends the snapshot at `time` (s): `values` in the order of the fields given to [`Self::create`].
+    ///
+    /// # Errors
+    /// Values of another number or shape than the fields; a file that cannot be written or that another process
+    /// has changed. The file then still has the snapshots that it had before.
     pub fn append(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.check_values(values)?;
-        // of the snapshots that are in the file, should this fail
+        // the checksums of the snapshots in the file, to return to should this fail
         let before = self.sums.clone();
-        let appended = self.append_whole(time, values);
+        let appended = self.try_append(time, values);
         match appended {
             Ok(()) => self.steps += 1,
             Err(OutputError::Another { .. }) => self.sums = before,
@@ -225,15 +236,15 @@ impl TransientGrid {
         appended
     }
 
-    fn append_whole(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
+    fn try_append(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         let step = self.steps as i64;
         let mut file = Appender::open(&self.path)?;
         let times = step_path(&STEPS.times);
-        file.expect(&times, self.steps)?;
-        file.make_room(values.iter().map(Values::bytes).sum())?;
+        file.check_length(&times, self.steps)?;
+        file.extend_file(values.iter().map(Values::bytes).sum())?;
         let rows = [self.points, self.cells];
         let Self { fields, constant_names, sums, .. } = self;
-        let index = |file: &mut Appender, sums: &mut Sums, name: &str, number: i64| {
+        let index = |file: &mut Appender, sums: &mut Checksums, name: &str, number: i64| {
             // far below 2^53, where f64 is exact
             sums.add(name, &[number as f64]);
             file.append(name, &[number])
@@ -266,17 +277,17 @@ impl TransientGrid {
         file.close_with_count(&STEPS_GROUP, STEP_COUNT, step + 1)
     }
 
-    /// What a checkpoint needs to know of the snapshots written.
+    /// What a checkpoint keeps of the snapshots written: their number and checksums.
     pub fn kept(&self) -> Kept {
         self.sums.kept(self.steps)
     }
 
-    /// Number of snapshots written.
+    /// Number of snapshots in the file, those kept from before included.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -375,7 +386,7 @@ impl TransientGrid {
             (&MESH.cell_count, self.cells),
             (&MESH.connectivity_count, connectivity.len()),
         ];
-        let at = |spec| place(&["VTKHDF"], spec);
+        let at = |spec| dataset_spec(&["VTKHDF"], spec);
         file.constant(&at(&MESH.points), grid.points.as_flattened())?;
         file.constant(&at(&MESH.connectivity), &connectivity)?;
         file.constant(&at(&MESH.offsets), &offsets)?;
@@ -387,20 +398,20 @@ impl TransientGrid {
         file.group(&["VTKHDF", "PointData"])?;
         file.group(&["VTKHDF", "CellData"])?;
         for StaticField { spec, values } in grid.constant {
-            let place = data_place(spec);
+            let dataset = field_dataset(spec);
             match *values {
-                Values::Scalar(values) => file.constant(&place, values)?,
-                Values::Vector(values) => file.constant(&place, values.as_flattened())?,
-                Values::Tensor(values) => file.constant(&place, values.as_flattened())?,
-                Values::Integer(values) => file.constant(&place, values)?,
+                Values::Scalar(values) => file.constant(&dataset, values)?,
+                Values::Vector(values) => file.constant(&dataset, values.as_flattened())?,
+                Values::Tensor(values) => file.constant(&dataset, values.as_flattened())?,
+                Values::Integer(values) => file.constant(&dataset, values)?,
             }
         }
         for spec in &self.fields {
             let rows = self.count(spec.on_cells);
             if spec.integer {
-                file.snapshots::<u8>(&data_place(spec), rows)?;
+                file.snapshots::<u8>(&field_dataset(spec), rows)?;
             } else {
-                file.snapshots::<f64>(&data_place(spec), rows)?;
+                file.snapshots::<f64>(&field_dataset(spec), rows)?;
             }
         }
         Ok(())
@@ -408,7 +419,7 @@ impl TransientGrid {
 
     fn lay_out_steps(&self, file: &mut Creator) -> Result<(), OutputError> {
         file.group(&STEPS_GROUP)?;
-        let at = |spec| place(&STEPS_GROUP, spec);
+        let at = |spec| dataset_spec(&STEPS_GROUP, spec);
         file.rows::<f64>(&at(&STEPS.times))?;
         file.rows::<i64>(&at(&STEPS.parts))?;
         file.rows::<i64>(&at(&STEPS.part_offsets))?;
@@ -423,7 +434,7 @@ impl TransientGrid {
         let constant = grid_names(&self.constant_names);
         let transient = self.fields.iter().map(|spec| (&*spec.name, spec.on_cells));
         for (name, on_cells) in transient.chain(constant) {
-            file.rows::<i64>(&LayOut {
+            file.rows::<i64>(&DatasetSpec {
                 group: &groups[usize::from(on_cells)],
                 name,
                 units: "1",
@@ -437,7 +448,7 @@ impl TransientGrid {
 
 fn append_reals(
     file: &mut Appender,
-    sums: &mut Sums,
+    sums: &mut Checksums,
     name: &str,
     values: &[f64],
 ) -> Result<(), OutputError> {
@@ -445,7 +456,8 @@ fn append_reals(
     file.append(name, values)
 }
 
-/// What every step adds: one part, and offsets of zero, since the mesh is stored once.
+/// What every step appends to the datasets of `Steps`: one part, and offsets of zero, since the mesh is stored
+/// once.
 fn counts_of_step() -> impl Iterator<Item = (String, i64)> {
     let [_, parts, offsets @ ..] = STEPS.each();
     std::iter::once((parts, 1))
@@ -457,13 +469,16 @@ fn grid_names(names: &[(String, bool)]) -> impl Iterator<Item = (&str, bool)> {
     names.iter().map(|(name, on_cells)| (name.as_str(), *on_cells))
 }
 
-pub(crate) fn place<'a>(group: &'a [&'a str], spec: &'a FieldSpec) -> LayOut<'a> {
+pub(crate) fn dataset_spec<'a>(group: &'a [&'a str], spec: &'a FieldSpec) -> DatasetSpec<'a> {
     let FieldSpec { name, units, components, description, .. } = spec;
-    LayOut { group, name, units, components: *components, description }
+    DatasetSpec { group, name, units, components: *components, description }
 }
 
-fn data_place(spec: &FieldSpec) -> LayOut<'_> {
-    place(if spec.on_cells { &["VTKHDF", "CellData"] } else { &["VTKHDF", "PointData"] }, spec)
+fn field_dataset(spec: &FieldSpec) -> DatasetSpec<'_> {
+    dataset_spec(
+        if spec.on_cells { &["VTKHDF", "CellData"] } else { &["VTKHDF", "PointData"] },
+        spec,
+    )
 }
 
 fn offset_group(on_cells: bool) -> [&'static str; 3] {

@@ -2,14 +2,15 @@
 //!
 //! `LibverBound::V110` because newer bounds are unreadable in VTK; deflate because it is the only
 //! compression that VTK's build reads; no locks because a viewer holding the file must not make an
-//! opening fail. Closing without `fsync`: the pages survive the death of the process.
+//! opening fail. Appends close without `fsync`: the pages survive the death of the process, and a
+//! checkpoint syncs the files before it names their lengths.
 
 use crate::OutputError;
-use crate::free::free_space;
+use crate::disk_space::free_space;
+use crate::file_end::{Extension, end_of_file};
 use crate::layout::{MESH, attribute, mesh_path};
 use crate::panics::catch_panic;
 use crate::provenance::Provenance;
-use crate::room::{Room, end_of_file};
 use files::input;
 use rust_hdf5::{
     DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,
@@ -18,21 +19,23 @@ use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
 
 /// Measured on fields of elastic waves with shuffled bytes: level 2 takes three times as long as
-/// level 1 for 9 % less, level 6 five times for 12 %. The shuffle itself costs 20 % for 3 % less.
+/// level 1 for files 9 % smaller, level 6 five times for 12 %. The shuffle filter itself, which is not
+/// used, takes 20 % longer for 3 %.
 const DEFLATE_LEVEL: u32 = 1;
 /// Rows per chunk of the small per-step datasets.
 const ROWS_PER_CHUNK: usize = 256;
 /// Wanted rows per chunk of snapshots.
 const CHUNK_ROWS: std::ops::RangeInclusive<usize> = 2_048..=32_768;
 
-/// Nothing smaller than this crosses a multiple of it: headers and index blocks, which carry checksums,
-/// so lie within a page of memory, and a kill within the call that rewrites them leaves each old or new.
+/// Page size of the file space (bytes): nothing smaller crosses a multiple of it. Headers and index blocks,
+/// which carry checksums, therefore lie within a page of memory, and a kill within the call that rewrites
+/// one leaves it old or new.
 pub(crate) const PAGE: u64 = 512;
 
 type H5Result<T> = Result<T, Hdf5Error>;
 
-/// Where a dataset goes and what describes it.
-pub(crate) struct LayOut<'a> {
+/// Group, name, units, shape and description of a dataset to be created.
+pub(crate) struct DatasetSpec<'a> {
     pub group: &'a [&'a str],
     pub name: &'a str,
     pub units: &'a str,
@@ -40,8 +43,8 @@ pub(crate) struct LayOut<'a> {
     pub description: &'a str,
 }
 
-/// A file being created, beside its place until it is closed: a process killed meanwhile leaves no
-/// half a file under the name that readers look for.
+/// A file being created, under another name until it is closed: a process killed meanwhile leaves no
+/// incomplete file under the name that readers look for.
 pub(crate) struct Creator {
     path: PathBuf,
     partial: PathBuf,
@@ -82,7 +85,7 @@ impl Creator {
         self.check(created.map(|_| ()))
     }
 
-    /// The attributes by which VTK knows its own format; it reads the type as fixed ASCII only.
+    /// The attributes by which VTK recognises its format; it reads `Type` as ASCII of fixed length only.
     pub fn vtkhdf_header(&mut self, kind: &str) -> Result<(), OutputError> {
         let write = || -> H5Result<()> {
             let group = descend(&self.file, &["VTKHDF"])?;
@@ -95,10 +98,14 @@ impl Creator {
     }
 
     /// A dataset written once.
-    pub fn constant<T: H5Type>(&mut self, at: &LayOut<'_>, data: &[T]) -> Result<(), OutputError> {
+    pub fn constant<T: H5Type>(
+        &mut self,
+        at: &DatasetSpec<'_>,
+        data: &[T],
+    ) -> Result<(), OutputError> {
         let rows = data.len() / at.components;
         let write = || -> H5Result<()> {
-            // also where there is nothing to gain: compressed data carry a checksum
+            // compressed even where that saves nothing: compressed data carry a checksum
             let chunk = rows.clamp(1, *CHUNK_ROWS.end());
             let dataset = descend(&self.file, at.group)?
                 .new_dataset::<T>()
@@ -116,27 +123,27 @@ impl Creator {
     /// divide a snapshot, so that no chunk is ever written twice.
     pub fn snapshots<T: H5Type>(
         &mut self,
-        at: &LayOut<'_>,
+        at: &DatasetSpec<'_>,
         rows: usize,
     ) -> Result<(), OutputError> {
         self.growing::<T>(at, chunk_rows(rows), true, at.components > 1)
     }
 
     /// An empty 1-D dataset to which single rows will be appended. Not compressed: its last chunk
-    /// is rewritten by every append, and only a chunk of fixed size is rewritten in place, where a
-    /// kill can do no harm.
-    pub fn rows<T: H5Type>(&mut self, at: &LayOut<'_>) -> Result<(), OutputError> {
+    /// is rewritten by every append, and only a chunk of fixed size is rewritten in place, so that a
+    /// kill does no harm.
+    pub fn rows<T: H5Type>(&mut self, at: &DatasetSpec<'_>) -> Result<(), OutputError> {
         self.growing::<T>(at, ROWS_PER_CHUNK, false, false)
     }
 
     /// As [`Self::rows`], with shape (rows, 1).
-    pub fn column<T: H5Type>(&mut self, at: &LayOut<'_>) -> Result<(), OutputError> {
+    pub fn column<T: H5Type>(&mut self, at: &DatasetSpec<'_>) -> Result<(), OutputError> {
         self.growing::<T>(at, ROWS_PER_CHUNK, false, true)
     }
 
     fn growing<T: H5Type>(
         &mut self,
-        at: &LayOut<'_>,
+        at: &DatasetSpec<'_>,
         chunk: usize,
         compressed: bool,
         two_dimensional: bool,
@@ -158,14 +165,18 @@ impl Creator {
         self.check(write())
     }
 
-    /// The attribute that counts what is valid.
+    /// Creates the attribute that counts the valid records.
     pub fn count(&mut self, group: &[&str], name: &str, value: i64) -> Result<(), OutputError> {
         let written = set_count(&self.file, group, name, value);
         self.check(written)
     }
 
-    /// A dataset written once, in one piece and not compressed.
-    pub fn plain<T: H5Type>(&mut self, at: &LayOut<'_>, data: &[T]) -> Result<(), OutputError> {
+    /// A dataset written once, contiguous and not compressed.
+    pub fn plain<T: H5Type>(
+        &mut self,
+        at: &DatasetSpec<'_>,
+        data: &[T],
+    ) -> Result<(), OutputError> {
         let write = || -> H5Result<()> {
             let dataset = descend(&self.file, at.group)?
                 .new_dataset::<T>()
@@ -179,10 +190,9 @@ impl Creator {
         self.check(write())
     }
 
-    /// Closes the file and gives it its name once `fix_headers` has had it. The first closings of a file to
-    /// which something was appended move headers and link tables about, and a kill between two of
-    /// their writes would leave neither the old file nor the new one: they must be over before anybody
-    /// looks for the file.
+    /// Closes the file, calls `fix_headers` on it and then renames it to its final name. The first closings
+    /// after an append move headers and link tables, and a kill between two of their writes would leave
+    /// neither the old file nor the new one: they must be over before the file has its name.
     pub fn close_with_headers_fixed(
         self,
         fix_headers: impl FnOnce(&Path) -> Result<(), OutputError>,
@@ -193,21 +203,21 @@ impl Creator {
         std::fs::rename(&partial, &path).map_err(|error| create_error(&path, error.into()))
     }
 
-    /// Closes the file, brings it to the disk and lets `place` put it where it belongs.
+    /// Closes the file with `fsync` and lets `place` rename it.
     pub fn close_by(
         self,
         place: impl FnOnce(&Path) -> std::io::Result<()>,
     ) -> Result<(), OutputError> {
         let placed = self.file.close().and_then(|()| Ok(place(&self.partial)?));
         if placed.is_err() {
-            // Of no use half-written; the error that matters is the first.
+            // An incomplete file is of no use; the error to report is the first.
             let _ = std::fs::remove_file(&self.partial);
         }
         placed.map_err(|error| create_error(&self.path, error))
     }
 }
 
-/// A dataset to which rows are appended.
+/// An extendible dataset, to which rows are appended.
 pub(crate) struct Growing {
     pub name: String,
     pub kind: Kind,
@@ -220,16 +230,16 @@ pub(crate) struct Growing {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Real,
-    Whole,
+    Int64,
     Byte,
 }
 
-/// Closings after which the closings of a file leave headers where they are. Measured: 4 for a grid of
-/// ten fields, 2 for a history.
+/// Number of closings after which a closing no longer moves headers. Measured: 4 for a grid of ten fields,
+/// 2 for a history.
 const CLOSINGS: usize = 6;
 
-/// Appends a row to every dataset of a file with so many snapshots and takes it away again, until closings move
-/// nothing.
+/// Appends a row to every dataset of a file of `snapshots` snapshots and removes it again, so often that later
+/// closings no longer move headers. `count` is the attribute of `group` that counts the snapshots.
 pub(crate) fn fix_headers(
     path: &Path,
     datasets: &[Growing],
@@ -242,7 +252,7 @@ pub(crate) fn fix_headers(
         for dataset in datasets {
             match dataset.kind {
                 Kind::Real => file.append(&dataset.name, &vec![0.0; dataset.components])?,
-                Kind::Whole => file.append(&dataset.name, &vec![0_i64; dataset.components])?,
+                Kind::Int64 => file.append(&dataset.name, &vec![0_i64; dataset.components])?,
                 Kind::Byte => file.append(&dataset.name, &vec![0_u8; dataset.components])?,
             }
         }
@@ -252,7 +262,7 @@ pub(crate) fn fix_headers(
     Ok(())
 }
 
-/// Cuts a file off behind its first snapshots.
+/// Truncates the datasets of a file to their first `snapshots` snapshots.
 pub(crate) fn cut(
     path: &Path,
     datasets: &[Growing],
@@ -267,9 +277,10 @@ pub(crate) fn cut(
     file.close_with_count(group, count, snapshots as i64)
 }
 
-/// As [`cut`] at the beginning of a run that goes on, on a copy that then takes the file's place, and in which
-/// closings move nothing any more: a file that a kill left within an append has headers that are yet to
-/// move, and a kill while they do leaves a file that nothing can read. What fails other than for want of room fails because the file is damaged.
+/// As [`cut`], before a run is resumed: on a copy, which is renamed over the file once [`fix_headers`] has run
+/// on it. A file that a kill interrupted within an append has headers that the next closings still move, and a
+/// kill during those would leave a file that nothing can read. Errors are reported as damage of the file unless
+/// the disk is full.
 pub(crate) fn cut_to_go_on(
     path: &Path,
     datasets: &[Growing],
@@ -286,7 +297,7 @@ pub(crate) fn cut_to_go_on(
         fix_headers(&copy, datasets, group, count, snapshots)
     };
     let made = copied.and_then(|_| match cut_and_fixed() {
-        Err(OutputError::Append { reason, .. }) if no_room(path) => Err(of_file(reason)),
+        Err(OutputError::Append { reason, .. }) if disk_is_full(path) => Err(of_file(reason)),
         Err(OutputError::Append { reason, .. }) => {
             Err(OutputError::Damaged { path: path.to_owned(), reason })
         }
@@ -299,26 +310,26 @@ pub(crate) fn cut_to_go_on(
     };
     made.and_then(|()| place().map_err(|error| append_error(path, error.into()))).inspect_err(
         |_| {
-            // of no use half-made; the error that matters is the first
+            // an incomplete copy is of no use; the error to report is the first
             let _ = std::fs::remove_file(&copy);
         },
     )
 }
 
-/// The name under which a file is made, or made anew, before it has its own.
+/// The temporary name of a file while it is created or copied.
 fn partial(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".partial");
     PathBuf::from(name)
 }
 
-/// Whether not even a page can be added to the disk of a file.
-fn no_room(path: &Path) -> bool {
+/// Whether the disk of a file has less than a page left.
+fn disk_is_full(path: &Path) -> bool {
     free_space(path.parent().unwrap_or(Path::new("."))).is_some_and(|free| free < PAGE)
 }
 
-/// Cuts a file off behind its first snapshots where an append that failed has left more of some datasets;
-/// as far as that is possible, since its error is the one that matters.
+/// Truncates a file to its first snapshots where a failed append has left more rows in some datasets. Its own
+/// errors are ignored: the error of the append is the one to report.
 pub(crate) fn undo(
     path: &Path,
     datasets: &[Growing],
@@ -338,10 +349,10 @@ pub(crate) fn undo(
 /// A file being extended.
 pub(crate) struct Appender {
     path: PathBuf,
-    /// Until it is closed.
+    /// `None` once it is closed.
     file: Option<H5File>,
-    /// Until its announcement.
-    room: Option<Room>,
+    /// Extension of the file that the superblock does not state yet.
+    extension: Option<Extension>,
 }
 
 impl Appender {
@@ -349,12 +360,12 @@ impl Appender {
         regular(path).map_err(|reason| OutputError::Append { path: path.to_owned(), reason })?;
         let file = catch_panic(|| H5File::options().no_locking().open_rw(path))
             .map_err(|error| append_error(path, error))?;
-        Ok(Self { path: path.to_owned(), file: Some(file), room: None })
+        Ok(Self { path: path.to_owned(), file: Some(file), extension: None })
     }
 
-    /// That a dataset still has the rows with which this process left it: of two processes that write
-    /// to one file, the first that finds the other's rows stops.
-    pub fn expect(&self, name: &str, left: usize) -> Result<(), OutputError> {
+    /// Checks that a dataset still has the `left` rows with which this process left it: of two processes that
+    /// write to one file, the first that finds the other's rows stops.
+    pub fn check_length(&self, name: &str, left: usize) -> Result<(), OutputError> {
         let rows = || -> H5Result<usize> {
             Ok(open(&self.file)?.dataset_writer(name)?.shape().first().copied().unwrap_or(0))
         };
@@ -365,25 +376,27 @@ impl Appender {
         Err(OutputError::Another { path: self.path.clone(), found, left })
     }
 
-    /// Makes room for `bytes` of data, announced by the first [`Self::append`]: late enough that no
-    /// reader is left that saw the short file and has yet to read the superblock, early enough that
-    /// at the closing none is left that read the old superblock and has yet to read the count.
+    /// Lengthens the file by `bytes` of data and their indices. The first [`Self::append`] writes the new end
+    /// into the superblock: late enough that no reader that saw the short file has yet to read the superblock,
+    /// early enough that at the closing no reader of the old superblock has yet to read the count.
     ///
-    /// Rows need it as well, for a kill between the headers and the superblock: it would leave a file
-    /// whose headers point behind its end.
-    pub fn make_room(&mut self, bytes: usize) -> Result<(), OutputError> {
-        let room = Room::behind(&self.path, bytes);
-        self.room = Some(room.map_err(|error| append_error(&self.path, error.into()))?);
+    /// Single rows need it as well: a kill between the headers and the superblock would leave a file whose
+    /// headers point behind its end.
+    pub fn extend_file(&mut self, bytes: usize) -> Result<(), OutputError> {
+        let extension = Extension::of(&self.path, bytes);
+        self.extension = Some(extension.map_err(|error| append_error(&self.path, error.into()))?);
         Ok(())
     }
 
     pub fn append<T: H5Type>(&mut self, name: &str, data: &[T]) -> Result<(), OutputError> {
         catch_panic(|| open(&self.file)?.dataset_writer(name)?.append(data))
-            .and_then(|()| self.room.take().map_or(Ok(()), |room| Ok(room.announce()?)))
+            .and_then(|()| {
+                self.extension.take().map_or(Ok(()), |extension| Ok(extension.announce()?))
+            })
             .map_err(|error| append_error(&self.path, error))
     }
 
-    /// Cuts a dataset off behind its first `rows` rows.
+    /// Truncates a dataset to its first `rows` rows.
     fn cut(&mut self, name: &str, rows: usize) -> Result<(), OutputError> {
         let mut found = 0;
         let write = || -> H5Result<()> {
@@ -403,7 +416,8 @@ impl Appender {
         Ok(())
     }
 
-    /// Closing writes the dataset headers first and the group that carries the count after them.
+    /// Sets the count and closes the file: that writes the headers of datasets first and the group that carries
+    /// the count after them.
     pub fn close_with_count(
         mut self,
         group: &[&str],
@@ -422,7 +436,7 @@ fn open(file: &Option<H5File>) -> H5Result<&H5File> {
     file.as_ref().ok_or_else(|| Hdf5Error::InvalidState("the file is closed".into()))
 }
 
-/// After an error, which was returned: the library would else tell of it once more on standard error.
+/// After an error, which was returned: otherwise the library would print it again on standard error.
 impl Drop for Appender {
     fn drop(&mut self) {
         if let Some(file) = self.file.take() {
@@ -431,11 +445,11 @@ impl Drop for Appender {
     }
 }
 
-/// Readings of the end of a file that is being closed meanwhile.
+/// How often the end of a file is read that a writer may be closing.
 const ATTEMPTS: usize = 3;
 
-/// The length of a file, which must reach the end that its superblock names.
-fn whole(path: &Path) -> Result<u64, OutputError> {
+/// The length of a file (bytes), which must reach the end that its superblock names.
+fn complete_length(path: &Path) -> Result<u64, OutputError> {
     let failed = |error: std::io::Error| read_error(path, error.to_string());
     let mut attempts = 0;
     loop {
@@ -445,7 +459,7 @@ fn whole(path: &Path) -> Result<u64, OutputError> {
         if length >= end {
             return Ok(length);
         }
-        // A closing that takes back room does so after it has written the new end.
+        // A closing truncates the file after it has written the new end.
         if attempts == ATTEMPTS {
             return Err(damaged(path, format!("it ends after {length} of its {end} bytes")));
         }
@@ -456,7 +470,7 @@ pub(crate) fn damaged(path: &Path, reason: String) -> OutputError {
     OutputError::Damaged { path: path.to_owned(), reason }
 }
 
-/// Bytes that deflate can make of one, at most.
+/// Largest ratio of deflate: bytes per compressed byte.
 const MOST_PER_BYTE: u64 = 1032;
 
 /// A file being read.
@@ -471,13 +485,13 @@ impl Source {
         regular(path).map_err(|reason| read_error(path, reason))?;
         let file = catch_panic(|| H5File::options().no_locking().open(path))
             .map_err(|error| read_error(path, error.to_string()))?;
-        let length = whole(path)?;
+        let length = complete_length(path)?;
         Ok(Self { path: path.to_owned(), file, length })
     }
 
-    /// A dataset to be read. A damaged shape could take all memory: refused is what does not go into
-    /// the file even if it is all zeros, and more chunks than the file has bytes. Nothing that a
-    /// writer left is like that, since no chunk of it is missing.
+    /// A dataset to be read. A damaged shape could take all memory: a dataset is refused where it does not
+    /// fit into the file at the largest ratio of compression, or has more chunks than the file has bytes.
+    /// No dataset of a writer is like that, since none of its chunks is missing.
     fn dataset(&self, name: &str) -> H5Result<H5Dataset> {
         let dataset = self.file.dataset(name)?;
         let product =
@@ -487,7 +501,7 @@ impl Source {
         let shape = dataset.shape();
         let chunk = dataset.chunk_dims().unwrap_or_default();
         let bytes = |dims: &[usize]| product(dims).saturating_mul(size);
-        // The index of chunks is laid out for the extent that the dataset may grow to, if that has a limit.
+        // The library allocates the index of chunks for the largest extent, if the dataset has one.
         let limits = dataset.max_shape()?;
         let extent = shape.iter().zip(&limits).map(|(n, limit)| limit.unwrap_or(0).max(*n));
         let chunks = extent.zip(&chunk).map(|(n, chunk)| n.div_ceil((*chunk).max(1)));
@@ -505,7 +519,7 @@ impl Source {
         &self.path
     }
 
-    /// Rows of a chunk of a dataset; all of them where it has none.
+    /// Rows per chunk of a dataset; all rows where it has no chunks.
     pub fn chunk_rows(&self, dataset: &str) -> Result<usize, OutputError> {
         let dims = self.read(|| Ok(self.file.dataset(dataset)?.chunk_dims()))?;
         match dims.as_ref().and_then(|dims| dims.first()) {
@@ -514,7 +528,7 @@ impl Source {
         }
     }
 
-    /// Rows that a record of a growing dataset has: those of the points or cells of a grid, else one.
+    /// Rows per record of an extendible dataset: the number of points or cells of a grid, else one.
     pub fn rows_per_record(&self, dataset: &str) -> Result<usize, OutputError> {
         let count = match dataset.split('/').nth(1) {
             Some("PointData") => mesh_path(&MESH.point_count),
@@ -589,7 +603,7 @@ impl Source {
                 *length = count;
             }
             match (dataset.datatype()?, dataset.element_size()) {
-                // Straight into the vector, and by the bytes of a label: histories are mostly these.
+                // The two common types are read without conversion: histories consist of them.
                 (DatatypeMessage::FloatingPoint { .. }, 8) => dataset.read_slice(&starts, &counts),
                 (DatatypeMessage::FixedPoint { signed: false, .. }, 1) => {
                     let labels: Vec<u8> = dataset.read_slice(&starts, &counts)?;
@@ -607,7 +621,7 @@ impl Source {
     }
 }
 
-/// Refuses what is no regular file: the library would wait for a pipe, and read a device for ever.
+/// Refuses what is no regular file: the library would wait for a pipe, and read a device without end.
 fn regular(path: &Path) -> Result<(), String> {
     input::regular(path, input::RESULTS).map_err(|error| error.problem())
 }
@@ -616,7 +630,7 @@ fn create_error(path: &Path, error: Hdf5Error) -> OutputError {
     OutputError::Create { path: path.to_owned(), reason: error.to_string() }
 }
 
-/// A file that is gone is named so, also where it went while the library opened it.
+/// Says of a file that is gone that there is none, also where it was removed while the library opened it.
 fn append_error(path: &Path, error: Hdf5Error) -> OutputError {
     let reason = regular(path).err().unwrap_or_else(|| error.to_string());
     OutputError::Append { path: path.to_owned(), reason }
@@ -638,7 +652,7 @@ fn set_count(file: &H5File, group: &[&str], name: &str, value: i64) -> H5Result<
     }
 }
 
-fn describe(dataset: &H5Dataset, at: &LayOut<'_>) -> H5Result<()> {
+fn describe(dataset: &H5Dataset, at: &DatasetSpec<'_>) -> H5Result<()> {
     for (name, text) in [("units", at.units), ("description", at.description)] {
         dataset
             .new_attr::<rust_hdf5::VarLenUnicode>()
@@ -653,7 +667,7 @@ fn shape(rows: usize, components: usize) -> Vec<usize> {
     if components == 1 { vec![rows] } else { vec![rows, components] }
 }
 
-/// The largest divisor of `rows` in the wanted range; above it where there is none.
+/// The largest divisor of `rows` in [`CHUNK_ROWS`]; where there is none, the smallest above that range.
 fn chunk_rows(rows: usize) -> usize {
     let divides = |chunk: &usize| rows.is_multiple_of(*chunk);
     let wanted = CHUNK_ROWS.rev().find(divides);

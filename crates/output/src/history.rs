@@ -1,14 +1,14 @@
 //! Rows of scalars over time: one extendable 1-D dataset per column.
 
 use crate::OutputError;
+use crate::checksums::{Checksums, Kept};
 use crate::field::FieldSpec;
-use crate::hdf5::{Appender, Creator, Growing, Kind, LayOut, cut_to_go_on, fix_headers, undo};
+use crate::hdf5::{Appender, Creator, DatasetSpec, Growing, Kind, cut_to_go_on, fix_headers, undo};
 use crate::layout::ROW_COUNT;
 use crate::provenance::Provenance;
-use crate::sums::{Kept, Sums};
 use std::path::{Path, PathBuf};
 
-/// The datasets of the columns.
+/// The extendible datasets of the columns.
 fn growing(columns: &[FieldSpec]) -> Vec<Growing> {
     let dataset = |column: &FieldSpec| Growing {
         name: column.name.to_string(),
@@ -23,18 +23,21 @@ fn names(columns: &[FieldSpec]) -> impl Iterator<Item = String> {
     columns.iter().map(|column| column.name.to_string())
 }
 
-/// Writer of `history.h5`.
+/// Writer of a table of scalars over time, `history.h5` or `probes.h5`.
 #[derive(Debug)]
 pub struct History {
     path: PathBuf,
     columns: Vec<FieldSpec>,
     rows: usize,
-    sums: Sums,
+    sums: Checksums,
     scratch: Vec<f64>,
 }
 
 impl History {
     /// Writes the metadata of an empty history to `path` (replacing what is there) and closes it.
+    ///
+    /// # Errors
+    /// Column names that are empty, repeat or contain `/`; a file that cannot be written.
     pub fn create(
         path: impl AsRef<Path>,
         columns: &[FieldSpec],
@@ -53,7 +56,7 @@ impl History {
         }
         let mut file = Creator::new(&path, provenance)?;
         for column in columns {
-            file.rows::<f64>(&LayOut {
+            file.rows::<f64>(&DatasetSpec {
                 group: &[],
                 name: &column.name,
                 units: &column.units,
@@ -65,12 +68,15 @@ impl History {
         file.close_with_headers_fixed(|path| {
             fix_headers(path, &growing(columns), &[], ROW_COUNT, 0)
         })?;
-        let sums = Sums::of_new(&path, names(columns))?;
+        let sums = Checksums::of_new(&path, names(columns))?;
         Ok(Self { path, columns: columns.to_vec(), rows: 0, sums, scratch: Vec::new() })
     }
 
-    /// Goes on with a history at `path` that was created with the same columns, cut off behind the rows
-    /// that are kept; [`prove`](crate::prove) says whether it still holds them.
+    /// Continues a history at `path` that was created with the same columns, truncated to the rows of `kept`;
+    /// [`prove`](crate::prove) says whether it still holds them.
+    ///
+    /// # Errors
+    /// A file that cannot be read or written, has fewer rows, or is damaged.
     pub fn reopen(
         path: impl AsRef<Path>,
         columns: &[FieldSpec],
@@ -78,13 +84,17 @@ impl History {
     ) -> Result<Self, OutputError> {
         let (path, rows) = (path.as_ref().to_owned(), kept.records as usize);
         cut_to_go_on(&path, &growing(columns), &[], ROW_COUNT, rows)?;
-        let sums = Sums::of_kept(kept, names(columns));
+        let sums = Checksums::of_kept(kept, names(columns));
         Ok(Self { path, columns: columns.to_vec(), rows, sums, scratch: Vec::new() })
     }
 
-    /// Appends any number of rows, row after row (length: rows times columns).
+    /// Appends rows, one after the other, in the units of the columns (length: rows times columns).
     ///
-    /// One call costs one opening of the file however many rows it brings: hand over many at once.
+    /// Each call opens the file once, however many rows it appends: pass many at once.
+    ///
+    /// # Errors
+    /// A length that is no multiple of the number of columns; a file that cannot be written or that another
+    /// process has changed. The file then still has the rows that it had before.
     pub fn append(&mut self, rows: &[f64]) -> Result<(), OutputError> {
         let width = self.columns.len();
         if width == 0 || !rows.len().is_multiple_of(width) {
@@ -96,9 +106,9 @@ impl History {
         if rows.is_empty() {
             return Ok(());
         }
-        // of the rows that are in the file, should this fail
+        // the checksums of the rows in the file, to return to should this fail
         let before = self.sums.clone();
-        let appended = self.append_whole(rows, width);
+        let appended = self.try_append(rows, width);
         if appended.is_err() {
             self.sums = before;
         }
@@ -108,13 +118,13 @@ impl History {
         appended
     }
 
-    fn append_whole(&mut self, rows: &[f64], width: usize) -> Result<(), OutputError> {
+    fn try_append(&mut self, rows: &[f64], width: usize) -> Result<(), OutputError> {
         let count = rows.len() / width;
         let mut file = Appender::open(&self.path)?;
         if let Some(column) = self.columns.last() {
-            file.expect(&column.name, self.rows)?;
+            file.check_length(&column.name, self.rows)?;
         }
-        file.make_room(size_of_val(rows))?;
+        file.extend_file(size_of_val(rows))?;
         for (index, column) in self.columns.iter().enumerate() {
             self.scratch.clear();
             self.scratch.extend(rows.iter().skip(index).step_by(width));
@@ -126,12 +136,12 @@ impl History {
         Ok(())
     }
 
-    /// Number of rows written.
+    /// Number of rows in the file, those kept from before included.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// What a checkpoint needs to know of the rows written.
+    /// What a checkpoint keeps of the rows written: their number and checksums.
     pub fn kept(&self) -> Kept {
         self.sums.kept(self.rows)
     }
@@ -141,7 +151,7 @@ impl History {
         &self.columns
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -1,13 +1,13 @@
-//! What the summary of a run that has ended says of its files, by which damage is seen: their lengths and
-//! CRC-32, and SHA-256 of itself.
+//! The checksums in the summary of a run that has ended, by which damage is detected: lengths and CRC-32 of its
+//! files, and SHA-256 of the summary itself.
 //!
-//! Files of a run are large: on a machine with instructions for it SHA-256 of them took 1 % of a run, CRC-32
-//! takes a third of that, and misses one damage in four billion.
+//! Files of a run are large: on a processor with instructions for it, SHA-256 of them took 1 % of the time of a
+//! run; CRC-32 takes a third of that and misses one random damage in four billion.
 
 use crate::OutputError;
+use crate::checksums::hexadecimal;
 use crate::hdf5::damaged;
 use crate::layout::file;
-use crate::sums::hexadecimal;
 use crc32fast::Hasher;
 use files::input::{self, Fault, InputError};
 use serde::{Deserialize, Serialize};
@@ -23,16 +23,16 @@ const SUMS: &str = "checksums";
 /// Key of the summary: SHA-256 of everything else in it.
 const SEAL: &str = "sha256";
 
-/// How the last line of `run.log` begins where a run has ended; the word for how follows, and ` after` where
-/// it left a summary.
+/// How the last line of `run.log` begins where a run has ended. The status follows, and then ` after ` where
+/// the run left a summary.
 pub const LOG_END: &str = "end: ";
 
 /// Length and CRC-32 of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileSum {
-    /// Its length.
+    /// Its length (bytes).
     pub bytes: u64,
-    /// CRC-32 of what it holds, in hexadecimal.
+    /// CRC-32 of its content, eight hexadecimal digits in lower case.
     pub crc32: String,
 }
 
@@ -53,7 +53,10 @@ impl FileSum {
     }
 }
 
-/// The sums of those of the files `names` that are in `folder`.
+/// Lengths and CRC-32 of those of the files `names` that are in `folder`, by name.
+///
+/// # Errors
+/// A file that is there but cannot be read.
 pub fn sums_of_files(
     folder: &Path,
     names: &[&str],
@@ -70,15 +73,16 @@ pub fn sums_of_files(
     Ok(sums)
 }
 
-/// Adds the sums of the files to a summary, and its own.
+/// Adds to a summary the checksums of the files, as `checksums`, and then its own, as `sha256`. Any later change of the
+/// summary is taken for damage.
 pub fn seal(summary: &mut Map<String, Value>, sums: &BTreeMap<String, FileSum>) {
     summary.insert(SUMS.into(), serde_json::json!(sums));
     let own = own_sum(summary);
     summary.insert(SEAL.into(), own.into());
 }
 
-/// SHA-256 of a summary without that: of its JSON without spaces, keys in order, numbers with the fewest
-/// digits that give them back.
+/// SHA-256 of a summary without its key `sha256`: of its JSON without spaces, keys in order, numbers with the
+/// fewest digits that read back to the same bits.
 fn own_sum(summary: &Map<String, Value>) -> String {
     let rest: BTreeMap<&str, &Value> =
         summary.iter().map(|(k, v)| (k.as_str(), v)).filter(|(k, _)| *k != SEAL).collect();
@@ -86,12 +90,13 @@ fn own_sum(summary: &Map<String, Value>) -> String {
     hexadecimal(&Sha256::digest(text))
 }
 
-/// The summary of the run in `folder`; none of a run that has not ended.
+/// The summary of the run in `folder`; `None` for a run that has not ended.
 ///
-/// One without any sums, as earlier versions wrote it, is taken as it is.
+/// A summary without checksums, as earlier versions wrote it, is accepted.
 ///
 /// # Errors
-/// A summary that is not what was written, or gone although the run's log says that it ended.
+/// A summary that cannot be read, is not what was written, or is gone although the run's log says that the run
+/// ended.
 pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
     let path = folder.join(file::SUMMARY);
     let text = match input::bytes(&path, input::DOCUMENT) {
@@ -125,13 +130,16 @@ fn log_says_it_ended(folder: &Path) -> bool {
     last.and_then(|how| how.split_once(' ')).is_some_and(|(_, rest)| rest.starts_with("after "))
 }
 
-/// The sums of the files that a summary holds; none in one of an earlier version.
+/// The checksums of files that a summary holds; `None` in one of an earlier version.
 fn sums(summary: &Value) -> Option<BTreeMap<String, FileSum>> {
     serde_json::from_value(summary.get(SUMS)?.clone()).ok()
 }
 
-/// Compares the lengths of the files in `folder` with those that `summary` holds; files that are `needed` must
-/// be there. Returns whether the summary holds any.
+/// Compares the lengths of the files in `folder` with those in `summary`. A missing file is an error where
+/// `needed` says so of its name. Returns whether the summary holds lengths at all.
+///
+/// # Errors
+/// A file with another length, a needed file that is gone, a file that cannot be read.
 pub fn as_long_as_written(
     folder: &Path,
     summary: &Value,
@@ -157,7 +165,11 @@ pub fn as_long_as_written(
     Ok(true)
 }
 
-/// Proves by the sums in `summary` that each of the files `wanted` is what was written, where it is there.
+/// Compares length and CRC-32 of the files in `folder` that `wanted` selects by name with those in `summary`.
+/// Missing files are passed over; see [`as_long_as_written`].
+///
+/// # Errors
+/// A file that differs or cannot be read.
 pub fn as_written(
     folder: &Path,
     summary: &Value,

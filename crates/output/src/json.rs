@@ -4,8 +4,11 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Writes `value` as indented JSON so that `path` holds either the old text or the new one whole:
-/// to a neighbouring file first, synchronised, then renamed into place.
+/// Writes `value` as indented JSON to `path`, which holds the complete old text or the complete new one at any
+/// time: the text goes to a temporary file beside it, which is synced and then renamed.
+///
+/// # Errors
+/// A path without a file name, a value that is no JSON, a file that cannot be written.
 pub fn write_json_atomically<T: Serialize + ?Sized>(
     path: impl AsRef<Path>,
     value: &T,
@@ -24,7 +27,7 @@ pub fn write_json_atomically<T: Serialize + ?Sized>(
         std::fs::rename(&partial, path)
     };
     write().map_err(|error| {
-        // The half-written neighbour is of no use to anyone; the error that matters is `error`.
+        // An incomplete temporary file is of no use; the error to report is `error`.
         let _ = std::fs::remove_file(&partial);
         failed(error.to_string())
     })

@@ -45,15 +45,16 @@ names! {
     }
 }
 
-/// Names of the bodies by their labels.
+/// Names of the bodies; the index is the label in the field `body`.
 pub const BODY_NAMES: [&str; 2] = ["disk", "bar"];
-/// Conditions of contact that hold at a node against the face there.
+/// Value of the attribute `contact_rows`: conditions that hold at each node against the face at its
+/// closest-point projection.
 pub const NODE_TO_FACE: &str = "node_to_face";
-/// Conditions of contact that hold in means over the faces around a node.
+/// Value of the attribute `contact_rows`: conditions that hold in the mean over the faces around each node.
 pub const MORTAR: &str = "mortar";
 
-/// Whether the slip velocity beside the traction of t^n is that of the step that led there or of
-/// the step that leaves.
+/// Whether a record at t^n holds, beside its tractions, the slip velocity of the step that ends at t^n or
+/// of the step that begins there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Pairing {
     /// p(t^n) with s(t^{n-1/2}).
@@ -63,7 +64,7 @@ pub enum Pairing {
 }
 
 impl Pairing {
-    /// Its name in options, documents and the file's attribute.
+    /// Its name in options, documents and the attribute `slip_pairing`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Before => "before",
@@ -84,6 +85,8 @@ macro_rules! datasets {
         }
 
         $(#[$about])*
+        ///
+        /// Name, units, shape and meaning of each dataset.
         pub static $DECLARED: $Set<FieldSpec> = $Set {
             $($field: FieldSpec::$shape(
                 datasets!(@name $field $($name)?), $units, $meaning,
@@ -102,7 +105,8 @@ macro_rules! datasets {
 }
 
 datasets! {
-    /// A row of `history.h5`, of a full step.
+    /// A row of `history.h5`, of a full step t^n; forces and positions in the global frame (x rolls, y is
+    /// lateral, z is up).
     HistoryRow, HISTORY {
         time: scalar("s", "time since the start of rolling"),
         step: scalar("1", "number of the full step"),
@@ -124,7 +128,9 @@ datasets! {
         drive_force: scalar("N", "force that the drive supplies in x"),
         hub_x: scalar("m", "displacement of the hub in x"),
         hub_z: scalar("m", "displacement of the hub in z"),
-        patch_half_length: scalar("m", "half axis in x of the fit to the pressure on the bar; NaN where none fits"),
+        patch_half_length: scalar(
+            "m", "half axis in x of the fit to the pressure on the bar; NaN where none fits"
+        ),
         patch_half_width: scalar("m", "half axis in y of the fit, or half the width of a line contact"),
         patch_x: scalar("m", "centre of the fit in x, relative to the hub"),
         peak_pressure: scalar("Pa", "largest pressure of the fit"),
@@ -146,7 +152,8 @@ datasets! {
 }
 
 datasets! {
-    /// What a row of `probes.h5` holds of each probe.
+    /// What a row of `probes.h5` holds of each probe, a node of a contact surface; vectors in the global frame,
+    /// tractions on the node's own surface.
     ProbeRow, PROBE {
         pressure: scalar("Pa", "contact pressure"),
         shear_x: scalar("Pa", "shear traction on this surface, x"),
@@ -163,17 +170,20 @@ datasets! {
 }
 
 datasets! {
-    /// Fields of `fields.vtkhdf`; `stress` unless the case leaves it out.
+    /// Fields of `fields.vtkhdf` in the global frame; `stress` unless the case leaves it out.
     BodyFields, BODIES {
         displacement: vector("m", "displacement from the undeformed state"),
-        deformation: vector("m", "displacement less the body's rigid motion (the hub's for the disk, none for the bar)"),
+        deformation: vector(
+            "m", "displacement less the body's rigid motion (the hub's for the disk, none for the bar)"
+        ),
         velocity: vector("m/s", "velocity over the last step"),
         stress: cell_tensor("Pa", "Cauchy stress, xx yy zz xy yz xz"),
     }
 }
 
 datasets! {
-    /// Fields of `contact.vtkhdf`; `pass_pressure` where two passes share the pressure.
+    /// Fields of `contact.vtkhdf` in the global frame; `pass_pressure` where two passes of penalty contact
+    /// share the pressure.
     ContactFields, CONTACT {
         pressure: scalar("Pa", "contact pressure, positive in compression"),
         shear: vector("Pa", "shear traction on this surface"),
@@ -189,7 +199,7 @@ datasets! {
 }
 
 datasets! {
-    /// Fields of `postmortem.vtkhdf`.
+    /// Fields of `postmortem.vtkhdf` in the global frame.
     PostmortemFields, POSTMORTEM {
         displacement: vector("m", "displacement from the undeformed state"),
         velocity: vector("m/s", "velocity over the last step"),
@@ -204,7 +214,7 @@ datasets! {
 }
 
 datasets! {
-    /// Fields of the grids that do not change in time; `area` of contact surfaces alone.
+    /// Fields of the grids that do not change in time; `area` only of contact surfaces.
     ConstantFields, CONSTANT {
         body: cell_label("1", "0 disk, 1 bar"),
         area: scalar("m2", "tributary area of the node"),
@@ -237,7 +247,8 @@ datasets! {
 }
 
 impl ContactFields<FieldSpec> {
-    /// The fields of a run with this pairing: with slip of the step after there are no passes.
+    /// The fields of a run with this pairing. With [`Pairing::After`] (exact enforcement) there are no two
+    /// passes, so `pass_pressure` is left out.
     pub fn of_run(&self, pairing: Pairing) -> Vec<FieldSpec> {
         let step = match pairing {
             Pairing::Before => "over the last step",
@@ -253,12 +264,14 @@ impl ContactFields<FieldSpec> {
     }
 }
 
-/// A column of probe `k` in `probes.h5`.
+/// The column of probe number `k` (from 0) in `probes.h5`: `column` of [`PROBE`] under the name
+/// `probe{k}_{name}`.
 pub fn of_probe(k: usize, column: &FieldSpec) -> FieldSpec {
     FieldSpec { name: format!("probe{k}_{}", column.name).into(), ..column.clone() }
 }
 
-/// Every HDF5 file of a run with its datasets, in their order; those of each probe once.
+/// Every HDF5 file of a run with the datasets that hold its results, in their order; of the probes those of
+/// probe 0. The mesh ([`MESH`]) and the steps ([`STEPS`]) of the grids are left out.
 pub fn files() -> [(&'static str, Vec<FieldSpec>); 5] {
     let owned = |fields: &[&FieldSpec]| fields.iter().copied().cloned().collect::<Vec<_>>();
     let probe = PROBE.each().map(|column| of_probe(0, column));
@@ -271,16 +284,17 @@ pub fn files() -> [(&'static str, Vec<FieldSpec>); 5] {
     ]
 }
 
-/// Group of what belongs to the steps, and its attribute that counts them.
+/// Group of the datasets of the steps.
 pub(crate) const STEPS_GROUP: [&str; 2] = ["VTKHDF", "Steps"];
+/// Attribute of that group: the number of complete steps.
 pub(crate) const STEP_COUNT: &str = "NSteps";
 
-/// Path of a dataset of the mesh.
+/// Path of a dataset of [`MESH`] in the file.
 pub(crate) fn mesh_path(spec: &FieldSpec) -> String {
     format!("VTKHDF/{}", spec.name)
 }
 
-/// Path of a dataset of the steps.
+/// Path of a dataset of [`STEPS`] in the file.
 pub(crate) fn step_path(spec: &FieldSpec) -> String {
     format!("{}/{}", STEPS_GROUP.join("/"), spec.name)
 }
@@ -291,5 +305,5 @@ pub(crate) fn data_path(name: &str, on_cells: bool) -> String {
     format!("VTKHDF/{group}/{name}")
 }
 
-/// Root attribute that counts the rows.
+/// Root attribute of a history: the number of complete rows.
 pub(crate) const ROW_COUNT: &str = "rows";

@@ -11,15 +11,16 @@
 //! appends and closes. Between snapshots the file is complete, so any reader can open it while the
 //! run goes on, and a killed process loses at most the snapshot that it was writing: headers are
 //! rewritten in place, each within a page of memory, and a file gets its name only once its closings
-//! no longer move them. The counts
-//! `NSteps` (grids) and `rows` (history) are written after the data that they count and are the
-//! truth about how much is valid. A snapshot announces the new end of the file before anything refers
-//! to it (module `room`). What remains is an opening that meets a header while it is rewritten, or
-//! that stalls between its first reads: about one in a thousand fails ("incorrect metadata checksum",
+//! no longer move them. The counts `NSteps` (grids) and `rows` (history) are written after the data
+//! that they count: what they count is valid. A snapshot writes the new end of the file into the
+//! superblock before anything refers to addresses behind the old one (module `file_end`).
+//!
+//! An opening can still fail where it reads a header while that is rewritten, or where it stalls
+//! between its first reads: about one in a thousand fails ("incorrect metadata checksum",
 //! "addr overflow", "truncated file") while snapshots are written without pause. A reader then opens
-//! again, or opens with `h5py.File(path, swmr=True)`, which checks less and reads again by itself:
+//! again, or opens with `h5py.File(path, swmr=True)`, which checks less and repeats its reads:
 //! none of thousands of such openings failed. A reader that keeps a file open across a closing must
-//! open again to see new snapshots. No file is locked: a viewer that holds one cannot end a run.
+//! open again to see new snapshots. No file is locked: a viewer that holds one cannot stop a run.
 //!
 //! Contents depend on the data alone, apart from the `created` attribute: the same run gives the
 //! same bits.
@@ -28,42 +29,42 @@
 
 mod background;
 mod checkpoint;
+mod checksums;
 pub mod confidence;
+mod disk_space;
 mod error;
 mod field;
-mod free;
+mod file_end;
 mod grid;
 mod hdf5;
 mod history;
 mod integrity;
 mod json;
 pub mod layout;
-mod made;
 mod panics;
 mod provenance;
 mod reader;
-mod room;
+mod recognise;
 pub mod summary;
-mod sums;
 mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
 pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
+pub use checksums::{Kept, hexadecimal, prove};
+pub use disk_space::{free_space, room_left};
 pub use error::{NotWritten, OutputError};
 pub use field::FieldSpec;
-pub use free::{free_space, room_left};
 pub use grid::{Cells, GridSpec, StaticField, TransientGrid, Values};
 pub use history::History;
 pub use integrity::{
     FileSum, LOG_END, as_long_as_written, as_written, read_summary, seal, sums_of_files,
 };
 pub use json::write_json_atomically;
-pub use made::{VTKHDF, is_ours};
 pub use provenance::Provenance;
 pub use reader::{FieldInfo, GridFile, HistoryFile};
-pub use sums::{Kept, hexadecimal, prove};
+pub use recognise::{VTKHDF, is_ours};
 pub use vtu::write_vtu;
 
-/// Key of the summary: points of a friction law that was handed over with the run, pairs of slip speed (m/s)
-/// and coefficient.
+/// Key of the summary: samples of a friction law that the user supplied as a function, pairs of slip speed
+/// (m/s) and coefficient of friction.
 pub const SAMPLED_LAW: &str = "friction_law";

@@ -1,8 +1,8 @@
 //! Panics of the HDF5 library, as errors.
 //!
-//! It checks most of what it reads, but not all that a damaged index of chunks can claim (its parameters are
-//! not accessible, so that they cannot be judged before), and then panics. Such a file is refused like any
-//! other damaged one.
+//! The library checks most of what it reads, but not everything in a damaged index of chunks, and then panics.
+//! The parameters of the index are not accessible, so that they cannot be checked before. Such a file is
+//! refused like any other damaged one.
 
 use rust_hdf5::Hdf5Error;
 use std::any::Any;
@@ -15,7 +15,10 @@ thread_local! {
     static WITHIN: Cell<bool> = const { Cell::new(false) };
 }
 
-/// What `call`, which only calls the library, returns, or the panic that ended it, of which nothing is shown.
+/// What `call` returns; its panic, of which nothing is printed, becomes an error. `call` must only call the
+/// library.
+///
+/// The first call replaces the panic hook of the process by one that prints nothing within this function.
 ///
 /// Asserted to be safe on unwinding: what the library shares between calls are cells, which unwinding
 /// releases, and caches behind locks, which it no longer uses once they are poisoned.

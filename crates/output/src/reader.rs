@@ -1,8 +1,8 @@
-//! Reading back what the writers wrote, also while the run goes on or after it was killed.
+//! Readers of the files, also while the run goes on or after it was killed.
 //!
-//! A closing writer puts data on disk first, dataset headers after them and the counts `NSteps`
-//! and `rows` last. What every dataset has is therefore complete; a kill between the headers leaves
-//! some datasets one snapshot longer than others, and the readers ignore the excess. (They go by
+//! A closing writer writes data first, headers of datasets after them and the counts `NSteps` and
+//! `rows` last. Records that every dataset has are therefore complete; a kill between the headers
+//! leaves some datasets one snapshot longer than others, and the readers ignore the excess. (They use
 //! the lengths because the HDF5 library does not read numbers from a group's attributes.)
 
 use crate::hdf5::{Source, read_error};
@@ -11,20 +11,20 @@ use crate::{FieldSpec, OutputError};
 use std::ops::Range;
 use std::path::Path;
 
-/// A dataset as a reader finds it.
+/// A field of a grid as its file declares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldInfo {
     /// Name of the dataset.
     pub name: String,
     /// Its `units` attribute.
     pub units: String,
-    /// Numbers per point, cell or row.
+    /// Numbers per point or cell.
     pub components: usize,
-    /// Stored as unsigned bytes.
+    /// Whether it is stored as unsigned bytes.
     pub integer: bool,
-    /// On cells instead of points.
+    /// Whether its values belong to cells instead of points.
     pub on_cells: bool,
-    /// Stored once for all steps.
+    /// Whether it is stored once for all steps.
     pub constant: bool,
 }
 
@@ -40,6 +40,9 @@ pub struct GridFile {
 
 impl GridFile {
     /// Opens `path` without locking it.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is damaged, or lacks the datasets of a grid.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let source = Source::open(path.as_ref())?;
         let points = first(&source, &MESH.point_count)?;
@@ -65,11 +68,14 @@ impl GridFile {
     }
 
     /// Simulated time of each step (s).
+    ///
+    /// # Errors
+    /// A dataset that cannot be read.
     pub fn times(&self) -> Result<Vec<f64>, OutputError> {
         self.source.rows(&step_path(&STEPS.times), 0, self.steps)
     }
 
-    /// The fields, points first, each group in the order of names.
+    /// The fields: those of points, then those of cells, each sorted by name.
     pub fn fields(&self) -> &[FieldInfo] {
         &self.fields
     }
@@ -79,7 +85,10 @@ impl GridFile {
         self.source.root_text(attribute)
     }
 
-    /// Reference coordinates (m).
+    /// Reference coordinates of the points (m).
+    ///
+    /// # Errors
+    /// A dataset that cannot be read.
     pub fn points(&self) -> Result<Vec<[f64; 3]>, OutputError> {
         let flat = self.source.rows(&mesh_path(&MESH.points), 0, self.points)?;
         Ok(flat.as_chunks::<3>().0.to_vec())
@@ -90,21 +99,31 @@ impl GridFile {
         self.cells
     }
 
-    /// Point indices of all cells, one cell after the other.
+    /// Point indices of all cells, one cell after the other; four or eight each, by the type of the cells.
+    ///
+    /// # Errors
+    /// A dataset that cannot be read.
     pub fn connectivity(&self) -> Result<Vec<u32>, OutputError> {
         let length = first(&self.source, &MESH.connectivity_count)?;
         let flat = self.source.rows(&mesh_path(&MESH.connectivity), 0, length)?;
         Ok(flat.into_iter().map(|index| index as u32).collect())
     }
 
-    /// Values of a field at one step, point after point (or cell after cell), components together.
+    /// Values of a field at `step` (from 0), point after point (or cell after cell), components together, in the
+    /// units of the field.
+    ///
+    /// # Errors
+    /// A field or step that the file does not have; a dataset that cannot be read.
     pub fn read(&self, name: &str, on_cells: bool, step: usize) -> Result<Vec<f64>, OutputError> {
         self.read_steps(name, on_cells, step..step + 1)
     }
 
-    /// As [`Self::read`] for several steps in one go, one step after the other: much faster than
-    /// each by itself, since every access searches the index of the file's chunks. A field that is
-    /// stored once for all steps is returned once.
+    /// As [`Self::read`] for several steps at once, one step after the other: much faster than each by
+    /// itself, since every access searches the index of the file's chunks. A field that is stored once
+    /// for all steps is returned once.
+    ///
+    /// # Errors
+    /// As for [`Self::read`].
     pub fn read_steps(
         &self,
         name: &str,
@@ -158,6 +177,9 @@ pub struct HistoryFile {
 
 impl HistoryFile {
     /// Opens `path` without locking it.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let source = Source::open(path.as_ref())?;
         let lengths = source.names(&[])?.into_iter().map(|name| source.length(&name));
@@ -171,11 +193,17 @@ impl HistoryFile {
     }
 
     /// Names of the columns, sorted.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
     pub fn columns(&self) -> Result<Vec<String>, OutputError> {
         self.source.names(&[])
     }
 
-    /// Units of a column.
+    /// Units of a column, such as `m/s`; `1` for a pure number.
+    ///
+    /// # Errors
+    /// A column that the file does not have.
     pub fn units(&self, column: &str) -> Result<String, OutputError> {
         self.source.text(column, "units")
     }
@@ -185,13 +213,19 @@ impl HistoryFile {
         self.source.root_text(attribute)
     }
 
-    /// All complete rows of a column, if the file has it.
+    /// All complete rows of a column in its units; `None` where the file does not have it.
+    ///
+    /// # Errors
+    /// A dataset that cannot be read.
     pub fn column(&self, column: &FieldSpec) -> Result<Option<Vec<f64>>, OutputError> {
         let there = self.columns()?.iter().any(|name| *name == column.name);
         there.then(|| self.read(&column.name)).transpose()
     }
 
-    /// All complete rows of a column.
+    /// All complete rows of the column of this name, in its units.
+    ///
+    /// # Errors
+    /// A column that the file does not have or that cannot be read.
     pub fn read(&self, column: &str) -> Result<Vec<f64>, OutputError> {
         self.source.rows(column, 0, self.rows)
     }

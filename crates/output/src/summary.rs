@@ -8,15 +8,15 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// It reached its end.
+    /// It reached the end time of its case.
     Completed,
-    /// It was interrupted; the results so far are readable.
+    /// A signal interrupted it; the results so far are readable.
     Interrupted,
     /// Its guards stopped it.
     Failed,
 }
 
-/// Everything that a run says about itself at its end.
+/// The summary of a run at its end; numbers in SI units unless a field says otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the case.
@@ -43,7 +43,7 @@ pub struct Summary {
     pub peak_rss_mb: f64,
     /// Energies at the end of the run.
     pub energy: Energy,
-    /// Means over the evaluation window, in the body frame of the bar.
+    /// Means over the evaluation window.
     pub contact: Contact,
     /// Files of the run, relative to its folder.
     pub files: Files,
@@ -55,12 +55,12 @@ pub struct Summary {
     pub extra: BTreeMap<String, serde_json::Value>,
 }
 
-/// The energy ledger (J) and its error.
+/// The energy balance of both bodies at the end of the run (J), and its error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy (J).
     pub kinetic: f64,
-    /// Strain energy (J).
+    /// Strain energy of the elements (J).
     pub internal: f64,
     /// Energy of the hourglass stiffness (J).
     pub hourglass: f64,
@@ -72,31 +72,31 @@ pub struct Energy {
     pub damping_dissipated: f64,
     /// Work of prescribed motion and load so far (J).
     pub external_work: f64,
-    /// |sum - external work - initial| over the largest energy exchanged (dimensionless).
+    /// |sum of energies - external work - initial sum| over the largest energy exchanged (dimensionless).
     pub balance_error: f64,
 }
 
-/// Means over the evaluation window, in the body frame of the bar; none (null) where nothing gives one,
-/// such as a pressure that no distribution of Hertz fits.
+/// Means over the evaluation window; forces are those of the bar on the disk in the global frame (x rolls, y is
+/// lateral, z is up). `None` (null) where there is no value, such as where Hertz's distribution fits no pressure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Normal force (N).
     pub normal_force: Option<f64>,
-    /// Force along the rolling direction (N).
+    /// Force along x, the rolling direction (N); positive when driving.
     pub tangential_force: Option<f64>,
-    /// Force across the rolling direction (N).
+    /// Force along y, across the rolling direction (N).
     pub lateral_force: Option<f64>,
     /// Tangential over normal force (dimensionless).
     pub traction_coefficient: Option<f64>,
-    /// Relative difference of rolling and circumferential speed (dimensionless).
+    /// (omega R_eff - V)/V (dimensionless).
     pub creepage: Option<f64>,
-    /// Half axis of the patch along x (m).
+    /// Half axis along x of the fitted distribution (m).
     pub patch_half_length: Option<f64>,
-    /// Half axis of the patch along y, or half the width of a line contact (m).
+    /// Half axis along y of the fitted distribution, or half the width of a line contact (m).
     pub patch_half_width: Option<f64>,
-    /// Area of the patch (m2).
+    /// Area of the bar's nodes in contact (m2).
     pub patch_area: Option<f64>,
-    /// Largest pressure (Pa).
+    /// Peak pressure of Hertz's distribution fitted to the nodal pressures (Pa).
     pub peak_pressure: Option<f64>,
     /// Share of the patch's area that sticks (dimensionless).
     pub stick_fraction: Option<f64>,

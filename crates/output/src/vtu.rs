@@ -1,4 +1,4 @@
-//! A grid alone as a VTK XML unstructured grid (`.vtu`), for viewers that read no VTKHDF.
+//! A grid without time as a VTK XML unstructured grid (`.vtu`), for viewers that read no VTKHDF.
 
 use crate::grid::{GridSpec, Values};
 use crate::{Cells, OutputError};
@@ -9,6 +9,9 @@ use std::path::Path;
 
 /// Writes points, cells and constant fields of `grid` to `path`, raw little-endian numbers
 /// appended to the XML header.
+///
+/// # Errors
+/// A file that cannot be written.
 pub fn write_vtu(path: impl AsRef<Path>, grid: &GridSpec<'_>) -> Result<(), OutputError> {
     let path = path.as_ref();
     write(path, grid)
@@ -70,7 +73,7 @@ struct Appended {
 }
 
 impl Appended {
-    /// Takes an array in and returns the element that points at it.
+    /// Appends an array and returns the XML element that refers to it.
     fn array(&mut self, name: &str, kind: &str, components: usize, data: Vec<u8>) -> String {
         let offset = self.bytes.len();
         self.bytes.extend((data.len() as u64).to_le_bytes());

@@ -1,11 +1,11 @@
-//! Room behind the end of a file, announced before anything in the file refers to it.
+//! Lengthening of a file before anything in it refers to addresses behind its old end.
 //!
 //! libhdf5 reads the end of a file once, from the superblock, at opening, and refuses every address
 //! behind it. rust-hdf5 writes the superblock last, after the headers and counts that refer to the
-//! new data: a reader that opened just before and reads the count just after met an address behind
-//! its end. Hence the file is lengthened first, then its new end written, then the data and headers;
-//! closing cuts the file to what was used. The order of the first two matters as well: libhdf5
-//! refuses a file that is shorter than its superblock says.
+//! new data: a reader that opened just before and reads the count just after would meet an address
+//! behind its end. Hence the file is lengthened first, then its new end is written, then the data and
+//! headers; closing truncates the file to what is used. The order of the first two matters as well:
+//! libhdf5 refuses a file that is shorter than its superblock says.
 
 use crate::hdf5::PAGE;
 use files::input;
@@ -14,26 +14,26 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
-/// For chunk indices, chunks of rows that start anew, and what compression adds to data that it
-/// cannot shorten. Without cost: the file is sparse there, and cut when it is closed.
+/// Bytes for chunk indices, new chunks of rows, and what compression adds to data that it cannot shorten.
+/// They cost nothing: the file is sparse there, and truncated when it is closed.
 const SLACK: u64 = 1 << 20;
 
 /// A lengthened file whose superblock does not yet say so.
-pub(crate) struct Room {
+pub(crate) struct Extension {
     file: File,
     superblock: SuperblockV2V3,
 }
 
-impl Room {
-    /// Lengthens the file for `bytes` of data and their indices. To be called once rust-hdf5 has
-    /// opened the file, since it appends at the length that it found.
-    pub fn behind(path: &Path, bytes: usize) -> io::Result<Self> {
+impl Extension {
+    /// Lengthens the file at `path` for `bytes` of data and their indices. To be called after rust-hdf5 has
+    /// opened the file, since it appends at the length that it finds.
+    pub fn of(path: &Path, bytes: usize) -> io::Result<Self> {
         let mut file = OpenOptions::new().read(true).write(true).open(path)?;
         let mut image = [0; 48];
         file.read_exact(&mut image)?;
         let mut superblock = SuperblockV2V3::decode(&image).map_err(io::Error::other)?;
         let room = SLACK + bytes as u64 + bytes as u64 / 64;
-        // the end of a file stays on a page of its own
+        // the end of a file lies on the border of a page
         superblock.end_of_file_address = (file.metadata()?.len() + room).next_multiple_of(PAGE);
         file.set_len(superblock.end_of_file_address)?;
         Ok(Self { file, superblock })
@@ -78,11 +78,11 @@ mod tests {
         assert_eq!(end(&path), before);
 
         let open = H5File::options().no_locking().open_rw(&path).unwrap();
-        let room = Room::behind(&path, 6_400).unwrap();
+        let extension = Extension::of(&path, 6_400).unwrap();
         let lengthened = (before + SLACK + 6_500).next_multiple_of(PAGE);
         assert_eq!(length(), lengthened);
         assert_eq!(end(&path), before, "announced before there was room");
-        room.announce().unwrap();
+        extension.announce().unwrap();
         assert_eq!(end(&path), lengthened);
         let reader = H5File::options().no_locking().open(&path);
         assert!(reader.is_ok(), "not readable while there is room");

@@ -1,8 +1,9 @@
-//! Running sums over what a result file holds, and the proof by them that a file still holds it.
+//! Checksums over what a result file holds, and the verification of a file by them.
 //!
-//! A writer takes every number that it appends into a CRC-32 of its dataset; a checkpoint keeps these sums
-//! beside the lengths. Before a run goes on, everything that it will keep is read once and summed again. The
-//! headers, indexes and links of a file have checksums of their own, which the HDF5 library verifies.
+//! A writer adds every number that it appends to a CRC-32 of its dataset; a checkpoint keeps these checksums
+//! beside the lengths. Before a run is resumed, everything that it keeps is read once and its checksums are
+//! compared. The headers, indexes and links of a file have checksums of their own, which the HDF5 library
+//! verifies.
 
 use crate::OutputError;
 use crate::hdf5::{Source, damaged};
@@ -12,24 +13,25 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What of a result file belongs to a checkpoint.
+/// The part of a result file that belongs to a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Kept {
-    /// Snapshots or rows.
+    /// Number of snapshots (grid) or rows (history).
     pub records: u64,
-    /// CRC-32 of what does not change, and of the records of each growing dataset, by name.
+    /// CRC-32 of what is written once, then of the records of each extendible dataset, in the order of their
+    /// names.
     pub sums: Vec<u32>,
 }
 
-/// The sums of a file being written.
+/// The checksums of a file being written.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sums {
+pub(crate) struct Checksums {
     fixed: u32,
     growing: BTreeMap<String, u32>,
 }
 
-impl Sums {
-    /// Of a file that was just created, with these growing datasets.
+impl Checksums {
+    /// Of a file that was just created, with these extendible datasets.
     pub fn of_new(path: &Path, growing: impl Iterator<Item = String>) -> Result<Self, OutputError> {
         let fixed = fixed(&Source::open(path)?)?;
         Ok(Self { fixed, growing: growing.map(|name| (name, 0)).collect() })
@@ -43,7 +45,7 @@ impl Sums {
         Self { fixed: *fixed, growing }
     }
 
-    /// Takes in numbers appended to a dataset.
+    /// Adds numbers appended to a dataset.
     pub fn add(&mut self, dataset: &str, values: &[f64]) {
         if let Some(sum) = self.growing.get_mut(dataset) {
             *sum = extend(*sum, values);
@@ -63,7 +65,7 @@ impl Sums {
     }
 }
 
-/// Many at a time: one by one takes ten times as long.
+/// In blocks: number by number takes ten times as long.
 fn extend(sum: u32, values: &[f64]) -> u32 {
     let mut hasher = Hasher::new_with_initial(sum);
     let mut block = [0; 8 * 512];
@@ -85,7 +87,7 @@ fn extend_bytes(sum: u32, values: &[u8]) -> u32 {
 /// Numbers read at a time.
 const BATCH: usize = 1 << 20;
 
-/// The sum of the first `rows` rows of a dataset.
+/// The checksum `sum` continued over the first `rows` rows of a dataset.
 fn dataset(source: &Source, name: &str, sum: u32, rows: usize) -> Result<u32, OutputError> {
     let bytes = source.is_bytes(name)?;
     let width: usize = source.shape(name)?.iter().skip(1).product();
@@ -104,8 +106,8 @@ fn dataset(source: &Source, name: &str, sum: u32, rows: usize) -> Result<u32, Ou
     Ok(sum)
 }
 
-/// The sum of what is written once: texts of the root, and of every dataset units and description, and the
-/// numbers where it does not grow.
+/// The checksum of what is written once: the texts of the root, units and description of every dataset, and
+/// the numbers of those that are not extendible.
 fn fixed(source: &Source) -> Result<u32, OutputError> {
     let mut sum = 0;
     let text = |sum: &mut u32, words: &str| {
@@ -135,8 +137,12 @@ fn fixed(source: &Source) -> Result<u32, OutputError> {
     Ok(sum)
 }
 
-/// Proves that a result file still holds all that belongs to a checkpoint, and that the index of every
-/// dataset can be read, and so extended: everything that will stay is read once.
+/// Verifies that the result file at `path` still holds all that belongs to a checkpoint, and that the index of
+/// every dataset can be read, and therefore extended. Reads all of it once.
+///
+/// # Errors
+/// [`OutputError::Damaged`] where datasets or records are missing or a checksum differs;
+/// [`OutputError::Read`] where the file cannot be read.
 pub fn prove(path: impl AsRef<Path>, kept: &Kept) -> Result<(), OutputError> {
     let path = path.as_ref();
     let source = Source::open(path)?;

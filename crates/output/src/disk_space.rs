@@ -1,8 +1,8 @@
-//! Room on the disk.
+//! Free space on the disk.
 
 use std::path::Path;
 
-/// Bytes that may still be written where `path` is or would be; none where the system does not tell.
+/// Bytes that may still be written where `path` is or would be; `None` where the system does not say.
 pub fn free_space(path: &Path) -> Option<u64> {
     let there = path.ancestors().find(|place| place.exists()).filter(|p| *p != Path::new(""));
     room(there.unwrap_or(Path::new(".")))
@@ -30,8 +30,8 @@ fn largest_file() -> Option<u64> {
     None
 }
 
-/// How much room is left where `path` cannot be written, in brackets, to follow an error; nothing where its
-/// folder is gone or the system does not tell.
+/// The free space where `path` cannot be written, as text in brackets to follow an error message; empty where
+/// its folder is gone or the system does not say.
 pub fn room_left(path: &Path) -> String {
     let mb = |bytes: u64| bytes as f64 / 1e6;
     match free_space(path) {

@@ -1,11 +1,11 @@
-//! How result files of this program are known.
+//! How result files of this program are recognised.
 
 use crate::hdf5::Source;
 use crate::layout::attribute;
 use files::Made;
 use std::path::Path;
 
-/// A grid that this program wrote, by the attribute `creepage_version` of its root.
+/// A grid that this program wrote, recognised by its root attribute `creepage_version`.
 pub const VTKHDF: Made = Made {
     what: "file of results",
     endings: &["vtkhdf"],
@@ -14,7 +14,7 @@ pub const VTKHDF: Made = Made {
     proof: Some(is_ours),
 };
 
-/// Whether this program wrote an HDF5 file.
+/// Whether the file at `path` is an HDF5 file that this program wrote; false where it cannot be read.
 pub fn is_ours(path: &Path) -> bool {
     Source::open(path).is_ok_and(|file| file.root_text(attribute::VERSION).is_ok())
 }
