@@ -1,4 +1,4 @@
-//! Sums over nodes and times of what single nodes do to the conditions.
+//! Statistics over nodes and times of the contact conditions at single nodes.
 
 use crate::conditions::Judged;
 use crate::replay::Allowed;
@@ -7,10 +7,12 @@ use crate::statistics::{Moments, Occurrence, Spread};
 
 /// The tangential conditions on one view of the interface in one pairing.
 pub(crate) struct Accumulator {
+    /// Area times time (m2 s) of contact, and of contact that violates the conditions.
     contact: f64,
     violating: f64,
     /// Time and share of the record with the largest share in violation.
     worst_record: Option<(f64, f64)>,
+    /// Violating area and all area of contact in this record (m2).
     record: [f64; 2],
     violating_of_records: Moments,
     wrong_record: [f64; 2],
@@ -19,15 +21,15 @@ pub(crate) struct Accumulator {
     power_of_records: Moments,
     law_error: Spread,
     law_error_own: Spread,
-    /// The law and the direction at nodes that the algorithm lets slip: what it does wrong itself.
-    /// The give of a penalty method's springs at nodes that it holds is left out.
-    slip_state: [Spread; 2],
+    /// The law and the direction at nodes whose state by the algorithm is slip. The compliance of penalty springs at
+    /// nodes that stick is left out: what remains are errors of the algorithm itself.
+    let_slip: [Spread; 2],
     direction: Spread,
-    /// Weight of slip with shear along it and of all slip.
+    /// Weight of slip that shear drives (angle above 90 degrees), and of all slip.
     wrong: [f64; 2],
     adhesion_slip: Spread,
     law_scatter: Spread,
-    /// Power of the wrong sign and of both signs (J).
+    /// Work of the wrong sign and of both signs (J).
     power: [f64; 2],
     worst_power: Option<Occurrence>,
     roughness: Option<Roughness>,
@@ -35,17 +37,18 @@ pub(crate) struct Accumulator {
     pub records: usize,
 }
 
-/// A statistic of a accumulator: its value, where it is worst, and what else is known of it.
+/// A statistic of an accumulator: its value, its worst place, and further statistics by name.
 pub(crate) struct Statistic {
     pub value: Option<f64>,
-    /// How the same statistic of single records varies over the records.
+    /// Standard deviation over the records of the same statistic of single records.
     pub deviation: Option<f64>,
+    /// Node, time (s) and value where it is worst.
     pub place: Option<(Option<usize>, f64, f64)>,
     pub more: Vec<(&'static str, Option<f64>)>,
 }
 
 impl Accumulator {
-    /// For `nodes` nodes, with roughness over `span` (s) where it is known.
+    /// For `nodes` nodes; with the roughness measure, whose running mean is over `span` (s), where that is known.
     pub fn new(nodes: usize, span: Option<f64>) -> Self {
         Self {
             contact: 0.0,
@@ -59,7 +62,7 @@ impl Accumulator {
             power_of_records: Moments::default(),
             law_error: Spread::default(),
             law_error_own: Spread::default(),
-            slip_state: Default::default(),
+            let_slip: Default::default(),
             direction: Spread::default(),
             wrong: [0.0; 2],
             adhesion_slip: Spread::default(),
@@ -72,14 +75,14 @@ impl Accumulator {
         }
     }
 
-    /// A record begins.
+    /// Begins a record.
     pub fn begin_record(&mut self, time: f64) {
         if let Some(roughness) = &mut self.roughness {
             roughness.begin(time);
         }
     }
 
-    /// A node in contact, with its area times its share of time.
+    /// Adds a node in contact with its area (m2) and the time that the record stands for (s).
     pub fn add(&mut self, row: usize, time: f64, area: f64, span: f64, judged: &Judged) {
         let weight = area * span;
         self.contact += weight;
@@ -90,8 +93,8 @@ impl Accumulator {
         }
         if let Some(error) = judged.law_error {
             self.law_error.add(weight, error, row, time);
-            if judged.slip_state {
-                self.slip_state[0].add(weight, error, row, time);
+            if judged.let_slip {
+                self.let_slip[0].add(weight, error, row, time);
             }
         }
         if let Some(error) = judged.law_error_own {
@@ -99,8 +102,8 @@ impl Accumulator {
         }
         if let Some(angle) = judged.direction {
             self.direction.add(weight, angle, row, time);
-            if judged.slip_state {
-                self.slip_state[1].add(weight, angle, row, time);
+            if judged.let_slip {
+                self.let_slip[1].add(weight, angle, row, time);
             }
             self.wrong_record[0] += if angle > 90.0 { weight } else { 0.0 };
             self.wrong_record[1] += weight;
@@ -111,7 +114,7 @@ impl Accumulator {
         if let Some(distance) = judged.law_scatter {
             self.law_scatter.add(weight, distance, row, time);
         }
-        // slip below the threshold is round-off or regularisation and has no direction
+        // slip below the threshold is round-off or regularisation, without a direction
         if judged.slips {
             self.power_record[0] += weight * (-judged.power).max(0.0);
             self.power_record[1] += weight * judged.power.abs();
@@ -130,7 +133,7 @@ impl Accumulator {
         self.switches.add(row, time, judged.slips);
     }
 
-    /// A node that is not in contact.
+    /// Adds a node that is not in contact, or has no slip velocity.
     pub fn open(&mut self, row: usize) {
         if let Some(roughness) = &mut self.roughness {
             roughness.interrupt(row);
@@ -138,7 +141,7 @@ impl Accumulator {
         self.switches.open(row);
     }
 
-    /// All nodes of a record that stands for `span` (s) are in.
+    /// Ends a record that stands for `span` (s).
     pub fn end_record(&mut self, time: f64, span: f64) {
         self.records += 1;
         let [violating, contact] = std::mem::take(&mut self.record);
@@ -160,7 +163,7 @@ impl Accumulator {
                 shares.add(span, part / whole);
             }
         }
-        let [law, direction] = &mut self.slip_state;
+        let [law, direction] = &mut self.let_slip;
         for spread in [
             &mut self.law_error,
             &mut self.law_error_own,
@@ -174,7 +177,7 @@ impl Accumulator {
         }
     }
 
-    /// The statistic that a measure of the tangential conditions is.
+    /// The statistic of the tangential measure `name`; without a value for any other name.
     pub fn statistic(&self, name: &str) -> Statistic {
         let share = |[part, whole]: [f64; 2]| (whole > 0.0).then(|| part / whole);
         let by = |spread: &Spread, value: Option<f64>, deviation: Option<f64>| Statistic {
@@ -190,16 +193,16 @@ impl Accumulator {
         };
         let spread = |of: &Spread| by(of, of.rms(), of.deviation_of_rms());
         let plain = |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
-        let also = |mut statistic: Statistic, slip_state: &Spread| {
-            statistic.more.push(("rms_where_let_slip", slip_state.rms()));
+        let also = |mut statistic: Statistic, let_slip: &Spread| {
+            statistic.more.push(("rms_where_let_slip", let_slip.rms()));
             statistic
         };
         match name {
-            "law_error" => also(spread(&self.law_error), &self.slip_state[0]),
+            "law_error" => also(spread(&self.law_error), &self.let_slip[0]),
             "law_error_own" => spread(&self.law_error_own),
-            "direction" => also(spread(&self.direction), &self.slip_state[1]),
-            "law_error_let_slip" => spread(&self.slip_state[0]),
-            "direction_let_slip" => spread(&self.slip_state[1]),
+            "direction" => also(spread(&self.direction), &self.let_slip[1]),
+            "law_error_let_slip" => spread(&self.let_slip[0]),
+            "direction_let_slip" => spread(&self.let_slip[1]),
             "wrong_direction" => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));
@@ -240,7 +243,7 @@ impl Accumulator {
     }
 }
 
-/// Stick-slip switches of nodes between records.
+/// Counts changes of nodes between stick and slip from record to record.
 pub(crate) struct Switches {
     last: Vec<Option<(f64, bool)>>,
     switches: f64,
@@ -263,36 +266,38 @@ impl Switches {
         self.last[row] = None;
     }
 
-    /// Switches per node and second.
+    /// Switches per node and time (1/s).
     pub fn rate(&self) -> Option<f64> {
         (self.node_time > 0.0).then(|| self.switches / self.node_time)
     }
 }
 
-/// The normal conditions, the cone, and what the algorithm calls stick and slip, on one side.
+/// The normal conditions, the friction cone, the coefficient used and the states by the algorithm, on one body.
 pub(crate) struct SideAccumulator {
     penetration: Spread,
     tension: Spread,
     complementarity: Spread,
     cone: Spread,
-    pub mu: MuTally,
+    pub mu: MuErrors,
     pub states: Switches,
 }
 
-/// The coefficient that the algorithm used against the law's.
+/// Errors of the coefficient that the algorithm used against the law's.
 #[derive(Default)]
-pub(crate) struct MuTally {
-    known: Off,
-    blurred: Off,
-    /// High end of what is allowed over the low one, less 1.
+pub(crate) struct MuErrors {
+    /// Where the law's coefficient is known to round-off.
+    known: MuError,
+    /// Where it is known to lie in an interval only.
+    blurred: MuError,
+    /// 1 - low/high of that interval.
     blur: Spread,
-    /// Weight of contact where the law cannot be followed.
+    /// Weight of contact where the law's coefficient is not known.
     pub unknown: f64,
 }
 
-/// By how much the coefficient is off.
+/// Relative error of the coefficient used.
 #[derive(Default)]
-struct Off {
+struct MuError {
     error: Spread,
     /// Sums of the weights, of the coefficient used and of the law's.
     sums: [f64; 3],
@@ -300,7 +305,7 @@ struct Off {
     worst: Option<[f64; 2]>,
 }
 
-impl Off {
+impl MuError {
     fn add(&mut self, row: usize, time: f64, weight: f64, used: f64, law: f64) {
         let error = if law > 0.0 { used / law - 1.0 } else { used - law };
         let before = self.error.largest();
@@ -334,8 +339,8 @@ impl Off {
     }
 }
 
-impl MuTally {
-    /// At a node in contact the coefficient `used`, and what the law allows where it can be followed.
+impl MuErrors {
+    /// Adds a node in contact: the coefficient `used`, and what the law allows where that is known.
     pub fn add(&mut self, row: usize, time: f64, weight: f64, used: f64, law: Option<Allowed>) {
         let Some(law) = law else {
             self.unknown += weight;
@@ -361,28 +366,28 @@ impl SideAccumulator {
             tension: Spread::default(),
             complementarity: Spread::default(),
             cone: Spread::default(),
-            mu: MuTally::default(),
+            mu: MuErrors::default(),
             states: Switches::new(nodes),
         }
     }
 
-    /// Pressure of any node, in contact or not.
+    /// Adds max(-p_n, 0)/p0 of any node, in contact or not.
     pub fn add_pressure(&mut self, row: usize, time: f64, weight: f64, tension: f64) {
         self.tension.add(weight, tension, row, time);
     }
 
-    /// Gap and pressure of any node, over their scales.
+    /// Adds gap and pressure of any node, over their scales.
     pub fn add_gap(&mut self, row: usize, time: f64, weight: f64, gap: f64, pressure: f64) {
         self.penetration.add(weight, (-gap).max(0.0), row, time);
         self.complementarity.add(weight, gap.abs() * pressure, row, time);
     }
 
-    /// The cone at a node in contact.
+    /// Adds p_f/(mu_S p_n) - 1 of a node in contact.
     pub fn add_cone(&mut self, row: usize, time: f64, weight: f64, excess: f64) {
         self.cone.add(weight, excess.max(0.0), row, time);
     }
 
-    /// All nodes of a record that stands for `span` (s) are in.
+    /// Ends a record that stands for `span` (s).
     pub fn end_record(&mut self, span: f64) {
         for spread in [
             &mut self.penetration,
@@ -396,7 +401,7 @@ impl SideAccumulator {
         }
     }
 
-    /// The statistic that a measure of one side is.
+    /// The statistic of the measure `name`; `None` where it is no measure of one body.
     pub fn statistic(&self, name: &str) -> Option<Statistic> {
         let spread = match name {
             "penetration" => &self.penetration,

@@ -13,12 +13,12 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A scale with where it comes from.
+/// A scale and its origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     /// Its value (SI).
     pub value: f64,
-    /// Where it was found.
+    /// Its origin, as documents state it.
     pub from: String,
 }
 
@@ -38,13 +38,13 @@ pub const SCALES: [(&str, &str, &str); 11] = [
     ("shear_wave", "m/s", "c_s, speed of shear waves"),
 ];
 
-/// The bound of friction that a node must respect.
+/// Which coefficient of friction `mu` bounds the shear, |p_tau| <= mu p_n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// mu(|s|) of the law at the same instant: Eq. (8).
     Law,
-    /// The law's coefficient made again from the records; where that is not known to round-off, the one that the
-    /// algorithm used (field `mu`).
+    /// The law's coefficient recomputed from the records; where that is not known to round-off, the one that the
+    /// algorithm used (field `mu`). For laws with a state.
     Used,
 }
 
@@ -53,19 +53,18 @@ pub enum Bound {
 pub struct Basis {
     /// Name of the case.
     pub name: String,
-    /// The law, where it is one of those known here.
+    /// The law mu(|s|), where it is Coulomb's or Eq. (8).
     pub law: Option<Law>,
-    /// The law of a contact node with its state, with which the coefficient is made again from the records; or
-    /// why there is none, empty where there is no case.
+    /// The law of a contact node with its state, by which the coefficient is recomputed from the records; or the
+    /// reason why there is none, empty where there is no case.
     pub friction: Result<RecordedLaw, String>,
-    /// Which coefficient bounds the shear.
+    /// The bound of friction.
     pub bound: Bound,
-    /// How contact is enforced, as the case says.
+    /// `contact.enforcement` of the case.
     pub enforcement: Option<String>,
-    /// The evaluation window (s), where the run has one; its summary states it, a run in progress
-    /// has none yet.
+    /// The evaluation window, from and to (s); `None` where no summary states it.
     pub window: Option<[f64; 2]>,
-    /// What the patch is; an ellipse where nothing is known.
+    /// Shape of the patch; an ellipse where nothing is known.
     pub shape: PatchShape,
     /// Scales by their names in [`SCALES`].
     pub scales: BTreeMap<&'static str, Scale>,
@@ -75,7 +74,7 @@ pub struct Basis {
     pub case: Option<toml::Table>,
 }
 
-/// Where a run's files are.
+/// Paths of a run's files.
 #[derive(Clone, Debug)]
 pub struct RunPaths {
     /// Its folder.
@@ -87,10 +86,10 @@ pub struct RunPaths {
 }
 
 impl RunPaths {
-    /// The files of a run given by its folder or by its contact history.
+    /// The files of the run at `run`, its folder or its contact history.
     ///
     /// # Errors
-    /// A path that is neither.
+    /// [`PostError::NoContactFile`] for a path that is neither.
     pub fn of(run: &Path) -> Result<Self, PostError> {
         let none = || PostError::NoContactFile { path: run.into() };
         let folder = if run.is_dir() { run } else { run.parent().ok_or_else(none)? };
@@ -103,10 +102,10 @@ impl RunPaths {
 }
 
 impl Basis {
-    /// Reads `case.toml`, `summary.json` and `history.h5` of a run, each where it exists; a run in
-    /// progress has no summary yet, data of other codes have neither.
+    /// Reads `case.toml`, `summary.json` and `history.h5` of a run, each where it exists: a run in progress
+    /// has no summary yet, data of other codes may have none of the three.
     ///
-    /// Unknown keys of the case are passed over: other codes and other versions write other ones.
+    /// Unknown keys of the case are ignored: other codes and other versions write other keys.
     ///
     /// # Errors
     /// A case that is not TOML, a summary that is not what was written, a history that cannot be read.
@@ -134,19 +133,20 @@ impl Basis {
         Ok(basis)
     }
 
-    /// The first of the spans (s) that the case records by themselves, `[[output.window]]`.
+    /// The first `[[output.window]]` of the case, from and to (s).
     pub(crate) fn recorded_window(&self) -> Option<[f64; 2]> {
         let window = self.case.as_ref()?.get("output")?.get("window")?.get(0)?;
         let end = |key: &str| number_at(window.as_table()?, key);
         Some([end("from")?, end("to")?])
     }
 
-    /// The value of a scale.
+    /// The value (SI) of the scale `name` of [`SCALES`], where it is known.
     pub fn scale(&self, name: &str) -> Option<f64> {
         self.scales.get(name).map(|scale| scale.value)
     }
 
-    /// Sets a scale that is not known yet.
+    /// Sets a scale (SI) that is not known yet; `from` is its origin. Ignores names that are not in [`SCALES`], zero
+    /// and values that are not finite.
     pub fn offer(&mut self, name: &str, value: f64, from: &str) {
         let known = SCALES.iter().find(|(known, ..)| *known == name);
         if let (Some((name, ..)), true) = (known, value.is_finite() && value != 0.0) {
@@ -154,10 +154,10 @@ impl Basis {
         }
     }
 
-    /// Sets a scale whatever was known.
+    /// Sets a scale (SI) for the user, whatever was known.
     ///
     /// # Errors
-    /// A name that is none, or a value that is not a positive number.
+    /// A name that is not in [`SCALES`], or a value that is not positive (creepage may have either sign).
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), PostError> {
         let Some((known, ..)) = SCALES.iter().find(|(known, ..)| *known == name) else {
             let names: Vec<_> = SCALES.iter().map(|(name, ..)| *name).collect();
@@ -175,7 +175,8 @@ impl Basis {
         Ok(())
     }
 
-    /// Derives what follows from other scales: s_c, its threshold, c_s.
+    /// Derives `slip_speed` from speed and creepage and `slip_threshold` from `slip_speed`, where they are not
+    /// known.
     pub fn complete(&mut self) {
         if let (Some(speed), Some(creepage)) = (self.scale("speed"), self.scale("creepage")) {
             let slip = creepage.abs().max(1e-5) * speed.abs();
@@ -186,7 +187,7 @@ impl Basis {
         }
     }
 
-    /// The parameters of friction, those that this version knows.
+    /// `[friction]` of the case, without keys that this version does not know.
     fn parameters(&self) -> Option<Parameters> {
         let mut table = self.case.as_ref()?.get("friction")?.as_table()?.clone();
         table.retain(|key, _| key == "law" || all_parameters().any(|known| known == key));
@@ -228,7 +229,7 @@ impl Basis {
             }
         }
         let steel = |key, default| match self.number(&format!("material.{key}")) {
-            // the defaults of a case file, for cases as their authors write them
+            // the defaults of a case file, for cases that were not resolved
             None => self.case.as_ref().filter(|case| case.contains_key("load")).map(|_| default),
             known => known,
         };
@@ -242,7 +243,7 @@ impl Basis {
 
     fn read_summary(&mut self) {
         let Some(summary) = self.summary.clone() else {
-            // a run in progress: what it is driven with
+            // a run in progress
             return self.offer_driven_creepage();
         };
         let at = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64);
@@ -273,7 +274,7 @@ impl Basis {
         }
     }
 
-    /// The time step and the creepage of a run in progress.
+    /// Time step and creepage from the history: those of a run without a summary.
     fn read_history(&mut self, path: &Path) -> Result<(), PostError> {
         let Some(history) = open_history(path)? else { return Ok(()) };
         if let (Some(time), Some(step)) =

@@ -1,4 +1,4 @@
-//! Slip and shear along the centre line, over places that move with the disk and the records in time.
+//! Slip and shear along the centre line y = 0, at places that move with the disk, over the records in time.
 
 use crate::PostError;
 use crate::basis::Basis;
@@ -6,14 +6,14 @@ use crate::frames::{ContactHistory, Frame};
 use crate::surface::Surface;
 use crate::vector::norm;
 
-/// Places from -a to a, with a Hertz's half axis.
+/// Number of equally spaced places from x = -a to a, relative to the disk's axis; a is Hertz's half axis.
 pub(crate) const PLACES: usize = 141;
 
-/// A quantity at the places of the centre line, a row for every record.
+/// A quantity at the [`PLACES`] of the centre line, a row for each record.
 pub(crate) type Rows = Vec<Vec<f64>>;
 
-/// What the records hold along the centre line of the body at whose nodes the conditions are enforced, else of
-/// the first that there is, the disk.
+/// Slip and shear of the records along the centre line of the body at whose nodes the conditions are enforced;
+/// where the file names none, of the disk.
 pub(crate) struct CentreLine {
     /// Time of each record (s).
     pub times: Vec<f64>,
@@ -25,13 +25,13 @@ pub(crate) struct CentreLine {
     pub speed: f64,
     /// The body whose nodes are taken.
     pub body: u8,
-    /// Half of what is looked at (m).
+    /// Hertz's half axis a, half the length of the line (m).
     pub reach: f64,
     nodes: Vec<usize>,
 }
 
 impl CentreLine {
-    /// Of a run, without records yet.
+    /// The centre line of a run, without records yet.
     ///
     /// # Errors
     /// A rolling speed or a half axis that is not known.
@@ -58,7 +58,7 @@ impl CentreLine {
         Ok(Self { times, slip, shear, speed, body, reach, nodes })
     }
 
-    /// Takes in a record.
+    /// Adds a record. The disk's axis is taken to be at x = V t.
     pub fn take(&mut self, surface: &Surface, frame: &Frame) {
         let moved = |node: usize| frame.motion.as_ref().map_or(0.0, |[u, _]| u[node][0]);
         let axis = self.speed * frame.time;
@@ -67,7 +67,7 @@ impl CentreLine {
         nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
         let at: Vec<f64> = nodes.iter().map(|(x, _)| *x).collect();
         let row = |of: &dyn Fn(usize) -> f64| {
-            let value = |place: usize| between(&at, self.place(place), |i| of(nodes[i].1));
+            let value = |place: usize| interpolate(&at, self.place(place), |i| of(nodes[i].1));
             (0..PLACES).map(value).collect()
         };
         let slip = row(&|node| norm(frame.slip_velocity[node]));
@@ -88,13 +88,14 @@ impl CentreLine {
         Self { times, slip, shear: Vec::new(), speed, body: 0, reach, nodes: Vec::new() }
     }
 
-    /// x of a place from the disk's axis (m).
+    /// x of the place `index`, relative to the disk's axis (m).
     pub fn place(&self, index: usize) -> f64 {
         self.reach * (2.0 * index as f64 / (PLACES - 1) as f64 - 1.0)
     }
 }
 
-/// Mean and standard deviation in time of a quantity at every place, the records counting with `weights`.
+/// Mean and standard deviation in time of a quantity at every place; `weights` are the times (s) that the
+/// records stand for.
 pub(crate) fn profile(rows: &Rows, weights: &[f64]) -> Vec<[f64; 2]> {
     let whole: f64 = weights.iter().sum();
     let mean_of = |of: &dyn Fn(f64) -> f64, place: usize| {
@@ -107,8 +108,8 @@ pub(crate) fn profile(rows: &Rows, weights: &[f64]) -> Vec<[f64; 2]> {
     (0..PLACES).map(of).collect()
 }
 
-/// Linear interpolation in ascending `at`, constant beyond its ends.
-pub(crate) fn between(at: &[f64], x: f64, value: impl Fn(usize) -> f64) -> f64 {
+/// `value` of the index, interpolated linearly to `x` in the ascending `at`; constant beyond its ends.
+pub(crate) fn interpolate(at: &[f64], x: f64, value: impl Fn(usize) -> f64) -> f64 {
     let next = at.partition_point(|at| *at <= x);
     if next == 0 {
         return value(0);
@@ -129,7 +130,7 @@ mod tests {
         let at = [0.0, 1.0, 3.0];
         let value = |i: usize| [5.0, 7.0, 3.0][i];
         for (x, wanted) in [(-1.0, 5.0), (0.5, 6.0), (2.0, 5.0), (9.0, 3.0)] {
-            assert_eq!(between(&at, x, value), wanted);
+            assert_eq!(interpolate(&at, x, value), wanted);
         }
     }
 }

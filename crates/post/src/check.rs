@@ -1,8 +1,8 @@
 //! The check of a run: every measure on every view of the interface, in one pass over its records.
 
 mod document;
+mod evaluation;
 mod mesh_mode;
-mod pass;
 mod scales;
 
 use crate::PostError;
@@ -16,13 +16,13 @@ use crate::means::Sources;
 use crate::patch_series::PatchRow;
 use crate::slip_zone::SlipZone;
 use crate::window::{Span, Window};
+use evaluation::Evaluation;
 use output::layout::Pairing;
-use pass::Pass;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::str::FromStr;
 
-pub(crate) use pass::judged_faces;
+pub(crate) use evaluation::judged_faces;
 pub(crate) use scales::Scales;
 
 /// Which pairing in time of slip and traction a check reports.
@@ -31,9 +31,9 @@ pub enum Report {
     /// The one that the file states as its method's own, else the stricter.
     #[default]
     Stated,
-    /// The larger violation of the two.
+    /// The one with the larger violation, measure by measure.
     Stricter,
-    /// One of them.
+    /// This one.
     Only(Pairing),
 }
 
@@ -50,37 +50,39 @@ impl FromStr for Report {
     }
 }
 
-/// What to check.
+/// Options of a check.
 #[derive(Clone, Debug)]
 pub struct CheckOptions<'a> {
-    /// `None` is the run's evaluation window, or all of it.
+    /// The window; `None` for the run's evaluation window, or all records where it has none.
     pub window: Option<Span>,
-    /// Limits.
+    /// Limits of the measures.
     pub limits: Limits,
-    /// Pairing to report.
+    /// Which pairing is reported and judged.
     pub report: Report,
-    /// Where to write per-node violations over time.
+    /// Where to write the measures at each node over time, as VTKHDF; `None` for nowhere.
     pub map: Option<&'a Path>,
 }
 
-/// What a check found.
+/// The result of a check.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// The contract's document.
+    /// The JSON document of `creepage check`, as `docs/checks.md` describes it.
     pub document: Value,
-    /// Whether every limit holds.
+    /// Whether every measure is within its limit.
     pub pass: bool,
-    /// The patch over time.
+    /// The patch over time, a row for each record of the window.
     pub patch: Vec<PatchRow>,
 }
 
-/// Checks the contact conditions of a run against `basis`.
+/// Checks the contact conditions of a run by the law and scales of `basis`, to which it adds scales found in the
+/// records.
 ///
-/// Each record weighs with the time that it stands for, so that spans recorded at every step do
-/// not outweigh others.
+/// Each record is weighted with the time that it stands for, so that spans recorded at every step do not
+/// outweigh others.
 ///
 /// # Errors
-/// Files that cannot be read or lack what the measures are made of; a window without contact.
+/// Files that cannot be read or lack data or scales that the measures need; a window without a record, or
+/// without contact; a map that cannot be written.
 pub fn check(
     paths: &RunPaths,
     basis: &mut Basis,
@@ -90,8 +92,8 @@ pub fn check(
     let window = Window::resolve(options.window, basis, &history)?;
     let records = window.records.clone();
     let scales = Scales::resolve(basis, &history, &records)?;
-    let mut pass = Pass::new(&history, basis, scales);
-    pass.lead_in(records.start)?;
+    let mut evaluation = Evaluation::new(&history, basis, scales);
+    evaluation.lead_in(records.start)?;
     let mut map = options
         .map
         .map(|path| MapWriter::create(path, &history.surface, &paths.contact))
@@ -102,34 +104,34 @@ pub fn check(
     history.stream_batches(records, |frames| {
         if let Some(map) = &mut map {
             for frame in &frames {
-                map.write(&history.surface, frame, &pass.judge, &pass.scales)?;
+                map.write(&history.surface, frame, &evaluation.judge, &evaluation.scales)?;
             }
         }
         if let Ok(line) = &mut line {
             frames.iter().for_each(|frame| line.take(&history.surface, frame));
         }
-        pass.take(frames.into_iter().map(|frame| {
+        evaluation.take(frames.into_iter().map(|frame| {
             let weight = weights[frame.index - first];
             (frame, weight)
         }));
         Ok(())
     })?;
-    if pass.node_times == 0 {
+    if evaluation.node_times == 0 {
         return Err(PostError::Lacks {
             path: paths.contact.clone(),
             what: format!(
                 "no node is in contact in the window: no pressure exceeds {IN_CONTACT} p0 = {:e} Pa",
-                IN_CONTACT * pass.scales.peak_pressure
+                IN_CONTACT * evaluation.scales.peak_pressure
             ),
         });
     }
     let sources = Sources::of(paths, basis, &window)?;
-    let patch = sources.patch(&pass.patch, &weights);
-    let mesh_mode = mesh_mode::document(&pass.mesh_mode, sources.summary(), basis);
-    let (mut document, holds) = pass.document(basis, options, &window, patch, mesh_mode);
+    let patch = sources.patch(&evaluation.patch, &weights);
+    let mesh_mode = mesh_mode::document(&evaluation.mesh_mode, sources.summary(), basis);
+    let (mut document, holds) = evaluation.document(basis, options, &window, patch, mesh_mode);
     document["slip_zone"] = match &line {
         Ok(line) => SlipZone::of(line, &weights).map_or(Value::Null, |zone| zone.document(line)),
         Err(why) => json!({ "note": why.to_string() }),
     };
-    Ok(Checked { document, pass: holds, patch: pass.patch })
+    Ok(Checked { document, pass: holds, patch: evaluation.patch })
 }

@@ -1,8 +1,8 @@
-//! How far runs differ: slip and shear over place and time, their means, their statistics, and how fast a
-//! small disturbance grows between twins.
+//! Differences between runs: slip and shear over place and time, their means and standard deviations, and the
+//! rate at which a small disturbance grows between twins (runs of one mesh with records at the same times).
 //!
-//! A pointwise difference says whether refinement leads to one slip s(x, t); where it does not, means and
-//! standard deviations may still settle.
+//! The pointwise difference shows whether refinement converges to one slip s(x, t); where it does not, means
+//! and standard deviations may still converge.
 
 mod difference;
 mod figure;
@@ -25,13 +25,13 @@ use serde_json::{Value, json};
 
 /// A run to compare.
 pub struct Compared {
-    /// Its files.
+    /// Paths of its files.
     pub paths: RunPaths,
-    /// Its case and scales.
+    /// Its law and scales.
     pub basis: Basis,
 }
 
-/// What a comparison found.
+/// The result of a comparison.
 pub struct Comparison {
     /// The document of `creepage compare`.
     pub document: Value,
@@ -40,21 +40,22 @@ pub struct Comparison {
 }
 
 /// The centre line of a run over the window.
-struct Line {
+struct RunLine {
     line: CentreLine,
     /// The time in the window that each record stands for (s).
     weights: Vec<f64>,
     zone: Option<SlipZone>,
-    /// Of the slip over all faces in contact, in every record of the window.
+    /// Alternating slip over all faces in contact, in every record of the window.
     mesh_mode: MeshMode,
 }
 
-/// Compares runs of one geometry and speed, each with the one before it, over `window`: the first
-/// `[[output.window]]` of the first run unless it is given.
+/// Compares runs of one geometry and speed, each with the one before it, over `window`; where that is `None`,
+/// over the first `[[output.window]]` of the first run, else its evaluation window, else the time that all runs
+/// have records of.
 ///
 /// # Errors
-/// Fewer than two runs, files that cannot be read, a window without records in every run, a case without
-/// a speed.
+/// Fewer than two runs; files that cannot be read; a run without a record in the window, or whose speed, half
+/// axis or peak pressure is not known.
 pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison, PostError> {
     let [first, .., _] = &*runs else {
         return Err(PostError::Asked("two runs or more are needed".into()));
@@ -99,8 +100,8 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
     Ok(Comparison { document, figure: figure::figure(&names, &lines, window) })
 }
 
-/// A run in the document.
-fn describe(run: &Compared, line: &Line) -> Value {
+/// The entry of a run in the document.
+fn describe(run: &Compared, line: &RunLine) -> Value {
     let zone = line.zone.as_ref();
     json!({
         "name": run.basis.name, "folder": run.paths.folder, "side": body_name(line.line.body),
@@ -113,7 +114,11 @@ fn describe(run: &Compared, line: &Line) -> Value {
 }
 
 /// Reads a run over `window`.
-fn read(history: &ContactHistory, basis: &mut Basis, window: [f64; 2]) -> Result<Line, PostError> {
+fn read(
+    history: &ContactHistory,
+    basis: &mut Basis,
+    window: [f64; 2],
+) -> Result<RunLine, PostError> {
     let mut line = CentreLine::new(history, basis)?;
     let p0 = basis.scale("peak_pressure").ok_or(PostError::Unknown {
         name: "Hertz's peak pressure",
@@ -123,7 +128,7 @@ fn read(history: &ContactHistory, basis: &mut Basis, window: [f64; 2]) -> Result
     let faces = judged_faces(history);
     let records = history.window(window)?;
     let all = time_weights(&history.times, window);
-    // one more at each end, where there is one: instants lie between records
+    // one record more at each end, where there is one, to interpolate at the ends of the window
     let around = records.start.saturating_sub(1)..(records.end + 1).min(history.times.len());
     let mut mesh_mode = MeshMode::default();
     history.stream(around.clone(), |frame| {
@@ -137,5 +142,5 @@ fn read(history: &ContactHistory, basis: &mut Basis, window: [f64; 2]) -> Result
     let weights: Vec<f64> =
         around.map(|record| if records.contains(&record) { all[record] } else { 0.0 }).collect();
     let zone = SlipZone::of(&line, &weights);
-    Ok(Line { line, weights, zone, mesh_mode })
+    Ok(RunLine { line, weights, zone, mesh_mode })
 }

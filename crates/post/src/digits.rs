@@ -1,6 +1,6 @@
-//! Numbers as people read them.
+//! Numbers as text for people.
 
-/// A number in few digits.
+/// `value` to `significant` digits, in scientific notation below 1e-3 and from 1e6 on.
 pub(crate) fn digits(value: f64, significant: i32) -> String {
     let size = value.abs();
     let text = if size == 0.0 {

@@ -13,18 +13,18 @@ pub enum PostError {
         path.display()
     )]
     NoContactFile {
-        /// What was given.
+        /// The path that was given.
         path: PathBuf,
     },
-    /// The file is whole but lacks something that the conditions are written in.
+    /// The file can be read but lacks data that the contact conditions need.
     #[error("{}: {what}", path.display())]
     Lacks {
         /// The file.
         path: PathBuf,
-        /// What is missing or wrong, and the remedy.
+        /// What is missing or wrong, as half a sentence.
         what: String,
     },
-    /// A value is not a number.
+    /// A value is not finite.
     #[error(
         "{}: {field} is not a number at node {node} at t = {time:e} s; the run went wrong before, \
          or the file was filled without data: leave that time out with --window",
@@ -35,12 +35,12 @@ pub enum PostError {
         path: PathBuf,
         /// The field.
         field: &'static str,
-        /// Row of the node in the file.
+        /// Index of the node in the file.
         node: usize,
         /// Time (s).
         time: f64,
     },
-    /// A file beside the contact history is no such file.
+    /// A text file (case, summary of a sweep) that cannot be read as what it should be.
     #[error("{}: {reason}", path.display())]
     Text {
         /// The file.
@@ -48,18 +48,18 @@ pub enum PostError {
         /// What is wrong.
         reason: String,
     },
-    /// A scale that the measures need is nowhere to be found.
+    /// A scale that the measures need is not known.
     #[error("{name} is not known: {remedy}")]
     Unknown {
         /// What is missing.
         name: &'static str,
-        /// Where to give it.
+        /// How to state it.
         remedy: &'static str,
     },
-    /// A name, number or range from the user.
+    /// A name, number or range from the user that cannot be used; the message says why.
     #[error("{0}")]
     Asked(String),
-    /// Reading stopped in the middle.
+    /// Data that end early: the file is damaged.
     #[error(
         "{} cannot be read to its end: its headers or data are damaged", path.display()
     )]

@@ -1,4 +1,4 @@
-//! The figures of a run: the papers' ones and those that show what the papers argue about.
+//! The figures of a run: those of the papers, and further ones over space and time.
 
 mod caption;
 mod half_space;
@@ -20,7 +20,7 @@ use output::layout::file;
 
 pub(crate) use scene::{FigureMeans, Instant, Scene};
 
-/// A figure and the name of its files.
+/// A figure with the name of its files.
 #[derive(Clone, Debug)]
 pub struct Named {
     /// Name without extension.
@@ -31,11 +31,12 @@ pub struct Named {
     pub figure: Figure,
 }
 
-/// Draws all figures of a run for which it has the data: those of lines and maps at the last
-/// record of the window and at two before it, the papers' 5.7 us apart where records allow.
+/// All figures of a run for which it has the data. Lines and maps are drawn at the last record of the window and
+/// at two before it, 5.7 us apart (as in the papers) where records allow. `basis` gets scales found in the
+/// records; `window` as in [`CheckOptions`](crate::CheckOptions).
 ///
 /// # Errors
-/// A contact history that cannot be read or lacks what figures are made of.
+/// Files that cannot be read or lack data or scales that the figures need; a window without a record.
 pub fn figures(
     paths: &RunPaths,
     basis: &mut Basis,

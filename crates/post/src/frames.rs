@@ -1,5 +1,5 @@
-//! The contact history, one record after the other: read by threads of their own a few records
-//! at a time and ahead, never held whole.
+//! The contact history, one record after the other. Two threads read a few records at a time, ahead of their
+//! use; all records are never held at once.
 
 use crate::PostError;
 use crate::surface::Surface;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
 
-/// One record.
+/// One record: the fields at all nodes of both surfaces, in the order of the file and in the global frame.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     /// Its index in the file.
@@ -20,11 +20,11 @@ pub struct Frame {
     pub time: f64,
     /// Contact pressure (Pa).
     pub pressure: Vec<f64>,
-    /// The part of it that the node's own pass carries, of a method with two passes (Pa).
+    /// Of penalty contact in two passes, the part of the pressure that the node's own pass carries (Pa).
     pub pass_pressure: Option<Vec<f64>>,
     /// Shear traction on the node's own surface (Pa).
     pub shear: Vec<Vec3>,
-    /// Velocity relative to the other surface (m/s).
+    /// Velocity of the node's own surface relative to the other (m/s).
     pub slip_velocity: Vec<Vec3>,
     /// Gap (m), negative when penetrating.
     pub gap: Option<Vec<f64>>,
@@ -32,11 +32,11 @@ pub struct Frame {
     pub mu: Option<Vec<f64>>,
     /// 0 open, 1 stick, 2 slip.
     pub state: Option<Vec<u8>>,
-    /// Displacement and velocity (m, m/s).
+    /// Displacement (m) and velocity (m/s).
     pub motion: Option<[Vec<Vec3>; 2]>,
 }
 
-/// A contact history that can be judged.
+/// A contact history: its mesh, times and attributes; the records stay in the file.
 #[derive(Clone, Debug)]
 pub struct ContactHistory {
     path: PathBuf,
@@ -44,28 +44,29 @@ pub struct ContactHistory {
     pub surface: Surface,
     /// Time of each record (s).
     pub times: Vec<f64>,
-    /// How a record pairs slip with traction, and whether the file says so itself.
+    /// How a record pairs slip with traction in time, and whether the file states it ([`Pairing::Before`] is
+    /// assumed where it does not).
     pub pairing: (Pairing, bool),
-    /// The body at whose nodes the method enforces the conditions, if the file names one.
+    /// The body (0 disk, 1 bar) at whose nodes the method enforces the conditions, if the file names one.
     pub enforced_on: Option<u8>,
-    /// Whether it enforces them in means over the faces around each node.
+    /// Whether it enforces them in the mean over the faces around each node (mortar).
     pub in_means: bool,
-    /// What its records hold beside tractions and slip velocity.
+    /// The optional fields of its records.
     pub has: Recorded,
 }
 
-/// What records of contact may hold.
+/// Which optional fields the records of a contact history have.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded {
-    /// The gap.
+    /// `gap`.
     pub gap: bool,
-    /// The coefficient of friction that the algorithm used.
+    /// `mu`, the coefficient of friction that the algorithm used.
     pub mu: bool,
-    /// Whether a node sticks or slips.
+    /// `state`: open, stick or slip.
     pub state: bool,
-    /// Displacement and velocity.
+    /// Both `displacement` and `velocity`.
     pub motion: bool,
-    /// The part of the pressure that a node's own pass carries.
+    /// `pass_pressure`, the part of the pressure that a node's own pass carries.
     pub pass_pressure: bool,
 }
 
@@ -73,8 +74,8 @@ impl ContactHistory {
     /// Opens a file of the layout of `contact.vtkhdf`.
     ///
     /// Needed are `pressure` (Pa), `shear` (Pa, 3) and `slip_velocity` (m/s, 3) at the points.
-    /// `gap`, `mu`, `state`, and together `displacement` and `velocity`, serve where they exist;
-    /// so do `area` (else from the mesh) and the cell data `body` (else one body).
+    /// `gap`, `mu`, `state`, `pass_pressure`, and together `displacement` and `velocity`, are used where they
+    /// exist; so are `area` (else from the mesh) and the cell data `body` (else one body).
     ///
     /// # Errors
     /// A file that cannot be read, is of another layout, or holds no record.
@@ -132,7 +133,7 @@ impl ContactHistory {
         Ok(Self { path: path.into(), surface, times, pairing, enforced_on, in_means, has })
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -140,7 +141,7 @@ impl ContactHistory {
     /// Indices of the records from `from` to `to` (s), both included to round-off.
     ///
     /// # Errors
-    /// A window without a record.
+    /// [`PostError::Lacks`] for a window without a record.
     pub fn window(&self, [from, to]: [f64; 2]) -> Result<Range<usize>, PostError> {
         let slack = 1e-9 * self.times.last().copied().unwrap_or(0.0).abs();
         let start = self.times.partition_point(|t| *t < from - slack);
@@ -159,10 +160,10 @@ impl ContactHistory {
         })
     }
 
-    /// One record.
+    /// The record `index` (from 0).
     ///
     /// # Errors
-    /// A record that cannot be read or holds values that are not numbers.
+    /// A record that cannot be read or holds values that are not finite.
     pub fn record(&self, index: usize) -> Result<Frame, PostError> {
         let file = open(&self.path)?;
         let reading = Reading { file: &file, history: self };
@@ -174,10 +175,10 @@ impl ContactHistory {
             .ok_or_else(|| PostError::Damaged { path: self.path.clone() })
     }
 
-    /// Hands every record of `records` to `take`, in order.
+    /// Calls `take` with each of `records`, in order.
     ///
     /// # Errors
-    /// A record that cannot be read or holds values that are not numbers; an error of `take`.
+    /// A record that cannot be read or holds values that are not finite; an error of `take`.
     pub fn stream(
         &self,
         records: Range<usize>,
@@ -186,7 +187,7 @@ impl ContactHistory {
         self.stream_batches(records, |batch| batch.into_iter().try_for_each(&mut take))
     }
 
-    /// As [`Self::stream`], a few records at a time: as many as fit into `BATCH_BYTES`.
+    /// As [`Self::stream`], a few records at a time: at most 16, and at most 4 MiB of them.
     ///
     /// # Errors
     /// As there.
@@ -215,15 +216,16 @@ impl ContactHistory {
     }
 }
 
-/// Numbers that a node has in a record.
+/// Most numbers that a record has for a node.
 const NUMBERS_PER_NODE: usize = 17;
-/// What a batch of records may take: a few of them lie in memory at a time.
+/// Size of a batch of records (bytes), of which a few are in memory at a time.
 const BATCH_BYTES: usize = 4 << 20;
-/// Most records in a batch; more gain nothing.
+/// Most records in a batch; more make it no faster.
 const MOST_IN_BATCH: usize = 16;
-/// Batches read ahead.
+/// Batches that each thread reads ahead.
 const AHEAD: usize = 2;
 
+/// A thread that reads batches of records ahead of their use.
 struct Ahead<T> {
     inbox: Receiver<Result<Vec<T>, PostError>>,
     thread: JoinHandle<()>,
@@ -249,7 +251,7 @@ impl<T: Send + 'static> Ahead<T> {
             for batch in batches {
                 let read = read(&reading, batch);
                 let stop = read.is_err();
-                // a receiver that is gone wants no more
+                // the receiver is gone: no more records are wanted
                 if sender.send(read).is_err() || stop {
                     return;
                 }
@@ -269,16 +271,16 @@ impl<T: Send + 'static> Ahead<T> {
     }
 }
 
-/// Openings of a file that is being extended; one in a thousand meets a header while it is
-/// rewritten.
+/// How often a file is opened that a run may be extending: one opening in a thousand reads a header while it
+/// is rewritten.
 const ATTEMPTS: usize = 5;
 
-/// Opens a grid, again where the opening met the closing of a snapshot.
+/// Opens a grid, up to [`ATTEMPTS`] times.
 pub(crate) fn open(path: &Path) -> Result<GridFile, PostError> {
     open_by(path, |path| GridFile::open(path))
 }
 
-/// Opens a table over time in the same way; none where there is no such file.
+/// Opens a history in the same way; `None` where there is no such file.
 pub(crate) fn open_history(path: &Path) -> Result<Option<HistoryFile>, PostError> {
     if !path.exists() {
         return Ok(None);
@@ -344,7 +346,7 @@ impl Reading<'_> {
         Ok((0..records.len()).map(of).collect())
     }
 
-    /// What a field holds for record `k` of those read.
+    /// The part of `values` that belongs to record `k` of those read.
     fn nodes<'a>(&self, values: &'a [f64], k: usize, components: usize) -> &'a [f64] {
         let count = components * self.history.surface.points.len();
         &values[k * count..(k + 1) * count]
@@ -354,7 +356,7 @@ impl Reading<'_> {
         self.nodes(values, k, 3).as_chunks::<3>().0.to_vec()
     }
 
-    /// A field at all of `records`, the nodes of one after those of the other.
+    /// A field over `records`, one record after the other.
     fn numbers(
         &self,
         field: &'static FieldSpec,

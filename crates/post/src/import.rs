@@ -1,4 +1,4 @@
-//! Contact histories of other codes, from CSV, in the layout that the checks read.
+//! Import of contact histories of other codes from CSV into the layout of `contact.vtkhdf`.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -10,33 +10,36 @@ use output::{
 };
 use thiserror::Error;
 
-/// The tables of a contact history, and where it goes.
+/// Paths of the CSV tables of a contact history and of the file to write.
 #[derive(Clone, Copy, Debug)]
 pub struct ImportFiles<'a> {
-    /// Nodes, one a row: `x`, `y`, `z` (m) and, if wanted, `area` (m2); the first row is node 0.
+    /// Nodes, one a row: `x`, `y`, `z` (m) and optionally `area` (m2); the first row is node 0.
     pub nodes: &'a Path,
     /// Faces, one a row: `n0` to `n3` (counter-clockwise seen from outside) and `body` (0 disk, 1 bar).
     pub faces: &'a Path,
-    /// Values, one row per time and node, times rising; nodes without a row are open.
+    /// Values, one row per time and node, times rising: `time` (s), `node`, `pressure` (Pa), `shear_x` to `_z` (Pa,
+    /// on this surface), `slip_velocity_x` to `_z` (m/s, relative to the other surface), and optionally `gap` (m),
+    /// `mu`, `state`, `velocity_x` to `_z` (m/s), `displacement_x` to `_z` (m). Nodes without a row at a time are
+    /// open: all their values are zero.
     pub values: &'a Path,
     /// The file to write.
     pub out: &'a Path,
 }
 
-/// What an import found.
+/// The size of an imported history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Imported {
-    /// Nodes.
+    /// Number of nodes.
     pub nodes: usize,
-    /// Faces.
+    /// Number of faces.
     pub faces: usize,
-    /// Records written, one per time.
+    /// Number of records written, one per time.
     pub steps: usize,
-    /// Rows of values read.
+    /// Number of rows of values read.
     pub rows: usize,
 }
 
-/// Why tables make no contact history.
+/// Why tables cannot be imported.
 #[derive(Debug, Error)]
 pub enum ImportError {
     /// A table that cannot be read, or a line of it that is wrong.
@@ -52,7 +55,7 @@ pub enum ImportError {
     Output(#[from] OutputError),
 }
 
-/// Fields of the layout, and whether they must be there.
+/// Fields of the layout, and whether they are required.
 static FIELDS: [(&FieldSpec, bool); 8] = [
     (&CONTACT.pressure, true),
     (&CONTACT.shear, true),
@@ -64,10 +67,11 @@ static FIELDS: [(&FieldSpec, bool); 8] = [
     (&CONTACT.displacement, false),
 ];
 
-/// Reads the tables and writes the history.
+/// Reads the tables and writes the history, replacing a file that is there.
 ///
 /// # Errors
-/// [`ImportError`].
+/// A table that cannot be read, lacks a column, or has a value that is no number, a node or body that does not
+/// exist, or a time that falls; a file that cannot be written.
 pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> {
     let mut nodes = Table::open(files.nodes)?;
     let place = nodes.columns(&["x", "y", "z"])?;
@@ -93,7 +97,7 @@ pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> 
     Ok(Imported { nodes: points.len(), faces: faces.len(), steps, rows })
 }
 
-/// Reads the values time by time and writes each record as soon as it is whole.
+/// Reads the values time by time and writes each record as soon as it is complete.
 fn values(
     files: &ImportFiles<'_>,
     points: &[[f64; 3]],

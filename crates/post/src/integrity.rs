@@ -1,4 +1,4 @@
-//! Whether the files of a run are still what the run left.
+//! Verification of the files of a run against the checksums in its summary.
 
 use crate::PostError;
 use crate::basis::RunPaths;
@@ -6,23 +6,23 @@ use crate::frames;
 use output::layout::{attribute, file};
 use output::{OutputError, as_long_as_written, as_written, read_summary};
 
-/// How much is proven.
+/// How much is verified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// The lengths of all files, and every bit of those that are read whole.
+    /// The lengths of all files, and the CRC-32 of those that checks, figures and pages read.
     Read,
-    /// Every bit of all files.
+    /// Lengths and CRC-32 of all files.
     Every,
 }
 
 /// The files that checks, figures and pages are made from, beside the summary.
 const READ: [&str; 4] = [file::CASE, file::CONTACT, file::HISTORY, file::PROBES];
 
-/// Proves by the summary of a run that its files are those that it left; of a run without a summary, which
-/// goes on or was killed, nothing is known. Returns what to warn of: that there was nothing to prove it by.
+/// Verifies the files of a run by the checksums in its summary. Returns a warning where there are none; of a run
+/// that has a checkpoint and no summary yet, nothing is verified and nothing returned.
 ///
 /// # Errors
-/// A file that is not as it was written, or gone though it is needed.
+/// A file that is not as it was written, cannot be read, or is gone though it is needed.
 pub fn prove(paths: &RunPaths, depth: Depth) -> Result<Option<String>, PostError> {
     let folder = &paths.folder;
     let is_read = |name: &str| READ.contains(&name);
@@ -44,11 +44,11 @@ pub fn prove(paths: &RunPaths, depth: Depth) -> Result<Option<String>, PostError
     Ok(None)
 }
 
-/// Proves that the case of a run of version `version` is the one that its files name, for a run whose summary
-/// cannot say so.
+/// Verifies that the case with the hash `hash` is the one that the contact history names, for a run without a
+/// summary. Files that another version than `version` wrote, or another code, are accepted.
 ///
 /// # Errors
-/// A case with another hash.
+/// A contact history that cannot be read or names another hash.
 pub fn prove_case(paths: &RunPaths, hash: &str, version: &str) -> Result<(), PostError> {
     let file = frames::open(&paths.contact)?;
     let of_this_version = file.provenance(attribute::VERSION).is_ok_and(|found| found == version);
@@ -61,7 +61,7 @@ pub fn prove_case(paths: &RunPaths, hash: &str, version: &str) -> Result<(), Pos
     }
 }
 
-/// Data of other codes name something else.
+/// Whether a text is a hash of this program; data of other codes have other texts.
 fn is_hash(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_hexdigit())
 }

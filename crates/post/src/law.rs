@@ -1,8 +1,8 @@
-//! The friction law that a run is measured against.
+//! The friction laws mu(|s|) by which the conditions are judged.
 
 use friction::{Coulomb, Exponential, FrictionLaw, Kind, Parameters};
 
-/// The laws of a case file.
+/// A friction law whose coefficient depends on the slip speed alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// One coefficient.
@@ -21,7 +21,7 @@ impl Law {
         }
     }
 
-    /// Coefficient at a slip speed (m/s).
+    /// Coefficient of friction at a slip speed (m/s).
     pub fn mu(&self, speed: f64) -> f64 {
         match self {
             Law::Coulomb(law) => law.mu(speed),
@@ -29,7 +29,7 @@ impl Law {
         }
     }
 
-    /// Coefficient at rest.
+    /// Coefficient of friction at rest.
     pub fn mu_static(&self) -> f64 {
         match self {
             Law::Coulomb(law) => law.mu_static(),
@@ -40,8 +40,8 @@ impl Law {
     /// Distance of the point (|s|, p_f/p_n) from the graph of the law, the curve
     /// {s = 0, 0 <= p_f/p_n <= mu_S} and {p_f/p_n = mu(|s|)} of the paper's Figure 7.
     ///
-    /// Speeds are counted in units of `scale` (m/s), coefficients of friction as they are; `mu` is
-    /// the law's coefficient at `speed`. On the falling branch the projection is found by Newton's
+    /// `speed` is |s| (m/s), `mu` the law's coefficient there, `ratio` p_f/p_n. Speeds are divided by `scale`
+    /// (m/s). On the falling branch the projection is found by Newton's
     /// iteration from the point's own speed and from rest; the point's own speed itself is a
     /// candidate, so that a point on the graph is at distance 0.
     pub fn distance(&self, speed: f64, mu: f64, ratio: f64, scale: f64) -> f64 {
@@ -61,10 +61,10 @@ impl Law {
                     let residual = (projection - speed) * per_square + (mu - ratio) * slope;
                     let gauss = per_square + slope * slope;
                     let newton = gauss - (mu - ratio) * law.decay * slope;
-                    // where the distance is not convex, Gauss's part of its curvature is
+                    // where the distance is not convex, the Gauss-Newton part of its curvature is used
                     let curvature = if newton > 0.5 * gauss { newton } else { gauss };
                     let next = (projection - residual / curvature).max(0.0);
-                    // what is left is of second order, and the distance about its projection again
+                    // the remaining error is of second order, and so is its effect on the distance
                     let done = (next - projection).abs() <= 1e-3 * scale;
                     (projection, mu) = (next, law.mu(next));
                     if done {

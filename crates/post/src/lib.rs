@@ -1,13 +1,17 @@
-//! What a run means: where and by how much the contact conditions, Eqs. (6) to (8) of Vollebregt
-//! (2017), are violated, what the patch is like, and the figures and the page that show it.
+//! What a run means: where and by how much the contact conditions, Eqs. (6) to (8) of Vollebregt's
+//! *Comments* (2017), are violated, the measures of the patch, and the figures and the page that show them.
 //!
 //! Runs are read through `output` alone, so that results of other codes can be judged once they
-//! have the layout of `contact.vtkhdf`. Of `contact` only definitions are used, the friction laws
-//! and the fit of the patch; the kinematics of the pair is written anew here (module `projection`), so
-//! that a check does not repeat an error of the solver.
+//! have the layout of `contact.vtkhdf`. The friction laws are those of `friction`; of `contact` only the fit
+//! of the patch and the measure of mesh modes are used. The closest-point projection is written anew here
+//! (module `projection`), so that a check does not repeat an error of the solver.
 //!
-//! [`check`](check()) goes through a contact history record by record and gives the document of
-//! `creepage check`; memory does not grow with the number of records beyond a few numbers each.
+//! [`check`](check()) goes through a contact history record by record and returns the document of
+//! `creepage check`. Fields are never held for all records; what is kept of each record are its patch
+//! measures and its centre line.
+//!
+//! Units are SI. x is the direction of rolling, y is lateral, z is up. `p_n` is the pressure, `p_tau` the shear
+//! traction, `p_f` its size, `s` the slip velocity, `mu` the coefficient of friction.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

@@ -1,31 +1,31 @@
-//! The measures by name and what they may amount to.
+//! The measures by name and their limits.
 
 use crate::PostError;
 use std::collections::BTreeMap;
 
-/// A measure of section 8 of the project's physics notes.
+/// A measure of the contact conditions; `docs/checks.md` defines each.
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
-    /// Its name: a contract.
+    /// Its name in documents and options, on which scripts rely.
     pub name: &'static str,
     /// Unit of its value.
     pub units: &'static str,
-    /// Which statistic over nodes and times its value is.
+    /// The statistic over nodes and times that its value is: `max`, `rms`, `share` and so on.
     pub statistic: &'static str,
-    /// What it is, in a phrase.
+    /// Its definition, in a phrase.
     pub about: &'static str,
     /// Limit for methods that enforce the conditions exactly.
     exact: Option<Limit>,
-    /// Limit for a penalty method that can be used.
+    /// Limit for a usable penalty method.
     penalty: Option<Limit>,
 }
 
-/// What a measure may amount to.
+/// The limit of a measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
-    /// At most.
+    /// At most this.
     Most(f64),
-    /// A ratio from 1/x to x, or of two numbers.
+    /// From the first number to the second, both included.
     Between(f64, f64),
 }
 
@@ -39,7 +39,7 @@ impl Limit {
     }
 }
 
-/// All measures, in the order of tables.
+/// All measures, in the order in which tables show them.
 pub const MEASURES: [Measure; 19] = [
     measure("penetration", "1", "max", "penetration over Hertz's approach", most(1e-3), None),
     measure("tension", "1", "max", "tension over p0", most(0.0), most(0.0)),
@@ -97,10 +97,10 @@ pub const MEASURES: [Measure; 19] = [
     measure("mesh_mode", "1", "rms", "slip that alternates from node to node", None, None),
 ];
 
-/// What the coefficient may be off the law's where every step is recorded, with springs: it is the mean over both
-/// passes, whose projections are found again to a tenth of this.
+/// Limit of `mu_error` for penalty springs: the coefficient of a node is the mean over both passes, whose
+/// projections are recomputed to a tenth of this.
 const TWO_PASSES: f64 = 1e-4;
-/// What the median may be off beyond the blur where not.
+/// Limit of `mu_error_blurred`.
 const MU_BLURRED: f64 = 5e-3;
 
 const fn most(value: f64) -> Option<Limit> {
@@ -121,15 +121,15 @@ const fn measure(
 /// The limits of a check.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// For which kind of method they are.
+    /// The kind of method that they are for: `exact` or `penalty`.
     pub set: &'static str,
     of: BTreeMap<&'static str, Limit>,
     asked: Vec<&'static str>,
 }
 
 impl Limits {
-    /// Those for a kind of enforcement: `penalty`, or any other for methods that claim to enforce
-    /// the conditions exactly. Where nothing is known, those of a usable penalty method.
+    /// The limits for `contact.enforcement` of a case: those of a usable penalty method for `penalty` and where
+    /// nothing is known, those of exact enforcement for any other name.
     pub fn for_enforcement(enforcement: Option<&str>) -> Self {
         let exact = enforcement.is_some_and(|name| name != "penalty");
         let limit = |m: &Measure| Some((m.name, if exact { m.exact } else { m.penalty }?));
@@ -140,10 +140,10 @@ impl Limits {
         }
     }
 
-    /// Sets a limit. That of `roughness_ratio` is the larger end of a range around 1.
+    /// Sets the limit of a measure for the user. For `roughness_ratio`, `value` is one end of a range from 1/x to x.
     ///
     /// # Errors
-    /// A name that is no measure, or a value that is no number of at least 0.
+    /// A name that is no measure, or a value that is negative or not finite.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), PostError> {
         let Some(measure) = MEASURES.iter().find(|m| m.name == name) else {
             let names: Vec<_> = MEASURES.iter().map(|m| m.name).collect();
@@ -168,12 +168,12 @@ impl Limits {
         Ok(())
     }
 
-    /// The limit of a measure.
+    /// The limit of the measure `name`, if it has one.
     pub fn of(&self, name: &str) -> Option<Limit> {
         self.of.get(name).copied()
     }
 
-    /// Whether a user asked for it: then a value that cannot be had is a failure.
+    /// Whether the user set the limit of `name`: then the check fails where the measure has no value.
     pub fn was_asked(&self, name: &str) -> bool {
         self.asked.contains(&name)
     }

@@ -1,4 +1,4 @@
-//! Per-node violations over time, for ParaView.
+//! The measures at each node over time, as a VTKHDF file for ParaView.
 
 use crate::PostError;
 use crate::check::Scales;
@@ -11,8 +11,8 @@ use output::{
 };
 use std::path::Path;
 
-/// Fields of a map: name, unit, meaning. Where a field does not apply (out of contact, or no slip)
-/// it is NaN, which ParaView leaves blank.
+/// Fields of the file: name, unit, meaning. Where a field does not apply (no contact, or no slip) it is NaN,
+/// which ParaView leaves blank.
 const FIELDS: [(&str, &str, &str); 10] = [
     ("penetration", "1", "penetration over Hertz's approach"),
     ("cone", "1", "p_f/(mu_S p_n) - 1 above the cone"),
@@ -26,7 +26,7 @@ const FIELDS: [(&str, &str, &str); 10] = [
     ("power", "W/m2", "heat of friction, negative where friction gives energy"),
 ];
 
-/// Writes one record after the other.
+/// Writer of the file, one record after the other.
 pub(crate) struct MapWriter {
     grid: TransientGrid,
     columns: Vec<Vec<f64>>,
@@ -34,6 +34,7 @@ pub(crate) struct MapWriter {
 }
 
 impl MapWriter {
+    /// Creates the file at `path` with the mesh of `surface` and the provenance of the contact history `source`.
     pub fn create(path: &Path, surface: &Surface, source: &Path) -> Result<Self, PostError> {
         let source = GridFile::open(source)?;
         let text = |name: &str| source.provenance(name).unwrap_or_default();
@@ -62,7 +63,7 @@ impl MapWriter {
         })
     }
 
-    /// Judges the nodes with the slip velocity of the same record.
+    /// Appends a record: its tractions judged with the slip velocity of the same record.
     pub fn write(
         &mut self,
         surface: &Surface,
@@ -86,7 +87,7 @@ impl MapWriter {
                 shear: frame.shear[row],
                 slip: frame.slip_velocity[row],
                 mu_used,
-                mu_made: None,
+                mu_recomputed: None,
                 state: None,
             };
             let judged = judge.judge(&node);

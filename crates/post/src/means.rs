@@ -1,8 +1,8 @@
-//! Means over a window, each from the one source that every command shows.
+//! Means over a window, each from one source, so that all commands show the same number.
 //!
-//! A run keeps means over its evaluation window at every step or row of its history and writes them
-//! to its summary; those stand wherever that window is meant. Over any other window the rows of the
-//! history give them, and where there is no history, or no such column, the records of contact.
+//! A run takes means over its evaluation window, over every step or every row of its history, and writes them
+//! to its summary: over that window these are the means. Over any other window they are means of the rows of
+//! the history, and where there is no history, or no such column, of the records of contact.
 
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};
@@ -26,12 +26,12 @@ fn column(measure: &str) -> Option<&'static FieldSpec> {
     HISTORY.each().into_iter().find(|column| column.name == measure || of_patch(&column.name))
 }
 
-/// What a measure of the patch is called in a run's summary and history.
+/// The name of a measure of the patch in a run's summary and history.
 fn name_in_run(measure: &str) -> &str {
     column(measure).map_or(measure, |column| &column.name)
 }
 
-/// Why a measure has no mean where the run itself does not say.
+/// The reason why a measure has no mean, where the run states none.
 fn why_none(measure: &str) -> &'static str {
     match measure {
         "half_length" | "half_width" | "centre" | "peak_pressure" => {
@@ -42,7 +42,7 @@ fn why_none(measure: &str) -> &'static str {
     }
 }
 
-/// Where means over a window come from.
+/// The sources of means over a window.
 pub(crate) struct Sources<'a> {
     summary: Option<&'a Value>,
     history: Option<Rows>,
@@ -56,20 +56,20 @@ struct Rows {
     weights: Vec<f64>,
 }
 
-/// What a source says of a measure.
+/// The mean of a measure from one source.
 #[derive(Default)]
 struct Found {
-    /// Mean and deviation; NaN where the source has no deviation.
+    /// Mean and standard deviation; the latter NaN where the source has none.
     mean: Option<[f64; 2]>,
     from: &'static str,
     /// Half the width of its 95 % confidence interval, by batches of the records.
     half: Option<f64>,
-    /// Why there is none, or what it leaves out.
+    /// Why there is no mean, or which rows it leaves out.
     note: Option<String>,
 }
 
 impl<'a> Sources<'a> {
-    /// Those of a run; the files beside a contact history of another name are not its own.
+    /// The sources of a run. Files beside a contact history of another name do not belong to it.
     pub fn of(paths: &RunPaths, basis: &'a Basis, window: &Window) -> Result<Self, PostError> {
         let own = paths.contact.file_name().is_some_and(|name| name == file::CONTACT);
         let summary = basis.summary.as_ref().filter(|_| own && window.of_summary);
@@ -77,17 +77,17 @@ impl<'a> Sources<'a> {
         Ok(Self { summary, history })
     }
 
-    /// The run's summary, where it is of this window.
+    /// The run's summary, where its means are over this window.
     pub fn summary(&self) -> Option<&'a Value> {
         self.summary
     }
 
-    /// Mean of a measure of the patch or of the creepage, where the run itself holds one.
+    /// Mean of a measure of the patch or of the creepage from the summary or the history.
     pub fn mean(&self, measure: &str) -> Option<f64> {
         self.of_run(measure)?.mean.map(|[mean, _]| mean)
     }
 
-    /// What the run itself says of a measure; nothing where it holds no such number.
+    /// The mean from the summary or the history; `None` where neither has the measure.
     fn of_run(&self, measure: &str) -> Option<Found> {
         let name = name_in_run(measure);
         self.in_summary(name).or_else(|| {
@@ -108,14 +108,15 @@ impl<'a> Sources<'a> {
         Some(Found { mean, from: "summary", half: self.half(name), note })
     }
 
-    /// Half the width of the confidence interval of a mean, by the rows of the history.
+    /// Half the width of the 95 % confidence interval of a mean, from the rows of the history.
     fn half(&self, name: &str) -> Option<f64> {
         let Rows { columns, weights } = self.history.as_ref()?;
         half(weights, columns.get(name)?)
     }
 
-    /// Means and standard deviations of all measures of the patch, those that the run does not hold
-    /// from `rows`, its records of contact, with the time that each stands for.
+    /// The object `patch` of documents: means and standard deviations of all measures of the patch. Those that
+    /// summary and history do not have are means of `rows`, the records of contact, with the times (s) that they
+    /// stand for.
     pub fn patch(&self, rows: &[PatchRow], weights: &[f64]) -> Value {
         let of_records = |i: usize| {
             let values: Vec<f64> = rows.iter().map(|row| row.values[i]).collect();
@@ -140,16 +141,16 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// Half the width of the 95 % confidence interval of a mean over records that count with `weights`; none where a
-/// record has no value, or the records do not tell.
+/// Half the width of the 95 % confidence interval of the weighted mean of `values`; `None` where a record has no
+/// value, or the batches give no interval.
 fn half(weights: &[f64], values: &[f64]) -> Option<f64> {
     let counts = |(weight, value): (&f64, &f64)| *weight <= 0.0 || value.is_finite();
     let whole = weights.len() == values.len() && weights.iter().zip(values).all(counts);
     whole.then(|| of_series(weights, values).ok()).flatten()
 }
 
-/// What the history of the run in `folder` holds for the window; nothing where there is no history or
-/// none of its rows stands for a part of it.
+/// The columns of the history of the run in `folder`, with weights for the window; `None` where there is no
+/// history or none of its rows is in the window.
 fn history(folder: &Path, window: &Window) -> Result<Option<Rows>, PostError> {
     let Some(history) = open_history(&folder.join(file::HISTORY))? else { return Ok(None) };
     let Some(times) = history.column(&HISTORY.time)? else { return Ok(None) };

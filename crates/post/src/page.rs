@@ -1,4 +1,4 @@
-//! One self-contained HTML page that says what a run means: no network, figures inline.
+//! Self-contained HTML pages of a run and of a sweep, with figures inline: no network is needed.
 
 mod numbers;
 mod sweep;
@@ -30,7 +30,8 @@ td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
 @media print{body{max-width:none}figure{break-inside:avoid}}";
 
-/// The page of a run, from the document of its check and its figures.
+/// The HTML page of a run in `folder`, from the document of its check ([`Checked`](crate::Checked)) and its
+/// figures.
 ///
 /// # Errors
 /// A figure that cannot be drawn.
@@ -199,7 +200,8 @@ fn case(out: &mut String, basis: &Basis, checked: &Value) {
 fn patch(out: &mut String, basis: &Basis, checked: &Value) {
     out.push_str(
         "<h2>The patch</h2>\n<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
-         <th></th><th class=\"n\">95 % interval</th><th class=\"n\">deviation</th><th class=\"n\">half-space</th></tr>\n",
+         <th></th><th class=\"n\">95 % interval</th><th class=\"n\">deviation</th>\
+         <th class=\"n\">half-space</th></tr>\n",
     );
     for PatchLine { label, key, factor, unit } in PATCH_TABLE {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));

@@ -6,7 +6,7 @@ use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
 use contact::patch::{self, PatchShape};
 
-/// Measures of the patch, in the order of a row: name, unit, meaning.
+/// Measures of the patch, in the order of [`PatchRow::values`]: name, unit, meaning.
 pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
     ("half_length", "m", "half axis along x of Hertz's distribution fitted to the pressure"),
     ("half_width", "m", "half axis along y of that fit, or half the width of a line contact"),
@@ -27,7 +27,7 @@ pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
 /// A line of a table of the patch.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchLine {
-    /// What it is called there.
+    /// Its label.
     pub label: &'static str,
     /// Its key in `patch` of a check's document: a name of [`PATCH_MEASURES`], or `creepage`.
     pub key: &'static str,
@@ -72,12 +72,12 @@ pub struct PatchRow {
     pub values: [f64; PATCH_MEASURES.len()],
 }
 
-/// Measures the patch of a record on `body`.
+/// Measures the patch of a record on `body`; `p0` is Hertz's peak pressure (Pa), of which contact needs a share.
 ///
 /// The half axes come from a least-squares fit of Hertz's distribution to the pressure, which
-/// resolves fractions of an element; positions are those of the moment. Forces are sums of
-/// pressure along the normals of the deformed surface and of shear, over all nodes under pressure;
-/// they are those on the disk, turned around where `body` is the bar.
+/// resolves fractions of an element; positions are the deformed ones where the record has displacements. Forces
+/// are sums of pressure along the normals of the deformed surface and of shear, over all nodes; they are those
+/// on the disk, with the sign reversed where `body` is the bar.
 pub(crate) fn measure(
     surface: &Surface,
     frame: &Frame,
@@ -129,7 +129,7 @@ pub(crate) fn measure(
     }
 }
 
-/// Sums of the area vectors of the faces around each node under pressure.
+/// For each node the sum of the area vectors of the faces around it that have pressure at a corner.
 fn normals(
     surface: &Surface,
     frame: &Frame,

@@ -1,14 +1,14 @@
-//! The projection of a node on the other surface and the motion there: the kinematics of the pair,
-//! from positions and velocities alone, apart from what any solver said.
+//! The closest-point projection of nodes on the other surface and the slip velocity there, from positions
+//! and velocities alone: nothing of a solver's contact algorithm is used.
 
 use crate::surface::Surface;
 use crate::vector::{Vec3, axpy, cross, dot, negative, norm, sub};
 use std::collections::HashMap;
 
-/// How far (in face coordinates) a projection may lie beyond an edge and still count as on the face.
-const EDGE: f64 = 1e-6;
-/// The same where the ridge between two faces, seen from outside, lies under the node and neither has its projection.
-const RIDGE: f64 = 0.2;
+/// How far (in face coordinates, -1 to 1) a projection may lie beyond an edge and still count as on the face.
+const EDGE_TOLERANCE: f64 = 1e-6;
+/// The same for a node over a convex edge between two faces, which projects on neither of them.
+const CONVEX_EDGE: f64 = 0.2;
 const NONE: u32 = u32::MAX;
 /// Face coordinates of the corners.
 const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -18,19 +18,19 @@ pub(crate) struct Pair {
     /// The body whose nodes are projected.
     pub slave: u8,
     masters: Vec<u32>,
-    /// Masters around each node.
+    /// Master faces around each node.
     around: Vec<Vec<u32>>,
     /// Face of each node's last projection and where it was there.
     last: Vec<(u32, [f64; 2])>,
     grid: HashMap<[i64; 2], Vec<u32>>,
     cell: f64,
-    over_ridges: bool,
+    over_convex_edges: bool,
 }
 
 impl Pair {
-    /// As [`new`](Self::new), where a node over the ridge between two faces has its projection on the edge.
-    pub fn over_ridges(surface: &Surface, slave: u8) -> Self {
-        Self { over_ridges: true, ..Self::new(surface, slave) }
+    /// As [`new`](Self::new), where a node over a convex edge between two faces projects near that edge.
+    pub fn over_convex_edges(surface: &Surface, slave: u8) -> Self {
+        Self { over_convex_edges: true, ..Self::new(surface, slave) }
     }
 
     /// The pair with the nodes of `slave` as slaves.
@@ -54,12 +54,12 @@ impl Pair {
             last: vec![(NONE, [0.0; 2]); surface.points.len()],
             grid: HashMap::new(),
             cell,
-            over_ridges: false,
+            over_convex_edges: false,
         }
     }
 
-    /// The slip velocity of each of `nodes` relative to the other surface, in its tangent plane;
-    /// `None` where the node has no projection.
+    /// The slip velocity (m/s) of each of `nodes` relative to the other surface, in its tangent plane, from
+    /// displacements (m) and velocities (m/s) of all nodes; `None` where the node has no projection.
     pub fn slip(
         &mut self,
         surface: &Surface,
@@ -90,7 +90,8 @@ impl Pair {
     ) -> Vec<Option<(u32, Projection)>> {
         let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
         let corners = |face: u32| surface.faces[face as usize].map(|n| at(n as usize));
-        let on = |face: u32, x: Vec3, start: [f64; 2]| project(corners(face), x, start, EDGE);
+        let on =
+            |face: u32, x: Vec3, start: [f64; 2]| project(corners(face), x, start, EDGE_TOLERANCE);
         let nearest = |faces: &mut dyn Iterator<Item = u32>, x: Vec3| {
             faces
                 .filter_map(|face| Some((face, on(face, x, [0.0; 2]).on_face()?)))
@@ -106,7 +107,7 @@ impl Pair {
                 let corners = surface.faces[last as usize];
                 match on(last, x, start) {
                     Projected::On(projection) => best = Some((last, projection)),
-                    // nodes that meet nodes step over corners all the time
+                    // where nodes face nodes they often pass a corner: its faces are tried first
                     Projected::Beside([xi, eta]) => {
                         let corner = match (xi > 0.0, eta > 0.0) {
                             (false, false) => corners[0],
@@ -131,14 +132,14 @@ impl Pair {
                 }
                 best = nearest(&mut self.near(x), x);
             }
-            if best.is_none() && self.over_ridges {
+            if best.is_none() && self.over_convex_edges {
                 if !sorted {
                     self.sort_faces(surface, displacement);
                     sorted = true;
                 }
                 let beyond =
                     |projection: &Projection| projection.at[0].abs().max(projection.at[1].abs());
-                let on_edge = |face| project(corners(face), x, [0.0; 2], RIDGE).on_face();
+                let on_edge = |face| project(corners(face), x, [0.0; 2], CONVEX_EDGE).on_face();
                 best = (self.near(x))
                     .filter_map(|face| Some((face, on_edge(face)?)))
                     .min_by(|a, b| beyond(&a.1).total_cmp(&beyond(&b.1)));
@@ -150,7 +151,7 @@ impl Pair {
         found
     }
 
-    /// Sorts the faces where they are now into columns over the plane of rolling.
+    /// Sorts the faces by their present position into square columns over the x-y plane.
     fn sort_faces(&mut self, surface: &Surface, displacement: &[Vec3]) {
         self.grid.clear();
         for &face in &self.masters {
@@ -178,20 +179,23 @@ impl Pair {
     }
 }
 
-/// The projection of a node on a face.
+/// The closest-point projection of a node on a face.
 pub(crate) struct Projection {
+    /// Face coordinates.
     at: [f64; 2],
+    /// Bilinear shape functions of the corners there.
     weights: [f64; 4],
     normal: Vec3,
+    /// Distance of the node along the normal (m), negative where it penetrates.
     gap: f64,
-    /// Surface gradients of the weights times the gap: the point of the other body that the node
-    /// touches moves with the face at that distance from it, `-sum levers (normal . v)` faster than
-    /// the projection. A rotation common to both bodies gives no slip.
+    /// Surface gradients of the weights times the gap. The point of the other body at the node moves rigidly with
+    /// the face at the distance of the gap, `-sum levers (normal . v)` faster than the projection: so a rotation
+    /// common to both bodies gives no slip.
     levers: [Vec3; 4],
 }
 
 impl Projection {
-    /// Weights of the corners at the point of the face itself that is nearest.
+    /// Weights of the corners at the projection, moved to the edge of the face where it lies beyond.
     pub fn within(&self) -> [f64; 4] {
         let [xi, eta] = self.at.map(|c| c.clamp(-1.0, 1.0));
         shape(xi, eta)
@@ -216,7 +220,8 @@ impl Projected {
     }
 }
 
-/// Newton's iteration for the projection of `node` on the bilinear face through `x`, up to `edge` beyond its edges.
+/// Newton's iteration for the closest-point projection of `node` on the bilinear face with the corners `x`, from
+/// the face coordinates `[xi, eta]`; up to `edge` beyond the edges it counts as on the face.
 fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> Projected {
     // The face as centre + xi a + eta b + xi eta twist, measured from the node.
     let mixed = |[p, q, r, s]: [f64; 4]| {
@@ -244,7 +249,7 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> 
         if !(xi.abs() < 10.0 && eta.abs() < 10.0) {
             return Projected::Nowhere;
         }
-        // convergence is quadratic: what is left is far below round-off of the weights
+        // convergence is quadratic: the remaining error is far below round-off of the weights
         if step[0].abs() < 1e-8 && step[1].abs() < 1e-8 {
             if xi.abs() > 1.0 + edge || eta.abs() > 1.0 + edge {
                 return Projected::Beside([xi, eta]);
@@ -253,7 +258,7 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> 
             let size = norm(normal);
             let normal = normal.map(|c| c / size);
             let gap = dot(normal, away);
-            // dual tangents
+            // contravariant base vectors
             let duals = [cross(across, normal), cross(normal, along)].map(|g| g.map(|c| c / size));
             let levers = SIGNS.map(|[sx, se]| {
                 let by_xi = 0.25 * sx * (1.0 + se * eta) * gap;
@@ -286,7 +291,7 @@ mod tests {
     fn the_projection_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
         let node = [0.3, 0.6, 0.2];
-        let projection = project(x, node, [0.0; 2], EDGE).on_face().unwrap();
+        let projection = project(x, node, [0.0; 2], EDGE_TOLERANCE).on_face().unwrap();
         let mut point = [0.0; 3];
         for (weight, corner) in projection.weights.into_iter().zip(x) {
             point = axpy(point, weight, corner);
@@ -300,10 +305,10 @@ mod tests {
     #[test]
     fn a_node_beside_the_face_has_no_projection() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2], EDGE);
+        let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2], EDGE_TOLERANCE);
         assert!(matches!(beside, Projected::Beside([xi, eta]) if xi > 1.0 && eta.abs() < 1e-12));
-        assert!(project(x, [f64::NAN; 3], [0.0; 2], EDGE).on_face().is_none());
-        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2], EDGE).on_face().is_none());
+        assert!(project(x, [f64::NAN; 3], [0.0; 2], EDGE_TOLERANCE).on_face().is_none());
+        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2], EDGE_TOLERANCE).on_face().is_none());
     }
 
     #[test]

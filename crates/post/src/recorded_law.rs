@@ -1,4 +1,4 @@
-//! The friction law of a run from what the run left, to make its coefficients again.
+//! The friction law of a run, read from its case and summary, by which its coefficients are recomputed.
 
 use friction::{Expression, FrictionLaw as _, Kind, NodeFriction, Parameters, Table};
 use serde_json::Value;
@@ -9,15 +9,15 @@ use std::sync::Arc;
 pub struct RecordedLaw {
     /// The law.
     pub law: Arc<dyn NodeFriction>,
-    /// Part of the coefficient to which it is known: zero for a law that the case writes out.
+    /// Relative accuracy of its coefficient: zero for a law that the case states.
     pub known_to: f64,
 }
 
-/// The friction law of a case as it lies beside results, whatever its other tables. `sampled` are the points
-/// of a law that was handed over with the run.
+/// The friction law of the case of a run; only its tables `friction` and `contact` are read. `sampled` are the
+/// points of a law that was supplied as a function of Python.
 ///
 /// # Errors
-/// Why there is none, as half a sentence.
+/// The reason why there is none, as half a sentence.
 pub(crate) fn recorded_law(
     case: &toml::Table,
     sampled: Option<&Value>,
@@ -44,8 +44,8 @@ pub(crate) fn recorded_law(
     Ok(RecordedLaw { law: law.into(), known_to })
 }
 
-/// What linear interpolation between every second point is off at those between, relative: of a smooth law
-/// four times what it is off between all.
+/// Largest relative error of linear interpolation between every second point at the points in between: for a
+/// smooth law four times the error of interpolation between all points.
 fn interpolation_error(points: &[[f64; 2]]) -> f64 {
     let Ok(coarse) = Table::new(points.iter().step_by(2).copied().collect()) else { return 1.0 };
     let last = points.len() - 1 - (points.len() - 1) % 2;

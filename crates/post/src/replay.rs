@@ -1,15 +1,16 @@
-//! The coefficient of friction that the law gives, made again from the records.
+//! The law's coefficient of friction, recomputed from the records independently of the solver's coefficient.
 //!
-//! Apart from what the solver says of its coefficient: from the recorded slip velocity, pressure, position and
-//! time, node by node and from the state with which the law begins contact, with the law's own update over a
-//! step. Where every step since then is recorded, this is the law's coefficient to round-off.
+//! At each node the law's state starts with its value at the beginning of contact and is advanced step by step
+//! with the law's own update, from the recorded slip velocity, pressure, position and time. Where every step
+//! since then is recorded, this is the law's coefficient to round-off.
 //!
 //! # Blur
-//! Over steps without a record four states are carried: the law's update over that time at half the
-//! slower and at twice the faster of the slip speeds at both ends, which tell how far the coefficient is blurred, and two
-//! that know nothing of that time: contact that has just begun, and contact that has slipped for long. Where
-//! later steps are all recorded and the law forgets, the four become one again, and the coefficient is
-//! known. A history that begins later than the run begins with the last two.
+//! Over steps without a record the state is not known, and four states are carried. Two bound it by an estimate:
+//! the law's update over that time at half the slower and at twice the faster of the slip speeds at both ends.
+//! The interval between their coefficients is the blur. Two assume nothing about that time: contact that has just
+//! begun, and contact that has slipped for long. Where later steps are all recorded and the law forgets, the
+//! four states become equal, and the coefficient is known. A history that begins later than the run starts with
+//! the last two.
 
 use crate::basis::Basis;
 use crate::frames::{ContactHistory, Frame};
@@ -21,32 +22,33 @@ use friction::{NodeFriction, Place, Remembers};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// What the law allows at a node at an instant.
+/// The coefficients of friction that the law allows at a node at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Allowed {
-    /// The coefficient lies between these.
+    /// Smallest coefficient.
     pub low: f64,
+    /// Largest coefficient.
     pub high: f64,
-    /// Whether the records say so with certainty; else the ends are those of an estimate.
+    /// Whether the records determine the interval; else it is an estimate (the blur).
     pub known: bool,
 }
 
 impl Allowed {
-    /// The coefficient allowed that is nearest to `mu`.
+    /// The allowed coefficient nearest to `mu`.
     pub fn nearest(&self, mu: f64) -> f64 {
         mu.max(self.low).min(self.high)
     }
 }
 
-/// When a method tells the law what.
+/// The pressure and the slip with which a method of enforcement evaluates the law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
-    /// Nodes of one body are slaves. A record holds the slip of the step that leaves; a step is told the
-    /// pressure of the step before, and of none where contact begins.
+    /// Exact enforcement: the nodes of body `slaves` are slaves. A record holds the slip of the step that begins
+    /// there; the law's state is advanced with the pressure of the step before, zero where contact begins.
     Exact { slaves: u8 },
-    /// Nodes of both bodies are slaves in a pass of their own, and a node's coefficient is the mean over all
-    /// pairs that load it. A record holds the slip of the step that led there; a step is told the
-    /// pressure of its own end.
+    /// Penalty in two passes: the nodes of each body are slaves in one, and a node's coefficient is the mean over
+    /// all pairs that load it. A record holds the slip of the step that ends there; the law's state is advanced
+    /// with the pressure at the end of the step.
     Passes,
 }
 
@@ -55,52 +57,57 @@ pub(crate) struct Replay {
     law: Arc<dyn NodeFriction>,
     method: Method,
     dt: f64,
-    /// Slip speed (m/s) below which recorded slip is round-off.
+    /// Round-off of recorded slip speeds (m/s).
     noise: f64,
-    /// Part of the coefficient to which the law itself is known.
+    /// Relative accuracy of the law's coefficient.
     known_to: f64,
     nodes: Vec<NodeState>,
+    /// Time of the last record (s).
     time: Option<f64>,
-    /// Projections of the slaves of both passes.
+    /// Closest-point projections of the slaves of both passes; `None` where the law needs none.
     projections: Option<[Pair; 2]>,
 }
 
-/// States of the law that a node may be in.
+/// The four states of the law at a node, as [`NodeState::states`] lists them.
 type States = [[f64; 2]; 4];
 
-/// What is kept of a node from record to record.
+/// Data of a node that are kept from record to record.
 #[derive(Clone, Copy, Debug, Default)]
 struct NodeState {
     closed: bool,
     slip: f64,
     pressure: f64,
     position: Vec3,
-    /// Contact just begun, slipped for long, the slower way, the faster way.
+    /// Of contact that has just begun, that has slipped for long, at the slower slip, at the faster slip.
     states: States,
 }
 
-/// Part of the coefficient within which states are one.
-const ONE: f64 = 1e-10;
-/// Slip speeds between two records are taken to go so much beyond those of both.
+/// Relative difference of coefficients below which they are equal.
+const SAME_MU: f64 = 1e-10;
+/// Factor by which slip speeds between two records are assumed to leave the range of both.
 const SPEED_MARGIN: f64 = 2.0;
-/// Parts at most into which steps without a record are cut.
-const PARTS: u64 = 16;
-/// Round-off of recorded slip over the rolling speed: what the sweeps of exact enforcement leave.
+/// Most updates of the state over steps without a record.
+const SUBSTEPS: u64 = 16;
+/// Round-off of recorded slip over the rolling speed: the residual of the Gauss-Seidel sweeps of exact
+/// enforcement.
 const ROUND_OFF: f64 = 1e-11;
-/// By how much more than the forces of the passes fail to add up the weights of a mean may be off.
-const PROJECTIONS: f64 = 10.0;
-/// The least such part.
-const LEAST: f64 = 1e-6;
+/// Error of the weights of a mean over the relative mismatch of the forces of the passes.
+const WEIGHT_ERROR_FACTOR: f64 = 10.0;
+/// Smallest error of the weights that is allowed for.
+const LEAST_WEIGHT_ERROR: f64 = 1e-6;
 
 impl Replay {
-    /// The law along `history`, or why it cannot be followed.
+    /// A replay of the law along `history`; `dt` is the time step (s).
+    ///
+    /// # Errors
+    /// The reason why the law cannot be followed, as half a sentence.
     pub fn new(history: &ContactHistory, basis: &Basis, dt: Option<f64>) -> Result<Self, String> {
         let RecordedLaw { law, known_to } = basis.friction.clone()?;
         let constant = law.remembers() == Remembers::Nothing && !law.is_implicit();
         let method = match history.enforced_on {
             Some(slaves) => Method::Exact { slaves },
             None if history.has.pass_pressure && history.has.gap => Method::Passes,
-            // what depends on nothing needs no timing
+            // a constant coefficient depends neither on pressure nor on slip
             None if constant => Method::Passes,
             None => {
                 return Err(
@@ -128,11 +135,11 @@ impl Replay {
             noise: ROUND_OFF * basis.scale("speed").map_or(1.0, f64::abs),
             nodes: vec![NodeState::default(); surface.points.len()],
             time: None,
-            projections: two.then(|| [0, 1].map(|slave| Pair::over_ridges(surface, slave))),
+            projections: two.then(|| [0, 1].map(|slave| Pair::over_convex_edges(surface, slave))),
         })
     }
 
-    /// The first record that must be read for those from `first` on to be judged.
+    /// Index of the first record that must be followed before record `first`.
     pub fn start(&self, first: usize) -> usize {
         match self.law.remembers() {
             Remembers::Nothing => first,
@@ -141,8 +148,8 @@ impl Replay {
         }
     }
 
-    /// The law's coefficient at the same instant at `speed` (m/s), of a law that remembers no more than
-    /// a step.
+    /// The law's coefficient at the slip speed `speed` (m/s) of the same instant; `None` for a law that remembers
+    /// more than one step.
     pub fn at_once(&self, speed: f64, at: &Place) -> Option<f64> {
         (self.law.remembers() != Remembers::Contact).then(|| {
             let state = self.law.advance(self.law.begin(at), speed, at, self.dt);
@@ -150,18 +157,19 @@ impl Replay {
         })
     }
 
-    /// Takes in the next record; what the law allows at each node, where the node is in contact.
+    /// Follows the law to the next record. Returns what the law allows at each node; `None` for nodes out of
+    /// contact or where the coefficient is not known.
     pub fn follow(&mut self, surface: &Surface, frame: &Frame) -> Vec<Option<Allowed>> {
         let steps = self.time.map(|before| (frame.time - before) / self.dt);
         let first = steps.is_none() && frame.index == 0 && frame.time.abs() < 0.5 * self.dt;
-        let between = match steps {
-            None if first => Between::Start,
-            None => Between::Unknown,
-            Some(steps) if (steps - 1.0).abs() < 0.01 => Between::Step,
-            Some(steps) => Between::Steps(steps.round().max(2.0) as u64),
+        let elapsed = match steps {
+            None if first => Elapsed::Start,
+            None => Elapsed::Unknown,
+            Some(steps) if (steps - 1.0).abs() < 0.01 => Elapsed::Step,
+            Some(steps) => Elapsed::Steps(steps.round().max(2.0) as u64),
         };
         let interval = self.time.map_or(self.dt, |before| frame.time - before);
-        let rule = Rule {
+        let update = NodeUpdate {
             law: &*self.law,
             method: self.method,
             in_passes: self.projections.is_some(),
@@ -175,7 +183,7 @@ impl Replay {
             .par_iter_mut()
             .with_min_len(256)
             .enumerate()
-            .map(|(row, node)| rule.advance(node, row, surface, frame, between))
+            .map(|(row, node)| update.advance(node, row, surface, frame, elapsed))
             .collect();
         self.time = Some(frame.time);
         match self.method {
@@ -184,7 +192,7 @@ impl Replay {
         }
     }
 
-    /// Of two passes: the mean over the pairs that load a node, weighted with their normal force.
+    /// Of two passes: the mean of `own` over the pairs that load a node, weighted with their normal forces.
     fn means(
         &mut self,
         surface: &Surface,
@@ -197,7 +205,7 @@ impl Replay {
             return own;
         };
         let pass = frame.pass_pressure.as_deref().unwrap_or(&frame.pressure);
-        let mut means = vec![Mean::default(); own.len()];
+        let mut means = vec![PairMean::default(); own.len()];
         for (row, own) in own.iter().enumerate() {
             if let Some(own) = own {
                 means[row].add(pass[row] * surface.area[row], own);
@@ -225,40 +233,40 @@ impl Replay {
     }
 }
 
-/// How the records reach from the one before to this one.
+/// The time from the previous record to this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Between {
-    /// The start of the run: contact begins.
+enum Elapsed {
+    /// This is the first record and the run starts with it: contact begins.
     Start,
-    /// No record before, though the run has begun.
+    /// This is the first record, but the run started earlier.
     Unknown,
     /// One step.
     Step,
-    /// So many.
+    /// This number of steps.
     Steps(u64),
 }
 
-/// The law at a node from one record to the next.
-struct Rule<'a> {
+/// The update of the law's state at a node from one record to the next.
+struct NodeUpdate<'a> {
     law: &'a dyn NodeFriction,
     method: Method,
-    /// Whether each pass has a law's coefficient of its own.
+    /// Whether the pairs of each pass have coefficients of their own.
     in_passes: bool,
     dt: f64,
     noise: f64,
     known_to: f64,
-    /// From the record before (s).
+    /// Time since the previous record (s).
     interval: f64,
 }
 
-impl Rule<'_> {
+impl NodeUpdate<'_> {
     fn advance(
         &self,
         node: &mut NodeState,
         row: usize,
         surface: &Surface,
         frame: &Frame,
-        between: Between,
+        elapsed: Elapsed,
     ) -> Option<Allowed> {
         let closed = match self.method {
             Method::Exact { slaves } => surface.body[row] == slaves && frame.pressure[row] > 0.0,
@@ -282,47 +290,47 @@ impl Rule<'_> {
         (node.slip, node.pressure, node.position) = (slip, pressure, position);
 
         let begun = self.begin(&at);
-        // of a pair that has just closed the first slip counts for the coefficient, and then again
+        // in a pair that has just closed, the first slip counts for the coefficient now and for the state later
         let mut new_contact = None;
-        node.states = match between {
-            // with the pressure of the preload, which has no dampers yet
-            Between::Start if self.method == Method::Passes => [0.0, 2.0, 1.0, 1.0].map(|part| {
+        node.states = match elapsed {
+            // the pressure of the preload lacks the part of the dampers, which is not known
+            Elapsed::Start if self.method == Method::Passes => [0.0, 2.0, 1.0, 1.0].map(|part| {
                 let preload = Place { pressure: part * pressure, ..at };
                 self.law.advance(self.law.begin(&preload), 0.0, &at, self.dt)
             }),
-            Between::Start => [begun; 4],
-            Between::Step if before => {
+            Elapsed::Start => [begun; 4],
+            Elapsed::Step if before => {
                 let inputs = self.state_inputs(&at, old.pressure);
                 old.states.map(|state| self.law.advance(state, old.slip, &inputs, self.dt))
             }
-            Between::Step => {
+            Elapsed::Step => {
                 if self.method == Method::Passes {
                     new_contact = Some([self.law.advance(begun, slip, &at, self.dt); 4]);
                 }
                 [begun; 4]
             }
-            Between::Steps(steps) if before => {
+            Elapsed::Steps(steps) if before => {
                 let [slow, fast] =
                     [old.slip.min(slip) / SPEED_MARGIN, old.slip.max(slip) * SPEED_MARGIN];
                 let [_, _, a, b] = old.states;
                 let along = |state, speed| self.along(state, speed, &old, &at, steps);
-                let [new, worn] = self.extremes(&at);
-                [new, worn, along(a, slow), along(b, fast)]
+                let [new, long_slipped] = self.extremes(&at);
+                [new, long_slipped, along(a, slow), along(b, fast)]
             }
-            Between::Steps(steps) => {
-                let [new, worn] = self.extremes(&at);
+            Elapsed::Steps(steps) => {
+                let [new, long_slipped] = self.extremes(&at);
                 let outset = NodeState { pressure: 0.0, position, ..old };
-                [new, worn, begun, self.along(begun, slip, &outset, &at, steps)]
+                [new, long_slipped, begun, self.along(begun, slip, &outset, &at, steps)]
             }
-            Between::Unknown => {
-                let [new, worn] = self.extremes(&at);
-                [new, worn, new, worn]
+            Elapsed::Unknown => {
+                let [new, long_slipped] = self.extremes(&at);
+                [new, long_slipped, new, long_slipped]
             }
         };
         self.allowed(new_contact.as_ref().unwrap_or(&node.states), slip, &at)
     }
 
-    /// The state with which contact begins.
+    /// The state at the beginning of contact.
     fn begin(&self, at: &Place) -> [f64; 2] {
         match self.method {
             Method::Exact { .. } => self.law.begin(&Place { pressure: 0.0, ..*at }),
@@ -330,7 +338,8 @@ impl Rule<'_> {
         }
     }
 
-    /// What the state of a step to `at` is updated with, after one with the pressure `before`.
+    /// The arguments of the law's update over a step that ends at `at`; `before` is the pressure (Pa) at its
+    /// beginning.
     fn state_inputs(&self, at: &Place, before: f64) -> Place {
         match self.method {
             Method::Exact { .. } => Place { pressure: before, ..*at },
@@ -338,14 +347,16 @@ impl Rule<'_> {
         }
     }
 
-    /// Contact that has just begun, and contact that has slipped fast, for long and under more pressure.
+    /// The states of contact that has just begun, and of contact that has slipped fast, for long and under more
+    /// pressure.
     fn extremes(&self, at: &Place) -> [[f64; 2]; 2] {
         let new = self.law.begin(&Place { pressure: 0.0, ..*at });
         let more = Place { pressure: 4.0 * at.pressure, ..*at };
-        [new, self.law.advance(new, FAST, &more, LONG)]
+        [new, self.law.advance(new, FAST_SLIP, &more, LONG_TIME)]
     }
 
-    /// The state after steps at one slip speed, while place and pressure go their way evenly.
+    /// The state after `steps` steps at the slip speed `speed` (m/s), with position and pressure interpolated
+    /// linearly.
     fn along(
         &self,
         mut state: [f64; 2],
@@ -354,7 +365,7 @@ impl Rule<'_> {
         to: &Place,
         steps: u64,
     ) -> [f64; 2] {
-        let parts = steps.min(PARTS);
+        let parts = steps.min(SUBSTEPS);
         for part in 1..=parts {
             let left = 1.0 - part as f64 / parts as f64;
             let between = |a: f64, b: f64| b + left * (a - b);
@@ -369,7 +380,7 @@ impl Rule<'_> {
     }
 
     fn allowed(&self, states: &States, slip: f64, at: &Place) -> Option<Allowed> {
-        // not `min` and `max`: what is no number must show
+        // `min` and `max` alone would hide a NaN
         let widened = |[low, high]: [f64; 2], mu: f64| {
             if mu.is_nan() || low.is_nan() { [f64::NAN; 2] } else { [mu.min(low), mu.max(high)] }
         };
@@ -378,7 +389,7 @@ impl Rule<'_> {
             mu.fold([f64::INFINITY, f64::NEG_INFINITY], widened)
         };
         let [low, high] = ends(states);
-        let known = high - low <= ONE * high;
+        let known = high - low <= SAME_MU * high;
         let [mut low, mut high] = if known { [low, high] } else { ends(&states[2..]) };
         if self.law.is_implicit() {
             // at the slip velocity of the same instant, which is known to round-off
@@ -397,29 +408,32 @@ impl Rule<'_> {
     }
 }
 
-/// A slip speed (m/s) and a time (s) beyond those of any contact.
-const FAST: f64 = 10.0;
-const LONG: f64 = 10.0;
+/// A slip speed (m/s) and a duration (s) larger than those of any contact.
+const FAST_SLIP: f64 = 10.0;
+const LONG_TIME: f64 = 10.0;
 
-/// The mean over pairs that load a node.
+/// Sums for the mean over the pairs that load a node.
 #[derive(Clone, Copy, Debug)]
-struct Mean {
+struct PairMean {
+    /// Sum of the normal forces (N).
     force: f64,
+    /// Sums of the ends of the intervals, weighted with these.
     low: f64,
     high: f64,
+    /// Smallest and largest end.
     least: f64,
     most: f64,
     known: bool,
 }
 
-impl Default for Mean {
+impl Default for PairMean {
     fn default() -> Self {
         let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
         Self { force: 0.0, low: 0.0, high: 0.0, least, most, known: true }
     }
 }
 
-impl Mean {
+impl PairMean {
     fn add(&mut self, force: f64, own: &Allowed) {
         if force > 0.0 {
             self.force += force;
@@ -431,13 +445,13 @@ impl Mean {
         }
     }
 
-    /// Of a node that carries `force` (N). The weights come from projections that are found here: how far they may
-    /// be off is seen from the forces, which must add up.
+    /// The mean for a node that carries `force` (N). The weights come from projections recomputed here; their error
+    /// is estimated from the mismatch of the forces, whose sum must be `force`.
     fn allowed(&self, force: f64) -> Option<Allowed> {
         if !(self.force > 0.0 && force > 0.0) {
             return None;
         }
-        let off = (PROJECTIONS * (self.force / force - 1.0).abs()).max(LEAST);
+        let off = (WEIGHT_ERROR_FACTOR * (self.force / force - 1.0).abs()).max(LEAST_WEIGHT_ERROR);
         let slack = off * (self.most - self.least);
         let [low, high] = [self.low, self.high].map(|sum| sum / self.force);
         Some(Allowed {

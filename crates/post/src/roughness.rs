@@ -1,24 +1,23 @@
-//! The argument of the paper's Figure 4 as a number: where slip velocity fluctuates, the law wants
-//! the shear to fluctuate with it.
+//! The argument of the paper's Figure 4 as a number: where the slip velocity fluctuates, the shear must
+//! fluctuate with it by the law.
 
 /// Standard deviations in time of p_f/p_n, of mu(|s|) and of |s|/s_c at slipping nodes, high-passed.
 ///
 /// The high pass subtracts the mean over a tenth of a contact transit, 2a/(10 V), centred on the
-/// sample: the trend that every node goes through along the patch drops out, the fluctuation
-/// stays. A sample counts where the whole span lies in one uninterrupted spell of slip with
-/// records at equal intervals.
+/// sample: this removes the trend along the patch and leaves the fluctuation. A sample counts where the
+/// whole span lies in one uninterrupted spell of slip with records at equal intervals.
 pub(crate) struct Roughness {
     span: f64,
     last: Option<f64>,
     /// Interval of the records, known from the second one on.
     interval: Option<f64>,
-    /// Records since the interval holds, from 0.
+    /// Number of this record since the interval last changed, from 0.
     record: usize,
-    /// Records on each side of the middle of the span; zero where they lie too far apart.
+    /// Records on each side of the middle of the span; zero where they lie too far apart or too close.
     half: usize,
-    /// The values of the last `2 half + 1` records, each for all nodes: so they are met in order.
+    /// The values of the last `2 half + 1` records, each for all nodes: memory is accessed in order.
     ring: Vec<Vec<[f64; 3]>>,
-    /// Record with which the spell of each node began.
+    /// Number of the record with which the spell of each node began, or [`NONE`].
     since: Vec<usize>,
     sums: Vec<[f64; 3]>,
     weight: f64,
@@ -27,7 +26,7 @@ pub(crate) struct Roughness {
 
 const NONE: usize = usize::MAX;
 
-/// Most records in a span; beyond it they lie so close that every second one would do.
+/// Most records in a span, which bounds the memory of the ring. With more there is no measure.
 const MOST: usize = 4001;
 
 impl Roughness {
@@ -47,7 +46,7 @@ impl Roughness {
         }
     }
 
-    /// A new record begins. Where the interval changes, spells begin anew with the record before.
+    /// Begins a record at `time` (s). Where the interval changes, spells restart with the record before.
     pub fn begin(&mut self, time: f64) {
         let Some(last) = self.last.replace(time) else {
             return;
@@ -73,7 +72,7 @@ impl Roughness {
         self.record = 1;
     }
 
-    /// A node slips in this record, with p_f/p_n, mu(|s|) and |s|/s_c.
+    /// Adds a node that slips in this record, with p_f/p_n, mu(|s|) and |s|/s_c, and its area (m2).
     pub fn add(&mut self, node: usize, values: [f64; 3], area: f64) {
         let whole = self.ring.len();
         let slot = self.record % whole;
@@ -98,7 +97,7 @@ impl Roughness {
         }
     }
 
-    /// A node does not slip.
+    /// Adds a node that does not slip: its spell ends.
     pub fn interrupt(&mut self, node: usize) {
         self.since[node] = NONE;
     }

@@ -1,10 +1,10 @@
 //! Statistics of slip over the slip zone: the places along the centre line whose mean slip speed over time
-//! is not small, on the side where the conditions are enforced.
+//! is at least a tenth of the largest, on the side where the conditions are enforced.
 //!
-//! What fluctuates is what differs from the mean over a tenth of a contact transit, 2a/(10 V), about the instant,
-//! as in the measure of roughness: the slow change of a run that is not quite steady does not count. The square is
-//! divided by the share of the others in that mean, (n - 1)/n of n like records (Bessel), so that few records show as
-//! much as many.
+//! The fluctuation is the difference from the running mean over a tenth of a contact transit, 2a/(10 V), centred
+//! on the instant, as in the measure of roughness: the slow change of a run that is not quite steady does not
+//! count. Its square is divided by the share that other records have in that mean, (n - 1)/n of n records of
+//! equal weight (Bessel's correction), so that it does not depend on the number of records in the span.
 
 use crate::centreline::{CentreLine, PLACES, Rows, profile};
 use crate::statistics::mean_and_deviation;
@@ -14,22 +14,23 @@ use serde_json::{Map, Value, json};
 /// A place slips where its mean slip speed over time is at least this part of the largest such mean.
 const SLIPS: f64 = 0.1;
 
-/// Slip of the zone over a window.
+/// Statistics of slip in the zone over a window.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SlipZone {
     /// Indices of its places.
     places: Vec<usize>,
     /// Mean over its places and time (m/s).
     pub mean: f64,
-    /// Root mean square over its places and time of what fluctuates (m/s); none where the records lie too far apart.
+    /// Root mean square of the fluctuation over its places and time (m/s); `None` where the records lie too far
+    /// apart.
     pub fluctuation: Option<f64>,
-    /// That over the root mean square of all slip there.
+    /// The fluctuation over the root mean square of the slip there.
     pub fluctuating_share: Option<f64>,
     /// The largest value (m/s).
     pub largest: f64,
-    /// Half widths of the 95 % confidence intervals of mean, fluctuation and share, or why there is none.
+    /// Half widths of the 95 % confidence intervals of mean, fluctuation and share, or the reason why there is none.
     halves: [Result<f64, &'static str>; 3],
-    /// Standard deviations over the records of the same of single ones.
+    /// Standard deviations over the records of mean, fluctuation and share of single records.
     deviations: [Option<f64>; 3],
 }
 
@@ -38,14 +39,15 @@ pub(crate) struct SlipZone {
 struct Sums {
     weight: f64,
     slip: f64,
-    /// Weight of the records with others about them, and of these the square of what fluctuates and of all slip.
+    /// Weight of the records that have others within the span, and for these the squares of the fluctuation and of
+    /// the slip.
     among: f64,
     fluctuating: f64,
     all: f64,
 }
 
 impl Sums {
-    /// Mean, root mean square of what fluctuates, its share; NaN where there is none.
+    /// Mean, fluctuation and its share; NaN where there is none.
     fn values(&self) -> [f64; 3] {
         let share = if self.all > 0.0 { (self.fluctuating / self.all).sqrt() } else { f64::NAN };
         [self.slip / self.weight, (self.fluctuating / self.among).sqrt(), share]
@@ -53,7 +55,7 @@ impl Sums {
 }
 
 impl SlipZone {
-    /// Of the slip in `line`, the records counting with `weights` (s); none where nothing slips.
+    /// The slip zone of `line`; `weights` are the times (s) that its records stand for. `None` where nothing slips.
     pub fn of(line: &CentreLine, weights: &[f64]) -> Option<Self> {
         let slip = &line.slip;
         let means = profile(slip, weights);
@@ -88,7 +90,7 @@ impl SlipZone {
         let counts = slip.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
         let values = counts.flat_map(|(row, _)| places.iter().map(|&place| row[place]));
         let largest = values.fold(0.0, f64::max);
-        // of a root half the interval of its square over twice the root; of a ratio by what a batch has too much
+        // first order: an interval of r^2 is one of r over 2 r; a ratio of means is linearised about its value
         let of_root = |half: f64, root: f64| if half > 0.0 { 0.5 * half / root } else { 0.0 };
         let square = of_batches(weights, |batch| {
             let batch = over(batch);
@@ -159,10 +161,10 @@ impl SlipZone {
     }
 }
 
-/// The mean of every place over the records within half of `span` (s) before and after each record, and the share of
-/// the other records in it: zero for a record that is alone there, or stands for no time.
+/// For each record the mean of every place over the records within half of `span` (s) before and after it, and the
+/// share of other records in the weight of that mean: zero for a record without others, or without weight.
 fn running_means(times: &[f64], weights: &[f64], rows: &Rows, span: f64) -> (Rows, Vec<f64>) {
-    // sums over all records before, so that a mean is a difference of two
+    // cumulative sums: a mean is a difference of two of them
     let (mut weight, mut sums) = (vec![0.0], vec![vec![0.0; PLACES]]);
     for (row, w) in rows.iter().zip(weights) {
         let before = &sums[sums.len() - 1];

@@ -1,9 +1,9 @@
 //! Weighted moments, extremes and quantiles in one pass.
 
-/// Where a value was found.
+/// A value with its node and time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occurrence {
-    /// Row of the node in the file.
+    /// Index of the node in the file.
     pub node: usize,
     /// Time (s).
     pub time: f64,
@@ -11,8 +11,8 @@ pub struct Occurrence {
     pub value: f64,
 }
 
-/// Weighted mean, mean square, largest absolute value with its place, and quantiles; of the root
-/// mean squares and of the largest values of single records, the deviation.
+/// Weighted mean, mean square, largest absolute value with its place, and quantiles of all values; the standard
+/// deviations over the records of their root mean squares and of their largest values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     weight: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Spread {
     pub worst: Option<Occurrence>,
     /// Weight of the values in each bin.
     bins: Vec<f64>,
-    /// The smallest size; the largest is that of the worst value.
+    /// The smallest |x|; the largest is that of `worst`.
     smallest: f64,
     record: OfRecord,
     rms_of_records: Moments,
@@ -35,7 +35,7 @@ struct OfRecord {
     largest: f64,
 }
 
-/// Weighted mean and deviation of a number that every record has (West 1979).
+/// Weighted mean and standard deviation of a number that every record has (West 1979).
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Moments {
     weight: f64,
@@ -56,9 +56,9 @@ impl Moments {
     }
 }
 
-/// Bins of |x| by its exponent and the first bits of its fraction: a quantile is known to 1.6 %.
+/// Bits of the fraction of |x| that, with its exponent, number its bin: a quantile is known to 1.6 %.
 const FRACTION_BITS: u32 = 6;
-/// Smallest and largest exponent with bins of their own; beyond them all share one.
+/// Biased exponents with bins of their own; one bin holds all values below, one all values above.
 const EXPONENTS: std::ops::Range<u64> = 1023 - 60..1023 + 24;
 const BINS: usize = ((EXPONENTS.end - EXPONENTS.start) << FRACTION_BITS) as usize + 2;
 
@@ -68,7 +68,7 @@ fn bin_of(size: f64) -> usize {
     ((at + 1).saturating_sub(first) as usize).min(BINS - 1)
 }
 
-/// Smallest and largest value of a bin; what is below all of them counts as zero.
+/// Smallest and largest value of a bin; values below the first exponent count as zero.
 fn ends(bin: usize) -> [f64; 2] {
     let first = EXPONENTS.start << FRACTION_BITS;
     let end = |bin: usize| match bin {
@@ -79,7 +79,7 @@ fn ends(bin: usize) -> [f64; 2] {
 }
 
 impl Spread {
-    /// Takes in a value of a node at a time.
+    /// Adds a value of a node at a time (s).
     pub fn add(&mut self, weight: f64, value: f64, node: usize, time: f64) {
         self.weight += weight;
         self.sum += weight * value;
@@ -99,7 +99,7 @@ impl Spread {
         self.bins[bin_of(size)] += weight;
     }
 
-    /// All values of a record that stands for `span` (s) are in.
+    /// Ends a record that stands for `span` (s).
     pub fn end_record(&mut self, span: f64) {
         let record = std::mem::take(&mut self.record);
         if record.weight > 0.0 {
@@ -108,12 +108,12 @@ impl Spread {
         }
     }
 
-    /// How the root mean square of single records varies over the records.
+    /// Standard deviation over the records of their root mean squares.
     pub fn deviation_of_rms(&self) -> Option<f64> {
         self.rms_of_records.deviation()
     }
 
-    /// How the largest value of single records varies over the records.
+    /// Standard deviation over the records of their largest |x|.
     pub fn deviation_of_largest(&self) -> Option<f64> {
         self.largest_of_records.deviation()
     }
@@ -126,13 +126,13 @@ impl Spread {
         (self.weight > 0.0).then(|| (self.squares / self.weight).sqrt())
     }
 
-    /// The size of the worst value.
+    /// The largest |x|.
     pub fn largest(&self) -> Option<f64> {
         self.worst.map(|worst| worst.value.abs())
     }
 
-    /// The value of |x| that the share `share` of the weight does not exceed, to 1.6 % (exact
-    /// where all values are one).
+    /// The value that |x| does not exceed on the share `share` of the weight, to 1.6 % (exact where all values are
+    /// equal).
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let mut below = 0.0;
         let largest = self.largest()?;
@@ -149,10 +149,10 @@ impl Spread {
     }
 }
 
-/// The part (s) of a span from `from` to `to` that each of the records at `times` stands for: half
-/// the way to its neighbours, behind the first and the last as far as before them.
+/// The part (s) of the span from `from` to `to` that each of the records at `times` stands for: up to half-way
+/// to its neighbours. The first and the last reach as far outwards as inwards.
 ///
-/// In a span without length the nearest record stands for everything, as a lone record does.
+/// In a span without length the nearest record has the weight 1 and all others 0; so has a single record.
 pub(crate) fn time_weights(times: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
     let alone = |index: usize| (0..times.len()).map(|i| f64::from(u8::from(i == index))).collect();
     let gap = |i: usize| times.get(i + 1).map(|next| next - times[i]);
@@ -172,8 +172,8 @@ pub(crate) fn time_weights(times: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
     times.iter().enumerate().map(weight).collect()
 }
 
-/// Mean and standard deviation of the values of records that count with `weights`, such as their
-/// [time](time_weights); those that are not finite are left out.
+/// Weighted mean and standard deviation of the values of records; `weights` are their [times](time_weights).
+/// Values that are not finite are left out; `None` where none is left.
 pub(crate) fn mean_and_deviation(
     weights: &[f64],
     values: impl Iterator<Item = f64>,

@@ -1,4 +1,4 @@
-//! The mesh of a contact history and which body each node belongs to.
+//! The mesh of a contact history and the body of each node.
 
 use crate::PostError;
 use crate::vector::Vec3;
@@ -6,7 +6,7 @@ use output::layout::{BODY_NAMES, CONSTANT};
 use output::{FieldSpec, GridFile};
 use std::path::Path;
 
-/// The surfaces of both bodies.
+/// The contact surfaces of both bodies.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Reference coordinates (m).
@@ -21,10 +21,10 @@ pub struct Surface {
     pub area: Vec<f64>,
 }
 
-/// A node that no face uses.
+/// Label in [`Surface::body`] of a node that no face uses.
 pub const NO_BODY: u8 = u8::MAX;
 
-/// The name of a body.
+/// The name of a body by its label: `disk`, `bar`, else `other`.
 pub fn body_name(body: u8) -> &'static str {
     BODY_NAMES.get(usize::from(body)).copied().unwrap_or("other")
 }
@@ -64,7 +64,7 @@ impl Surface {
         Ok(Self { points, faces, face_body, body, area })
     }
 
-    /// Rows of a body's nodes nearest y = 0, by their reference x; `size` is an element's edge (m).
+    /// Indices of a body's nodes nearest y = 0, sorted by their reference x; `size` is the edge of an element (m).
     pub(crate) fn centreline(&self, body: u8, size: f64) -> Vec<usize> {
         let of_body = |&row: &usize| self.body[row] == body;
         let off = |row: usize| self.points[row][1].abs();
@@ -73,12 +73,12 @@ impl Surface {
         let mut rows: Vec<usize> = rows.filter(|&row| off(row) <= least + 0.1 * size).collect();
         let x = |row: usize| self.points[row][0];
         rows.sort_by(|a, b| x(*a).total_cmp(&x(*b)));
-        // where least is not zero there may be a line on each side: one of them is taken
+        // where no node is on y = 0 there may be a line on each side: one node is kept of each two alike in x
         rows.dedup_by(|a, b| (x(*a) - x(*b)).abs() < 0.1 * size);
         rows
     }
 
-    /// Labels of the bodies, sorted.
+    /// Labels of the bodies that have faces, sorted, each once.
     pub fn bodies(&self) -> Vec<u8> {
         let mut labels: Vec<u8> = self.face_body.clone();
         labels.sort_unstable();
@@ -87,7 +87,7 @@ impl Surface {
     }
 }
 
-/// A quarter of every face for each of its nodes.
+/// Area of each node (m2): a quarter of every face around it.
 fn tributary_areas(points: &[Vec3], faces: &[[u32; 4]]) -> Vec<f64> {
     use crate::vector::{cross, norm, sub};
     let mut area = vec![0.0; points.len()];

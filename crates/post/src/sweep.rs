@@ -1,7 +1,7 @@
-//! What a sweep says: how results follow its axes, as figures and as verdicts.
+//! How the results of a sweep depend on its axes, as figures and as verdicts.
 //!
-//! Everything starts from the document `sweep.json`; the profiles read the contact histories of
-//! the runs that it names.
+//! All data are in the document `sweep.json`, except the profiles: these are read from the contact histories
+//! of the runs that it names.
 
 mod document;
 mod figures;

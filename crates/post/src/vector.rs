@@ -1,4 +1,4 @@
-//! The few products of three-vectors that the contact conditions are written in.
+//! Algebra of vectors x, y, z.
 
 pub(crate) type Vec3 = [f64; 3];
 

@@ -1,4 +1,4 @@
-//! The span of time over which a run is judged and averaged: one for every number of a document.
+//! The window of time over which a run is judged and averaged, the same for all numbers of a document.
 
 use crate::PostError;
 use crate::basis::Basis;
@@ -6,12 +6,13 @@ use crate::frames::ContactHistory;
 use crate::statistics::time_weights;
 use std::ops::Range;
 
-/// What part of a run is asked for.
+/// A part of a run that the user asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Span {
     /// From and to (s), both included.
     Between([f64; 2]),
-    /// So many contact transits, 2a/V each, up to the end of the run's evaluation window, or of its records.
+    /// This number of contact transits, 2a/V each, up to the end of the run's evaluation window, or of its
+    /// records where they end before it.
     Transits(f64),
 }
 
@@ -19,7 +20,7 @@ impl Span {
     /// From and to (s).
     ///
     /// # Errors
-    /// Transits of a contact whose length or speed is not known, or more of them than there are records of.
+    /// Half axis or speed not known; transits that begin before the first record.
     pub(crate) fn resolve(
         self,
         basis: &Basis,
@@ -39,7 +40,7 @@ impl Span {
             [.., before, last] => last - before,
             _ => 0.0,
         };
-        // a record need not fall on the end of the window; a run may have ended before it
+        // the last record may lie up to an interval before the end of the window; a run may have ended before
         let whole = |to: f64| last + interval * (1.0 + SAME) >= to;
         let to = basis.window.map(|[_, to]| to).filter(|to| whole(*to)).unwrap_or(last);
         let from = to - transits * 2.0 * a / speed.abs();
@@ -60,19 +61,19 @@ pub(crate) struct Window {
     pub span: [f64; 2],
     /// Indices of the records.
     pub records: Range<usize>,
-    /// Whether it is the one over which the run took the means of its summary.
+    /// Whether it is the window of the means in the run's summary.
     pub of_summary: bool,
 }
 
-/// Part of a time by which two ends of windows may differ and be one: round-off.
+/// Relative difference of two times that is round-off.
 const SAME: f64 = 1e-9;
 
 impl Window {
-    /// The window that was asked for, else the run's evaluation window, else the whole file; the
-    /// whole file too where a run ended, or has come, only to before its evaluation window.
+    /// The window that was asked for, else the run's evaluation window, else all records; all records too where
+    /// the evaluation window has none, since the run ended before it or has not reached it yet.
     ///
     /// # Errors
-    /// A window that was asked for and holds no record.
+    /// A window that was asked for and has no record.
     pub fn resolve(
         asked: Option<Span>,
         basis: &Basis,
@@ -96,7 +97,7 @@ impl Window {
         }
     }
 
-    /// From and to (s) as documents show them: an end that nothing bounds is that of the records.
+    /// From and to (s) as documents show them: an infinite end is replaced by that of the records.
     pub fn ends(&self, times: &[f64]) -> [f64; 2] {
         let ends = [times[self.records.start], times[self.records.end - 1]];
         [0, 1].map(|i| if self.span[i].is_finite() { self.span[i] } else { ends[i] })

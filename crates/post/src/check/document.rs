@@ -1,6 +1,6 @@
-//! What a pass over the records found, as the contract's document.
+//! The JSON document of a check.
 
-use super::pass::{Pass, View};
+use super::evaluation::{Evaluation, View};
 use super::{CheckOptions, Report};
 use crate::accumulator::{Statistic, Switches};
 use crate::basis::{Basis, Bound, SCALES};
@@ -12,8 +12,8 @@ use crate::window::Window;
 use output::layout::Pairing;
 use serde_json::{Map, Value, json};
 
-impl Pass<'_> {
-    /// The document with the means of the patch and what shows a mode of the mesh, and whether every limit holds.
+impl Evaluation<'_> {
+    /// The document, with the objects `patch` and `mesh_mode` that are passed in, and whether every limit holds.
     pub fn document(
         &self,
         basis: &Basis,
@@ -45,7 +45,7 @@ impl Pass<'_> {
             metrics.insert(measure.name.into(), found);
         }
         let mut notes = Vec::new();
-        notes.extend(springs_give(&metrics));
+        notes.extend(compliance_note(&metrics));
         let crossed: usize = self
             .channels
             .iter()
@@ -98,10 +98,10 @@ impl Pass<'_> {
         (document, pass)
     }
 
-    /// Where the coefficient was made again: shares of contact area and time.
+    /// The object `law_followed`: shares of contact area and time on which the law's coefficient is known.
     fn followed(&self) -> Value {
         let mut sums = [0.0; 3];
-        // the other body's nodes receive what the faces hand on
+        // forces on the other body's nodes are those that its faces distribute
         let judged = |body: u8| self.history.enforced_on.is_none_or(|on| on == body);
         for (_, side) in self.sides.iter().filter(|(body, _)| judged(*body)) {
             for (sum, weight) in sums.iter_mut().zip(side.mu.weights()) {
@@ -114,7 +114,7 @@ impl Pass<'_> {
                 "note": self.replay.as_ref().err() })
     }
 
-    /// What the law made again from the records cannot say, and why.
+    /// A note on where the law's coefficient is not known to round-off, and why.
     fn law_followed(&self, metrics: &Map<String, Value>) -> Option<String> {
         if let Err(why) = &self.replay {
             let looked = self.history.has.mu && !why.is_empty();
@@ -151,7 +151,7 @@ impl Pass<'_> {
         ))
     }
 
-    /// What could not be measured.
+    /// Notes on what could not be measured.
     fn gaps(&self, crossed: usize) -> Vec<String> {
         let mut notes = Vec::new();
         let has = self.history.has;
@@ -232,8 +232,8 @@ impl Pass<'_> {
             "roughness_ratio" => libm::log(value).abs(),
             _ => value,
         };
-        // What the faces hand on to the nodes of the other body obeys the law only on the mean; conditions
-        // in means say nothing of single points, nor of the sign of single forces handed on.
+        // Forces that faces distribute to the nodes of the other body obey the law only in the mean; mortar
+        // conditions say nothing of single points, nor of the sign of single distributed forces.
         let in_means = self.history.in_means;
         let judged = |view: &str, pairing: Option<Pairing>| {
             let receives = |body: u8| view == body_name(1 - body);
@@ -266,7 +266,7 @@ impl Pass<'_> {
         entry
     }
 
-    /// Switches by the algorithm's state where the file has it, else by the slip velocity.
+    /// The entry of `switching_rate`: by the algorithm's state where the file has it, else by the slip velocity.
     fn switching(
         &self,
         measure: &Measure,
@@ -301,7 +301,7 @@ impl Pass<'_> {
         entry
     }
 
-    /// The part of the slip that alternates, as the document has it.
+    /// The entry of `mesh_mode`, from the object `mesh_mode` of the document.
     fn mesh_mode(
         &self,
         measure: &Measure,
@@ -368,17 +368,18 @@ impl Pass<'_> {
     }
 }
 
-/// Measures that the give of a penalty method's springs takes beyond their limits.
-const OF_SPRINGS: [&str; 3] = ["law_error", "direction", "violating_fraction"];
+/// Measures that the compliance of penalty springs takes beyond their limits.
+const AFFECTED_BY_COMPLIANCE: [&str; 3] = ["law_error", "direction", "violating_fraction"];
 
-/// What it means that law and direction fail over all that slips, but hold where the algorithm
-/// itself lets nodes slip.
-fn springs_give(metrics: &Map<String, Value>) -> Option<String> {
+/// A note for the case that law and direction fail over all slip, but hold at nodes whose state by the algorithm
+/// is slip.
+fn compliance_note(metrics: &Map<String, Value>) -> Option<String> {
     let holds = |name: &str| metrics[name]["pass"] == json!(true);
     let measured =
         |name: &str| metrics[name]["value"].is_number() && !metrics[name]["limit"].is_null();
     let own = ["law_error_let_slip", "direction_let_slip"];
-    let failed: Vec<&str> = OF_SPRINGS.into_iter().filter(|name| !holds(name)).collect();
+    let failed: Vec<&str> =
+        AFFECTED_BY_COMPLIANCE.into_iter().filter(|name| !holds(name)).collect();
     (!failed.is_empty() && own.iter().all(|name| measured(name) && holds(name))).then(|| {
         format!(
             "law and direction hold where the algorithm lets nodes slip; what takes {} beyond the \
@@ -390,7 +391,7 @@ fn springs_give(metrics: &Map<String, Value>) -> Option<String> {
 }
 
 fn entry(measure: &Measure, value: Option<f64>, limit: Option<Limit>, asked: bool) -> Value {
-    // What nobody asked for and what has no value violates nothing.
+    // A measure without a value fails only where the user set its limit.
     let pass = match (value, limit) {
         (Some(value), Some(limit)) => limit.holds(value),
         (None, Some(_)) => !asked,

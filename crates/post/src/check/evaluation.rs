@@ -21,7 +21,7 @@ use output::layout::Pairing;
 pub(super) enum View {
     /// The nodes of a body with the slip velocity recorded for them.
     Side(u8),
-    /// The slave nodes with their motion relative to the faces of the other side.
+    /// The slave nodes with the slip velocity of their closest-point projection on the other body's faces.
     Pair,
 }
 
@@ -42,39 +42,42 @@ pub(super) struct Channel {
     pub accumulator: Accumulator,
 }
 
-/// A record with what is derived of it.
+/// A record with quantities derived from it.
 struct Record {
     frame: Frame,
     /// The time that it stands for (s).
     weight: f64,
+    /// Whether each node is in contact.
     contact: Vec<bool>,
-    /// The pair's slip where this record, the one before or the one after has contact.
+    /// The pair's slip velocity (m/s) of nodes in contact in this record or the one before.
     pair_slip: Vec<Option<Vec3>>,
-    /// What the law allows the coefficient to be; empty where it cannot be followed.
+    /// The coefficients that the law allows at each node; empty where the law cannot be followed.
     allowed: Vec<Option<Allowed>>,
 }
 
-/// The sums of a check.
-pub(super) struct Pass<'a> {
+/// The measures of a check, accumulated over the records.
+pub(super) struct Evaluation<'a> {
     pub history: &'a ContactHistory,
     pub judge: Judge,
     pub scales: Scales,
     pub channels: Vec<Channel>,
     pub sides: Vec<(u8, SideAccumulator)>,
     pub patch: Vec<PatchRow>,
+    /// Number of nodes in contact, summed over the records.
     pub node_times: usize,
+    /// How many of these have no projection.
     pub without_projection: usize,
-    /// Slip over the faces in contact, where the conditions are enforced.
+    /// Alternating slip over the faces in contact, where the conditions are enforced.
     pub mesh_mode: MeshMode,
     judged_faces: Vec<[u32; 4]>,
-    /// The law along the records, or why it cannot be followed.
+    /// The law followed along the records, or the reason why it cannot be.
     pub replay: Result<Replay, String>,
     shape: PatchShape,
     pair: Option<Pair>,
     previous: Option<Record>,
 }
 
-impl<'a> Pass<'a> {
+impl<'a> Evaluation<'a> {
     pub fn new(history: &'a ContactHistory, basis: &Basis, scales: Scales) -> Self {
         let surface = &history.surface;
         let nodes = surface.points.len();
@@ -115,7 +118,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Follows the law through the records before number `first`, as far back as it remembers.
+    /// Follows the law through the records before number `first`, from the first that its state depends on.
     ///
     /// # Errors
     /// Records that cannot be read.
@@ -128,10 +131,10 @@ impl<'a> Pass<'a> {
         })
     }
 
-    /// Takes in the next records, each with the time that it stands for (s).
+    /// Adds the next records, each with the time that it stands for (s).
     ///
-    /// Views, pairings and sides are independent of each other and each goes through the records
-    /// in order: the same bits on any number of threads and for batches of any size.
+    /// Views, pairings and sides are independent of each other and each goes through the records in order: the
+    /// bits do not depend on the number of threads or the size of batches.
     pub fn take(&mut self, frames: impl IntoIterator<Item = (Frame, f64)>) {
         let limit = IN_CONTACT * self.scales.peak_pressure;
         let (surface, replay) = (&self.history.surface, &mut self.replay);
@@ -153,7 +156,7 @@ impl<'a> Pass<'a> {
             self.channels.iter_mut().partition(|channel| channel.view == View::Pair);
         let (sides, patch) = (&mut self.sides, &mut self.patch);
         let (mesh_mode, faces) = (&mut self.mesh_mode, &self.judged_faces[..]);
-        // The motion of the pair is worked out beside the rest and what hangs on it comes after.
+        // The pair's slip is computed beside the other views; the views that need it follow.
         let mut slips = Vec::new();
         let (motion, lost) = (&mut self.pair, &mut self.without_projection);
         rayon::scope(|scope| {
@@ -202,7 +205,7 @@ impl<'a> Pass<'a> {
 }
 
 impl Channel {
-    /// Judges `records[first..]`; one before them is known already.
+    /// Judges `records[first..]`; a record before them is judged already.
     fn take(
         &mut self,
         history: &ContactHistory,
@@ -261,9 +264,9 @@ impl Channel {
                 shear: traction.shear[row],
                 slip,
                 mu_used: traction.mu.as_ref().map(|mu| mu[row]),
-                mu_made: replay
-                    .filter(|_| judge.bound == Bound::Used)
-                    .and_then(|replay| made(replay, surface, traction, allowed, slip, row)),
+                mu_recomputed: replay.filter(|_| judge.bound == Bound::Used).and_then(|replay| {
+                    recomputed_mu(replay, surface, traction, allowed, slip, row)
+                }),
                 state: traction.state.as_ref().map(|state| state[row]),
             };
             accumulator.add(row, traction.time, surface.area[row], weight, &judge.judge(&node));
@@ -272,9 +275,10 @@ impl Channel {
     }
 }
 
-/// The law's coefficient: of one that remembers no more than a step that at the slip velocity of the same
-/// instant, else that of its own state. Where the latter is blurred it is no bound, and the one used stands in.
-fn made(
+/// The law's coefficient: of a law that remembers no more than one step, at the slip velocity of the same instant;
+/// else that of its recomputed state. Where the state is not known to round-off, the coefficient used by the
+/// algorithm.
+fn recomputed_mu(
     replay: &Replay,
     surface: &Surface,
     frame: &Frame,
@@ -291,8 +295,8 @@ fn made(
     })
 }
 
-/// The pair's slip in `records[first..]`, where a record or the one before it has contact: both
-/// pairings need it. `lost` counts nodes in contact without a projection.
+/// The pair's slip velocity in `records[first..]` at nodes in contact in the record or the one before it, since
+/// both pairings need it. `lost` counts nodes in contact without a projection.
 fn pair_slips(
     pair: &mut Pair,
     surface: &Surface,
@@ -329,7 +333,7 @@ pub(crate) fn judged_faces(history: &ContactHistory) -> Vec<[u32; 4]> {
     faces.filter(|(_, body)| judged(**body)).map(|(face, _)| *face).collect()
 }
 
-/// The body with the smaller nodal area, the first of equals: its nodes follow the other's faces.
+/// The body with the smaller mean nodal area, the first of equals: the slave of the pair.
 fn finer_body(surface: &Surface, bodies: &[u8]) -> u8 {
     let mean = |body: u8| {
         let areas = surface.body.iter().zip(&surface.area).filter(|(b, _)| **b == body);
@@ -343,6 +347,7 @@ fn finer_body(surface: &Surface, bodies: &[u8]) -> u8 {
     }
 }
 
+/// Adds a record to the measures of one body.
 fn take_side(
     side: &mut SideAccumulator,
     body: u8,
@@ -380,7 +385,8 @@ fn take_side(
     side.end_record(*weight);
 }
 
-/// By how much shear is above the cone, over the cone; where that is nothing all shear is beyond any number.
+/// Relative excess of the shear over the cone, shear/cone - 1; 0 where there is no shear, infinite where shear
+/// meets a cone of zero.
 fn excess(shear: f64, cone: f64) -> f64 {
     if shear == 0.0 { 0.0 } else { shear / cone - 1.0 }
 }

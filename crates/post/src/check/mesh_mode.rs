@@ -1,10 +1,10 @@
-//! Whether slip shows a mode of the mesh.
+//! The object `mesh_mode` of documents: slip that alternates from node to node.
 
 use crate::basis::Basis;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
 use serde_json::{Value, json};
 
-/// `mesh_mode` of a document: what a run's `summary` of the same window says, else the records' slip.
+/// The object from a run's `summary` of the same window, else from the slip of the records.
 pub(super) fn document(records: &MeshMode, summary: Option<&Value>, basis: &Basis) -> Value {
     if let Some(of_run) = summary.and_then(|summary| summary.get("mesh_mode")) {
         let mut found = of_run.clone();
@@ -12,12 +12,12 @@ pub(super) fn document(records: &MeshMode, summary: Option<&Value>, basis: &Basi
         return found;
     }
     let speed = basis.scale("speed").map(f64::abs);
-    // without a speed a hundredth of the slip that creepage makes is hardly any
+    // without a speed, a hundredth of s_c
     let least =
         speed.map(|speed| LEAST_SLIP * speed).or(basis.scale("slip_speed").map(|s| 1e-2 * s));
     let share = records.share(least.unwrap_or(0.0));
     let layers = basis.case.as_ref().and_then(|case| case.get("element")?.get("contact_layers"));
-    // a case that does not say so is of another code, or of the default of its version
+    // a case without the key is of another code, or of a version that had one-point layers by default
     let one_point = layers.and_then(toml::Value::as_str) != Some("full");
     let warnings: Vec<_> = share.and_then(|share| warning(share, one_point)).into_iter().collect();
     json!({

@@ -5,21 +5,30 @@ use crate::basis::{Basis, Bound};
 use crate::frames::ContactHistory;
 use crate::patch_series;
 
-/// The scales that every check needs.
+/// The scales of a check (SI).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales {
+    /// p0 (Pa).
     pub peak_pressure: f64,
+    /// Hertz's approach (m).
     pub approach: Option<f64>,
+    /// s_c (m/s).
     pub slip_speed: f64,
     /// A tenth of a contact transit (s).
     pub roughness_span: Option<f64>,
+    /// Edge of a surface element (m).
     pub size: f64,
+    /// Speed of shear waves (m/s).
     pub shear_wave: Option<f64>,
+    /// Time step (s).
     pub dt: Option<f64>,
 }
 
 impl Scales {
-    /// What the basis knows, completed from the records where that can be done.
+    /// The scales that the basis knows, completed from the records where possible.
+    ///
+    /// # Errors
+    /// A scale that cannot be found; no bound of friction; a record that cannot be read.
     pub fn resolve(
         basis: &mut Basis,
         history: &ContactHistory,

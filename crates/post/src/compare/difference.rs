@@ -1,16 +1,16 @@
-//! By how much two runs differ along the centre line.
+//! The difference of two runs along the centre line.
 
-use super::Line;
-use crate::centreline::{CentreLine, PLACES, Rows, between, profile};
+use super::RunLine;
+use crate::centreline::{CentreLine, PLACES, Rows, interpolate, profile};
 use serde_json::{Value, json};
 
-/// Instants from one end of the window to the other at which both are looked at.
+/// Number of equally spaced instants of the window at which both are compared.
 pub(super) const INSTANTS: usize = 97;
 
-/// Root mean squares of what differs over those of the second run: over place and time, of the means in time,
-/// and of the standard deviations in time.
+/// Root mean square of the difference over that of the second run: pointwise over place and time, of the means in
+/// time, and of the standard deviations in time.
 pub(super) fn of(
-    runs: [&Line; 2],
+    runs: [&RunLine; 2],
     quantity: fn(&CentreLine) -> &Rows,
     [from, to]: [f64; 2],
 ) -> Value {
@@ -26,13 +26,13 @@ pub(super) fn of(
     })
 }
 
-/// A quantity at instants, linear between records.
+/// A quantity at `instants` (s), linear between records.
 fn at(times: &[f64], rows: &Rows, instants: &[f64]) -> Rows {
-    let value = |instant: f64, place: usize| between(times, instant, |k| rows[k][place]);
+    let value = |instant: f64, place: usize| interpolate(times, instant, |k| rows[k][place]);
     instants.iter().map(|&t| (0..PLACES).map(|place| value(t, place)).collect()).collect()
 }
 
-/// Root mean square of what differs over that of the second; none where that is nothing.
+/// Root mean square of the difference over that of `b`; `None` where `b` is zero.
 fn apart(a: &[f64], b: &[f64]) -> Option<f64> {
     let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
     let all = squares(&mut b.iter().copied());

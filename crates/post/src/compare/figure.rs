@@ -1,6 +1,6 @@
 //! The slip speed of all runs along the centre line.
 
-use super::Line;
+use super::RunLine;
 use crate::centreline::profile;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 
@@ -8,7 +8,7 @@ const COLOURS: [[u8; 3]; 6] =
     [colour::BLACK, colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE];
 
 /// Mean in time as a line, one standard deviation to either side dashed.
-pub(super) fn figure(names: &[&str], lines: &[Line], [from, to]: [f64; 2]) -> Figure {
+pub(super) fn figure(names: &[&str], lines: &[RunLine], [from, to]: [f64; 2]) -> Figure {
     let mut series = Vec::new();
     for (k, (name, line)) in names.iter().zip(lines).enumerate() {
         let colour = COLOURS[k % COLOURS.len()];

@@ -1,5 +1,5 @@
-//! How fast a small disturbance grows: two runs of one mesh whose records have the same times, such as the
-//! members of an ensemble, differ more and more until the difference is as large as the slip itself.
+//! The rate at which a small disturbance grows: two runs of one mesh whose records have the same times, such as
+//! members of an ensemble, diverge until the difference is as large as the slip itself.
 
 use crate::PostError;
 use crate::basis::Basis;
@@ -7,14 +7,14 @@ use crate::frames::ContactHistory;
 use crate::vector::{dot, sub};
 use serde_json::{Value, json};
 
-/// Difference over the largest slip (root mean square over the nodes) up to which it grows as a small one does.
+/// Difference over the largest slip (root mean squares over the nodes) up to which it counts as small.
 const SMALL: f64 = 1e-2;
-/// Fewer records than this, or a smaller growth, give no rate.
+/// There is no rate from fewer records than this, or from less growth than this factor.
 const LEAST_RECORDS: usize = 5;
 const LEAST_GROWTH: f64 = 10.0;
 
-/// Rate of growth of the slip's difference (1/s) with what it was found over, or why there is none; null for runs
-/// that are no twins.
+/// Rate of growth of the difference of slip (1/s) with the records that it was fitted to, or the reason why there
+/// is none; null for runs that are no twins.
 pub(super) fn growth(bases: [&Basis; 2], [a, b]: [&ContactHistory; 2]) -> Result<Value, PostError> {
     let [case, other] = bases.map(undisturbed);
     let alike = case == other
@@ -37,7 +37,7 @@ pub(super) fn growth(bases: [&Basis; 2], [a, b]: [&ContactHistory; 2]) -> Result
         series.push([frame.time, apart.sqrt()]);
         Ok(())
     })?;
-    // not by the slip of the same record, which is nothing while everything sticks
+    // by the largest slip of all records: that of the same record is zero while everything sticks
     series.iter_mut().for_each(|[_, apart]| *apart /= largest.max(f64::MIN_POSITIVE));
     Ok(rate(&series))
 }
@@ -54,8 +54,8 @@ fn undisturbed(basis: &Basis) -> Option<toml::Table> {
     Some(case)
 }
 
-/// Least-squares slope of the logarithm of the difference over time, from the first difference to the last
-/// record before it ceases to be small.
+/// Least-squares slope of the logarithm of the difference over time, from the first record with a difference to
+/// the last one in which it is small.
 fn rate(series: &[[f64; 2]]) -> Value {
     let first = series.iter().position(|[_, apart]| *apart > 0.0);
     let Some(first) = first else {

@@ -1,10 +1,10 @@
-//! The key numbers of a case, in a caption.
+//! Captions with the key numbers of a case.
 
 use super::scene::Scene;
 use crate::basis::number_at;
 use crate::law::Law;
 
-/// The caption of a figure: the case's numbers, then what the figure shows.
+/// The caption of a figure: the key numbers of the case, then `text`.
 pub(super) fn caption(scene: &Scene<'_>, text: &str) -> String {
     let basis = scene.basis;
     let mut parts = Vec::new();

@@ -5,7 +5,7 @@ use crate::basis::number_at;
 use crate::law::Law;
 
 /// Shear along y = 0 by CONTACT (E. A. H. Vollebregt, Apache-2.0) for steady rolling of the
-/// reference wheel; the file's head says for which numbers.
+/// reference wheel; the head of the file states its parameters.
 const TABLE: &str = include_str!("../../../verify/data/steady-rolling-y0.csv");
 /// T/N of its columns of shear.
 const TRACTIONS: [(f64, usize); 3] = [(0.15, 2), (0.28, 4), (0.40, 6)];
@@ -15,10 +15,10 @@ const POISSON: f64 = 0.3;
 const HALF_AXES: [f64; 2] = [7.1617e-3, 5.3872e-3];
 const PEAK_PRESSURE: f64 = 1.23756e9;
 
-/// How far T/(mu N) may be from that of the table.
+/// Largest difference of T/(mu N) from that of the table.
 const NEAR: f64 = 0.05;
 
-/// Name and points (m, Pa) of the half-space's shear.
+/// Shear along y = 0 of half-spaces: label, and points x (m), p_f (Pa).
 pub(super) struct Reference {
     pub label: String,
     pub points: Vec<[f64; 2]>,
@@ -26,10 +26,10 @@ pub(super) struct Reference {
 
 /// The reference for a case, where there is one.
 ///
-/// Steady rolling of equal half-spaces with Coulomb friction along x depends, once x is counted in
-/// a and shear in mu p0, on Poisson's ratio, a/b and T/(mu N) alone. A case therefore has a
-/// reference where its friction is Coulomb's, its Poisson's ratio is 0.3, its a/b within 1 % of the
-/// table's, and its T/(mu N) within 0.05 of one of 0.30, 0.56 and 0.80.
+/// In steady rolling of equal half-spaces with Coulomb friction along x, the shear over mu p0 as a function of
+/// x/a depends on Poisson's ratio, a/b and T/(mu N) alone. A case therefore has a reference where its friction is
+/// Coulomb's, its Poisson's ratio is 0.3, its a/b within 1 % of the table's, and its T/(mu N) within 0.05 of one of
+/// 0.30, 0.56 and 0.80.
 pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
     let basis = scene.basis;
     let Some(Law::Coulomb(law)) = basis.law else {

@@ -51,10 +51,10 @@ static PANELS: [(&str, &[Line]); 6] = [
     ),
 ];
 
-/// Pixel columns for which lines are thinned.
+/// Number of pixel columns to which lines are thinned.
 const COLUMNS: usize = 1200;
 
-/// The histories; `None` where there is no history.
+/// The histories of the file at `path`; `None` where there is none, or fewer than two rows.
 pub(super) fn histories(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
     let Some(history) = open_history(path)? else { return Ok(None) };
     let Some(time) = history.column(&HISTORY.time)?.filter(|time| time.len() > 1) else {

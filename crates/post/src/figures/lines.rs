@@ -6,7 +6,7 @@ use super::scene::{INSTANTS, Instant, Scene, time_label};
 use crate::vector::norm;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 
-/// A quantity of a node of a record, drawn against x.
+/// A quantity of a record at a node, drawn against x.
 type Quantity<'a> = &'a dyn Fn(&Instant, usize) -> f64;
 
 fn x_axis(scene: &Scene<'_>) -> Axis {
@@ -14,7 +14,8 @@ fn x_axis(scene: &Scene<'_>) -> Axis {
     Axis::linear("x from the patch's centre (mm)").over(-reach, reach)
 }
 
-/// One quantity along y = 0 of a body, within what is drawn.
+/// One quantity along y = 0 of a body within the range of x that is drawn: x relative to the patch's centre (mm),
+/// value.
 fn along(scene: &Scene<'_>, instant: &Instant, body: u8, quantity: Quantity<'_>) -> Vec<[f64; 2]> {
     let place = |row: usize| scene.position(&instant.frame, row)[0] - instant.centre;
     let rows = scene.centreline(body).into_iter();
@@ -26,7 +27,7 @@ fn panel(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Panel {
     Panel { title: title.into(), x, y, fill: None, series, marks: Vec::new() }
 }
 
-/// Lines of a quantity at each instant.
+/// Lines of a quantity, one for each instant.
 fn at_instants(scene: &Scene<'_>, body: u8, label: bool, quantity: Quantity<'_>) -> Vec<Series> {
     let instants = scene.instants.iter().zip(INSTANTS);
     instants
@@ -136,7 +137,7 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
     Figure { size: [760, 500], columns: 1, panels, caption: caption(scene, &text) }
 }
 
-/// Figure 4: the bound mu(|s|) p over the shear, and p_f/p with the bound.
+/// Figure 4: the bound mu(|s|) p_n beside the shear, as tractions and over the pressure.
 pub(super) fn bound(scene: &Scene<'_>) -> Figure {
     let in_contact = |instant: &Instant, row: usize, value: f64| {
         if scene.in_contact(&instant.frame, row) { value } else { f64::NAN }

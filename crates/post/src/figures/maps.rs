@@ -1,4 +1,4 @@
-//! Maps: stick and slip over the patch, slip along y = 0 over time.
+//! Maps of stick and slip over the patch, and of slip along y = 0 over time.
 
 use super::caption::caption;
 use super::scene::{Instant, Scene, time_label};
@@ -6,8 +6,8 @@ use crate::PostError;
 use crate::vector::norm;
 use figure::{Axis, Cell, Figure, Fill, Key, Panel, Scale, colour};
 
-/// What is drawn of the window's records: the centre line over time, and every node in contact as
-/// a point (|s|, p_f/p).
+/// The data of all records of the window that figures show: the centre line over time, and the points
+/// (|s| (m/s), p_f/p_n) of nodes in contact.
 pub(super) struct Band {
     samples: Vec<Sample>,
     pub points: Vec<[f64; 2]>,
@@ -15,17 +15,21 @@ pub(super) struct Band {
 
 /// A node of the centre line in contact at one time.
 struct Sample {
+    /// From and to (s).
     time: [f64; 2],
+    /// Relative to the patch's centre (m).
     x: f64,
+    /// |s| (m/s).
     speed: f64,
     state: Option<u8>,
+    /// p_f/p_n.
     ratio: f64,
 }
 
-/// Cells are this much larger than their share, since strain and rounding would leave seams.
+/// Factor by which cells are enlarged, since strain and rounding would leave gaps between them.
 const SEAM: f64 = 1.02;
 
-/// Most records that a diagram over time shows.
+/// Most records that the diagram over time shows.
 const MOST_COLUMNS: usize = 400;
 
 impl Band {
@@ -37,14 +41,14 @@ impl Band {
         let mut seen = std::collections::HashSet::new();
         let times = &history.times;
         history.stream(scene.records.clone(), |frame| {
-            let judged = |row: usize| {
+            let speed_and_ratio = |row: usize| {
                 let speed = norm(frame.slip_velocity[row]);
                 (speed, norm(frame.shear[row]) / frame.pressure[row])
             };
             for row in 0..frame.pressure.len() {
                 if history.surface.body[row] == scene.body && scene.in_contact(&frame, row) {
-                    let (speed, ratio) = judged(row);
-                    // dots that would cover each other are drawn once
+                    let (speed, ratio) = speed_and_ratio(row);
+                    // dots that would overlap are drawn once
                     let place = [(speed / 8e-3) as i64, (ratio / 2e-3) as i64];
                     if seen.insert(place) {
                         band.points.push([speed, ratio]);
@@ -69,7 +73,7 @@ impl Band {
             ];
             for &row in &line {
                 if scene.in_contact(&frame, row) {
-                    let (speed, ratio) = judged(row);
+                    let (speed, ratio) = speed_and_ratio(row);
                     band.samples.push(Sample {
                         time,
                         x: scene.position(&frame, row)[0] - centre,
@@ -85,7 +89,7 @@ impl Band {
     }
 }
 
-/// Stick dark, slip light: apart for the colour-blind and in grey.
+/// Stick dark, slip light: distinct for the colour-blind and in grey.
 fn states() -> Key {
     Key::Classes(vec![("stick".into(), colour::BLUE), ("slip".into(), colour::ORANGE)])
 }
@@ -98,7 +102,7 @@ fn state_colour(state: Option<u8>) -> [u8; 3] {
     }
 }
 
-/// Speeds over whole decades up to the largest, at most four.
+/// A logarithmic key of slip speeds over the three decades up to the one of the largest.
 fn speeds(values: impl Iterator<Item = f64>) -> Key {
     let largest = values.filter(|v| v.is_finite()).fold(0.0f64, f64::max);
     let top = if largest > 0.0 { libm::log10(largest).ceil() } else { 0.0 };

@@ -1,11 +1,11 @@
-//! Figure 7's analogue: all nodes of the window over the friction law.
+//! The analogue of the paper's Figure 7: all nodes of the window over the friction law.
 
 use super::caption::caption;
 use super::maps::Band;
 use super::scene::Scene;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 
-/// p_f/p against |s| of every node in contact in the window, over the graph of the law.
+/// p_f/p_n against |s| of every node in contact in the window, over the graph of the law.
 pub(super) fn law(scene: &Scene<'_>, band: &Band) -> Figure {
     let fastest = band.points.iter().map(|p| p[0]).fold(1e-3, f64::max);
     let mut series = vec![Series {

@@ -1,4 +1,4 @@
-//! What every figure is drawn from.
+//! The data that figures of a run are drawn from.
 
 use crate::basis::Basis;
 use crate::check::Scales;
@@ -8,13 +8,13 @@ use crate::vector::{Vec3, axpy};
 use figure::colour;
 use std::ops::Range;
 
-/// Interval of the papers' snapshots (s).
+/// Interval of the snapshots in the papers (s).
 const SNAPSHOTS: f64 = 5.7e-6;
 
 /// Colours of the three instants.
 pub(crate) const INSTANTS: [[u8; 3]; 3] = [colour::BLUE, colour::RED, colour::GREEN];
 
-/// A record that is drawn, with where its patch is.
+/// A record that is drawn, with the centre of its patch.
 pub(crate) struct Instant {
     pub frame: Frame,
     /// x of the patch's centre (m).
@@ -29,23 +29,24 @@ pub(crate) struct FigureMeans {
     pub traction_coefficient: Option<f64>,
 }
 
-/// What every figure is drawn from.
+/// The data that figures of a run are drawn from.
 pub(crate) struct Scene<'a> {
     pub history: &'a ContactHistory,
     pub basis: &'a Basis,
     pub scales: Scales,
     /// The body whose nodes are drawn: the bar where there are two.
     pub body: u8,
+    /// Indices of the records of the window.
     pub records: Range<usize>,
-    /// From and to (s).
+    /// The window, from and to (s).
     pub window: [f64; 2],
-    /// Means over the window, as far as the run holds them.
+    /// Means over the window, as far as the run has them.
     pub means: FigureMeans,
     pub instants: Vec<Instant>,
 }
 
 impl Scene<'_> {
-    /// The last record and two before it.
+    /// Indices of the last record of the window and of up to two before it.
     pub fn instant_indices(&self) -> Vec<usize> {
         let times = &self.history.times;
         let last = self.records.end - 1;
@@ -61,6 +62,7 @@ impl Scene<'_> {
         chosen
     }
 
+    /// x of the patch's centre (m); 0 where no fit exists.
     pub fn centre(&self, frame: &Frame) -> f64 {
         let p0 = self.scales.peak_pressure;
         let row =
@@ -68,6 +70,7 @@ impl Scene<'_> {
         if row.values[2].is_finite() { row.values[2] } else { 0.0 }
     }
 
+    /// Position of a node (m), deformed where the record has displacements.
     pub fn position(&self, frame: &Frame, row: usize) -> Vec3 {
         let point = self.history.surface.points[row];
         match &frame.motion {
@@ -76,12 +79,12 @@ impl Scene<'_> {
         }
     }
 
-    /// Rows of a body's nodes nearest y = 0, by their reference x.
+    /// Indices of a body's nodes nearest y = 0, sorted by their reference x.
     pub fn centreline(&self, body: u8) -> Vec<usize> {
         self.history.surface.centreline(body, self.scales.size)
     }
 
-    /// Half of what is drawn along x (m).
+    /// Half the range of x that is drawn (m).
     pub fn reach(&self) -> f64 {
         1.35 * self.basis.scale("half_length").unwrap_or(10.0 * self.scales.size)
     }
@@ -90,7 +93,7 @@ impl Scene<'_> {
         frame.pressure[row] > crate::conditions::IN_CONTACT * self.scales.peak_pressure
     }
 
-    /// Coefficient of friction at rest.
+    /// Coefficient of friction at rest; 0.5 where the law is not known.
     pub fn mu_static(&self) -> f64 {
         self.basis.law.map_or(0.5, |law| law.mu_static())
     }

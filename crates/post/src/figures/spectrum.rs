@@ -13,7 +13,8 @@ use std::path::Path;
 const COLOURS: [[u8; 3]; 6] =
     [colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
 
-/// The spectra; `None` where the run has no probes or none of them was in contact.
+/// The spectra of the probes in the file at `path`; `None` where there is no file, or no probe was in contact for
+/// more than 64 steps.
 pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>, PostError> {
     let Some(probes) = open_history(path)? else { return Ok(None) };
     let Some(time) = probes.column(&HISTORY.time)?.filter(|time| time.len() > 64) else {
@@ -79,9 +80,9 @@ pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>,
 /// Steps per segment of a long record.
 const SEGMENT: usize = 1024;
 
-/// One-sided power spectral density of `values` sampled every `dt`, less their mean, as
-/// (frequency, density); zero frequency is left out. Mean over segments that overlap by half, each
-/// under a Hann window (Welch 1967); a short record is one segment.
+/// One-sided power spectral density of `values` less their mean, sampled every `dt` (s), as frequency (Hz) and
+/// density (square of the unit of the values per Hz), without zero frequency. Mean over segments that overlap by
+/// half, each under a Hann window (Welch 1967); fewer than two [`SEGMENT`]s of values are one segment.
 fn density(values: &[f64], dt: f64) -> Vec<[f64; 2]> {
     let n = if values.len() >= 2 * SEGMENT { SEGMENT } else { values.len() };
     let mean = values.iter().sum::<f64>() / values.len() as f64;

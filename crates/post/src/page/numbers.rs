@@ -1,10 +1,10 @@
-//! The dimensionless numbers of a run and what they mean.
+//! The characteristic numbers of a run and what they mean.
 
 use crate::basis::Basis;
 use crate::digits::digits;
 use std::fmt::Write;
 
-/// What a number of the summary's section `numbers` is called, and what it means.
+/// For each key of `numbers` in the summary: its label and its meaning.
 const MEANINGS: [(&str, &str, &str); 8] = [
     (
         "r",
@@ -44,7 +44,7 @@ const MEANINGS: [(&str, &str, &str); 8] = [
     ),
 ];
 
-/// Appends the section: the numbers of the summary, and how finely time and patch are divided.
+/// Appends the section: the numbers of the summary, and the resolution of the patch in time and space.
 pub(super) fn section(out: &mut String, basis: &Basis) {
     let mut rows: Vec<(&str, f64, String)> = Vec::new();
     let numbers = basis.summary.as_ref().map(|summary| &summary["numbers"]);
@@ -53,15 +53,15 @@ pub(super) fn section(out: &mut String, basis: &Basis) {
             rows.push((name, value, meaning.into()));
         }
     }
-    let depth = basis.scale("size");
+    let size = basis.scale("size");
     if let (Some(a), Some(speed), Some(dt)) =
         (basis.scale("half_length"), basis.scale("speed"), basis.scale("dt"))
     {
         let meaning = "time steps in which a node passes the patch".into();
         rows.push(("2a/(V dt)", 2.0 * a / speed / dt, meaning));
     }
-    if let (Some(a), Some(depth)) = (basis.scale("half_length"), depth) {
-        rows.push(("2a/h", 2.0 * a / depth, "elements along the patch".into()));
+    if let (Some(a), Some(size)) = (basis.scale("half_length"), size) {
+        rows.push(("2a/h", 2.0 * a / size, "elements along the patch".into()));
     }
     if rows.is_empty() {
         return;

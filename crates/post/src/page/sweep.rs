@@ -1,4 +1,4 @@
-//! The page of a sweep: its table, what its trends say, and its figures.
+//! The page of a sweep: its verdicts, its table and its figures.
 
 use super::{escape, head};
 use crate::PostError;
@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The page of a sweep: `path` is its `sweep.json`, `sweep` what that holds.
+/// The HTML page of a sweep: `name` is its title, `path` its `sweep.json`, `sweep` the content of that.
 ///
 /// # Errors
 /// A document that is no sweep; a figure that cannot be drawn.
@@ -50,7 +50,7 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
     Ok(out)
 }
 
-/// What the trends say, for each axis and each value of the others.
+/// The verdicts, for each axis and each combination of values of the others.
 fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
     out.push_str("<h2>What settles, and what does not</h2>\n");
     if verdicts.is_empty() {
@@ -92,7 +92,7 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
     }
 }
 
-/// All runs, those that failed with their reason.
+/// The table of all runs, with the reason of those that failed.
 fn table(out: &mut String, sweep: &Sweep<'_>) {
     out.push_str(if sweep.ensemble { "<h2>Points</h2>" } else { "<h2>Runs</h2>" });
     out.push_str("\n<div class=\"wide\"><table>\n<tr>");

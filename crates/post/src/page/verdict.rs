@@ -1,9 +1,9 @@
-//! What a measure's value means, in a sentence.
+//! The value of a measure in a sentence.
 
 use crate::digits::digits;
 use serde_json::Value;
 
-/// The verdict on a measure from its entry in the document of a check.
+/// A sentence on the measure `name`, from its entry in the document of a check.
 pub(super) fn verdict(name: &str, metric: &Value) -> String {
     let Some(value) = metric["value"].as_f64() else {
         return format!("Not measured: {}.", metric["note"].as_str().unwrap_or("no data"));

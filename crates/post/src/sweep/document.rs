@@ -1,16 +1,16 @@
-//! The runs of a sweep, as its document holds them.
+//! The runs of a sweep, from its document.
 
 use crate::PostError;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// A sweep as its document holds it.
+/// A sweep, from its document `sweep.json`.
 pub(crate) struct Sweep<'a> {
     /// Its folder.
     pub folder: PathBuf,
-    /// Keys of the axes, that of the members of an ensemble left out.
+    /// Keys of the axes, without that of the members of an ensemble.
     pub axes: Vec<&'a str>,
-    /// The runs, of a sweep with an ensemble its points: means over their members.
+    /// The runs; of a sweep with an ensemble its points, means over their members.
     pub runs: Vec<Run<'a>>,
     /// Whether the runs are points of an ensemble.
     pub ensemble: bool,
@@ -62,7 +62,7 @@ impl<'a> Sweep<'a> {
         self.runs.iter().copied().filter(|run| run.completed())
     }
 
-    /// Axes whose values are numbers, more than one among the runs that completed.
+    /// Axes with more than one number as a value among the runs that completed.
     pub fn numeric_axes(&self) -> Vec<&'a str> {
         let varies = |axis: &&str| self.values(axis).len() > 1;
         self.axes.iter().copied().filter(varies).collect()
@@ -76,8 +76,8 @@ impl<'a> Sweep<'a> {
         values
     }
 
-    /// The completed runs in groups that differ in `axis` only, in the order of the document. Where
-    /// no two do (axes that go together), all of them are one group.
+    /// The completed runs in groups that differ in `axis` only, in the order of the document. Where no two runs
+    /// do (axes that vary together), all of them are one group.
     pub fn groups(&self, axis: &str) -> Vec<Group<'a>> {
         let mut groups: Vec<Group<'a>> = Vec::new();
         let mut all = Group { label: String::new(), members: Vec::new() };
@@ -143,7 +143,7 @@ pub(crate) fn value_text(value: &Value) -> String {
     }
 }
 
-/// A number to four digits, without zeros behind.
+/// A number to four significant digits, without trailing zeros.
 fn short(x: f64) -> String {
     let x = format!("{x:.3e}").parse().unwrap_or(x);
     let plain = x == 0.0 || (1e-3..1e6).contains(&f64::abs(x));

@@ -18,7 +18,7 @@ const GROUPS: [[u8; 3]; 6] =
 /// `profiles-AXIS`, the centre lines along it; and for two axes `map`, measures over both. Runs that
 /// did not complete are left out, and so are contact histories that cannot be read.
 ///
-/// `folder` is that of the sweep, `sweep` what its `sweep.json` holds.
+/// `folder` is the folder of the sweep, `sweep` the content of its `sweep.json`.
 ///
 /// # Errors
 /// A document that is no sweep.
@@ -43,7 +43,7 @@ pub fn sweep_figures(folder: &Path, sweep: &Value) -> Result<Vec<(String, Figure
     Ok(all)
 }
 
-/// The key of an axis as part of a file's name.
+/// The key of an axis as part of a file name.
 fn stem(axis: &str) -> String {
     axis.replace(|c: char| !c.is_ascii_alphanumeric(), "-")
 }
@@ -69,7 +69,7 @@ fn axis_over(text: &str, values: &[f64]) -> Axis {
     if log { Axis::log(text) } else { Axis::linear(text) }
 }
 
-/// Every measure over an axis, a line for each group, with its scatter.
+/// Every measure over an axis, a line for each group, with bars for its uncertainty.
 fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figure> {
     let x = axis_over(&label(axis), &sweep.values(axis));
     let mut panels = Vec::new();
@@ -122,13 +122,14 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     let refined = if towards_zero(axis) { "left" } else { "right" };
     let caption = format!(
         "Measures over {axis}; bars: the 95 % confidence interval of the mean, where there is none the \
-         standard deviation over the records of the evaluation window. Verdicts follow the axis to the {refined}.{left_out}"
+         standard deviation over the records of the evaluation window. Verdicts follow the axis \
+         to the {refined}.{left_out}"
     );
     let size = [1080, 270 * panels.len().div_ceil(3) as u32 + 50];
     Some(Figure { size, columns: 3, panels, caption })
 }
 
-/// A linear axis that does not blow up changes of less than a few percent.
+/// A linear axis of at least 6 % of its middle, so that small changes do not fill it.
 fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>) -> Axis {
     let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
         let scatter = point.bar().unwrap_or(0.0);
@@ -140,7 +141,7 @@ fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>
     if half > 0.0 { axis.over(middle - half, middle + half) } else { axis }
 }
 
-/// The scatter of a point as a line with a gap behind it.
+/// The bar of a point as a line, then NaN, which ends the line.
 fn bar(x: f64, point: &Point, log: bool) -> Vec<[f64; 2]> {
     let Some(scatter) = point.bar().filter(|scatter| *scatter > 0.0) else {
         return Vec::new();
@@ -202,10 +203,10 @@ fn profiles(
     Some(Figure { size: [1080, 400], columns: 3, panels: panels.into(), caption })
 }
 
-/// What changes by less than this share is named below the maps instead of drawn.
+/// Measures that change by less than this share are named below the maps instead of drawn.
 const SHOWN: f64 = 0.01;
 
-/// Each measure over two axes in colour.
+/// Each measure over two axes as a colour map.
 fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
     let values = axes.map(|axis| sweep.values(axis));
     let edges = [0, 1].map(|i| edges(&values[i]));
@@ -223,7 +224,7 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
             .collect();
         let least = found.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
         let most = found.iter().map(|f| f.1).fold(f64::NEG_INFINITY, f64::max);
-        // axes that go together fill a diagonal, which is no map
+        // axes that vary together fill a diagonal, which is no map
         if found.len() <= values[0].len().max(values[1].len()) {
             continue;
         }
@@ -268,12 +269,13 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
     Some(Figure { size, columns: 3, panels, caption })
 }
 
-/// To three digits, as the legend of a map shows it.
+/// To three significant digits, as the legend of a map shows it.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// Ends of the cells around values: half-way between neighbours, as the axis counts.
+/// Ends of the cells around values: half-way between neighbours, on the scale of the axis (linear or
+/// logarithmic).
 fn edges(values: &[f64]) -> Vec<f64> {
     let log = spans_decades(values.iter().copied());
     let [to, from]: [fn(f64) -> f64; 2] = if log { [libm::log, libm::exp] } else { [|v| v, |v| v] };

@@ -1,44 +1,44 @@
-//! What is followed over the axes of a sweep.
+//! The measures that a sweep follows over its axes.
 
 use super::document::Run;
 use serde_json::Value;
 
-/// A number that every run of a sweep has.
+/// A measure of the runs of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SweepMeasure {
     /// Name in tables and verdicts.
     pub name: &'static str,
     /// Unit after `factor`; empty for pure numbers.
     pub unit: &'static str,
-    /// From SI.
+    /// Factor from the SI unit to `unit`.
     pub factor: f64,
-    /// Where a run's entry holds it, the first that is there.
+    /// Where a run's entry has it; the first source with a value counts.
     sources: &'static [Source],
     /// Whether the table of runs shows it.
     pub in_table: bool,
 }
 
-/// Pointers to a value, to half the width of its confidence interval (the first that is there), and to its deviation
-/// over the window.
+/// JSON pointers to a value, to half the width of its 95 % confidence interval (the first that is there), and to its
+/// standard deviation over the window.
 type Source = (&'static str, &'static [&'static str], &'static str);
 
-/// A measure of a run.
+/// The value of a measure for a run, in the unit of the measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
     pub value: f64,
     /// Half the width of its 95 % confidence interval, where it has one.
     pub half: Option<f64>,
-    /// Its deviation over the window, where it is known.
+    /// Its standard deviation over the window, where it is known.
     pub deviation: Option<f64>,
 }
 
 impl Point {
-    /// The change that it hides: the width of its interval, without one its deviation.
+    /// Its uncertainty: the width of its interval, without one its standard deviation.
     pub fn scatter(&self) -> Option<f64> {
         self.half.map(|half| 2.0 * half).or(self.deviation)
     }
 
-    /// The bar of a figure to either side: half its interval, without one its deviation.
+    /// Length of its bar in a figure to either side: half its interval, without one its standard deviation.
     pub fn bar(&self) -> Option<f64> {
         self.half.or(self.deviation)
     }
@@ -105,7 +105,7 @@ macro_rules! slip_zone {
     };
 }
 
-/// All of them, in the order of figures and tables.
+/// All measures, in the order of figures and tables.
 pub(crate) const MEASURES: [SweepMeasure; 23] = [
     measure(
         "peak pressure (fit)",
@@ -148,8 +148,8 @@ pub(crate) const MEASURES: [SweepMeasure; 23] = [
 ];
 
 impl SweepMeasure {
-    /// The measure of a run, times `factor`; `None` where the run has none, and for means over the
-    /// evaluation window where it did not come to its end.
+    /// The measure of a run, times `factor`; `None` where the run has none, and for means over the evaluation
+    /// window where the run did not complete.
     pub fn of(&self, run: Run<'_>) -> Option<Point> {
         let number = |pointer: &str| {
             run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())

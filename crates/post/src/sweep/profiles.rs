@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-/// Most records that a mean is taken over: the patch passes fewer new nodes.
+/// Most records that a mean is taken over.
 const MOST_RECORDS: usize = 40;
 
-/// Pressure, shear and slip speed along y = 0: where (m from the patch's centre), p, p_f (Pa) and
-/// |s| (m/s; NaN where no record has contact).
+/// Along y = 0, for each bin: x relative to the patch's centre (m), p_n and p_f (Pa), |s| (m/s; NaN where no record
+/// has contact).
 pub(super) struct Profile(pub Vec<[f64; 4]>);
 
 /// The mean over the records of the evaluation window, in bins of an element's length that move
@@ -39,7 +39,7 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
         instants: Vec::new(),
     };
     let line = scene.centreline(body);
-    // per bin: p, p_f, |s| and how many nodes gave the first two and the last
+    // per bin: sums of p_n, p_f and |s|, number of nodes for the first two and for the last
     let mut bins: BTreeMap<i64, [f64; 5]> = BTreeMap::new();
     for index in spread(&history.times, records) {
         let frame = history.record(index)?;
@@ -65,8 +65,8 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
     Ok(Profile(bins.into_iter().map(mean).collect()))
 }
 
-/// Records nearest to times that are spread evenly over the window, so that spans recorded at every
-/// step do not outweigh others.
+/// The records nearest to times that are evenly spaced over the window, so that spans recorded at every step
+/// do not outweigh others.
 fn spread(times: &[f64], records: Range<usize>) -> Vec<usize> {
     let (from, to) = (times[records.start], times[records.end - 1]);
     let nearest = |i: usize| {

@@ -1,4 +1,4 @@
-//! Whether a measure settles along an axis.
+//! Whether a measure converges along an axis.
 //!
 //! The trend fitted to the points is v(r) = v_inf + c r^-q with r = x, or r = 1/x for axes that are
 //! refined towards zero, so that r grows with refinement. This is the form of Richardson's
@@ -12,31 +12,31 @@ use crate::digits::digits;
 pub struct Sample {
     /// Value of the axis, greater than zero.
     pub x: f64,
-    /// The measure.
+    /// The measure, in its unit.
     pub value: f64,
-    /// The change that it hides: the width of its confidence interval, else its standard deviation over the
-    /// window; zero where neither is known.
+    /// Its uncertainty, in its unit: the width of its 95 % confidence interval, else its standard deviation over
+    /// the window; zero where neither is known.
     pub scatter: f64,
 }
 
-/// What a trend comes to.
+/// The trend of a measure along an axis; values in the unit of the measure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trend {
-    /// The measure changes by less than its tolerance over the whole axis: it is on its plateau.
+    /// The measure changes by no more than 2 % over the whole axis: it is on its plateau.
     Flat {
         /// Mean over all points.
         mean: f64,
         /// Largest less smallest value.
         range: f64,
     },
-    /// It settles, and the last point is there.
+    /// It converges, and the last point is within 5 % of the limit.
     Reached {
         /// The limit v_inf.
         limit: f64,
         /// q.
         exponent: f64,
     },
-    /// It settles, but the last point is still away from the limit.
+    /// It converges, but the last point is farther from the limit.
     Approaches {
         /// The limit v_inf.
         limit: f64,
@@ -50,14 +50,14 @@ pub enum Trend {
         /// q: v ~ r^-q.
         exponent: f64,
     },
-    /// It goes on: no limit.
+    /// It has no limit.
     Grows {
         /// d ln|v| / d ln r over the last points.
         slope: f64,
-        /// Change of v from the last point but one to the last.
+        /// Change of v from the second to last point to the last.
         step: f64,
     },
-    /// Its scatter over the window hides any change.
+    /// Its scatter is as large as the change, or too large to tell a limit.
     Hidden {
         /// Mean over all points.
         mean: f64,
@@ -66,21 +66,21 @@ pub enum Trend {
         /// Mean scatter of the points.
         scatter: f64,
     },
-    /// The points do not tell for another reason.
+    /// The points allow no verdict for another reason.
     Unclear {
-        /// Why.
+        /// The reason, as half a sentence.
         reason: String,
     },
 }
 
-/// What is said of a trend.
+/// The verdict on a trend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Refining further would not change it.
+    /// Further refinement would not change the measure.
     Settles,
-    /// It would.
+    /// Further refinement would change it.
     DoesNot,
-    /// The points do not tell.
+    /// The points allow no verdict.
     CannotBeTold,
 }
 
@@ -88,40 +88,43 @@ pub enum Verdict {
 pub const RULE: &str = "Settles: the values differ by at most 2 % of the largest, or q is at least \
     0.25 and the last value is within 5 % of v\u{221e}; and the scatter, the width of the 95 % confidence \
     interval of the mean (of an ensemble by its members, of a run by batches in time; without one the \
-    standard deviation over the records of the window), is at most 5 %. Does not settle: q is at most 0.1, the last value is farther from v\u{221e}, or \
+    standard deviation over the records of the window), is at most 5 %. Does not settle: q is at most 0.1, \
+    the last value is farther from v\u{221e}, or \
     v\u{221e} is zero. Cannot be told (scatter): the values differ by no more than the scatter, or the \
-    scatter is above 5 % where the values alone would say that it settles. Cannot be told: fewer than three points, no trend that the fit follows, or q in between.";
+    scatter is above 5 % where the values alone would say that it settles. Cannot be told: \
+    fewer than three points, no trend that the fit follows, or q in between.";
 
-/// Changes below this share of the largest size are no changes.
+/// A measure is flat where its range is at most this share of its largest absolute value.
 const FLAT: f64 = 0.02;
 /// A limit is reached within this share of it, and no scatter beyond this share lets anything settle.
 const REACHED: f64 = 0.05;
 /// A fit holds where its root mean square residual is below this share of the range of values.
 const RESIDUAL: f64 = 0.08;
-/// A step against the way that the measure goes says something where it exceeds this share of the range.
+/// A step against the overall direction counts as a turn where it exceeds this share of the range.
 const TURN: f64 = 0.05;
-/// Exponents from here on mean a limit: each decade of refinement leaves at most 56 % of the way.
+/// From this exponent on there is a limit: each decade of refinement leaves at most 56 % of the distance to it.
 const SETTLES: f64 = 0.25;
-/// Exponents up to here mean none: each decade adds at least 79 % of what the one before did.
+/// Up to this exponent there is none: each decade adds at least 79 % of what the one before did.
 const GOES_ON: f64 = 0.1;
 
 /// Largest exponent of the fit.
 const STEEPEST: f64 = 6.0;
 
-/// The trend of a measure along an axis, refined towards zero or upwards.
+/// The trend of a measure along an axis, refined towards zero or upwards; `samples` in any order.
 ///
 /// 1. Fewer than three points say nothing about a limit.
 /// 2. *Flat*: the range of the values is below `FLAT` of the largest, and the mean scatter below
 ///    `REACHED` of it. *Hidden*: otherwise, where the range is below that scatter.
 /// 3. A measure that turns back by more than `TURN` of its range, and by more than the mean
-///    scatter, has no trend that a fit could tell.
+///    scatter, follows no such trend.
 /// 4. Otherwise the fit must hold: its root mean square residual is below `RESIDUAL` of the range,
-///    or below the mean scatter. Three points determine the fit and cannot contradict it, which
-///    the words say.
-/// 5. q >= `SETTLES`: a limit. It is zero where |v_inf| is below `REACHED` of the range or has the
-///    other sign than the last value; it is *reached* where the last point is within `REACHED` of it.
-///    Where the scatter of the last point exceeds `REACHED` of the limit and is no less than what is
-///    left, the limit is *hidden*. q <= `GOES_ON`: none. In between the points do not tell.
+///    or below the mean scatter. Three points determine the fit and cannot contradict it;
+///    [`Trend::sentence`] says so.
+/// 5. q >= `SETTLES`: a limit. It is zero where |v| falls from the first point to the last and |v_inf| is
+///    below `REACHED` of the range or has the other sign than the last value; it is *reached* where the
+///    last point is within `REACHED` of it. Where the scatter of the last point exceeds `REACHED` of the
+///    limit and is no less than its distance from it, the limit is *hidden*. q <= `GOES_ON`: no limit. In
+///    between there is no verdict.
 pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
     let mut points: Vec<Sample> = samples
         .iter()
@@ -192,7 +195,7 @@ pub fn trend(samples: &[Sample], towards_zero: bool) -> Trend {
 }
 
 impl Trend {
-    /// Whether it settles.
+    /// The verdict.
     pub fn verdict(&self) -> Verdict {
         match self {
             Self::Flat { .. } | Self::Reached { .. } => Verdict::Settles,
@@ -217,7 +220,7 @@ impl Trend {
     pub fn sentence(&self, points: usize, unit: &str) -> String {
         let with = |value: f64| format!("{} {unit}", digits(value, 4)).trim_end().to_owned();
         let power = |q: f64| {
-            // the end of the net: a step, and then nothing more
+            // the largest exponent of the search: a step, and then no change
             if q < STEEPEST {
                 format!("what is left falls with the power {}", digits(q, 2))
             } else {
@@ -269,7 +272,8 @@ struct Fit {
 }
 
 impl Fit {
-    /// The best q of a fine net from -3 to [`STEEPEST`]; limit and c follow linearly from each.
+    /// The best of the exponents q from -3 to [`STEEPEST`] in steps of 0.01; limit and c follow from each by
+    /// linear least squares.
     fn to(points: &[Sample]) -> Self {
         let mut best = Self { limit: f64::NAN, exponent: 0.0, residual: f64::INFINITY };
         let first = points[0].x;

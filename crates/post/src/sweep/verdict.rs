@@ -7,14 +7,14 @@ use crate::PostError;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// What is said of a measure along an axis.
+/// The verdict on a measure along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepVerdict {
-    /// Key of the axis.
+    /// Key of the axis, such as `mesh.zone.size`.
     pub axis: String,
-    /// Values of the other axes; empty where there are none.
+    /// The other axes with their values, as text; empty where there are none.
     pub others: String,
-    /// The measure.
+    /// Name of the measure.
     pub measure: &'static str,
     /// Its unit; empty for pure numbers.
     pub unit: &'static str,
@@ -25,7 +25,7 @@ pub struct SweepVerdict {
 }
 
 impl SweepVerdict {
-    /// The verdict as a document: which measure along which axis, whether it settles, and why.
+    /// The verdict as JSON: measure, axis, whether it settles, and why.
     pub fn document(&self) -> Value {
         json!({
             "axis": self.axis,
@@ -39,7 +39,7 @@ impl SweepVerdict {
     }
 }
 
-/// Keys that are refined towards zero; others are followed upwards.
+/// Keys whose refinement means smaller values; for all others it means larger values.
 const TOWARDS_ZERO: [&str; 5] =
     ["mesh.zone.size", "mesh.growth", "mesh.coarsest", "time.factor", "time.step"];
 
@@ -48,8 +48,8 @@ pub(crate) fn towards_zero(axis: &str) -> bool {
     TOWARDS_ZERO.contains(&axis)
 }
 
-/// The verdicts on all measures that the runs of a sweep have, along each axis of numbers greater
-/// than zero.
+/// The verdicts on all measures that the runs of a sweep have, along each axis of numbers; values of the axis that
+/// are not positive are left out. `folder` is the folder of the sweep, `sweep` the content of its `sweep.json`.
 ///
 /// # Errors
 /// A document that is no sweep.
