@@ -49,6 +49,8 @@ fn wrong_tables_are_refused_with_file_line_and_reason() {
         ("values", "\n3e-06,", "\n0,", "the time falls"),
         ("values", "\n1e-06,", "\nsoon,", "\"soon\" is no number"),
         ("values", "\n1e-06,", "\n1e-06,1,", "CSV error"),
+        ("values", "\n0,2,", "\n0,1,", "node 1 stands twice at 0e0 s"),
+        ("values", "0.2,0,0,2\n", "0.2,0,0,1.7\n", "there is no state 1.7; they are 0 to 2"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         for name in ["nodes", "faces", "values"] {

@@ -145,7 +145,13 @@ fn values(
         }
         time = Some(at);
         let node = table.index(row[key[1]], points.len(), "node")?;
-        for (column, (_, places)) in record.columns.iter_mut().zip(&fields) {
+        if std::mem::replace(&mut record.given[node], true) {
+            return Err(table.refuse(format!("node {node} stands twice at {at:e} s")));
+        }
+        for (column, (spec, places)) in record.columns.iter_mut().zip(&fields) {
+            if spec.integer {
+                table.index(row[places[0]], STATES, "state")?;
+            }
             for (component, &place) in places.iter().enumerate() {
                 column[node * places.len() + component] = row[place];
             }
@@ -158,8 +164,13 @@ fn values(
     Ok((file.steps(), rows))
 }
 
+/// States of a node: open, stick, slip.
+const STATES: usize = 3;
+
 /// The values of one time, field by field.
 struct Record {
+    /// Which nodes have values.
+    given: Vec<bool>,
     columns: Vec<Vec<f64>>,
     components: Vec<usize>,
     integer: Vec<bool>,
@@ -168,6 +179,7 @@ struct Record {
 impl Record {
     fn new(nodes: usize, specs: &[FieldSpec]) -> Self {
         Self {
+            given: vec![false; nodes],
             columns: specs.iter().map(|spec| vec![0.0; nodes * spec.components]).collect(),
             components: specs.iter().map(|spec| spec.components).collect(),
             integer: specs.iter().map(|spec| spec.integer).collect(),
@@ -193,6 +205,7 @@ impl Record {
             .collect();
         file.append(time, &values)?;
         self.columns.iter_mut().for_each(|column| column.fill(0.0));
+        self.given.fill(false);
         Ok(())
     }
 }

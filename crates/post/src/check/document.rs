@@ -356,7 +356,7 @@ impl Evaluation<'_> {
                 "the scales half_length and speed are not known"
             }
             "roughness_ratio" => {
-                "no node slips for a tenth of a transit, or records lie too far apart"
+                "no node slips for a tenth of a transit, or records lie too far apart or too close for it"
             }
             "law_scatter" if basis.bound == Bound::Used => {
                 "the law is no graph over the slip speed alone, or its graph is not known"

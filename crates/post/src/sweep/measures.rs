@@ -94,6 +94,9 @@ macro_rules! mean {
     };
 }
 
+/// In a pointer: the pairing in time of slip and traction that the records have.
+const RECORDED: &str = "RECORDED";
+
 /// Source of a statistic of the slip zone.
 macro_rules! slip_zone {
     ($name:literal) => {
@@ -129,8 +132,8 @@ pub(crate) const MEASURES: [SweepMeasure; 23] = [
         1.0,
         true,
         &[
-            ("/check/metrics/roughness_ratio/sides/bar/before/deviation_slip", &[], ""),
-            ("/check/metrics/roughness_ratio/sides/disk/before/deviation_slip", &[], ""),
+            ("/check/metrics/roughness_ratio/sides/bar/RECORDED/deviation_slip", &[], ""),
+            ("/check/metrics/roughness_ratio/sides/disk/RECORDED/deviation_slip", &[], ""),
         ],
     ),
     measure("roughness_ratio", "", 1.0, true, &[metric!("roughness_ratio")]),
@@ -151,8 +154,10 @@ impl SweepMeasure {
     /// The measure of a run, times `factor`; `None` where the run has none, and for means over the evaluation
     /// window where the run did not complete.
     pub fn of(&self, run: Run<'_>) -> Option<Point> {
+        let recorded = run.entry.pointer("/check/pairing/in_file").and_then(Value::as_str);
         let number = |pointer: &str| {
-            run.entry.pointer(pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
+            let pointer = pointer.replace(RECORDED, recorded.unwrap_or("before"));
+            run.entry.pointer(&pointer).and_then(Value::as_f64).filter(|value| value.is_finite())
         };
         let whole = |source: &&Source| run.completed() || source.0.starts_with("/check/metrics/");
         self.sources.iter().filter(whole).find_map(|(value, halves, deviation)| {
@@ -170,5 +175,28 @@ impl SweepMeasure {
         } else {
             format!("{} ({})", self.name, self.unit)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn the_roughness_of_slip_is_that_of_the_pairing_that_the_records_have() {
+        let roughness = MEASURES.iter().find(|measure| measure.name == "slip_roughness").unwrap();
+        let of = |in_file: &str| {
+            let entry = json!({ "check": {
+                "pairing": { "in_file": in_file },
+                "metrics": { "roughness_ratio": { "sides": { "disk": {
+                    "before": { "deviation_slip": 1.0 }, "after": { "deviation_slip": 2.0 },
+                } } } },
+            } });
+            roughness.of(Run { entry: &entry }).unwrap().value
+        };
+        assert_eq!([of("before"), of("after")], [1.0, 2.0]);
     }
 }
