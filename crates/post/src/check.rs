@@ -9,7 +9,7 @@ use crate::PostError;
 use crate::basis::{Basis, RunPaths};
 use crate::centreline::CentreLine;
 use crate::conditions::IN_CONTACT;
-use crate::frames::ContactHistory;
+use crate::frames::{ContactHistory, Frame};
 use crate::limits::Limits;
 use crate::map::MapWriter;
 use crate::means::Sources;
@@ -102,19 +102,14 @@ pub fn check(
     let mut line = CentreLine::new(&history, basis);
     let first = records.start;
     history.stream_batches(records, |frames| {
-        if let Some(map) = &mut map {
-            for frame in &frames {
-                map.write(&history.surface, frame, &evaluation.judge, &evaluation.scales)?;
-            }
-        }
         if let Ok(line) = &mut line {
             frames.iter().for_each(|frame| line.take(&history.surface, frame));
         }
-        evaluation.take(frames.into_iter().map(|frame| {
+        let weigh = |frame: Frame| {
             let weight = weights[frame.index - first];
             (frame, weight)
-        }));
-        Ok(())
+        };
+        evaluation.take(frames.into_iter().map(weigh), map.as_mut())
     })?;
     if evaluation.node_times == 0 {
         return Err(PostError::Lacks {

@@ -63,11 +63,13 @@ impl MapWriter {
         })
     }
 
-    /// Appends a record: its tractions judged with the slip velocity of the same record.
+    /// Appends a record: its tractions judged with the slip velocity of the same record, and with the coefficient
+    /// that `mu_recomputed` gives for a node.
     pub fn write(
         &mut self,
         surface: &Surface,
         frame: &Frame,
+        mu_recomputed: impl Fn(usize) -> Option<f64>,
         judge: &Judge,
         scales: &Scales,
     ) -> Result<(), PostError> {
@@ -87,7 +89,7 @@ impl MapWriter {
                 shear: frame.shear[row],
                 slip: frame.slip_velocity[row],
                 mu_used,
-                mu_recomputed: None,
+                mu_recomputed: mu_recomputed(row),
                 state: None,
             };
             let judged = judge.judge(&node);

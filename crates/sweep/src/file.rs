@@ -233,8 +233,16 @@ impl Sweep {
 
 /// Whether a key may change the highest frequency of the preloaded bodies.
 fn moves_the_limit(key: &str) -> bool {
-    const UNMOVED: [&str; 6] =
-        ["friction.", "output.", "evaluate.", "time.", "preload.disturbance", "preload.seed"];
+    const UNMOVED: [&str; 8] = [
+        "friction.",
+        "output.",
+        "evaluate.",
+        "time.",
+        "checkpoint.",
+        "guards.",
+        "preload.disturbance",
+        "preload.seed",
+    ];
     let drive = key.starts_with("drive.") && key != "drive.speed";
     !drive && !UNMOVED.iter().any(|section| key.starts_with(section))
 }
@@ -599,5 +607,20 @@ impl Reading<'_> {
             }
         }
         follows.push(Follow { key: key.path.into(), axis, factor, power });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::moves_the_limit;
+
+    #[test]
+    fn what_no_result_depends_on_moves_no_limit() {
+        for key in ["guards.penetration", "checkpoint.steps", "friction.static", "drive.creepage"] {
+            assert!(!moves_the_limit(key), "{key}");
+        }
+        for key in ["drive.speed", "mesh.zone.size", "contact.penalty.tangential"] {
+            assert!(moves_the_limit(key), "{key}");
+        }
     }
 }

@@ -6,6 +6,7 @@ use crate::accumulator::{Accumulator, SideAccumulator};
 use crate::basis::{Basis, Bound};
 use crate::conditions::{IN_CONTACT, Judge, Node};
 use crate::frames::{ContactHistory, Frame};
+use crate::map::MapWriter;
 use crate::patch_series::{self, PatchRow};
 use crate::projection::Pair;
 use crate::replay::{Allowed, Replay};
@@ -131,11 +132,18 @@ impl<'a> Evaluation<'a> {
         })
     }
 
-    /// Adds the next records, each with the time that it stands for (s).
+    /// Adds the next records, each with the time that it stands for (s), and writes the `map` of each.
     ///
     /// Views, pairings and sides are independent of each other and each goes through the records in order: the
     /// bits do not depend on the number of threads or the size of batches.
-    pub fn take(&mut self, frames: impl IntoIterator<Item = (Frame, f64)>) {
+    ///
+    /// # Errors
+    /// A map that cannot be written.
+    pub fn take(
+        &mut self,
+        frames: impl IntoIterator<Item = (Frame, f64)>,
+        map: Option<&mut MapWriter>,
+    ) -> Result<(), PostError> {
         let limit = IN_CONTACT * self.scales.peak_pressure;
         let (surface, replay) = (&self.history.surface, &mut self.replay);
         let record = |(frame, weight): (Frame, f64)| {
@@ -152,6 +160,16 @@ impl<'a> Evaluation<'a> {
         let (history, judge, scales) = (self.history, &self.judge, &self.scales);
         let replay = self.replay.as_ref().ok();
         let surface = &history.surface;
+        if let Some(map) = map {
+            for Record { frame, allowed, .. } in &records[first..] {
+                let mu = |row: usize| {
+                    let slip = frame.slip_velocity[row];
+                    let replay = replay.filter(|_| judge.bound == Bound::Used)?;
+                    recomputed_mu(replay, surface, frame, allowed, slip, row)
+                };
+                map.write(surface, frame, mu, judge, scales)?;
+            }
+        }
         let (pairs, views): (Vec<&mut Channel>, Vec<&mut Channel>) =
             self.channels.iter_mut().partition(|channel| channel.view == View::Pair);
         let (sides, patch) = (&mut self.sides, &mut self.patch);
@@ -201,6 +219,7 @@ impl<'a> Evaluation<'a> {
             }
         });
         self.previous = records.pop();
+        Ok(())
     }
 }
 
