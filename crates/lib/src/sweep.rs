@@ -42,6 +42,7 @@ pub struct SweepOptions {
     pub memory: Option<f64>,
     /// Take the kernels whose bits every processor can give in every run; the same as
     /// deterministic = true in [set]
+    #[allow(rustdoc::broken_intra_doc_links)] // a section of the sweep file, in the words of --help
     #[cfg_attr(feature = "clap", arg(long))]
     pub deterministic: bool,
     /// Go on with the sweep in the folder: keep the runs that are done, do the others
