@@ -156,7 +156,6 @@ def slider(**settings: Any) -> dict[str, Any]: ...
 def verify(
     *names: str,
     quick: bool = False,
-    long: bool = False,
     list: bool = False,
     plot: _Path | None = None,
 ) -> dict[str, Any]: ...

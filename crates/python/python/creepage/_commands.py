@@ -113,13 +113,12 @@ def slider(**settings):
     return execute(_creepage.slider, {**options, "settings": given})[0]
 
 
-def verify(*names, quick=False, long=False, list=False, plot=None):
+def verify(*names, quick=False, list=False, plot=None):
     """Run verification problems, each beside its reference.
 
     Args:
-        names: problems [default: all but the long ones].
+        names: problems [default: all].
         quick: coarse meshes.
-        long: the long problems as well.
         list: name all problems and run none.
         plot: folder for figures of the errors.
 
@@ -127,7 +126,7 @@ def verify(*names, quick=False, long=False, list=False, plot=None):
         dict: ``results`` (name, quantity, reference, computed, error, limit, pass, source) and
         ``pass``; with ``list`` the ``problems``. Ctrl-C takes effect between two problems.
     """
-    options = {"names": names, "quick": quick, "long": long, "list": list, "plot": plot}
+    options = {"names": names, "quick": quick, "list": list, "plot": plot}
     return execute(_creepage.verify, options)[0]
 
 
