@@ -12,8 +12,9 @@ use mesh::Face;
 ///
 /// Tractions act on *this* surface: `pressure` is the normal force of both passes over the nodal
 /// area, `shear` the tangential force of both passes over it, each pass resolved in its own
-/// contact frame. Hence `|shear| <= mu pressure` holds to round-off with `mu` the mean of the
-/// coefficients that the algorithm used, weighted with the normal forces.
+/// contact frame. Hence, where all weights are non-negative, `|shear| <= mu pressure` holds to round-off, up to the
+/// angle between the contact frames of the points that load the node; `mu` is the mean of the coefficients that the
+/// algorithm used, weighted with the size of the normal forces.
 #[derive(Clone, Debug, Default)]
 pub struct NodalContact {
     /// Node indices in the mesh.
@@ -24,8 +25,8 @@ pub struct NodalContact {
     pub pass_pressure: Vec<f64>,
     /// Shear traction on this surface (Pa).
     pub shear: Vec<[f64; 3]>,
-    /// Velocity of this surface relative to the other in the tangent plane (m/s), mean over the
-    /// last step; `shear` opposes it. Of the node's own pass; where that is open, the mean of the
+    /// Velocity of this surface relative to the other in the tangent plane (m/s): with springs the
+    /// mean over the step that led to `x^n`, with multipliers that of the step that leaves it. Of the node's own pass; where that is open, the mean of the
     /// points of the other pass that load the node, weighted with their normal force.
     pub slip_velocity: Vec<[f64; 3]>,
     /// Tangential motion relative to the other surface since the node's own point closed (m).
@@ -41,7 +42,7 @@ pub struct NodalContact {
     /// Tributary area in the reference configuration (m^2).
     pub area: Vec<f64>,
     side: usize,
-    /// Constraint of each node of the surface; `NONE` if it has none.
+    /// Row of this table of each node of the surface; `NONE` if it has none.
     rows: Vec<u32>,
     /// Size of the normal forces of the slipping points of the other pass (N).
     slipping: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Two-pass penalty contact: the criticised method of surface-to-surface contact.
+//! Two-pass penalty contact, node to face in both directions.
 
 use crate::face::Positions;
 use crate::penalty_point::{Pass, PenaltyPoint, scatter};

@@ -13,7 +13,7 @@ use contact::Contact;
 use mesh::Padded;
 use std::fmt;
 
-/// Steps between two looks at the shape of every element.
+/// Steps between two looks at the shape of every element; a look happens at steps alone whose energies were read.
 pub const SHAPE_STEPS: usize = 500;
 
 /// Lanczos steps for the frequency of the assembly with the springs that are closed at the stop.
@@ -346,7 +346,8 @@ impl Simulation {
     }
 
     /// The diagnosis if the state after the step of `report` can be no solution, or one that nobody wants.
-    /// To be called after every step; it looks at most at what `report` has read.
+    /// To be called after every step; all guards but that of the coefficient of friction need
+    /// `report.energies`.
     pub fn check(&mut self, report: &StepReport) -> Option<Diagnosis> {
         if report.contact.largest_mu > self.limits.friction || report.contact.largest_mu.is_nan() {
             return Some(self.diagnosis(report, self.friction_cause()));
