@@ -1,5 +1,6 @@
 //! What the chores need to know of Markdown: blocks of code, prose, inline code, links, anchors.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use pulldown_cmark::{CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd};
@@ -38,6 +39,8 @@ pub fn parse(text: &str) -> Document {
     let mut block: Option<Block> = None;
     let mut heading: Option<String> = None;
     let mut code_lines: Vec<Range<usize>> = Vec::new();
+    // headings of the same words so far
+    let mut alike: BTreeMap<String, usize> = BTreeMap::new();
     let line_of = |byte: usize| text[..byte].matches('\n').count() + 1;
     for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
         let line = line_of(range.start);
@@ -54,12 +57,9 @@ pub fn parse(text: &str) -> Document {
             Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
             Event::End(TagEnd::Heading(_)) => {
                 let slug = slug(&heading.take().unwrap_or_default());
-                let as_before = |anchor: &&String| {
-                    let rest = anchor.strip_prefix(&slug).map(|rest| rest.trim_start_matches('-'));
-                    rest.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))
-                };
-                let before = document.anchors.iter().filter(as_before).count();
-                let anchor = if before == 0 { slug } else { format!("{slug}-{before}") };
+                let before = alike.entry(slug.clone()).or_insert(0);
+                let anchor = if *before == 0 { slug } else { format!("{slug}-{before}") };
+                *before += 1;
                 document.anchors.push(anchor);
             }
             Event::Text(words) => heading.iter_mut().for_each(|heading| heading.push_str(&words)),
@@ -125,9 +125,9 @@ mod tests {
 
     #[test]
     fn anchors_are_those_of_git_hosts() {
-        let text =
-            "## Exact contact (`contact.enforcement = \"exact\"`)\n# A [b c](d.md)\n# A b c\n#no\n";
-        let wanted = ["exact-contact-contactenforcement--exact", "a-b-c", "a-b-c-1"];
+        let text = "## Exact contact (`contact.enforcement = \"exact\"`)\n# A [b c](d.md)\n# A b c\n# A b c\n# B 1\n# B\n#no\n";
+        let wanted =
+            ["exact-contact-contactenforcement--exact", "a-b-c", "a-b-c-1", "a-b-c-2", "b-1", "b"];
         assert_eq!(parse(text).anchors, wanted);
     }
 

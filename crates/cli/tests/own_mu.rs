@@ -202,12 +202,14 @@ fn laws_are_followed(laws: &[&[&str]], contact: &[&str], limit: f64) {
             if exact && fields.contains(&"shear") {
                 // nor does the map believe the solver
                 let map = GridFile::open(&map).unwrap();
-                let [own, law] = ["law_error_own", "law_error"]
-                    .map(|name| map.read(name, false, map.steps() - 1).unwrap());
-                let slips = || own.iter().zip(&law).filter(|(own, _)| own.is_finite());
-                let ratio = slips().map(|(own, law)| (1.0 + law) / (1.0 + own));
-                let planted = ratio.filter(|ratio| (ratio - 0.99).abs() < 2e-3).count();
-                assert!(planted > 0 || slips().count() == 0, "{case} {own:?} {law:?}");
+                let planted = (0..map.steps()).any(|step| {
+                    let [own, law] = ["law_error_own", "law_error"]
+                        .map(|name| map.read(name, false, step).unwrap());
+                    let mut ratio =
+                        own.iter().zip(&law).map(|(own, law)| (1.0 + law) / (1.0 + own));
+                    ratio.any(|ratio| (ratio - 0.99).abs() < 2e-3)
+                });
+                assert!(planted, "{case}");
             }
         }
     }

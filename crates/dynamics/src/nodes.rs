@@ -181,7 +181,7 @@ fn damped_run<const KINETIC: bool>(
     motion: &RigidMotion,
 ) -> NodeSums {
     let Nodes { u, v, f, inverse_mass } = nodes;
-    let [mut power, mut kinetic, mut drags, mut about_z, mut about_x] = [[0.0; 4]; 5];
+    let [mut power, mut kinetic, mut resultant, mut about_z, mut about_x] = [[0.0; 4]; 5];
     for ((((u, v), f), &w), x) in u.iter_mut().zip(v).zip(f).zip(inverse_mass).zip(reference) {
         // nodes that are held or carried move as they are told: no force, no dashpot
         let (mass, rate) = if w > 0.0 { (1.0 / w, alpha) } else { (0.0, 0.0) };
@@ -190,11 +190,11 @@ fn damped_run<const KINETIC: bool>(
         for i in 0..4 {
             let before = v.0[i];
             let relative = before - rigid[i];
-            let drag = c * relative;
-            power[i] += drag * relative;
-            drags[i] += drag;
-            about_z[i] += az * drag;
-            about_x[i] += ax * drag;
+            let dashpot = c * relative;
+            power[i] += dashpot * relative;
+            resultant[i] += dashpot;
+            about_z[i] += az * dashpot;
+            about_x[i] += ax * dashpot;
             let after = before + (scale * f.0[i] - decay * relative);
             if KINETIC {
                 kinetic[i] += mass * before * after;
@@ -204,7 +204,7 @@ fn damped_run<const KINETIC: bool>(
             f.0[i] = 0.0;
         }
     }
-    let reaction = [drags[0], drags[2], about_z[0] - about_x[2]];
+    let reaction = [resultant[0], resultant[2], about_z[0] - about_x[2]];
     NodeSums {
         kinetic: 0.5 * kinetic.iter().sum::<f64>(),
         dashpot_power: power.iter().sum(),

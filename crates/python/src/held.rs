@@ -41,12 +41,12 @@ enum Event {
 }
 
 /// Hands what it hears to the thread that holds the interpreter; nobody listens any more only after the end.
-struct Told {
+struct EventSender {
     stop: Arc<AtomicBool>,
     events: Sender<Event>,
 }
 
-impl Listener for Told {
+impl Listener for EventSender {
     fn stop(&mut self) -> Arc<AtomicBool> {
         Arc::clone(&self.stop)
     }
@@ -82,9 +82,9 @@ pub fn held<'py, O: DeserializeOwned + Send + 'static>(
     };
     let stop = Arc::new(AtomicBool::new(false));
     let (sender, events) = channel();
-    let mut told = Told { stop: Arc::clone(&stop), events: sender.clone() };
+    let mut listener = EventSender { stop: Arc::clone(&stop), events: sender.clone() };
     let worker = std::thread::Builder::new().stack_size(STACK).spawn(move || {
-        drop(sender.send(Event::Ended(work(options, &mut told))));
+        drop(sender.send(Event::Ended(work(options, &mut listener))));
     })?;
     let events = Mutex::new(events);
     let (mut raised, mut folder) = (None, None);
