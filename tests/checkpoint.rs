@@ -93,6 +93,14 @@ fn mortar_rows_go_on_with_the_integrals_that_they_follow() {
 }
 
 #[test]
+fn half_a_model_goes_on_where_it_was() {
+    for rows in ["contact.rows=node_to_face", "contact.rows=mortar"] {
+        let half = ["mesh.symmetry=half", "contact.enforcement=exact", rows];
+        interrupted_is_uninterrupted(&half, &["contact/slip/0001", "history/sweeps"]);
+    }
+}
+
+#[test]
 fn friction_with_memory_goes_on_where_it_was() {
     let law = [
         "friction.law=exponential",

@@ -156,23 +156,58 @@ section! {
         /// width, which only scales the forces; one near that of the coarsest elements keeps these well
         /// shaped. Default false.
         plane_strain: bool => FLAG;
+        /// What of the bodies is modelled: `"whole"`, or `"half"`, the part y >= 0 of bodies that y = 0 is a plane of
+        /// symmetry of, for half the time and memory. Loads, masses and results remain those of the whole bodies;
+        /// fluctuations that are not symmetric are suppressed. Default `"whole"`.
+        symmetry: Symmetry => word(Symmetry::WORDS);
         /// The fine zone.
         zone: Zone;
     }
 }
 
 impl Meshing {
+    /// Width of the fine zone (m): of half a model that of an even number of elements, so that nodes lie on y = 0.
+    fn symmetric_width(&self) -> f64 {
+        let Zone { size, width, .. } = self.zone;
+        match self.symmetry {
+            Symmetry::Whole => width,
+            // a width that is even up to round-off stays
+            Symmetry::Half => 2.0 * size * (0.5 * width / size - 1e-9).ceil(),
+        }
+    }
+
     /// The fine zone and the grading around it.
     pub fn fine_zone(&self) -> mesh::FineZone {
-        let Zone { size, length, width, depth, start } = self.zone;
+        let Zone { size, length, depth, start, .. } = self.zone;
         mesh::FineZone {
             size,
             length,
-            width,
+            width: self.symmetric_width(),
             depth,
             start,
             growth: self.growth,
             coarsest: self.coarsest,
+        }
+    }
+}
+
+words! {
+    /// What of the bodies is modelled.
+    Symmetry {
+        /// All of them.
+        #[default]
+        Whole = "whole",
+        /// The part y >= 0.
+        Half = "half",
+    }
+}
+
+impl Symmetry {
+    /// How many parts alike make up the bodies, of which one is modelled.
+    pub fn parts(self) -> f64 {
+        match self {
+            Self::Whole => 1.0,
+            Self::Half => 2.0,
         }
     }
 }

@@ -4,7 +4,7 @@
 //! what it may be, what to do where it is refused, and the keys that it depends on or stands for.
 
 pub use crate::bodies::{
-    Bar, Disk, Ends, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Zone,
+    Bar, Disk, Ends, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Symmetry, Zone,
 };
 pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
@@ -322,11 +322,11 @@ section! {
     optional Time ["time."] {
         /// Time step as a fraction of 2/omega_max (dimensionless). Above 1 the run is unstable;
         /// that is accepted with a warning, to show a blow-up. Give this or `step`, not both.
-        /// Default 0.67 without `step`.
-        #[schemars(extend("default" = Time::FACTOR))]
+        /// Default without `step`: 0.67 with `contact.enforcement = "penalty"`, whose springs stiffen the assembly as
+        /// nodes close, and 0.95 with `"exact"`, which has none.
         factor: Option<f64>
             => key(Number(over(0.0, 2.0)), "-",
-                "0.67 is the default; up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
+                "up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
         /// Longest time step (s), whatever the stability limit; refused above that limit. Runs whose
         /// stability limits differ then have the same step. Give this or `factor`, not both.
         /// Default: none.
@@ -342,9 +342,18 @@ section! {
     }
 }
 
-impl Time {
-    /// `factor` where neither it nor `step` is given.
-    pub const FACTOR: f64 = 0.67;
+impl Enforcement {
+    /// `time.factor` where neither it nor `time.step` is given (dimensionless).
+    ///
+    /// The springs that close after the preload raise the largest frequency; a third of the step is left to them. Exact
+    /// contact has no springs: what is left is for the frequencies that rise as elements are compressed, by half their
+    /// strain.
+    pub fn default_factor(self) -> f64 {
+        match self {
+            Self::Penalty => 0.67,
+            Self::Exact => 0.95,
+        }
+    }
 }
 
 /// How the time step of a case is chosen.
@@ -476,8 +485,13 @@ impl Case {
     pub fn step(&self) -> Step {
         match self.time.step {
             Some(step) => Step::Absolute(step),
-            None => Step::Fraction(self.time.factor.unwrap_or(Time::FACTOR)),
+            None => Step::Fraction(self.factor()),
         }
+    }
+
+    /// The time step as a fraction of the stability limit (dimensionless), where `time.step` does not give it.
+    pub fn factor(&self) -> f64 {
+        self.time.factor.unwrap_or(self.contact.enforcement.default_factor())
     }
 
     /// Duration of rolling (s).

@@ -16,6 +16,7 @@
 use crate::face::{Positions, Projection, shape, shape_gradients};
 use crate::point::{ContactPoint, Enforced};
 use crate::surface::{ContactSurface, MasterFace};
+use crate::symmetry::{in_plane, symmetric_tangent};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -67,6 +68,21 @@ impl MasterPoint {
         Self { x, tangents: [a1, a2] }
     }
 
+    /// The same under a node at `node`: on a plane of symmetry with the mirror image of the shares.
+    #[inline]
+    pub fn under(
+        node: Vec3,
+        shares: &[Share],
+        master: &ContactSurface,
+        positions: &Positions<'_>,
+    ) -> Self {
+        let point = Self::new(shares, master, positions);
+        if !master.is_on_plane(node) {
+            return point;
+        }
+        Self { x: in_plane(point.x), tangents: point.tangents.map(symmetric_tangent) }
+    }
+
     /// The duals of the tangents in the plane with unit normal `n`.
     #[inline]
     pub fn duals(&self, n: Vec3) -> [Vec3; 2] {
@@ -98,6 +114,9 @@ pub(crate) struct Multipliers {
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
     #[serde(skip)]
     pub delassus: f64,
+    /// Whether the slave lies on a plane of symmetry, which no slip crosses.
+    #[serde(skip)]
+    on_plane: bool,
     /// Tangential frame that turns with the master.
     pub frame: [Vec3; 2],
     /// Whether it slipped in the step before.
@@ -106,7 +125,7 @@ pub(crate) struct Multipliers {
 
 impl Enforced for Multipliers {
     fn follow(&mut self, other: &Self) {
-        *self = Self { legs: self.legs, ..*other };
+        *self = Self { legs: self.legs, on_plane: self.on_plane, ..*other };
     }
 }
 
@@ -118,8 +137,8 @@ impl Constraint {
             ..(self.enforcement.legs[0] + self.enforcement.legs[1]) as usize
     }
 
-    /// Sets up the rows of a node at `x` over a projection with unit normal `n` and adds their legs to the list
-    /// of the step.
+    /// Sets up the rows of a node at `x`, maybe `on_plane` of symmetry, over a projection with unit normal `n`, and adds
+    /// their legs to the list of the step.
     #[inline]
     pub fn set_up(
         &mut self,
@@ -127,9 +146,11 @@ impl Constraint {
         master_point: &MasterPoint,
         n: Vec3,
         x: Vec3,
+        on_plane: bool,
         legs: &mut Vec<Leg>,
     ) {
         self.normal = n;
+        self.enforcement.on_plane = on_plane;
         self.enforcement.frame = frame(master_point.tangents[0], n);
         self.enforcement.legs = [legs.len() as u32, shares.len() as u32];
         let [g1, g2] = master_point.duals(n);
@@ -140,10 +161,12 @@ impl Constraint {
         let distance = dot(n, sub(to_node, under));
         legs.extend(shares.iter().map(|share| {
             let [d1, d2] = share.gradient;
+            let lever = axpy(scale(distance * d1, g1), distance * d2, g2);
             Leg {
                 node: share.node,
                 weight: share.weight + d1 * beside[0] + d2 * beside[1],
-                lever: axpy(scale(distance * d1, g1), distance * d2, g2),
+                // with its mirror image a master that turns about x does not turn on the plane
+                lever: if on_plane { in_plane(lever) } else { lever },
             }
         }));
     }
@@ -163,6 +186,10 @@ impl Constraint {
             let v = velocity(leg.node);
             w = axpy(w, -leg.weight, v);
             turn = axpy(turn, dot(self.normal, v), leg.lever);
+        }
+        if self.enforcement.on_plane {
+            // with its mirror image the master does not move across the plane
+            w = in_plane(w);
         }
         let opening = dot(self.normal, w);
         (opening, add(axpy(w, -opening, self.normal), turn))

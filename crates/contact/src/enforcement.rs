@@ -1,5 +1,6 @@
 //! What a time loop asks of a method of contact.
 
+use crate::face::Positions;
 use crate::point::follow_first;
 use crate::snapshot::{Points, check_points};
 use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError, Trace};
@@ -91,8 +92,13 @@ impl Contact for PenaltyContact {
         &self.loaded
     }
 
-    fn apply(&mut self, _: &Motion<'_>, _: &FreeMotion<'_>, force: &mut [Padded]) -> ContactSums {
-        self.load(force)
+    fn apply(
+        &mut self,
+        motion: &Motion<'_>,
+        _: &FreeMotion<'_>,
+        force: &mut [Padded],
+    ) -> ContactSums {
+        self.load(&Positions(motion.position), force)
     }
 
     fn follow_first(&mut self, pairs: &[[u32; 2]]) {

@@ -11,7 +11,8 @@
 //! ([`Rows`]). The system is solved by projected block Gauss–Seidel: a node's own block
 //! `W_ii = (1/m_s + sum w_J^2/m_J) I` is isotropic for lumped masses, so that its normal problem, and then
 //! its tangential one (`friction::slip_speed`) are closed; blocks of neighbouring nodes couple little. The order is
-//! fixed, hence the bits are.
+//! fixed, hence the bits are. Over nodes on a plane of symmetry, which answer in x and z alone, the true block is smaller
+//! across the plane; the sweeps go on with the isotropic one, which bounds it, to the same solution.
 
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
@@ -92,9 +93,10 @@ pub struct ExactContact {
     slid: Vec<Slid>,
     /// Mortar constraints whose integrals were taken in this step.
     integrated: usize,
-    /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step.
+    /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step; `dt/m` is zero in a direction
+    /// in which a plane of symmetry holds a node.
     velocity: [Vec<Vec3>; 2],
-    pace: [Vec<f64>; 2],
+    pace: [Vec<Vec3>; 2],
     stamp: [Vec<u64>; 2],
     now: u64,
 }
@@ -133,7 +135,7 @@ impl ExactContact {
             slid: Vec::new(),
             integrated: 0,
             velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
-            pace: [0, 1].map(|s| vec![0.0; zeros(s)]),
+            pace: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
             now: 0,
             loaded: Vec::new(),
@@ -196,8 +198,9 @@ impl ExactContact {
         constraint.move_to(&projection);
         let [xi, eta] = within(&projection);
         let shares = face_shares(&master.faces[projection.face as usize], xi, eta);
-        let master_point = MasterPoint::new(&shares, master, positions);
-        constraint.set_up(&shares, &master_point, projection.point.normal, x, &mut self.legs);
+        let master_point = MasterPoint::under(x, &shares, master, positions);
+        let (normal, on_plane) = (projection.point.normal, master.is_on_plane(x));
+        constraint.set_up(&shares, &master_point, normal, x, on_plane, &mut self.legs);
         Some(frame(followed.old.tangent, followed.old.normal))
     }
 
@@ -239,6 +242,7 @@ impl ExactContact {
             &kinematics.master_point,
             kinematics.normal,
             x,
+            sides[1].is_on_plane(x),
             &mut self.legs,
         );
         Some(old.unwrap_or(constraint.enforcement.frame))
@@ -260,7 +264,9 @@ impl ExactContact {
         let node = self.sides[side].node(local);
         self.stamp[side][i] = self.now;
         self.velocity[side][i] = (free_motion.velocity)(node, force[node as usize].xyz());
-        self.pace[side][i] = motion.dt * motion.inverse_mass[node as usize];
+        let pace = motion.dt * motion.inverse_mass[node as usize];
+        let held = self.sides[side].is_on_plane(motion.position[node as usize].xyz());
+        self.pace[side][i] = [pace, if held { 0.0 } else { pace }, pace];
     }
 
     /// Rates at the velocities that the forces found so far give.
@@ -292,12 +298,12 @@ impl ExactContact {
     fn push(&mut self, constraint: &Constraint, normal: f64, friction: Vec3) {
         let (i, own) = (constraint.slave as usize, self.slave);
         let on_slave = axpy(friction, normal, constraint.normal);
-        self.velocity[own][i] = axpy(self.velocity[own][i], self.pace[own][i], on_slave);
+        self.velocity[own][i] = pushed(self.velocity[own][i], self.pace[own][i], on_slave);
         let (velocity, pace) = (&mut self.velocity[1 - own], &self.pace[1 - own]);
         for leg in &self.legs[constraint.legs()] {
             let node = leg.node as usize;
             velocity[node] =
-                axpy(velocity[node], pace[node], constraint.reaction(leg, normal, friction));
+                pushed(velocity[node], pace[node], constraint.reaction(leg, normal, friction));
         }
     }
 
@@ -379,11 +385,12 @@ impl ExactContact {
     ) -> bool {
         let own = self.slave;
         self.release(own, constraint.slave, free_motion, force, motion);
-        constraint.enforcement.delassus = self.pace[own][constraint.slave as usize];
+        constraint.enforcement.delassus = self.pace[own][constraint.slave as usize][0];
         for k in constraint.legs() {
             let Leg { node, weight, .. } = self.legs[k];
             self.release(1 - own, node, free_motion, force, motion);
-            constraint.enforcement.delassus += weight * weight * self.pace[1 - own][node as usize];
+            constraint.enforcement.delassus +=
+                weight * weight * self.pace[1 - own][node as usize][0];
         }
         // both ends held: nothing to enforce
         if constraint.enforcement.delassus == 0.0 {
@@ -483,10 +490,11 @@ impl ExactContact {
         sums.normal_force.add(constraint.normal_force);
         sums.meet(constraint.mu);
         let other = &mut sums.other;
-        other.closed += 1;
-        other.slipping += usize::from(constraint.state == State::Slip);
+        let nodes = self.sides[own].nodes_of_whole(positions.at(node));
+        other.closed += nodes;
+        other.slipping += nodes * usize::from(constraint.state == State::Slip);
         other.max_penetration = other.max_penetration.max(-constraint.gap);
-        other.non_unique += usize::from(self.is_non_unique(constraint, positions, motion));
+        other.non_unique += nodes * usize::from(self.is_non_unique(constraint, positions, motion));
     }
 
     /// Whether friction at a constraint has more than one solution.
@@ -656,6 +664,11 @@ impl Contact for ExactContact {
         self.constraints[own].clone_from(constraints);
         self.search.restore(&state.search, &self.sides)
     }
+}
+
+/// A velocity after a force, with `dt/m` in each direction.
+fn pushed(velocity: Vec3, pace: Vec3, force: Vec3) -> Vec3 {
+    [0, 1, 2].map(|i| velocity[i] + pace[i] * force[i])
 }
 
 fn add_to(force: &mut Padded, by: Vec3) {

@@ -2,6 +2,7 @@
 //! surface beyond the facets, and the walk from face to face.
 
 use crate::surface::{ContactSurface, NONE};
+use crate::symmetry::{symmetric_point, symmetric_projection};
 use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub};
 use mesh::{Padded, SmoothSurface};
 
@@ -214,12 +215,30 @@ pub(crate) struct Followed {
     pub projection: Option<Projection>,
 }
 
-/// Projects `node` on `surface`, starting on `face` at `(xi, eta)`.
-///
-/// The walk crosses the edge that the projection has left furthest behind. Where the walk would turn
-/// back at once, the node lies over a ridge and belongs to the face of lowest index.
+/// Projects `node` on `surface`, starting on `face` at `(xi, eta)`. A node on the plane of a surface's symmetry stays
+/// on it.
 #[inline]
 pub(crate) fn project(
+    surface: &ContactSurface,
+    positions: &Positions<'_>,
+    curvature: bool,
+    node: Vec3,
+    face: u32,
+    xi: f64,
+    eta: f64,
+) -> Followed {
+    let Followed { old, projection } = walk(surface, positions, curvature, node, face, xi, eta);
+    if !surface.is_on_plane(node) {
+        return Followed { old, projection };
+    }
+    let on_plane = |p| symmetric_projection(surface, positions, curvature, node, p);
+    Followed { old: symmetric_point(old), projection: projection.map(on_plane) }
+}
+
+/// The walk from face to face to the projection of `node`, which crosses the edge that the projection has left furthest behind. Where the walk would turn
+/// back at once, the node lies over a ridge and belongs to the face of lowest index.
+#[inline]
+fn walk(
     surface: &ContactSurface,
     positions: &Positions<'_>,
     curvature: bool,

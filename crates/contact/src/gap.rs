@@ -20,4 +20,6 @@ pub struct Gap {
     pub gap: f64,
     /// Tributary area of the slave in the reference configuration (m^2).
     pub area: f64,
+    /// Nodes of the whole surface that it stands for: two where the slave has a mirror image, else one.
+    pub nodes: usize,
 }

@@ -6,6 +6,7 @@ use crate::face::{Positions, corner_normals, project, shape};
 use crate::mortar::{Mean, Mortar};
 use crate::search::{Listed, Search};
 use crate::surface::ContactSurface;
+use crate::symmetry::in_plane;
 use crate::vector::{add, axpy, norm, scale};
 use crate::{BodyMaterial, ContactError, ExactSettings, Gap, Trace};
 use mesh::{Mesh, Padded, Surface};
@@ -100,6 +101,7 @@ impl GapFunction {
                 normal: projection.point.normal,
                 gap: projection.gap,
                 area: own.area[point.slave as usize],
+                nodes: own.nodes_of_whole(x),
             });
         }
         self.smooth_normals(positions, &faces, gaps);
@@ -116,7 +118,8 @@ impl GapFunction {
                 continue;
             }
             let node = own.node(point.slave);
-            let kinematics = mean.kinematics(master, positions, positions.at(node));
+            let x = positions.at(node);
+            let kinematics = mean.kinematics(master, positions, x);
             let in_mesh =
                 |share: &Share| (self.trace.in_mesh(master.node(share.node)), share.weight);
             gaps.push(Gap {
@@ -125,12 +128,13 @@ impl GapFunction {
                 normal: kinematics.normal,
                 gap: kinematics.gap,
                 area: own.area[point.slave as usize],
+                nodes: own.nodes_of_whole(x),
             });
         }
     }
 
     /// Replaces the normals of `gaps`, whose projections lie on the faces `projections` of the master, by ones
-    /// that are continuous over the surface. A load dents facets against one another, so that a
+    /// that are continuous over the surface, on a plane of symmetry with its mirror image. A load dents facets against one another, so that a
     /// slave over their common edge finds no equilibrium with either normal.
     fn smooth_normals(&self, positions: &Positions<'_>, projections: &[u32], gaps: &mut [Gap]) {
         let surface = &self.sides[1 - self.slave];
@@ -143,7 +147,9 @@ impl GapFunction {
             if face.local.iter().any(|&n| wanted[n as usize]) {
                 let normals = corner_normals(surface, index as u32, positions, self.curvature);
                 for (normal, &n) in normals.iter().zip(&face.local) {
-                    sums[n as usize] = add(sums[n as usize], *normal);
+                    let x = positions.at(surface.node(n));
+                    let normal = if surface.is_on_plane(x) { in_plane(*normal) } else { *normal };
+                    sums[n as usize] = add(sums[n as usize], normal);
                 }
             }
         }

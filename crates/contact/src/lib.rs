@@ -31,6 +31,7 @@ mod snapshot;
 mod stiffness;
 mod sums;
 mod surface;
+mod symmetry;
 #[cfg(test)]
 mod tests;
 mod trace;

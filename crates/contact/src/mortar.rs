@@ -33,6 +33,7 @@ use crate::face::{FaceGeometry, Positions, Projection, project, shape};
 use crate::segment::{Point, Polygon, coordinates};
 use crate::snapshot::StateError;
 use crate::surface::{ContactSurface, NONE};
+use crate::symmetry::unit_in_plane;
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, norm, scale, sub};
 use serde::{Deserialize, Serialize};
 
@@ -82,7 +83,7 @@ impl Mean {
         positions: &Positions<'_>,
         x: Vec3,
     ) -> MeanKinematics {
-        let master_point = MasterPoint::new(&self.shares, master, positions);
+        let master_point = MasterPoint::under(x, &self.shares, master, positions);
         let normal = self.turned(&master_point);
         let to_node = sub(x, master_point.x);
         let distance = dot(normal, to_node);
@@ -216,7 +217,9 @@ impl Mortar {
         let outward = self.around(slave).fold([0.0; 3], |sum, k| {
             axpy(sum, -1.0, Plane::new(own, self.around[k].0, positions).axes[2])
         });
-        let n = scale(1.0 / norm(outward), outward);
+        let on_plane = own.is_on_plane(x);
+        let unit = |a: Vec3| if on_plane { unit_in_plane(a) } else { scale(1.0 / norm(a), a) };
+        let n = unit(outward);
         let along = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let directions = frame(along, n);
 
@@ -244,7 +247,7 @@ impl Mortar {
             share.weight /= area;
             share.gradient = share.gradient.map(|g| g / area);
         }
-        self.settle(mean, sides, positions, slave, scale(1.0 / norm(normal), normal), gap / area);
+        self.settle(mean, sides, positions, slave, unit(normal), gap / area);
         mean.reach = STALE * f64::min(area.sqrt(), master.faces[near as usize].size);
         (near, true)
     }
@@ -260,14 +263,14 @@ impl Mortar {
         gap: f64,
     ) {
         let x = positions.at(own.node(slave));
-        let master_point = MasterPoint::new(&mean.shares, master, positions);
+        let master_point = MasterPoint::under(x, &mean.shares, master, positions);
         let [g1, g2] = master_point.duals(n);
         let to_node = sub(x, master_point.x);
         let beside = [dot(g1, to_node), dot(g2, to_node)];
         for share in &mut mean.shares {
             share.weight += share.gradient[0] * beside[0] + share.gradient[1] * beside[1];
         }
-        let master_point = MasterPoint::new(&mean.shares, master, positions);
+        let master_point = MasterPoint::under(x, &mean.shares, master, positions);
         mean.beyond = dot(n, sub(x, master_point.x)) - gap;
         let [a1, a2] = master_point.tangents;
         let facet = cross(a1, a2);
@@ -652,6 +655,7 @@ mod tests {
                 &kinematics.master_point,
                 kinematics.normal,
                 x,
+                false,
                 &mut legs,
             );
             let weight =

@@ -4,6 +4,7 @@ use crate::penalty_point::PenaltyPoint;
 use crate::point::{ContactPoint, Enforced, State};
 use crate::search::Listed;
 use crate::surface::{ContactSurface, NONE};
+use crate::symmetry::in_plane;
 use crate::vector::{axpy, scale};
 use crate::{PenaltyContact, Trace};
 use mesh::Face;
@@ -189,6 +190,14 @@ impl NodalContact {
             table.mu[row] = if size > 0.0 { table.mu[row] / size } else { mu_static };
             table.pressure[row] = normal / table.area[row];
             table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
+        }
+        // what loads a node of the plane from one side loads it from the other too
+        for (local, &row) in table.rows.iter().enumerate() {
+            if row != NONE && sides[side].holds_on_plane(local) {
+                let row = row as usize;
+                let vectors = [&mut table.shear, &mut table.slip_velocity, &mut table.slip];
+                vectors.into_iter().for_each(|field| field[row] = in_plane(field[row]));
+            }
         }
     }
 }

@@ -96,7 +96,7 @@ impl PenaltyContact {
     /// If a slice has fewer entries than the trace has nodes.
     pub fn apply(&mut self, motion: &Motion<'_>, force: &mut [Padded]) -> ContactSums {
         self.follow(motion);
-        self.load(force)
+        self.load(&Positions(motion.position), force)
     }
 
     /// Adds the forces (N) of the normal springs alone at `position` (m), without damper or friction, to `force`,
@@ -106,7 +106,7 @@ impl PenaltyContact {
     /// If a slice has fewer entries than the trace has nodes.
     pub fn apply_frictionless(&mut self, position: &[Padded], force: &mut [Padded]) -> ContactSums {
         self.update(&Positions(position), None);
-        self.load(force)
+        self.load(&Positions(position), force)
     }
 
     /// Follows the points to `x^n`, with their springs, dampers and friction.
@@ -159,7 +159,7 @@ impl PenaltyContact {
     }
 
     /// Adds the forces of the points to `force`.
-    pub(crate) fn load(&self, force: &mut [Padded]) -> ContactSums {
+    pub(crate) fn load(&self, positions: &Positions<'_>, force: &mut [Padded]) -> ContactSums {
         let mut sums = Accumulator::new(self.searched);
         for (slave, list) in self.points.iter().enumerate() {
             for point in list {
@@ -184,8 +184,9 @@ impl PenaltyContact {
                 sums.stored_tangential.add(point.stored_tangential());
                 sums.meet(point.mu);
                 let other = &mut sums.other;
-                other.closed += 1;
-                other.slipping += usize::from(point.state == State::Slip);
+                let nodes = self.sides[slave].nodes_of_whole(positions.at(node));
+                other.closed += nodes;
+                other.slipping += nodes * usize::from(point.state == State::Slip);
                 other.max_penetration = other.max_penetration.max(-point.gap);
             }
         }

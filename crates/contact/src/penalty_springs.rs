@@ -107,6 +107,7 @@ impl PenaltyContact {
             normal: point.normal,
             gap: point.gap,
             area: self.sides[slave].area[point.slave as usize],
+            nodes: 1,
         }
     }
 

@@ -43,6 +43,25 @@ pub struct ContactSums {
     pub searched: bool,
 }
 
+impl ContactSums {
+    /// Those of bodies made of `parts` parts alike, of which these are the sums of one; the second part is the mirror
+    /// image of the first in y = 0. Counts are of the whole surfaces already.
+    pub fn of_parts(self, parts: f64) -> Self {
+        let whole = |[x, y, z]: [f64; 3]| [parts * x, if parts > 1.0 { 0.0 } else { y }, parts * z];
+        Self {
+            force: self.force.map(whole),
+            normal_force: parts * self.normal_force,
+            stored_normal: parts * self.stored_normal,
+            stored_tangential: parts * self.stored_tangential,
+            friction_work: parts * self.friction_work,
+            damping_work: parts * self.damping_work,
+            friction_ahead: parts * self.friction_ahead,
+            damping_ahead: parts * self.damping_ahead,
+            ..self
+        }
+    }
+}
+
 /// Accumulates [`ContactSums`].
 pub(crate) struct Accumulator {
     /// Forces on the nodes of each side.

@@ -38,6 +38,10 @@ pub(crate) struct ContactSurface {
     /// face's share in its area.
     pub scaled_stiffness: Vec<f64>,
     pub smooth: Option<SmoothSurface>,
+    /// Whether y = 0 is a plane of symmetry and this is the half y >= 0 (module `symmetry`).
+    pub symmetric: bool,
+    /// Which nodes lie on the plane; empty without one.
+    plane: Vec<bool>,
 }
 
 impl ContactSurface {
@@ -77,7 +81,12 @@ impl ContactSurface {
             scaled_stiffness: vec![0.0; nodes.len()],
             faces: Vec::with_capacity(surface.faces.len()),
             smooth: surface.smooth,
+            symmetric: mesh.symmetric,
+            plane: Vec::new(),
         };
+        if mesh.symmetric {
+            result.plane = nodes.iter().map(|&n| mesh.nodes[n as usize][1] == 0.0).collect();
+        }
         for (index, face) in surface.faces.iter().enumerate() {
             let outside = ContactError::OutsideMesh { side, face: index };
             let hex = mesh.hexes.get(face.hex as usize).ok_or(outside.clone())?;
@@ -120,6 +129,11 @@ impl ContactSurface {
     /// How many nodes it has.
     pub fn len(&self) -> usize {
         self.area.len()
+    }
+
+    /// Whether a node of the surface lies on the plane of symmetry.
+    pub fn holds_on_plane(&self, local: usize) -> bool {
+        self.plane.get(local).is_some_and(|on_plane| *on_plane)
     }
 
     /// The number in the trace of a node of the surface.

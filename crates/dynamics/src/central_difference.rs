@@ -47,19 +47,21 @@ impl Simulation {
         let given_after = 0.5 * dt * system.load.power(time, &nodes.velocity);
         let moved = Instant::now();
 
+        // from here on of the whole bodies
+        let parts = system.parts;
         let viscous = 0.5 * dt * (sums.viscous_power + updated.dashpot_power);
         self.ledger.add(&Works {
-            friction: contact.friction_work,
-            damping: contact.damping_work + viscous + quiet.dissipated_before,
-            contact_damping: contact.damping_work,
-            external: hub.before + quiet.external_before + given_before,
+            friction: parts * contact.friction_work,
+            damping: parts * (contact.damping_work + viscous + quiet.dissipated_before),
+            contact_damping: parts * contact.damping_work,
+            external: parts * (hub.before + quiet.external_before + given_before),
         });
         let energies = read.then(|| {
             let now = Energies {
-                kinetic: updated.kinetic + hub.kinetic,
-                internal: sums.internal,
-                hourglass: sums.hourglass,
-                contact_stored: contact.stored_normal + contact.stored_tangential,
+                kinetic: parts * (updated.kinetic + hub.kinetic),
+                internal: parts * sums.internal,
+                hourglass: parts * sums.hourglass,
+                contact_stored: parts * (contact.stored_normal + contact.stored_tangential),
                 friction_dissipated: self.ledger.friction,
                 damping_dissipated: self.ledger.damping,
                 contact_damping: self.ledger.contact_damping,
@@ -69,10 +71,10 @@ impl Simulation {
             now
         });
         self.ledger.add(&Works {
-            friction: contact.friction_ahead,
-            damping: contact.damping_ahead + viscous + quiet.dissipated_after,
-            contact_damping: contact.damping_ahead,
-            external: hub.after + quiet.external_after + given_after,
+            friction: parts * contact.friction_ahead,
+            damping: parts * (contact.damping_ahead + viscous + quiet.dissipated_after),
+            contact_damping: parts * contact.damping_ahead,
+            external: parts * (hub.after + quiet.external_after + given_after),
         });
 
         let following = following / rayon::current_num_threads() as u32;
@@ -82,9 +84,9 @@ impl Simulation {
         self.timers.nodes += moved - contacted;
         self.step += 1;
         let (drive, omega) = match &system.hub {
-            Some(h) => (h.reaction, 0.5 * (omega_before + h.state.omega)),
+            Some(h) => (h.reaction.times(parts), 0.5 * (omega_before + h.state.omega)),
             None => Default::default(),
         };
-        StepReport { step: n, time, contact, energies, drive, omega }
+        StepReport { step: n, time, contact: contact.of_parts(parts), energies, drive, omega }
     }
 }

@@ -62,6 +62,14 @@ pub struct DriveReaction {
     pub torque: f64,
 }
 
+impl DriveReaction {
+    /// That of `parts` hubs alike.
+    pub(crate) fn times(self, parts: f64) -> Self {
+        let Self { force_x, force_z, torque } = self;
+        Self { force_x: parts * force_x, force_z: parts * force_z, torque: parts * torque }
+    }
+}
+
 /// A rigid hub that carries the nodes of the disk's inner ring.
 #[derive(Clone, Debug)]
 pub struct Hub {

@@ -126,7 +126,7 @@ pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
             ("zone".to_owned(), Surface { faces: zone, smooth }),
         ]),
     };
-    Ok(Mesh { nodes, hexes, bodies: vec![body] })
+    Ok(Mesh { nodes, hexes, bodies: vec![body], symmetric: false })
 }
 
 /// Radii of the rows, from the tread inwards, and the number of rows of the fine zone.

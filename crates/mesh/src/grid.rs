@@ -60,7 +60,7 @@ impl Grid {
             node_sets: BTreeMap::new(),
             surfaces: BTreeMap::new(),
         };
-        Mesh { nodes, hexes, bodies: vec![body] }
+        Mesh { nodes, hexes, bodies: vec![body], symmetric: false }
     }
 
     /// Faces number `side` (in the order of [`HEX_FACES`]) of a box of cells.

@@ -9,6 +9,7 @@ pub fn join(parts: &[Mesh]) -> Mesh {
         nodes: Vec::with_capacity(parts.iter().map(|p| p.nodes.len()).sum()),
         hexes: Vec::with_capacity(parts.iter().map(|p| p.hexes.len()).sum()),
         bodies: Vec::with_capacity(parts.iter().map(|p| p.bodies.len()).sum()),
+        symmetric: !parts.is_empty() && parts.iter().all(|p| p.symmetric),
     };
     for part in parts {
         let (n, e) = (whole.nodes.len(), whole.hexes.len());

@@ -13,6 +13,8 @@ pub struct Mesh {
     pub hexes: Vec<[u32; 8]>,
     /// The bodies; their ranges cover `nodes` and `hexes` in order, without gaps or overlaps.
     pub bodies: Vec<Body>,
+    /// Whether this is the [half](crate::half) y >= 0 of bodies that y = 0 is a plane of symmetry of.
+    pub symmetric: bool,
 }
 
 /// One body of a [`Mesh`]: ranges and named sets, all in indices of the whole mesh.

@@ -34,6 +34,7 @@ pub fn seven_hex_patch() -> Mesh {
             node_sets: Default::default(),
             surfaces: Default::default(),
         }],
+        symmetric: false,
         nodes: outer.into_iter().chain(INNER).collect(),
         hexes,
     }

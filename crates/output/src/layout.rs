@@ -41,6 +41,7 @@ names! {
         SLIP_PAIRING = "slip_pairing", "which step's slip stands beside a traction: `before` or `after`";
         ENFORCED_ON = "enforced_on", "the body at whose nodes contact is enforced: `disk` or `bar`";
         CONTACT_ROWS = "contact_rows", "how contact is enforced there: `node_to_face` or `mortar`";
+        SYMMETRY = "symmetry", "`half` where y >= 0 alone is modelled: `fields.vtkhdf` then holds that half, all other numbers are of the whole bodies";
         DIAGNOSIS = "diagnosis", "why the guards stopped the run";
     }
 }
@@ -50,6 +51,8 @@ pub const BODY_NAMES: [&str; 2] = ["disk", "bar"];
 /// Value of the attribute `contact_rows`: conditions that hold at each node against the face at its
 /// closest-point projection.
 pub const NODE_TO_FACE: &str = "node_to_face";
+/// Value of the attribute `symmetry`.
+pub const HALF: &str = "half";
 /// Value of the attribute `contact_rows`: conditions that hold in the mean over the faces around each node.
 pub const MORTAR: &str = "mortar";
 

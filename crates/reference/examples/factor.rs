@@ -35,7 +35,7 @@ fn main() {
         .zip([1, 0])
         .flat_map(|(set, body): (_, usize)| mesh.bodies[body].node_sets[*set].clone())
         .collect();
-    let supports = Supports { held, tied: Vec::new() };
+    let supports = Supports { held, ..Supports::default() };
 
     let clock = Instant::now();
     let unknowns = Unknowns::new(&mesh, &supports, &[]).unwrap();

@@ -102,7 +102,7 @@ impl Block {
                 near.filter(free).map(|(&n, &f)| Tied { nodes: vec![n, f], axes }).collect()
             }
         };
-        Supports { held, tied }
+        Supports { held, tied, sliding: Vec::new() }
     }
 
     /// The influence matrix of the block and its mirror image ([`Influence::mirrored`]). `element` is the stiffness of

@@ -106,7 +106,9 @@ impl Unknowns {
     pub fn new(mesh: &Mesh, supports: &Supports, last: &[u32]) -> Result<Self, SparseError> {
         let nodes = mesh.nodes.len();
         let named = supports.held.iter().chain(supports.tied.iter().flat_map(|t| &t.nodes));
-        if let Some(&node) = named.chain(last).find(|&&n| n as usize >= nodes) {
+        if let Some(&node) =
+            named.chain(&supports.sliding).chain(last).find(|&&n| n as usize >= nodes)
+        {
             return Err(SparseError::Node { node, nodes });
         }
         // Vertices of the graph: free nodes and tied groups, each with up to three unknowns.
@@ -136,10 +138,12 @@ impl Unknowns {
                 at.push(mesh.nodes[first as usize]);
             }
         }
-        for (slot, x) in vertex.iter_mut().zip(&mesh.nodes) {
+        let mut slides = vec![false; nodes];
+        supports.sliding.iter().for_each(|&n| slides[n as usize] = true);
+        for ((slot, x), slides) in vertex.iter_mut().zip(&mesh.nodes).zip(slides) {
             if *slot == FREE {
                 *slot = axes.len() as u32;
-                axes.push([true; 3]);
+                axes.push([true, !slides, true]);
                 at.push(*x);
             }
         }

@@ -18,7 +18,7 @@ fn element(x: &[[f64; 3]; 8], m: &Material) -> [[f64; 24]; 24] {
 
 fn clamped(n: usize) -> (Mesh, Supports) {
     let mesh = mesh::block([n, n - 1, n - 2], [0.02, 0.015, 0.01]);
-    let supports = Supports { held: mesh.bodies[0].node_sets["z-"].clone(), tied: Vec::new() };
+    let supports = Supports { held: mesh.bodies[0].node_sets["z-"].clone(), ..Supports::default() };
     (mesh, supports)
 }
 
@@ -122,7 +122,11 @@ fn a_body_that_floats_is_named() {
     let (mesh, _) = clamped(5);
     let top = &mesh.bodies[0].node_sets["z+"];
     let axes = [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-1.0)];
-    let loose = Supports { held: Vec::new(), tied: vec![Tied { nodes: top.clone(), axes }] };
+    let loose = Supports {
+        held: Vec::new(),
+        tied: vec![Tied { nodes: top.clone(), axes }],
+        ..Supports::default()
+    };
     let fault = SurfaceCompliance::new(&mesh, &[STEEL], &element, &loose, &top[..1]).err();
     assert!(matches!(fault, Some(SparseError::NotPositive { .. })), "{fault:?}");
     // Of two bodies the one that floats is named.
@@ -140,12 +144,12 @@ fn a_body_that_floats_is_named() {
             fault => panic!("{fault:?}"),
         }
     }
-    let twice = Supports { held: vec![3, 3], tied: Vec::new() };
+    let twice = Supports { held: vec![3, 3], ..Supports::default() };
     assert!(matches!(
         Unknowns::new(&mesh, &twice, &[]).err(),
         Some(SparseError::Twice { node: 3 })
     ));
-    let outside = Supports { held: vec![9999], tied: Vec::new() };
+    let outside = Supports { held: vec![9999], ..Supports::default() };
     assert!(matches!(Unknowns::new(&mesh, &outside, &[]).err(), Some(SparseError::Node { .. })));
 }
 
@@ -180,7 +184,7 @@ fn two_equal_blocks_have_the_influence_of_one_on_its_mirror_image() {
         held.sort_unstable();
         held.dedup();
         let nodes: Vec<u32> = points.iter().map(|p| p.node).collect();
-        let supports = Supports { held, tied: Vec::new() };
+        let supports = Supports { held, ..Supports::default() };
         SurfaceCompliance::new(mesh, &[STEEL], &element, &supports, &nodes).unwrap()
     };
     let within = |[x, y, _]: [f64; 3]| x.abs() < 3.1 * h && y.abs() < 2.1 * h;

@@ -35,7 +35,8 @@ impl Disk {
         let stress = if case.output.stress { 6.0 } else { 0.0 };
         let snapshots = (case.duration() / case.fields_interval()).ceil().min(steps) + 1.0;
         // corners of a face are shared by four, but for the borders
-        let zone: f64 = model.zones.iter().map(|faces| faces.len() as f64).sum::<f64>();
+        // and those of half a model have mirror images
+        let zone = model.parts * model.zones.iter().map(|faces| faces.len() as f64).sum::<f64>();
         let in_windows = |w: &case::schema::Window| {
             (w.to.min(case.duration()) - w.from).max(0.0) / dt / w.every as f64
         };

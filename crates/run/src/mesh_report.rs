@@ -45,6 +45,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
         .collect();
     Ok(json!({
         "name": case.name,
+        "symmetry": case.mesh.symmetry,
         "elements": elements,
         "fully_integrated": model.fully_integrated(),
         "nodes": nodes,
@@ -111,7 +112,7 @@ fn write(path: &Path, case: &Case, model: &Model) -> Result<(), RunError> {
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: case.hash(),
         created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        attributes: Vec::new(),
+        attributes: crate::run::symmetry(case),
     };
     Ok(TransientGrid::create(path, &grid, &[], &provenance)?.append(0.0, &[])?)
 }

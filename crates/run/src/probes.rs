@@ -14,8 +14,8 @@ use scenario::{BAR, DISK, Model};
 pub(crate) struct Probes {
     history: History,
     tables: [NodalContact; 2],
-    /// Side and row in that side's table, of each probe.
-    rows: Vec<(usize, usize)>,
+    /// Side, row in that side's table, and sign of y of each probe: -1 for the mirror image of a node.
+    rows: Vec<(usize, usize, f64)>,
     buffer: Vec<f64>,
 }
 
@@ -41,35 +41,39 @@ impl Probes {
         let wanted: Vec<(usize, [f64; 3])> = (probes.disk.iter().map(|p| (DISK, on_disk(*p))))
             .chain(probes.bar.iter().map(|p| (BAR, [p[0], p[1], 0.0])))
             .collect();
+        let sign =
+            |point: &[f64; 3]| if model.mesh.symmetric && point[1] < 0.0 { -1.0 } else { 1.0 };
         let mut chosen = Vec::new();
         for (side, point) in &wanted {
             let distance = |n: u32| {
                 let x = model.mesh.nodes[n as usize];
                 // height is ignored on the bar, whose crown the user need not compute
                 let dz = if *side == BAR { 0.0 } else { x[2] - point[2] };
-                (x[0] - point[0]).powi(2) + (x[1] - point[1]).powi(2) + dz * dz
+                (x[0] - point[0]).powi(2) + (x[1] - sign(point) * point[1]).powi(2) + dz * dz
             };
             let nodes = model.zones[*side].iter().flat_map(|f| f.nodes);
             let nearest = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-            chosen.push((*side, nearest.ok_or(RunError::NoContact)?));
+            chosen.push((*side, nearest.ok_or(RunError::NoContact)?, sign(point)));
         }
         let tables = [DISK, BAR].map(|side| {
             let around: Vec<Face> = model.zones[side]
                 .iter()
-                .filter(|f| chosen.iter().any(|&(s, n)| s == side && f.nodes.contains(&n)))
+                .filter(|f| chosen.iter().any(|&(s, n, _)| s == side && f.nodes.contains(&n)))
                 .copied()
                 .collect();
             contact.nodal_table_of(side, &around)
         });
         let rows = chosen
             .iter()
-            .map(|&(side, n)| {
-                Ok((side, tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?))
+            .map(|&(side, n, sign)| {
+                let row = tables[side].nodes.binary_search(&n).map_err(|_| RunError::NoContact)?;
+                Ok((side, row, sign))
             })
             .collect::<Result<Vec<_>, RunError>>()?;
         let mut columns = vec![HISTORY.time.clone()];
-        for (k, &(side, n)) in chosen.iter().enumerate() {
+        for (k, &(side, n, sign)) in chosen.iter().enumerate() {
             let [x, y, z] = model.mesh.nodes[n as usize];
+            let y = sign * y;
             let body = BODY_NAMES[side];
             columns.extend(PROBE.each().map(|column| {
                 FieldSpec {
@@ -93,17 +97,17 @@ impl Probes {
     ) -> Result<(), RunError> {
         self.tables.iter_mut().for_each(|t| contact.nodal(t));
         self.buffer.push(report.time);
-        for &(side, row) in &self.rows {
+        for &(side, row, sign) in &self.rows {
             let t = &self.tables[side];
             let ([shear_x, shear_y, shear_z], [slip_velocity_x, slip_velocity_y, slip_velocity_z]) =
                 (t.shear[row], t.slip_velocity[row]);
             let probe = ProbeRow {
                 pressure: t.pressure[row],
                 shear_x,
-                shear_y,
+                shear_y: sign * shear_y,
                 shear_z,
                 slip_velocity_x,
-                slip_velocity_y,
+                slip_velocity_y: sign * slip_velocity_y,
                 slip_velocity_z,
                 slip_x: t.slip[row][0],
                 mu: t.mu[row],

@@ -1,7 +1,9 @@
 //! What a run writes while it rolls, and when.
 
+mod images;
 mod row;
 
+use self::images::{Images, mirrored};
 use self::row::{PatchMeasures, Resultants, row};
 use crate::error::RunError;
 use crate::means::Means;
@@ -64,8 +66,12 @@ pub(crate) struct Recorder {
     stress: bool,
     /// Nodes of the disk, which moves with the hub but for its deformation.
     disk: Range<usize>,
-    /// Undeformed positions of the zones' nodes (m).
+    images: Images,
+    /// Undeformed positions of the zones' nodes (m), and of those of the bar with their images.
     points: [Vec<[f64; 3]>; 2],
+    whole_bar: Vec<[f64; 3]>,
+    /// Buffer: pressures (Pa) there.
+    whole_pressure: Vec<f64>,
     /// Rows of the bar's table on the centre line, by x.
     centreline: Vec<usize>,
     shape: PatchShape,
@@ -73,6 +79,8 @@ pub(crate) struct Recorder {
     line: Vec<(f64, bool)>,
     effective_radius: f64,
     speed: f64,
+    /// How many parts alike make up the bodies, of which one is modelled.
+    parts: f64,
     hertz_pressure: f64,
     /// The evaluation window (s).
     evaluate: [f64; 2],
@@ -166,8 +174,15 @@ impl Recorder {
         let hertz_pressure = basis.hertz_pressure;
         let mesh_mode =
             WatchedFaces::new(case, model, &tables, contact.enforced_on(), hertz_pressure)?;
-        let surface =
-            ContactSurfaces { tables: &tables, points: &points, faces: mesh_mode.faces() };
+        let images = Images::new(&model.mesh, &points);
+        let mut whole_bar = Vec::with_capacity(images.counts()[BAR]);
+        images.of_side(BAR, &points[BAR], mirrored, &mut whole_bar);
+        let surface = ContactSurfaces {
+            tables: &tables,
+            points: &points,
+            faces: mesh_mode.faces(),
+            images: &images,
+        };
         let files = RunFiles {
             fields: create_fields(case, model, basis)?,
             contact: create_contact(case, &surface, contact.enforced_on(), basis)?,
@@ -202,11 +217,15 @@ impl Recorder {
             rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.each().len()),
             stress: case.output.stress,
             disk: model.mesh.bodies[DISK].nodes.clone(),
+            whole_pressure: Vec::with_capacity(whole_bar.len()),
+            whole_bar,
+            images,
             points,
             centreline,
             shape: patch_shape(case),
             effective_radius: basis.effective_radius,
             speed: case.drive.speed,
+            parts: model.parts,
             hertz_pressure,
             evaluate: case.evaluation_window(),
             mesh_mode,
@@ -328,11 +347,14 @@ impl Recorder {
     /// The patch on the bar by the present tables, with the hub at `hub_x` (m).
     fn patch(&mut self, hub_x: f64) -> PatchMeasures {
         let bar = &self.zones.tables[BAR];
-        let fit = patch::fit(self.shape, &self.points[BAR], &bar.pressure);
+        self.whole_pressure.clear();
+        self.images.of_side(BAR, &bar.pressure, |p| p, &mut self.whole_pressure);
+        let fit = patch::fit(self.shape, &self.whole_bar, &self.whole_pressure);
         let fit = fit.map_or([f64::NAN; 4], |f| [f.a, f.b, f.p0, f.xc - hub_x]);
+        let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
         PatchMeasures {
             fit,
-            areas: patch::areas(&bar.pressure, &bar.area, &bar.state),
+            areas: patch::PatchAreas { contact: self.parts * areas.contact, ..areas },
             peak_shear: bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max),
             cone_excess: self.cone_excess(),
             stick_border: self.stick_border(hub_x + fit[3]),
@@ -388,14 +410,20 @@ impl Recorder {
 
     fn write_contact(&mut self, time: f64) -> Result<(), RunError> {
         let Zones { tables: [disk, bar], pairing, displacement, velocity } = &self.zones;
-        let pressure = [&disk.pressure[..], &bar.pressure].concat();
-        let shear = [&disk.shear[..], &bar.shear].concat();
-        let slip_velocity = [&disk.slip_velocity[..], &bar.slip_velocity].concat();
-        let slip = [&disk.slip[..], &bar.slip].concat();
-        let mu = [&disk.mu[..], &bar.mu].concat();
-        let state = [&disk.state[..], &bar.state].concat();
-        let gap = [&disk.gap[..], &bar.gap].concat();
-        let pass_pressure = [&disk.pass_pressure[..], &bar.pass_pressure].concat();
+        let images = &self.images;
+        let sides = |values: &'_ [[f64; 3]]| {
+            let (disk, bar) = values.split_at(disk.nodes.len());
+            images.vectors([disk, bar])
+        };
+        let pressure = images.scalars([&disk.pressure, &bar.pressure]);
+        let shear = images.vectors([&disk.shear, &bar.shear]);
+        let slip_velocity = images.vectors([&disk.slip_velocity, &bar.slip_velocity]);
+        let slip = images.vectors([&disk.slip, &bar.slip]);
+        let mu = images.scalars([&disk.mu, &bar.mu]);
+        let state = images.scalars([&disk.state[..], &bar.state]);
+        let gap = images.scalars([&disk.gap, &bar.gap]);
+        let pass_pressure = images.scalars([&disk.pass_pressure, &bar.pass_pressure]);
+        let (velocity, displacement) = (sides(velocity), sides(displacement));
         let values = ContactFields {
             pressure: Some(Values::Scalar(&pressure)),
             shear: Some(Values::Vector(&shear)),
@@ -404,8 +432,8 @@ impl Recorder {
             mu: Some(Values::Scalar(&mu)),
             state: Some(Values::Integer(&state)),
             gap: Some(Values::Scalar(&gap)),
-            velocity: Some(Values::Vector(velocity)),
-            displacement: Some(Values::Vector(displacement)),
+            velocity: Some(Values::Vector(&velocity)),
+            displacement: Some(Values::Vector(&displacement)),
             pass_pressure: Some(Values::Scalar(&pass_pressure))
                 .filter(|_| *pairing == Pairing::Before),
         };
@@ -492,11 +520,12 @@ struct ContactSurfaces<'a> {
     points: &'a [Vec<[f64; 3]>; 2],
     /// Faces, their nodes as rows of the tables.
     faces: &'a [Vec<[u32; 4]>; 2],
+    images: &'a Images,
 }
 
 fn create_contact(
     case: &Case,
-    &ContactSurfaces { tables, points, faces }: &ContactSurfaces<'_>,
+    &ContactSurfaces { tables, points, faces, images }: &ContactSurfaces<'_>,
     enforced_on: Option<usize>,
     basis: &RecordBasis<'_>,
 ) -> Result<TransientGrid, RunError> {
@@ -513,13 +542,14 @@ fn create_contact(
         ];
         provenance.attributes.extend(texts.map(|(name, text)| (name.into(), text.into())));
     }
-    let offset = tables[DISK].nodes.len() as u32;
+    let offset = images.counts()[DISK] as u32;
+    let faces = [DISK, BAR].map(|side| images.faces(side, &faces[side]));
     let bar = faces[BAR].iter().map(|face| face.map(|node| node + offset));
     let quads: Vec<_> = faces[DISK].iter().copied().chain(bar).collect();
-    let area = [&tables[DISK].area[..], &tables[BAR].area].concat();
+    let area = images.areas([&tables[DISK].area, &tables[BAR].area]);
     let body = labels(&[faces[DISK].len(), faces[BAR].len()]);
     let grid = GridSpec {
-        points: &points.concat(),
+        points: &images.vectors([&points[DISK], &points[BAR]]),
         cells: Cells::Quads(&quads),
         constant: &[StaticField::body(&body), StaticField::area(&area)],
     };

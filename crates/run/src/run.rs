@@ -19,14 +19,14 @@ use crate::summary::{Ending, summary, write as write_summary};
 use crate::text_file::remove;
 use begin::{Begun, Resumed, begin};
 use case::hertz::hertz;
-use case::schema::Case;
+use case::schema::{Case, Symmetry};
 use case::validation;
 use dynamics::Simulation;
 use friction::Kind;
 use opening::{Opened, Opening, open};
 pub use options::RunOptions;
 use output::NotWritten;
-use output::layout::file;
+use output::layout::{HALF, attribute, file};
 use output::summary::Status;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 use rolling::{Rolled, Rolling, Stopped};
@@ -171,12 +171,19 @@ fn basis<'a>(
                 Some(resumed) => resumed.checkpoint.provenance.created.clone(),
                 None => humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
             },
-            attributes: Vec::new(),
+            attributes: symmetry(case),
         },
         effective_radius: facts.radius.effective,
         hertz_pressure: hertz(case).p0,
         keeps: resumed.map(|resumed| resumed.checkpoint.results.clone()),
     }
+}
+
+/// The attribute of every file of a run of half the bodies.
+pub(crate) fn symmetry(case: &Case) -> Vec<(String, String)> {
+    let half = case.mesh.symmetry == Symmetry::Half;
+    let attribute = (attribute::SYMMETRY.to_owned(), HALF.to_owned());
+    half.then_some(attribute).into_iter().collect()
 }
 
 /// Writes the summary, and removes the checkpoints of a run that is complete.

@@ -103,6 +103,7 @@ pub(crate) fn summary(
     });
     let preload = facts.preload.map(|p| p.json());
     let sections = [
+        ("symmetry", json!(case.mesh.symmetry)),
         ("kernels", json!(simulation.solid().level().name())),
         ("stability", json!(facts.stability)),
         ("rolling_radius", json!(facts.radius)),

@@ -48,6 +48,13 @@ pub enum ScenarioError {
         /// What the system has free (GB).
         free_gb: f64,
     },
+    /// Half of a mesh that is not symmetric.
+    #[error("mesh.symmetry = \"half\": {0}")]
+    #[diagnostic(help(
+        "give a mesh with nodes on y = 0 that this plane mirrors, bodies and a fine zone an even number of elements wide, \
+         or mesh.symmetry = \"whole\""
+    ))]
+    Symmetry(#[from] mesh::NotSymmetric),
     /// The time step asked for is not stable.
     #[error(
         "time.step = {step:.4e} s is above the stability limit of {limit:.4e} s, which the closed \
@@ -81,6 +88,7 @@ impl ScenarioError {
             Self::Mesh(error) => key_of_mesh(error),
             Self::Memory { .. } => Some(key!("mesh.zone.size")),
             Self::Slice(_) => Some(key!("mesh.plane_strain")),
+            Self::Symmetry(_) => Some(key!("mesh.symmetry")),
             Self::Step { .. } => Some(key!("time.step")),
             _ => None,
         }

@@ -25,6 +25,7 @@ pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), Scena
     }
     let zone = &case.mesh.zone;
     let across = if case.mesh.plane_strain { 1.0 } else { zone.width / zone.size };
+    let across = across / case.mesh.symmetry.parts();
     let elements = 2.0 * zone.length * zone.depth / zone.size.powi(2) * across;
     fits(elements as usize, bytes_per_element, free_mb())
 }

@@ -9,7 +9,7 @@ use contact::{
     StabilityScale,
 };
 use friction::OwnLaw;
-use mesh::{Face, Mesh, Surface};
+use mesh::{Face, Mesh, Padded, Surface};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 use std::sync::Arc;
 
@@ -39,6 +39,11 @@ pub struct Model {
     pub kernels: Level,
     /// The function of `friction.law = "python"`, which is no part of the case.
     pub law: Option<Arc<dyn OwnLaw>>,
+    /// How many parts alike make up the bodies: 2 for half a model, whose forces, masses and energies are those of
+    /// one part.
+    pub parts: f64,
+    /// Nodes that do not move along y: those on a plane of symmetry, or all of a slice in plane strain.
+    pub sliding: Vec<u32>,
     /// Pairs of nodes that face each other across a slice in plane strain and move as one, ascending by the first;
     /// empty in three dimensions.
     pub paired: Vec<[u32; 2]>,
@@ -87,12 +92,22 @@ impl Model {
         inverse
     }
 
+    /// Leaves out of a nodal field what acts or moves along y at nodes of a plane of symmetry.
+    pub(crate) fn slide(&self, field: &mut [Padded]) {
+        if self.parts > 1.0 {
+            self.sliding.iter().for_each(|&n| field[n as usize][1] = 0.0);
+        }
+    }
+
     /// Largest angular frequency of the bodies without contact (rad/s), with a margin of one per cent.
     pub fn elastic_frequency(&self, solid: &mut Solid) -> f64 {
         MARGIN
             * solid::largest_frequency(
                 &self.inverse_mass(),
-                |x, y| solid.add_stiffness_product(x, y),
+                |x, y| {
+                    solid.add_stiffness_product(x, y);
+                    self.slide(y);
+                },
                 LANCZOS,
             )
     }

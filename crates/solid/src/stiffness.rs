@@ -100,7 +100,8 @@ mod tests {
             surfaces: Default::default(),
         };
         let hex = [0, 1, 2, 3, 4, 5, 6, 7];
-        let mesh = Mesh { nodes: x.to_vec(), hexes: vec![hex], bodies: vec![body] };
+        let mesh =
+            Mesh { nodes: x.to_vec(), hexes: vec![hex], bodies: vec![body], symmetric: false };
         let mut solid =
             Solid::new(&mesh, &[STEEL], element, Viscosity::default(), Level::Portable).unwrap();
         let scale = k.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));

@@ -52,7 +52,7 @@ fn main() {
         nodes: set(0, "hub"),
         axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-LOAD)],
     };
-    let supports = Supports { held, tied: vec![hub] };
+    let supports = Supports { held, tied: vec![hub], ..Supports::default() };
     println!("{} elements, {} nodes", mesh.hexes.len(), mesh.nodes.len());
     for word in arguments {
         let factor: f64 = word.parse().unwrap_or(1.0);
@@ -79,7 +79,6 @@ fn main() {
         let problem = Problem {
             mesh: &mesh,
             supports: &supports,
-            plane_strain: false,
             spin: None,
             tolerance: 1e-9,
             max_iterations: 60,

@@ -55,7 +55,7 @@ impl Cg {
     ) -> Outcome {
         let Self { z, p, q } = self;
         x.fill(Padded::ZERO);
-        space.flatten(r);
+        space.slide(r);
         let mut rz = space.precondition(r, z);
         let largest = largest(z);
         if rz == 0.0 || largest == 0.0 {

@@ -33,6 +33,9 @@ impl Parts {
             let part = label[n as usize] as usize;
             (stopped[part], supported[part]) = ([true; 3], true);
         }
+        for &n in &supports.sliding {
+            stopped[label[n as usize] as usize][1] = true;
+        }
         for tied in &supports.tied {
             for &n in &tied.nodes {
                 let part = label[n as usize] as usize;
@@ -69,6 +72,9 @@ pub(crate) fn body_of(mesh: &Mesh, node: usize) -> usize {
 fn check(mesh: &Mesh, supports: &Supports) -> Result<(), StaticsError> {
     let mut seen = vec![false; mesh.nodes.len()];
     let tied = supports.tied.iter().flat_map(|t| &t.nodes);
+    if let Some(&node) = supports.sliding.iter().find(|&&n| n as usize >= seen.len()) {
+        return Err(StaticsError::NoSuchNode { node });
+    }
     for (&node, held) in supports.held.iter().map(|n| (n, true)).chain(tied.map(|n| (n, false))) {
         match seen.get_mut(node as usize) {
             None => return Err(StaticsError::NoSuchNode { node }),

@@ -64,7 +64,7 @@ pub(crate) fn solve(
             .map(|(g, l)| ((*g).clone(), -l.slave_normal(&force)))
             .collect();
         let widest = closed.iter().fold(0.0, |w: f64, g| w.max(g.gap.abs()));
-        at.closed = pressed.len();
+        at.closed = pressed.iter().map(|(gap, _)| gap.nodes).sum();
         at.normal_force = exact_sum::sum(pressed.iter().map(|p| p.1));
         let drift = system.unresisted(&links);
         system.space.set_links(links);

@@ -51,7 +51,7 @@ pub(crate) fn solve(
     let mut total = 0;
     let mut before = f64::INFINITY;
     let mut energy = system.force(&u, &mut force, true);
-    let mut sums = springs.add_force(&system.reference, &u, &mut force);
+    let mut sums = system.add_spring_force(springs, &u, &mut force);
     loop {
         at.residual = system.space.norm(&force) / system.scale(&force);
         (at.normal_force, at.closed) = (sums.normal_force, sums.closed);
@@ -93,13 +93,13 @@ pub(crate) fn solve(
         at.iteration += 1;
         if let Some(drift) = drift {
             let closed = |system: &mut StaticSystem<'_>, u: &[Padded]| {
-                springs.add_force(&system.reference, u, &mut r);
+                system.add_spring_force(springs, u, &mut r);
                 springs.closed(u).into_iter().map(|(link, _)| link).collect()
             };
             system.close(&drift, &mut u, &force, closed)?;
             (at.cg_iterations, at.step) = (0, 0.0);
             energy = system.force(&u, &mut force, true);
-            sums = springs.add_force(&system.reference, &u, &mut force);
+            sums = system.add_spring_force(springs, &u, &mut force);
             before = f64::INFINITY;
             continue;
         }
@@ -128,7 +128,7 @@ fn release(
     let before = slaves(&springs.closed(u));
     springs.release();
     system.force(u, force, false);
-    springs.add_force(&system.reference, u, force);
+    system.add_spring_force(springs, u, force);
     system.set_springs(springs.closed(u));
     slaves(&system.springs) == before
 }
@@ -151,7 +151,7 @@ fn search(
     let mut evaluate = |alpha: f64| {
         moved(u, alpha, d, trial);
         let energy = system.force(trial, force, true);
-        let sums = springs.add_force(&system.reference, trial, force);
+        let sums = system.add_spring_force(springs, trial, force);
         (system.space.inner(force, d), energy, sums)
     };
     let mut alpha = 1.0;

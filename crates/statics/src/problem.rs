@@ -40,9 +40,6 @@ pub struct Problem<'a> {
     pub mesh: &'a Mesh,
     /// What holds and presses.
     pub supports: &'a Supports,
-    /// Whether no node moves along y: plane strain, of a slice one element wide. The reaction to
-    /// that is left out of the forces.
-    pub plane_strain: bool,
     /// Centrifugal force, if a body turns.
     pub spin: Option<Spin<'a>>,
     /// Residual over load at which the solution is accepted.

@@ -2,7 +2,7 @@
 //! them.
 //!
 //! Vectors are full (one entry per node) but lie in the admissible space: zero where a node is
-//! held, equal on a group of tied nodes, and at constrained slaves moving with their projection along
+//! held, without y where it slides, equal on a group of tied nodes, and at constrained slaves moving with their projection along
 //! the normal. With `T` the map from the free coordinates to full vectors, conjugate gradients run
 //! on `T^T K T`, whose residual `T^T r` is kept in a full vector as well.
 
@@ -29,8 +29,10 @@ pub(crate) struct Space {
     pub(crate) groups: Vec<Group>,
     /// Slaves that follow their projections along the normal.
     pub(crate) links: Vec<Link>,
-    /// Whether no node moves along y.
-    plane: bool,
+    /// Nodes that do not move along y, and whether these are all nodes, as in plane strain: slaves and masters then lie in
+    /// one plane, and following one another takes none out of it.
+    sliding: Vec<u32>,
+    all_slide: bool,
     coarse: Coarse,
     reference: Vec<Padded>,
     /// Partial sums, one per chunk.
@@ -65,7 +67,6 @@ impl Space {
         mesh: &Mesh,
         reference: &[Padded],
         supports: &Supports,
-        plane: bool,
         blocks: &[[[f64; 3]; 3]],
         mut product: impl FnMut(&[Padded], &mut [Padded]),
     ) -> Self {
@@ -89,9 +90,20 @@ impl Space {
         }
         let inverse = diagonal.iter().map(inverted).collect();
         let is_free = |node: usize| diagonal[node][0] > 0.0;
-        let coarse = Coarse::new(mesh, reference, is_free, &groups, product);
+        // In plane strain every node slides: motion along y is then coupled to nothing.
+        let all_slide = supports.sliding.len() == n;
+        let slides: &[u32] = if all_slide { &[] } else { &supports.sliding };
+        let slide = |x: &mut [Padded]| slides.iter().for_each(|&n| x[n as usize][1] = 0.0);
+        let mut slid = vec![Padded::ZERO; n];
+        let coarse = Coarse::new(mesh, reference, is_free, &groups, |x, y| {
+            slid.copy_from_slice(x);
+            slide(&mut slid);
+            product(&slid, y);
+            slide(y);
+        });
         Self {
-            plane,
+            sliding: supports.sliding.clone(),
+            all_slide,
             coarse,
             reference: reference.to_vec(),
             inverse,
@@ -138,19 +150,21 @@ impl Space {
         self.links = links;
     }
 
-    /// Leaves out what acts or moves along a direction in which nothing moves.
-    pub(crate) fn flatten(&self, of: &mut [Padded]) {
-        if self.plane {
-            of.iter_mut().for_each(|x| x[1] = 0.0);
-        }
+    /// Leaves out what acts or moves along y at nodes that do not move that way.
+    pub(crate) fn slide(&self, of: &mut [Padded]) {
+        self.sliding.iter().for_each(|&n| of[n as usize][1] = 0.0);
     }
 
     /// `T^T r`: a linked slave hands its normal force on to its projection.
     pub(crate) fn reduce(&self, r: &mut [Padded]) {
-        self.flatten(r);
+        // before, so that round-off of normals hands on nothing of the supports' reaction
+        self.slide(r);
         for link in &self.links {
             let f = link.slave_normal(r);
             link.push(-f, r);
+        }
+        if !self.all_slide {
+            self.slide(r);
         }
     }
 
@@ -188,9 +202,12 @@ impl Space {
             group.set(value, z);
             rz += pull * value;
         }
-        self.follow(z);
         // `r` has no part there: `r . z` stays.
-        self.flatten(z);
+        if !self.all_slide {
+            self.slide(z);
+        }
+        self.follow(z);
+        self.slide(z);
         rz
     }
 

@@ -25,4 +25,7 @@ pub struct Supports {
     pub held: Vec<u32>,
     /// Groups of nodes that move together.
     pub tied: Vec<Tied>,
+    /// Nodes that do not move along y but slide in x and z: those on a plane of symmetry, or all of a slice in plane
+    /// strain. The reaction is left out of the forces.
+    pub sliding: Vec<u32>,
 }

@@ -6,6 +6,7 @@ use crate::error::StaticsError;
 use crate::link::Link;
 use crate::problem::{Iteration, Problem};
 use crate::space::{CHUNK, Space};
+use crate::springs::{Pressed, Springs};
 use crate::supports::Axis;
 use mesh::Padded;
 use rayon::prelude::*;
@@ -41,14 +42,7 @@ impl<'a> StaticSystem<'a> {
         let blocks = solid.stiffness_diagonal();
         let reference = solid.reference().to_vec();
         let product = |x: &[Padded], y: &mut [Padded]| solid.add_stiffness_product(x, y);
-        let space = Space::new(
-            problem.mesh,
-            &reference,
-            problem.supports,
-            problem.plane_strain,
-            &blocks,
-            product,
-        );
+        let space = Space::new(problem.mesh, &reference, problem.supports, &blocks, product);
         let n = blocks.len();
         let mut spun = vec![false; n];
         if let Some(spin) = &problem.spin {
@@ -87,7 +81,7 @@ impl<'a> StaticSystem<'a> {
                 tied.nodes.iter().for_each(|&n| u[n as usize][axis] = value);
             }
         }
-        self.space.flatten(&mut u);
+        self.space.slide(&mut u);
         match u.iter().flat_map(|u| u.xyz()).find(|c| !c.is_finite()) {
             Some(value) => Err(StaticsError::NotANumber { value }),
             None => Ok(u),
@@ -115,8 +109,20 @@ impl<'a> StaticSystem<'a> {
             force[group.nodes[0] as usize][group.axis] += group.load;
         }
         let sums = self.solid.subtract_elastic_force(u, force, energy);
-        self.space.flatten(force);
+        self.space.slide(force);
         sums.internal + sums.hourglass
+    }
+
+    /// Adds the forces of `springs` at `u` (N).
+    pub(crate) fn add_spring_force(
+        &self,
+        springs: &mut Springs<'_>,
+        u: &[Padded],
+        force: &mut [Padded],
+    ) -> Pressed {
+        let pressed = springs.add_force(&self.reference, u, force);
+        self.space.slide(force);
+        pressed
     }
 
     /// Takes the normal springs `springs` into the tangent.

@@ -63,7 +63,11 @@ fn set(mesh: &Mesh, body: usize, name: &str) -> Vec<u32> {
 fn pressed(mesh: &Mesh, top: Axis) -> Supports {
     let last = mesh.bodies.len() - 1;
     let axes = [Axis::Moved(0.0), Axis::Moved(0.0), top];
-    Supports { held: set(mesh, last, "z-"), tied: vec![Tied { nodes: set(mesh, 0, "z+"), axes }] }
+    Supports {
+        held: set(mesh, last, "z-"),
+        tied: vec![Tied { nodes: set(mesh, 0, "z+"), axes }],
+        ..Supports::default()
+    }
 }
 
 struct Rig {
@@ -109,7 +113,6 @@ impl Rig {
         let problem = Problem {
             mesh: &self.mesh,
             supports,
-            plane_strain: false,
             spin: None,
             tolerance: 1e-10,
             max_iterations: 40,
@@ -143,14 +146,7 @@ fn solve_alone(
     supports: &Supports,
     observe: impl FnMut(&Iteration) -> bool,
 ) -> Result<Equilibrium, StaticsError> {
-    let problem = Problem {
-        mesh,
-        supports,
-        plane_strain: false,
-        spin: None,
-        tolerance: 1e-12,
-        max_iterations: 40,
-    };
+    let problem = Problem { mesh, supports, spin: None, tolerance: 1e-12, max_iterations: 40 };
     solve(solid, Contact::None, &problem, &vec![Padded::ZERO; mesh.nodes.len()], observe)
 }
 
@@ -336,7 +332,8 @@ fn the_number_of_threads_changes_no_bit() {
 #[test]
 fn a_body_that_nothing_holds_is_named() {
     let mut rig = Rig::new(stack(2, 2), STEEL, 1.0);
-    let supports = Supports { held: set(&rig.mesh, 1, "z-"), tied: Vec::new() };
+    let supports =
+        Supports { held: set(&rig.mesh, 1, "z-"), tied: Vec::new(), ..Supports::default() };
     let error = rig.solve(&supports, Enforcement::Penalty, 0.0, |_| true).unwrap_err();
     assert!(matches!(&error, StaticsError::Floating { body, .. } if body == "upper"), "{error}");
 }
@@ -360,7 +357,8 @@ fn a_sideways_load_that_nothing_takes_up_is_refused() {
     let mut rig = Rig::new(stack(2, 2), STEEL, 1.0);
     let axes = [Axis::Loaded(10.0), Axis::Moved(0.0), Axis::Loaded(-1e3)];
     let tied = Tied { nodes: set(&rig.mesh, 0, "z+"), axes };
-    let supports = Supports { held: set(&rig.mesh, 1, "z-"), tied: vec![tied] };
+    let supports =
+        Supports { held: set(&rig.mesh, 1, "z-"), tied: vec![tied], ..Supports::default() };
     let error = rig.solve(&supports, Enforcement::Penalty, 1e-6, |_| true).unwrap_err();
     assert!(matches!(&error, StaticsError::Open { axis: 'x', .. }), "{error}");
 }
@@ -381,7 +379,6 @@ fn too_few_iterations_say_where_the_residual_is_largest() {
     let problem = Problem {
         mesh: &mesh,
         supports: &supports,
-        plane_strain: false,
         spin: None,
         tolerance: 1e-12,
         max_iterations: 2,

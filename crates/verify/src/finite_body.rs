@@ -172,7 +172,7 @@ fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     let nodes: Vec<u32> = points.iter().map(|p| p.node).collect();
     let condensed = |mesh: &Mesh, held: &str, nodes: &[u32]| {
         let held = mesh.bodies[0].node_sets[held].clone();
-        let supports = Supports { held, tied: Vec::new() };
+        let supports = Supports { held, tied: Vec::new(), ..Supports::default() };
         SurfaceCompliance::new(mesh, &[STEEL], &element, &supports, nodes)
     };
     let (above, below) = rayon::join(

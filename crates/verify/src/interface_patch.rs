@@ -93,11 +93,14 @@ fn pressures(
         nodes: side_nodes(&mesh, 0, "z+").to_vec(),
         axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-PRESSURE * EDGE * EDGE)],
     };
-    let supports = Supports { held: side_nodes(&mesh, 1, "z-").to_vec(), tied: vec![press] };
+    let supports = Supports {
+        held: side_nodes(&mesh, 1, "z-").to_vec(),
+        tied: vec![press],
+        ..Supports::default()
+    };
     let problem = Problem {
         mesh: &mesh,
         supports: &supports,
-        plane_strain: false,
         spin: None,
         tolerance: RESIDUAL,
         max_iterations: 100,

@@ -2,7 +2,7 @@
 
 use super::{Findings, round};
 use crate::key::number;
-use crate::schema::{Case, Crown};
+use crate::schema::{Case, Crown, PreloadMethod, Symmetry};
 
 /// More elements than this in the fine zones are taken for a typing mistake.
 const MOST_ELEMENTS: f64 = 2e8;
@@ -15,6 +15,7 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
     check_disk(case, found);
     check_crowns(case, found);
     check_slice(case, found);
+    check_symmetry(case, found);
     check_zone_place(case, found);
     check_element_count(case, found);
 }
@@ -123,6 +124,23 @@ fn check_slice(case: &Case, found: &mut Findings<'_>) {
             )
         },
         "make a slice: give all three the same width",
+    );
+}
+
+/// Half a model is neither a slice nor preloaded by relaxation, whose nodes are held or free.
+fn check_symmetry(case: &Case, found: &mut Findings<'_>) {
+    let whole = case.mesh.symmetry == Symmetry::Whole;
+    found.require(
+        whole || !case.mesh.plane_strain,
+        &["mesh.symmetry", "mesh.plane_strain"],
+        || "mesh.symmetry = \"half\" has no meaning with mesh.plane_strain = true".into(),
+        "a slice is one element wide: leave mesh.symmetry out",
+    );
+    found.require(
+        whole || case.preload.method != PreloadMethod::Relaxation,
+        &["mesh.symmetry", "preload.method"],
+        || "mesh.symmetry = \"half\" does not go with preload.method = \"relaxation\"".into(),
+        "preload.method = \"static\" finds the same state, and sooner",
     );
 }
 

@@ -95,6 +95,12 @@ fn log_opening(
     model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     log.say(&format!("mesh: {elements} elements, {nodes} nodes"))?;
+    if model.parts > 1.0 {
+        log.say(
+            "symmetry: y >= 0 is modelled, numbers are of the whole bodies; fluctuations that y = 0 does not mirror \
+             are suppressed",
+        )?;
+    }
     match model.fully_integrated() {
         0 => Ok(()),
         full => log.say(&format!("fully integrated: {full} elements")),

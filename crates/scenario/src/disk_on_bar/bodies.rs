@@ -4,7 +4,7 @@ use super::mesh_file;
 use crate::error::ScenarioError;
 use crate::memory::enough_for_mesh;
 use crate::model::{BAR, DISK, Model};
-use case::schema::{Case, ContactLayers, Ends};
+use case::schema::{Case, ContactLayers, Ends, Symmetry};
 use case::validation::LAYERS;
 use mesh::Mesh;
 use solid::{Element, Level, Material, Volumetric};
@@ -19,6 +19,9 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         Some(imported) => imported,
         None => (generated(case)?, Vec::new()),
     };
+    if case.mesh.symmetry == Symmetry::Half {
+        mesh = mesh::half(&mesh)?;
+    }
     let materials = [material(case.disk_material()), material(case.bar_material())];
     let paired = if case.mesh.plane_strain { align(&mut mesh)? } else { Vec::new() };
     let mut mass = solid::lumped_mass(&mesh, &materials.map(|m| m.density));
@@ -46,6 +49,8 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         },
         kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
         law: None,
+        parts: case.mesh.symmetry.parts(),
+        sliding: sliding(case, &mesh),
         paired,
         mass,
         surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
@@ -70,6 +75,7 @@ pub fn elements(case: &Case) -> Result<usize, ScenarioError> {
 fn generated(case: &Case) -> Result<Mesh, ScenarioError> {
     let (mut disk, mut bar) = (case.disk.shape(), case.bar.shape());
     let mut zone = case.mesh.fine_zone();
+    zone.width = zone.width.min(disk.width).min(bar.width);
     let stretch = zone.width / zone.size;
     if case.mesh.plane_strain {
         // a slice is made one cube wide and stretched to its width
@@ -80,6 +86,13 @@ fn generated(case: &Case) -> Result<Mesh, ScenarioError> {
         mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
     }
     Ok(mesh)
+}
+
+/// The nodes that do not move along y.
+fn sliding(case: &Case, mesh: &Mesh) -> Vec<u32> {
+    let on_plane = |n: &u32| case.mesh.plane_strain || mesh.nodes[*n as usize][1] == 0.0;
+    let some = case.mesh.plane_strain || mesh.symmetric;
+    (0..mesh.nodes.len() as u32).filter(|n| some && on_plane(n)).collect()
 }
 
 /// The pairs of nodes across a slice, whose second nodes are put exactly across from the first.

@@ -92,13 +92,20 @@ impl Bodies<'_> {
         let (case, model, hub) = (self.case, self.model, self.hub);
         let group = Tied {
             nodes: hub.nodes.clone(),
-            axes: [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(-case.load.normal)],
+            axes: [
+                Axis::Moved(0.0),
+                Axis::Moved(0.0),
+                Axis::Loaded(-case.load.normal / model.parts),
+            ],
         };
-        let supports = Supports { held: self.held.to_vec(), tied: vec![group] };
+        let supports = Supports {
+            held: self.held.to_vec(),
+            tied: vec![group],
+            sliding: model.sliding.clone(),
+        };
         let problem = Problem {
             mesh: &model.mesh,
             supports: &supports,
-            plane_strain: case.mesh.plane_strain,
             spin: Some(Spin {
                 centre: hub.centre,
                 omega: rolling_omega(case),
@@ -125,6 +132,7 @@ impl Bodies<'_> {
         let mut said = Ok(());
         let found = statics::solve(self.solid, contact, &problem, &start, |now| {
             products += now.cg_iterations + 1;
+            let now = &Iteration { normal_force: model.parts * now.normal_force, ..*now };
             said = say(&line(now));
             said.is_ok() && watch(now.iteration, products, now.normal_force)
         });
@@ -133,7 +141,7 @@ impl Bodies<'_> {
         let height = found.displacement[hub.nodes[0] as usize][2];
         Ok(Preloaded {
             displacement: found.displacement,
-            report: Some(PreloadReport::of_statics(&found.report, height)),
+            report: Some(PreloadReport::of_statics(&found.report, model.parts, height)),
             loads: loads_of_slaves(model.slave(), &found.pressed),
         })
     }

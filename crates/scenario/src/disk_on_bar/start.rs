@@ -100,6 +100,7 @@ fn preloaded_state(
             let with_springs = |x: &[Padded], y: &mut [Padded]| {
                 solid.add_stiffness_product(x, y);
                 springs.stiffness_product(x, y);
+                model.slide(y);
             };
             let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
             (MARGIN * omega, springs.rigorous_omega_squared(&inverse_mass))
@@ -247,9 +248,9 @@ fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
     let Parts { solid, contact, mut hub, quiet, displacement, velocity } = parts;
     let Found { stability, radius, preload, preload_wall, steps } = found;
     let dt = case.duration() / steps as f64;
-    hub.spin = spin(case, case.drive.speed / radius.effective);
+    hub.spin = spin(case, model, case.drive.speed / radius.effective);
     hub.vertical = match case.load.mode {
-        LoadMode::Load => Vertical::Load(case.load.normal),
+        LoadMode::Load => Vertical::Load(case.load.normal / model.parts),
         LoadMode::Height => Vertical::Held,
     };
     let system = System {
@@ -257,10 +258,15 @@ fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
         hub: Some(hub),
         quiet,
         held: model.clamped.clone(),
-        fixed: if case.mesh.plane_strain { plane_strain(model) } else { Vec::new() },
+        fixed: model
+            .sliding
+            .iter()
+            .map(|&node| Fixed { node, axes: [false, true, false] })
+            .collect(),
         paired: model.paired.clone(),
         disk: model.mesh.bodies[DISK].nodes.clone(),
         mass_damping: case.damping.mass,
+        parts: model.parts,
         ..System::free(solid, model.mass.clone())
     };
     let omega_max = 2.0 / stability.dt_limit;
@@ -280,31 +286,27 @@ fn quiet(model: &Model) -> QuietEnd {
     QuietEnd::new(&model.mesh, &ends, &model.materials[BAR], &model.clamped)
 }
 
-/// The constraints of plane strain: no node moves in y.
-fn plane_strain(model: &Model) -> Vec<Fixed> {
-    let nodes = 0..model.mass.len() as u32;
-    nodes.map(|node| Fixed { node, axes: [false, true, false] }).collect()
-}
-
 fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
     Hub::new(
         [0.0, 0.0, case.disk.radius],
         &model.hub,
         solid.reference(),
         &model.mass,
-        case.load.hub_mass,
-        spin(case, case.drive.speed / case.disk.radius),
-        Vertical::Load(case.load.normal),
+        case.load.hub_mass / model.parts,
+        spin(case, model, case.drive.speed / case.disk.radius),
+        Vertical::Load(case.load.normal / model.parts),
     )
 }
 
-fn spin(case: &Case, free: f64) -> Spin {
+fn spin(case: &Case, model: &Model, free: f64) -> Spin {
     let ramp = case.drive.ramp;
     match case.drive.mode {
         DriveMode::Creepage => {
             Spin::Creepage { free, creepage: case.drive.creepage.unwrap_or(0.0), ramp }
         }
-        DriveMode::Torque => Spin::Torque { torque: case.drive.torque.unwrap_or(0.0), ramp },
+        DriveMode::Torque => {
+            Spin::Torque { torque: case.drive.torque.unwrap_or(0.0) / model.parts, ramp }
+        }
     }
 }
 

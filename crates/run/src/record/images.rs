@@ -1,0 +1,112 @@
+//! The recorded surfaces as wholes: where half of the bodies is modelled, their nodes have mirror images in y = 0.
+
+use mesh::Mesh;
+
+/// Which nodes of a table of each side have mirror images; none where the bodies are modelled whole.
+pub(super) struct Images {
+    /// How many rows each table has.
+    rows: [usize; 2],
+    /// The rows of each table that have an image, ascending.
+    imaged: [Vec<u32>; 2],
+}
+
+impl Images {
+    /// Of tables with these undeformed positions (m) of nodes of `mesh`.
+    pub(super) fn new(mesh: &Mesh, points: &[Vec<[f64; 3]>; 2]) -> Self {
+        let off_plane = |points: &Vec<[f64; 3]>| {
+            let rows = 0..points.len() as u32;
+            rows.filter(|&row| mesh.symmetric && points[row as usize][1] != 0.0).collect()
+        };
+        Self { rows: points.each_ref().map(Vec::len), imaged: points.each_ref().map(off_plane) }
+    }
+
+    /// How many nodes there are of each side with the images.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        [0, 1].map(|side| self.rows[side] + self.imaged[side].len())
+    }
+
+    /// Values of a side with those of the images.
+    pub(super) fn of_side<T: Copy>(
+        &self,
+        side: usize,
+        values: &[T],
+        image: fn(T) -> T,
+        whole: &mut Vec<T>,
+    ) {
+        whole.extend_from_slice(values);
+        whole.extend(self.imaged[side].iter().map(|&row| image(values[row as usize])));
+    }
+
+    /// Values of both sides, each with those of its images after it.
+    fn both<T: Copy>(&self, values: [&[T]; 2], image: fn(T) -> T) -> Vec<T> {
+        let mut whole = Vec::with_capacity(self.counts().iter().sum());
+        for (side, values) in values.into_iter().enumerate() {
+            self.of_side(side, values, image, &mut whole);
+        }
+        whole
+    }
+
+    /// Scalars of both sides.
+    pub(super) fn scalars<T: Copy>(&self, values: [&[T]; 2]) -> Vec<T> {
+        self.both(values, |value| value)
+    }
+
+    /// Vectors of both sides.
+    pub(super) fn vectors(&self, values: [&[[f64; 3]]; 2]) -> Vec<[f64; 3]> {
+        self.both(values, mirrored)
+    }
+
+    /// Areas of both sides (m^2): a node on the plane has half of its own.
+    pub(super) fn areas(&self, values: [&[f64]; 2]) -> Vec<f64> {
+        let mut whole = self.scalars(values);
+        let mut first = 0;
+        for (side, count) in self.counts().into_iter().enumerate() {
+            if !self.imaged[side].is_empty() {
+                let own = &mut whole[first..first + self.rows[side]];
+                let on_plane = |row: usize| self.imaged[side].binary_search(&(row as u32)).is_err();
+                for (_, area) in own.iter_mut().enumerate().filter(|(row, _)| on_plane(*row)) {
+                    *area *= 2.0;
+                }
+            }
+            first += count;
+        }
+        whole
+    }
+
+    /// The faces of a side with their images, which run the other way round; their nodes as rows of the whole side.
+    pub(super) fn faces(&self, side: usize, faces: &[[u32; 4]]) -> Vec<[u32; 4]> {
+        let image = |row: u32| match self.imaged[side].binary_search(&row) {
+            Ok(place) => (self.rows[side] + place) as u32,
+            Err(_) => row,
+        };
+        let images = faces.iter().map(|&[a, b, c, d]| [d, c, b, a].map(image));
+        let count = if self.imaged[side].is_empty() { 0 } else { faces.len() };
+        faces.iter().copied().chain(images.take(count)).collect()
+    }
+}
+
+/// The mirror image of a vector in the plane y = 0.
+pub(super) fn mirrored([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [x, -y, z]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_half_of_a_face_and_its_image_share_the_edge_on_the_plane_and_look_the_same_way() {
+        let points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.5], [0.0, 2.0, 0.5]];
+        let mesh = Mesh { symmetric: true, ..Mesh::default() };
+        let images = Images::new(&mesh, &[points.clone(), Vec::new()]);
+        assert_eq!(images.counts(), [6, 0]);
+        let whole = images.vectors([&points, &[]]);
+        assert_eq!(whole[4..], [[1.0, -2.0, 0.5], [0.0, -2.0, 0.5]]);
+        assert_eq!(images.faces(0, &[[0, 1, 2, 3]]), [[0, 1, 2, 3], [5, 4, 1, 0]]);
+        assert_eq!(images.areas([&[1.0; 4], &[]]), [2.0, 2.0, 1.0, 1.0, 1.0, 1.0]);
+        let alone = Images::new(&Mesh::default(), &[points.clone(), Vec::new()]);
+        assert_eq!(alone.vectors([&points, &[]]), points);
+        assert_eq!(alone.areas([&[1.0; 4], &[]]), [1.0; 4]);
+        assert_eq!(alone.faces(0, &[[0, 1, 2, 3]]), [[0, 1, 2, 3]]);
+    }
+}
