@@ -71,3 +71,31 @@ fn a_formula_that_loses_its_value_on_the_way_stops_the_run_with_a_diagnosis() {
         assert!(said.contains("gives no coefficient of friction"), "{said}");
     }
 }
+
+#[test]
+fn exact_contact_is_stable_up_to_the_limit_of_the_elements_with_every_law() {
+    let preloads = tempfile::tempdir().unwrap();
+    let falling = ["friction.law=exponential", "friction.static=0.5"];
+    let rough: [&[&str]; 6] = [
+        &["friction.mode=exact"],
+        &["friction.mode=lagged"],
+        &["friction.memory.distance=2e-6"],
+        &["damping.kelvin_voigt=1e-8"],
+        // four times the load: the peak pressure is near 2.7 GPa
+        &["load.normal=40e3"],
+        // dropped from 5 um: it hits the bar
+        &["preload.method=none", "disk.lift=5e-6", "drive.creepage=0"],
+    ];
+    let cases = LAWS.iter().map(|law| law.to_vec());
+    for law in cases.chain(rough.iter().map(|more| [&falling[..], more].concat())) {
+        let sets = ["contact.enforcement=exact", "time.factor=0.99", "time.roll=0.003"];
+        let case = load(&project("tests/small.toml"), &[&sets, &law[..]].concat());
+        let (run, _) = run_with(&case, 2, Some(preloads.path()));
+        assert_eq!(run.summary["status"], "completed", "{law:?}: {:#}", run.summary);
+        let normal = run.history("normal_force").iter().fold(0.0_f64, |most, x| most.max(*x));
+        assert!(normal > 1e3, "{law:?}: nothing is pressed, {normal} N");
+        assert!(run.number("/stability/factor") > 0.985, "{law:?}");
+        let error = run.number("/energy/balance_error");
+        assert!(error < 1e-4, "{law:?}: {error:e}");
+    }
+}

@@ -10,9 +10,7 @@ use crate::error::CaseError;
 use crate::layers::{Layers, get};
 use crate::mesh_file;
 use crate::name;
-use crate::schema::{
-    Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing, Time,
-};
+use crate::schema::{Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing};
 use crate::table;
 use crate::validation;
 use output::hexadecimal;
@@ -134,7 +132,7 @@ fn write_defaults(case: &mut Case) {
         case.element.volumetric.get_or_insert_default();
     }
     if case.time.step.is_none() {
-        case.time.factor.get_or_insert(Time::FACTOR);
+        case.time.factor = Some(case.factor());
     }
     if case.time.duration.is_none() {
         case.time.roll = Some(case.rolled());

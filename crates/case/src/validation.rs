@@ -10,9 +10,7 @@ use crate::key::number;
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
-use crate::schema::{
-    Case, Enforcement, LoadMode, Material, PreloadMethod, Stiffness, Time, Window,
-};
+use crate::schema::{Case, Enforcement, LoadMode, Material, PreloadMethod, Stiffness, Window};
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
@@ -618,7 +616,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
         case.element.hourglass == 0.0,
         "element.hourglass = 0: nothing holds the elements against hourglassing".into(),
     );
-    let factor = case.time.factor.unwrap_or(Time::FACTOR);
+    let factor = case.factor();
     warn(
         factor > 1.0,
         format!("time.factor = {factor} is above 1: THE RUN IS UNSTABLE and will blow up"),

@@ -288,7 +288,7 @@ impl Remedy for Diagnosis {
 impl Remedy for Cause {
     fn remedy(&self) -> String {
         match self {
-            Self::UnstableStep { .. } => remedy!("set time.factor below 1; 0.67 is the default"),
+            Self::UnstableStep { .. } => remedy!("leave time.factor out, or set it below 1"),
             Self::StiffContact { .. } => remedy!(
                 "lower the contact stiffness (contact.penalty.normal, contact.penalty.tangential) or \
                  time.factor; with preload.method = \"static\" the step respects the springs"

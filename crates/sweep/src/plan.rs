@@ -23,7 +23,6 @@ use thiserror::Error;
 use crate::file::{StepRule, Sweep};
 use crate::points::Point;
 use case::error::CaseError;
-use case::schema::Time;
 use run::folder::FolderError;
 use scenario::ScenarioError;
 
@@ -328,7 +327,7 @@ fn smallest_step(
             error if error.key().is_some() => sweep.refused(error, &run.indices).into(),
             cause => SweepError::Limit { run: run.name.clone(), cause: Box::new(cause) },
         })?;
-        smallest = smallest.min(case.time.factor.unwrap_or(Time::FACTOR) * limit);
+        smallest = smallest.min(case.factor() * limit);
     }
     Ok(smallest)
 }

@@ -10,7 +10,7 @@ use crate::file::{Mode, Sweep};
 use case::error::CaseError;
 use case::forms::float;
 use case::name;
-use case::schema::{Case, Time};
+use case::schema::Case;
 use output::hexadecimal;
 use scenario::{Remedy, ScenarioError};
 
@@ -75,7 +75,7 @@ impl Sweep {
             // The rule takes a fraction of the limit, which an absolute step in the base would override.
             let base = Case::load(&self.base, &sets)?;
             if base.time.step.is_some() {
-                sets.push(format!("time.factor={}", Time::FACTOR));
+                sets.push(format!("time.factor={}", base.contact.enforcement.default_factor()));
             }
         }
         sets.extend(chosen.iter().map(|(key, value)| format!("{key}={value}")));
