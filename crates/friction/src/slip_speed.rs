@@ -9,7 +9,8 @@
 //! Where `c mu` falls faster than `s` rises there are three solutions: adhesion, and two in slip, the
 //! slower of which is unstable. A node stays on its branch until that ends (perfect delay, Ionescu and
 //! Paumier 1994): a node that stuck sticks as long as it can; one that slipped slips as long as there
-//! is a solution in slip, and takes the fastest.
+//! is a solution in slip, and takes the fastest. Where `c mu(0) < |s_free|` there is no adhesion, and always slip: of a
+//! coefficient that rises to a peak and falls beyond it one solution or three, of which the node takes the fastest.
 
 /// Newton steps and bisections at most.
 const MOST_ITERATIONS: usize = 100;
@@ -31,8 +32,8 @@ impl<F: Fn(f64) -> (f64, f64)> Curve for F {
 /// `free` is `|s_free|` (m/s) and `c` as in the module's equation (m/s), both at least zero. `slipped` says whether
 /// the node slipped in the step before; it selects the branch where there are several solutions.
 ///
-/// `mu` should not rise to a peak at a speed above zero and fall beyond it. The search comes from above; for such a law
-/// it may end above the peak and return `None` although the only solution is slip at a lower speed.
+/// `mu` may rise to one peak and fall beyond it. With more turns the speed is still a solution, but perhaps not the
+/// fastest.
 pub fn solve(free: f64, c: f64, slipped: bool, mu: &impl Curve) -> Option<(f64, f64)> {
     let sticks = c * mu.at(0.0).0 >= free;
     if sticks && !slipped {
@@ -48,8 +49,9 @@ pub fn is_non_unique(free: f64, c: f64, mu: &impl Curve) -> bool {
 
 /// The largest root of `F(s) = s + c mu(s) - free`, by Newton's method from above, where `F > 0`.
 ///
-/// For laws that level off at high speed `F` is convex, so that Newton's steps do not pass the root. Where one
-/// does, the root is bracketed, and bisection takes over where Newton's step leaves the bracket.
+/// For laws that level off at high speed `F` is convex there, so that Newton's steps do not pass the root. Where one
+/// does, or where `F` turns up again without one although `F(0) < 0`, the root is bracketed, and bisection takes over
+/// where Newton's step leaves the bracket.
 fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
     // F(free) = c mu >= 0
     let (mut above, mut below) = (free, f64::NAN);
@@ -69,10 +71,7 @@ fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
         let newton = s - f / derivative;
         if below.is_nan() {
             // no root on this branch: F turns up again, or reaches rest, without a change of sign
-            if derivative <= 0.0 {
-                return None;
-            }
-            if newton < 0.0 {
+            if derivative <= 0.0 || newton < 0.0 {
                 if c * mu.at(0.0).0 >= free || s == 0.0 {
                     return None;
                 }
@@ -105,6 +104,7 @@ fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
 mod tests {
     use super::*;
     use crate::{NodeFriction, Place, RateState, StateLaw};
+    use proptest::prelude::*;
 
     #[test]
     fn rate_and_state_creeps_at_the_speed_at_which_its_friction_carries_the_shear() {
@@ -177,6 +177,58 @@ mod tests {
             let free = f64::from(i) * 5e-3;
             assert_eq!(solve(free, c, true, &paper), solve(free, c, false, &paper), "{free}");
             assert!(!is_non_unique(free, c, &paper));
+        }
+    }
+
+    #[test]
+    fn a_law_that_rises_before_it_falls_slips_below_its_peak_where_it_cannot_stick() {
+        // up from 0.3 to 0.5 at 1 m/s, and down again within a few m/s
+        let hump =
+            |s: f64| (0.3 + 0.2 * s * libm::exp(1.0 - s), 0.2 * (1.0 - s) * libm::exp(1.0 - s));
+        for slipped in [false, true] {
+            let (speed, mu) = solve(0.35 * C, C, slipped, &hump).unwrap();
+            assert!(speed > 0.0 && speed < 1.0 && (speed + C * mu - 0.35 * C).abs() < 1e-12 * C);
+            assert_eq!(solve(0.29 * C, C, slipped, &hump), None);
+        }
+    }
+
+    proptest! {
+        /// `mu = base + rise x e^(1 - x) - fall (1 - e^(-s/far))`, `x = s/peak`.
+        #[test]
+        fn a_law_with_one_peak_gets_the_fastest_slip_that_solves_its_equation(
+            (base, rise, part) in (0.05..0.6, 0.0..0.6, 0.0..1.0f64),
+            (peak, stretch) in (-6.0..1.0f64, 1.0..30.0f64),
+            (c, load) in (-3.0..3.0f64, 0.2..3.0f64),
+            slipped: bool,
+        ) {
+            let (peak, c) = (libm::exp10(peak), libm::exp10(c));
+            let far = stretch * peak;
+            // not so steep that the fall outdoes the rise at rest
+            let fall = part * f64::min(base, rise * core::f64::consts::E * stretch);
+            let law = |s: f64| {
+                let x = s / peak;
+                let (near, slow) = (rise * libm::exp(1.0 - x), fall * libm::exp(-s / far));
+                (base + near * x - (fall - slow), near * (1.0 - x) / peak - slow / far)
+            };
+            let free = load * c * base;
+            let residual = |s: f64| s + c * law(s).0 - free;
+            let sticks = c * law(0.0).0 >= free;
+            // the fastest root, between two of many speeds
+            let speeds = || (0..20_000).map(|i| free * libm::pow(0.998, f64::from(i)));
+            let scanned = speeds().find(|&s| residual(s) < 0.0);
+            match solve(free, c, slipped, &law) {
+                None => prop_assert!(sticks && (!slipped || scanned.is_none())),
+                Some((speed, mu)) => {
+                    prop_assert!(!sticks || slipped);
+                    prop_assert!(speed > 0.0 && mu == law(speed).0);
+                    let steep = f64::EPSILON * speed * (1.0 + c * law(speed).1.abs());
+                    prop_assert!(
+                        residual(speed).abs() <= 1e-14 * (free + c * mu) + 4.0 * steep,
+                        "{:e} at {speed:e}", residual(speed)
+                    );
+                    prop_assert!(scanned.is_none_or(|s| speed >= s));
+                }
+            }
         }
     }
 }
