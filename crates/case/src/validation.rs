@@ -146,6 +146,16 @@ fn check_choices(case: &Case, found: &mut Findings) {
         },
         "set preload.method = \"static\"",
     );
+    found.require(
+        !case.mesh.plane_strain || case.preload.method != PreloadMethod::Relaxation,
+        &["preload.method", "mesh.plane_strain"],
+        || {
+            "preload.method = \"relaxation\" lets every node move across, and mesh.plane_strain = true \
+             holds them in the plane"
+                .into()
+        },
+        "set preload.method = \"static\"",
+    );
     let preloaded = case.preload.method != PreloadMethod::None;
     found.require(
         case.disk.lift == 0.0 || !preloaded,

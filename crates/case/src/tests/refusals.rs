@@ -191,6 +191,15 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         (vec!["contact.rows=mortar"], vec!["contact.rows", "contact.enforcement", "\"penalty\""]),
         (vec![EXACT, "contact.rows=dual"], vec!["contact.rows = \"dual\"", "\"node_to_face\""]),
         (vec![EXACT, "preload.method=relaxation"], vec!["preload.method", "exact"]),
+        (
+            vec![
+                "mesh={plane_strain=true,zone={width=0.02}}",
+                "disk={width=0.02,crown_radius='flat'}",
+                "bar={width=0.02,crown_radius='flat'}",
+                "preload.method=relaxation",
+            ],
+            vec!["preload.method = \"relaxation\"", "mesh.plane_strain = true"],
+        ),
     ] {
         let text = refusal(set(&sets));
         for word in words {
