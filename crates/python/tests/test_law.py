@@ -1,5 +1,7 @@
 """A Python function as the friction law."""
 
+from functools import partial
+
 import creepage
 import numpy as np
 import pytest
@@ -7,6 +9,10 @@ import pytest
 from conftest import SHORT, SMALL
 from creepage._case import recorded
 from test_run import assert_same_bits
+
+
+def steady(mu, s, shape):
+    return mu * shape(0 * s)
 
 
 def falling(s):
@@ -90,6 +96,9 @@ def test_what_is_recorded_of_a_law_is_the_law_alone():
     assert recorded(laws["one"]) == "lambda s: {'a': (0.3, 0)}['a'][0] + 0 * s"
     assert recorded(Tiring(1)).startswith("class Tiring:")
     assert recorded(np.sqrt) == "numpy.sqrt (no source)"
+    scaled = partial(steady, 0.3, shape=np.exp)
+    said = "functools.partial of 0.3, shape=numpy.exp (no source):\ndef steady(mu, s, shape):"
+    assert recorded(scaled).startswith(said), recorded(scaled)
 
 
 class Tiring:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import SHORT, SMALL
+from creepage._case import unfolded
 
 SETS = [f"--set={key}={value}" for key, value in SHORT.items()]
 
@@ -56,6 +57,16 @@ def test_a_case_may_be_a_dict_with_sections_or_dotted_keys(small, tmp_path):
     run = creepage.run(case, tmp_path / "run", mesh={"zone": {"size": 0.8e-3}})
     assert run.case == small.case
     assert_same_bits(small.path, run.path)
+
+
+def test_sections_and_dotted_keys_of_a_dict_merge_at_every_depth():
+    section = {"zone": {"size": 1e-3, "width": 0.01}, "growth": 1.3}
+    over = {"mesh": section, "mesh.zone.size": 2e-3}
+    under = {"mesh.zone.size": 1e-3, "mesh.zone.list": [1, 2], "mesh": {**section, "zone.list": [3]}}
+    whole = {"zone": {"size": 2e-3, "width": 0.01}, "growth": 1.3}
+    assert unfolded(over) == {"mesh": whole}
+    assert unfolded(under) == {"mesh": {**whole, "zone": {"size": 1e-3, "width": 0.01, "list": [3]}}}
+    assert over["mesh"] is section and section["zone"]["size"] == 1e-3
 
 
 def test_bad_input_has_the_message_of_the_command_line(tmp_path):

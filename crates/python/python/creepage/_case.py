@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import inspect
 import json
 import os
@@ -82,12 +83,17 @@ def unfolded(case):
             place = place.setdefault(section, {})
             if not isinstance(place, dict):
                 raise CaseError(f"the case gives {key!r} and {section!r}, which is no section")
-        value = unfolded(value) if isinstance(value, Mapping) else value
-        if isinstance(value, dict) and isinstance(place.get(last), dict):
-            place[last].update(value)
-        else:
-            place[last] = value
+        lay_over(place, {last: unfolded(value) if isinstance(value, Mapping) else value})
     return tree
+
+
+def lay_over(tree, above):
+    """Lays a tree of sections over another as ``extends`` does: sections merge key by key, all else is replaced."""
+    for key, value in above.items():
+        if isinstance(value, dict) and isinstance(tree.get(key), dict):
+            lay_over(tree[key], value)
+        else:
+            tree[key] = value
 
 
 def law(friction):
@@ -99,7 +105,11 @@ def law(friction):
 
 
 def recorded(function) -> str:
-    """Where a function comes from: its source, or its name where there is none."""
+    """Where a function comes from: its source, or its name where there is none, with the arguments of a partial one."""
+    if isinstance(function, functools.partial):
+        given = [*map(argument, function.args)]
+        given += (f"{key}={argument(value)}" for key, value in function.keywords.items())
+        return f"functools.partial of {', '.join(given)}:\n{recorded(function.func)}"
     for candidate in (function, type(function)):
         try:
             source = textwrap.dedent(inspect.getsource(candidate)).strip()
@@ -108,6 +118,11 @@ def recorded(function) -> str:
         return the_lambda(source, function) or source
     name = getattr(function, "__qualname__", type(function).__qualname__)
     return f"{getattr(function, '__module__', '')}.{name} (no source)"
+
+
+def argument(value) -> str:
+    """An argument of a partial function. What Python shows of a function is another in every process."""
+    return recorded(value) if callable(value) else repr(value)
 
 
 def the_lambda(lines, function):
