@@ -88,6 +88,46 @@ def test_sets_that_an_abaqus_file_continues_are_whole(tmp_path):
     assert [list(part) for part in cells["bar"]] == [[0, 1]]
 
 
+def test_sets_of_an_abaqus_file_are_whole_however_they_are_given(tmp_path):
+    mesh = two_bricks()
+    nodes = [f"{i}, {x!r}, {y!r}, {z!r}" for i, (x, y, z) in enumerate(mesh.points.tolist(), 1)]
+    (tmp_path / "nodes.inc").write_text("\n".join(["*Node, Nset=ALL", *nodes]) + "\n")
+    lines = [
+        *["*HEADING", "two bricks", "*INCLUDE, INPUT=nodes.inc", "*ELSET, ELSET=disk, GENERATE", "1, 1"],
+        # the first brick goes on in a second line
+        *["*Element, Type=C3D8, Elset=both", "1, 1, 2, 3, 4,", "5, 6, 7, 8"],
+        *["*Element, Type=C3D8, Elset=Both", "2, 9, 10, 11, 12, 13, 14, 15, 16"],
+        *["*NSET, NSET=low, GENERATE", "9, 10", "** a remark", "11, 12, 1"],
+        *["*NSET, NSET=hub, GENERATE", "1, 3, 2"],
+        *["*NSET, NSET=Hub", "5, low,", "*ELSET, ELSET=bar", "BOTH"],
+    ]
+    file = tmp_path / "mesh.inp"
+    file.write_text("\n".join(lines) + "\n")
+    names = {"tread": "low", "top": "ALL", "clamp": "low"}
+    keys = creepage.mesh.from_meshio(file, names, out=tmp_path / "mesh.vtu")
+    _, points, cells = written(keys["file"])
+    assert list(np.flatnonzero(points["clamp"])) == [8, 9, 10, 11]
+    assert list(np.flatnonzero(points["hub"])) == [0, 2, 4, 8, 9, 10, 11]
+    assert points["top"].all()
+    assert [list(part) for part in cells["disk"]] == [[1, 0]]
+    assert [list(part) for part in cells["bar"]] == [[1, 1]]
+
+
+def test_only_files_of_this_package_are_replaced(tmp_path):
+    sets = {"bar": [1], "clamp": "low"}
+    theirs, ours = tmp_path / "theirs.vtu", tmp_path / "ours.vtu"
+    two_bricks().write(theirs)
+    before = theirs.read_bytes()
+    for mesh in (two_bricks(), theirs):
+        with pytest.raises(creepage.CaseError, match="did not write it|is what is read"):
+            creepage.mesh.from_meshio(mesh, sets, out=theirs)
+    assert theirs.read_bytes() == before
+    for _ in range(2):
+        creepage.mesh.from_meshio(two_bricks(), sets, out=ours)
+    with pytest.raises(creepage.CaseError, match="is what is read"):
+        creepage.mesh.from_meshio(ours, out=ours)
+
+
 SMALL = ROOT / "meshes" / "small.msh"
 # what the small mesh is of
 OF_SMALL = {

@@ -16,6 +16,8 @@ from ._execute import execute
 NEEDED = ("disk", "bar", "hub", "tread", "top", "clamp")
 # kinds of cells that a mesh may have beside its bricks: they carry sets or nothing
 BESIDE = ("quad", "line", "vertex")
+# stands near the beginning of every .vtu file that Creepage writes
+MARK = b"<!-- Creepage"
 
 
 class Mesh:
@@ -45,7 +47,8 @@ class Mesh:
             sets: what "disk", "bar", "hub", "tread", "top" and "clamp" are: the name of a set of the
                 mesh, or indices (or a mask) of nodes, of bricks for "disk" and "bar". What is left out
                 is the set of that name.
-            out: the .vtu file to write. Its sets are arrays of zeros and ones.
+            out: the .vtu file to write, a new one or one that Creepage wrote. Its sets are arrays of zeros
+                and ones.
             unit: length of the coordinates: "m", "cm", "mm" or "in".
 
         Returns:
@@ -57,7 +60,10 @@ class Mesh:
         if out.suffix != ".vtu":
             raise CaseError(f"out = {out}: the file's name must end in .vtu")
         if not isinstance(mesh, meshio.Mesh):
+            if out.exists() and os.path.exists(mesh) and out.samefile(mesh):
+                raise CaseError(f"out = {out}: it is what is read, and is not replaced")
             mesh = read(meshio, mesh)
+        refuse_foreign(out)
         refuse_other_cells(mesh)
         nodes, cells = named(mesh)
         for name, given in (sets or {}).items():
@@ -72,13 +78,29 @@ class Mesh:
         chosen = {name: [masks[k].astype(np.uint8) for k in kept] for name, masks in cells.items()}
         points = np.zeros((len(mesh.points), 3))
         points[:, : mesh.points.shape[1]] = mesh.points
-        meshio.Mesh(
+        made = meshio.Mesh(
             points,
             [(mesh.cells[k].type, mesh.cells[k].data) for k in kept],
             point_data={name: mask.astype(np.uint8) for name, mask in nodes.items()},
             cell_data=chosen,
-        ).write(out)
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder, "mesh.vtu")
+            made.write(copy)
+            head, line, body = copy.read_bytes().partition(b"\n")
+            out.write_bytes(head + line + MARK + b" -->\n" + body)
         return {"file": os.path.abspath(out), "unit": unit}
+
+
+def refuse_foreign(out):
+    """A file that Creepage did not write is not replaced."""
+    if not out.exists():
+        return
+    if out.is_file():
+        with out.open("rb") as file:
+            if MARK in file.read(1 << 16):
+                return
+    raise CaseError(f"out = {out}: it exists, and Creepage did not write it; choose another name, or move it away")
 
 
 def read(meshio, path):
@@ -87,28 +109,69 @@ def read(meshio, path):
         if Path(path).suffix.lower() == ".inp":
             with tempfile.TemporaryDirectory() as folder:
                 copy = Path(folder, "mesh.inp")
-                copy.write_text(with_whole_sets(Path(path).read_text("utf-8")), "utf-8")
+                copy.write_text(with_whole_sets(lines_of(Path(path))), "utf-8")
                 return meshio.read(copy)
         return meshio.read(path)
     except (Exception, SystemExit) as problem:  # meshio ends the interpreter on some files
         raise CaseError(f"{path}: meshio cannot read it: {problem}") from problem
 
 
-def with_whole_sets(text):
-    """An Abaqus file whose sets stand in one piece: of a set that goes on under a second ``*ELSET`` or ``*NSET``
-    of its name, meshio keeps the last piece alone."""
-    pieces = {"": []}
-    here = pieces[""]
-    for number, line in enumerate(text.splitlines()):
-        if line.startswith("*") and not line.startswith("**"):
-            keyword = line.upper().replace(" ", "")
-            key = keyword if keyword.startswith(("*ELSET,", "*NSET,")) else number
-            goes_on = key in pieces
-            here = pieces.setdefault(key, [])
-            if goes_on:
-                continue
-        here.append(line)
-    return "\n".join(line for piece in pieces.values() for line in piece) + "\n"
+def lines_of(path):
+    """The lines of an Abaqus file, with those of the files that it includes in their places."""
+    for line in path.read_text("utf-8", errors="replace").splitlines():
+        keyword, given = parameters(line)
+        if keyword == "INCLUDE" and "INPUT" in given:
+            yield from lines_of(path.parent / given["INPUT"])
+        else:
+            yield line
+
+
+def parameters(line):
+    """The keyword of a line in capitals, and its parameters by their names in capitals; None for a line of data."""
+    if not line.startswith("*") or line.startswith("**"):
+        return None, {}
+    keyword, *given = line[1:].split(",")
+    pairs = (word.partition("=") for word in given)
+    return keyword.strip().upper(), {name.strip().upper(): value.strip() for name, _, value in pairs}
+
+
+def with_whole_sets(lines):
+    """An Abaqus file whose sets stand at its end, each in one piece and by its numbers. meshio keeps only the last
+    piece of a set, reads one line of ``GENERATE``, no set of nodes by the names of others or at ``*NODE``, only
+    elements that stand before a set, and of ``*ELEMENT`` with one ``ELSET`` several times the last."""
+    rest, sets = [], {}
+    of, here, generate, goes_on = None, None, False, False
+    for line in lines:
+        keyword, given = parameters(line)
+        if keyword is not None:
+            of = {"NODE": "NSET", "ELEMENT": "ELSET"}.get(keyword, keyword)
+            name = given.get(of) if of in ("NSET", "ELSET") else None
+            here = sets.setdefault((of, name.upper()), (name, [])) if name else None
+            in_place = keyword != of
+            generate, goes_on = "GENERATE" in given, False
+            if here is None or in_place:
+                words = line.split(",") if here else []
+                named = (word for word in words if word.partition("=")[0].strip().upper() != of)
+                rest.append(",".join(named) or line)
+            continue
+        if here is None or in_place or line.startswith("**"):
+            rest.append(line)
+        fields = [field.strip() for field in line.split(",") if field.strip()]
+        if here is None or not fields or line.startswith("**"):
+            continue
+        if in_place:  # the number comes first; a line that ends in a comma goes on in the next
+            here[1].extend([] if goes_on else fields[:1])
+            goes_on = line.rstrip().endswith(",")
+        elif generate:
+            first, last, step = (*map(int, fields), 1)[:3]
+            here[1].extend(map(str, range(first, last + 1, step)))
+        else:
+            for field in fields:
+                here[1].extend([field] if field.isnumeric() else sets[of, field.upper()][1])
+    for (kind, _), (name, numbers) in sets.items():
+        rest.append(f"*{kind}, {kind}={name}")
+        rest.extend(",".join(numbers[k : k + 16]) for k in range(0, len(numbers), 16))
+    return "\n".join(rest) + "\n"
 
 
 def refuse_other_cells(mesh):
