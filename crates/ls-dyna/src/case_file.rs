@@ -54,13 +54,13 @@ impl Settings {
         notes: &mut Vec<String>,
     ) -> Result<Self, ImportError> {
         let contact = deck.contact.ok_or_else(|| lacks("contact"))?;
-        let speed = deck.speed.filter(|v| *v > 0.0).ok_or_else(|| {
+        let initial = deck.initial.filter(|initial| initial.speed > 0.0).ok_or_else(|| {
             lacks(
                 "*INITIAL_VELOCITY or *INITIAL_VELOCITY_GENERATION with VX above 0: the rolling speed",
             )
         })?;
-        let speed = speed * units.velocity();
-        let creepage = match deck.spin {
+        let speed = initial.speed * units.velocity();
+        let creepage = match initial.spin {
             Some(spin) => spin / units.time() * shape.radius / speed - 1.0,
             None => {
                 notes.push("no angular velocity is given: drive.creepage = 0, change it".into());

@@ -31,10 +31,7 @@ pub(super) struct Deck {
     /// Nodes of the rigid hub.
     pub(super) hub: Option<Target>,
     pub(super) loads: Vec<Load>,
-    /// Initial velocity in x.
-    pub(super) speed: Option<f64>,
-    /// Initial angular velocity about y.
-    pub(super) spin: Option<f64>,
+    pub(super) initial: Option<Initial>,
     /// Points of the curves, scaled and shifted as their cards say, by their number.
     pub(super) curves: BTreeMap<u64, Vec<[f64; 2]>>,
     /// Cards that were ignored, one sentence each.
@@ -119,6 +116,16 @@ pub(super) struct Load {
     pub(super) factor: f64,
 }
 
+/// The initial velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Initial {
+    pub(super) line: usize,
+    /// Velocity in x.
+    pub(super) speed: f64,
+    /// Angular velocity about y, where the card gives it.
+    pub(super) spin: Option<f64>,
+}
+
 /// Keywords that are ignored, with the reason for the notes: output, and what Creepage always does. One that ends in
 /// `_` stands for all that begin with it.
 const IGNORED: &[(&str, &str)] = &[
@@ -153,8 +160,7 @@ impl Deck {
             clamped: Vec::new(),
             hub: None,
             loads: Vec::new(),
-            speed: None,
-            spin: None,
+            initial: None,
             curves: BTreeMap::new(),
             notes: Vec::new(),
         };
@@ -229,17 +235,15 @@ impl Deck {
                 let fields = line(card, 1)?.fields(&TENS);
                 let remaining = [(1, "VY"), (2, "VZ"), (3, "VXR"), (4, "VYR"), (5, "VZR")];
                 fields.unused(name, &remaining)?;
-                self.speed = Some(fields.real(0, 0.0)?);
-                Ok(())
+                self.initial(card, fields.real(0, 0.0)?, None)
             }
             "INITIAL_VELOCITY_GENERATION" => {
                 let fields = line(card, 0)?.fields(&TENS);
                 fields.unused(name, &[(4, "VY"), (5, "VZ"), (6, "IVATN"), (7, "ICID")])?;
                 let axis = line(card, 1)?.fields(&TENS);
                 axis.unused(name, &[(3, "NX"), (5, "NZ"), (6, "PHASE")])?;
-                self.speed = Some(fields.real(3, 0.0)?);
-                self.spin = Some(fields.real(2, 0.0)? * axis.real(4, 0.0)?.signum());
-                Ok(())
+                let spin = fields.real(2, 0.0)? * axis.real(4, 0.0)?.signum();
+                self.initial(card, fields.real(3, 0.0)?, Some(spin))
             }
             "DEFINE_CURVE" => self.curve(card),
             _ if name.starts_with("INCLUDE") => {
@@ -396,6 +400,18 @@ impl Deck {
             vdc: friction.real(4, 0.0)?,
             sf: scales[0],
         });
+        Ok(())
+    }
+
+    fn initial(&mut self, card: &Card, speed: f64, spin: Option<f64>) -> Result<(), ImportError> {
+        let mut further = card.data.iter().skip(2).filter(|line| !line.text.trim().is_empty());
+        let further = further.next().map(|line| (line.at, card.line));
+        let second = self.initial.map(|before| (card.line, before.line));
+        if let Some((at, before)) = further.or(second) {
+            let what = format!("a second initial velocity after that of line {before}");
+            return Err(unsupported(at, what, "keep that of the disk alone"));
+        }
+        self.initial = Some(Initial { line: card.line, speed, spin });
         Ok(())
     }
 

@@ -163,6 +163,25 @@ fn what_is_not_read_is_refused_by_its_line() {
 }
 
 #[test]
+fn a_second_initial_velocity_is_refused() {
+    let line = |text: &str, words: &str, nth: usize| {
+        let mut found = text.lines().enumerate().filter(|(_, l)| l.starts_with(words));
+        1 + found.nth(nth).unwrap().0
+    };
+    let other = "*INITIAL_VELOCITY\n         1\n     900.0\n*NODE";
+    let pair = "         1         2     99.00     900.0\n       0.0       0.0     100.0       0.0       1.0\n*NODE";
+    let first = line(DECK, "*INITIAL_VELOCITY", 0);
+    for (put, words) in [(other, "*INITIAL_VELOCITY"), (pair, "         1         2     99.00")] {
+        let text = DECK.replacen("*NODE", put, 1);
+        let error = import(&text).unwrap_err();
+        let said = format!("a second initial velocity after that of line {first}");
+        assert!(error.to_string().contains(&said), "{error}");
+        let nth = usize::from(words.starts_with('*'));
+        assert_eq!(error.line, Some(line(&text, words, nth)), "{words}");
+    }
+}
+
+#[test]
 fn lines_in_another_file_are_to_be_put_in_and_not_left_out() {
     let error = import(&DECK.replacen("*TITLE", "*INCLUDE", 1)).unwrap_err();
     assert!(error.fault.remedy().contains("put the included lines"), "{}", error.fault.remedy());
