@@ -93,7 +93,7 @@ impl MasterPoint {
 }
 
 /// A node of the master in the rows of one step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Leg {
     /// The node, in its surface.
     pub node: u32,
@@ -109,7 +109,6 @@ pub(crate) type Constraint = ContactPoint<Multipliers>;
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Multipliers {
     /// Its legs in the list of the step: the first, and how many.
-    #[serde(skip)]
     legs: [u32; 2],
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
     #[serde(skip)]
@@ -133,8 +132,8 @@ impl Constraint {
     /// Its legs in the list of the step.
     #[inline]
     pub fn legs(&self) -> Range<usize> {
-        self.enforcement.legs[0] as usize
-            ..(self.enforcement.legs[0] + self.enforcement.legs[1]) as usize
+        let [first, count] = self.enforcement.legs.map(|n| n as usize);
+        first..first + count
     }
 
     /// Sets up the rows of a node at `x`, maybe `on_plane` of symmetry, over a projection with unit normal `n`, and adds

@@ -22,7 +22,7 @@ use crate::nodal::NodalContact;
 use crate::penalty::{check_common, in_range};
 use crate::point::{State, WATCHED, finer, follow_first, sleep};
 use crate::search::{Listed, Search};
-use crate::snapshot::{Points, check_points};
+use crate::snapshot::{Points, check_legs, check_points};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
@@ -644,23 +644,30 @@ impl Contact for ExactContact {
 
     fn snapshot(&self) -> ContactState {
         let means = self.mortar.as_ref().map(|(_, means)| means.clone()).unwrap_or_default();
-        let points = Points::Exact(self.constraints[self.slave].clone(), means);
+        let (constraints, legs) = (self.constraints[self.slave].clone(), self.legs.clone());
+        let points = Points::Exact(constraints, legs, means);
         ContactState { points, search: self.search.clone() }
     }
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
         let own = self.slave;
-        let Points::Exact(constraints, kept) = &state.points else {
+        let Points::Exact(constraints, legs, kept) = &state.points else {
             return Err(StateError::Method);
         };
-        check_points(constraints, &self.sides[own], &self.sides[1 - own])?;
+        if kept.is_empty() != self.mortar.is_none() {
+            return Err(StateError::Rows);
+        }
+        let sides = [&self.sides[own], &self.sides[1 - own]];
+        check_points(constraints, sides[0], sides[1])?;
+        check_legs(constraints, legs, sides[1])?;
         if let Some((mortar, means)) = &mut self.mortar {
-            mortar.check_means(kept, [&self.sides[own], &self.sides[1 - own]])?;
+            mortar.check_means(kept, sides)?;
             means.clone_from(kept);
         }
         self.active.reserve(constraints.len());
         self.slid.reserve(constraints.len());
-        self.legs.reserve(4 * constraints.len());
+        self.legs.clone_from(legs);
+        self.legs.reserve((4 * constraints.len()).saturating_sub(legs.len()));
         self.constraints[own].clone_from(constraints);
         self.search.restore(&state.search, &self.sides)
     }

@@ -1,15 +1,15 @@
 //! What contact keeps from step to step: enough to go on with the same bits.
 //!
 //! serde makes the state of the contact points, the means and the search themselves; `serde(skip)` leaves out
-//! what a step computes anew before it reads it. The search keeps where the surfaces were when it last looked:
+//! what a step computes anew and nothing reads before. The search keeps where the surfaces were when it last looked:
 //! that decides when the lists are made anew, and so the order in which forces are added.
 
-use crate::constraint::Constraint;
+use crate::constraint::{Constraint, Leg};
 use crate::mortar::Mean;
 use crate::penalty_point::PenaltyPoint;
 use crate::point::{ContactPoint, Enforced};
 use crate::search::{Listed, Search};
-use crate::surface::{ContactSurface, NONE};
+use crate::surface::ContactSurface;
 use serde::{Deserialize, Serialize};
 
 /// State of contact between two steps, of either method of enforcement.
@@ -24,8 +24,8 @@ pub struct ContactState {
 pub(crate) enum Points {
     /// The springs of each pass.
     Penalty([Vec<PenaltyPoint>; 2]),
-    /// The rows of the slaves' side, and of mortar rows the means that they follow.
-    Exact(Vec<Constraint>, Vec<Mean>),
+    /// The rows of the slaves' side with their legs, and of mortar rows the means that they follow.
+    Exact(Vec<Constraint>, Vec<Leg>, Vec<Mean>),
 }
 
 /// A state that is not of the contact that is to go on from it.
@@ -34,6 +34,9 @@ pub enum StateError {
     /// Of another method.
     #[error("the state of contact is of another method of enforcement")]
     Method,
+    /// Of rows against one face where this contact has mortar rows, or the other way round.
+    #[error("the state of contact is of other rows: node to face, or mortar")]
+    Rows,
     /// An index out of range, or another number of entries.
     #[error("`{name}` in the state of contact has an entry that this contact cannot have")]
     Range {
@@ -52,10 +55,20 @@ pub(crate) fn check_points<E: Enforced>(
     if !points.iter().all(known) || !points.is_sorted_by(|a, b| a.slave < b.slave) {
         return Err(StateError::Range { name: "slave" });
     }
-    let projects = |point: &ContactPoint<E>| {
-        (point.face as usize) < masters.faces.len() || (!point.is_closed() && point.face == NONE)
-    };
+    let projects = |point: &ContactPoint<E>| (point.face as usize) < masters.faces.len();
     if points.iter().all(projects) { Ok(()) } else { Err(StateError::Range { name: "face" }) }
+}
+
+/// That the closed constraints have legs, which are nodes of `masters`.
+pub(crate) fn check_legs(
+    constraints: &[Constraint],
+    legs: &[Leg],
+    masters: &ContactSurface,
+) -> Result<(), StateError> {
+    let mut closed = constraints.iter().filter(|constraint| constraint.is_closed());
+    let fits = closed.all(|constraint| legs.get(constraint.legs()).is_some())
+        && legs.iter().all(|leg| (leg.node as usize) < masters.len());
+    if fits { Ok(()) } else { Err(StateError::Range { name: "legs" }) }
 }
 
 impl Search {

@@ -152,6 +152,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_seed_of_a_checkpoint_is_one_of_the_present_form() {
+        with_file("checkpoint.h5", SEEDS[3], |path| {
+            let read = Checkpoint::read(path);
+            assert!(read.is_ok(), "{read:?}: write the seeds anew, as fuzz/README.md says");
+        });
+    }
+
+    #[test]
     fn the_checksums_of_the_seeds_are_found_and_put_right() {
         let counts: Vec<usize> = sums().iter().map(Vec::len).collect();
         // of the first four files the checkpoint has the fewest: two datasets and their group

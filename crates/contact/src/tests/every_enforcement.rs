@@ -1,12 +1,15 @@
 //! What every enforcement keeps. A new one is tested by one line in `enforcements!` below: its name, how it is
 //! built, and over how many steps its forces turn with the bodies.
 
+use crate::constraint::{Constraint, Leg};
 use crate::plates::{STEEL, plate, together, tread};
+use crate::point::State;
+use crate::snapshot::Points;
 use crate::tests::{K, step_on_trace};
 use crate::vector::{Vec3, add, axpy, cross, norm, sub};
 use crate::{
-    Contact, ContactSums, ExactContact, ExactSettings, NodalContact, PenaltyContact,
-    PenaltySettings, PenaltyStiffness, Rows,
+    Contact, ContactState, ContactSums, ExactContact, ExactSettings, NodalContact, PenaltyContact,
+    PenaltySettings, PenaltyStiffness, Rows, StateError,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
@@ -226,6 +229,10 @@ fn a_state_that_is_restored_goes_on_with_the_same_bits(build: Build) {
     for step in 0..STEPS {
         if step == STEPS / 2 {
             again.contact.restore(&masses.contact.snapshot()).unwrap();
+            for side in 0..2 {
+                let [expected, found] = [&masses, &again].map(|masses| masses.table(side));
+                assert_eq!(format!("{found:?}"), format!("{expected:?}"), "side {side}");
+            }
             again.displacement.clone_from(&masses.displacement);
             again.velocity.clone_from(&masses.velocity);
         }
@@ -235,6 +242,42 @@ fn a_state_that_is_restored_goes_on_with_the_same_bits(build: Build) {
             assert_eq!(again.force, masses.force, "step {step}");
         }
     }
+}
+
+#[test]
+fn a_state_of_other_rows_or_with_places_that_there_are_not_is_refused() {
+    let builds: [Build; 3] = [penalty, exact::<0, false>, exact::<0, true>];
+    let mut states = Vec::new();
+    for build in builds {
+        let mut masses = Masses::new(build, Turn::NONE);
+        (0..STEPS).for_each(|step| {
+            masses.step(step);
+        });
+        states.push(masses.contact.snapshot());
+    }
+    let restored =
+        |build: Build, state: &ContactState| Masses::new(build, Turn::NONE).contact.restore(state);
+    let [springs, node_to_face, mortar] = &states[..] else { panic!() };
+    assert_eq!(restored(exact::<0, false>, springs), Err(StateError::Method));
+    assert_eq!(restored(penalty, node_to_face), Err(StateError::Method));
+    assert_eq!(restored(exact::<0, true>, node_to_face), Err(StateError::Rows));
+    assert_eq!(restored(exact::<0, false>, mortar), Err(StateError::Rows));
+    let changed = |change: fn(&mut Vec<Constraint>, &mut Vec<Leg>)| {
+        let mut state = node_to_face.clone();
+        let Points::Exact(constraints, legs, _) = &mut state.points else { panic!() };
+        change(constraints, legs);
+        restored(exact::<0, false>, &state)
+    };
+    let range = |name| Err(StateError::Range { name });
+    assert_eq!(changed(|_, _| ()), Ok(()));
+    assert_eq!(changed(|_, legs| legs.truncate(1)), range("legs"));
+    assert_eq!(changed(|_, legs| legs[0].node = u32::MAX), range("legs"));
+    // an open node that the search never lists: it has no face
+    let off = |constraints: &mut Vec<Constraint>, _: &mut Vec<Leg>| {
+        constraints.iter_mut().for_each(|point| point.state = State::Open);
+        constraints[0].face = u32::MAX;
+    };
+    assert_eq!(changed(off), range("face"));
 }
 
 macro_rules! enforcements {
