@@ -39,7 +39,7 @@ pub struct RunOptions {
     /// Keep the preload in this folder, and take it from there if a run with the same has been
     #[cfg_attr(feature = "clap", arg(long, value_name = "DIR"))]
     pub preload_cache: Option<PathBuf>,
-    /// The friction law of a case with `friction.law = "python"`.
+    /// The friction law of a case with `friction.law = "python"`; with another law it is refused.
     #[serde(skip)]
     #[cfg_attr(feature = "clap", arg(skip))]
     pub law: Option<Arc<dyn OwnLaw>>,

@@ -25,6 +25,15 @@ pub enum RunError {
         "hand it over: `creepage.run(case, friction=law)` in Python; friction.source is what it was"
     ))]
     NoLaw,
+    /// A function of a friction law for a case that has another law.
+    #[error(
+        "the run is given the function of a friction law, which friction.law = \"{law}\" does not use"
+    )]
+    #[diagnostic(help("set friction.law = \"python\", or leave the function out"))]
+    UnusedLaw {
+        /// The law of the case.
+        law: &'static str,
+    },
     /// Result files of a run that was to go on are damaged, or results cannot be written.
     #[error(transparent)]
     #[diagnostic(help("{}", output_help(.0)))]
@@ -62,8 +71,8 @@ impl RunError {
         match self {
             Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,
             Self::Scenario(error) => error.exit_code(),
-            Self::Folder(_) | Self::Resume(_) | Self::NoContact | Self::NoLaw => 2,
-            Self::Case(_) | Self::Threads(_) => 2,
+            Self::Folder(_) | Self::Resume(_) | Self::NoContact => 2,
+            Self::NoLaw | Self::UnusedLaw { .. } | Self::Case(_) | Self::Threads(_) => 2,
             Self::Output(error) if error.damaged().is_some() => 2,
             Self::Output(_) | Self::Text(_) => 3,
         }

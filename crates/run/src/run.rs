@@ -22,7 +22,7 @@ use case::hertz::hertz;
 use case::schema::{Case, Symmetry};
 use case::validation;
 use dynamics::Simulation;
-use friction::Kind;
+use friction::{Kind, Uses};
 use opening::{Opened, Opening, open};
 pub use options::RunOptions;
 use output::NotWritten;
@@ -75,8 +75,11 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
-    if case.friction.law == Kind::Python && options.law.is_none() {
-        return Err(RunError::NoLaw);
+    let law = case.friction.law;
+    match (law == Kind::Python, options.law.is_some()) {
+        (true, false) => return Err(RunError::NoLaw),
+        (false, true) => return Err(RunError::UnusedLaw { law: Uses::of(law).word }),
+        _ => {}
     }
     let mut opened = match open(case, options)? {
         Opening::Complete(summary) => return Ok(complete(&options.out, summary)),
@@ -198,8 +201,7 @@ fn conclude(
 ) -> Result<serde_json::Value, RunError> {
     ending.means.mesh_mode.warnings(case).iter().try_for_each(|line| log.warn(line))?;
     let mut summary = summary(case, simulation, facts, &hertz(case), ending);
-    let own = options.law.as_deref().filter(|_| case.friction.law == Kind::Python);
-    if let Some(points) = own.and_then(friction::sampled) {
+    if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
         summary.extra.insert(output::SAMPLED_LAW.into(), serde_json::json!(points));
     }
     held.prove()?;

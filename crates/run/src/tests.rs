@@ -2,9 +2,13 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use case::Case;
+use friction::OwnLaw;
 
+use crate::RunOptions;
 use crate::folder::{self, FolderError};
 
 const SHORT: &str = "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 2.4e-3\n\
@@ -80,4 +84,37 @@ fn a_run_that_is_replaced_loses_its_word_of_completion_before_its_results() {
             assert!(place(word) < place(result), "{word} goes after {result}");
         }
     }
+}
+
+#[derive(Debug)]
+struct Constant;
+
+impl OwnLaw for Constant {
+    fn mu(&self, _: &[f64], mu: &mut [f64]) {
+        mu.fill(0.3);
+    }
+
+    fn failure(&self) -> Option<String> {
+        None
+    }
+}
+
+#[test]
+fn the_function_of_a_law_that_the_case_does_not_use_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("run");
+    let case = Case::from_text(SHORT, Path::new("case.toml"), &[]).unwrap();
+    let options = RunOptions {
+        out: out.clone(),
+        threads: 1,
+        force: false,
+        resume: false,
+        preload_cache: None,
+        source: "case.toml".into(),
+        law: Some(Arc::new(Constant)),
+    };
+    let error = crate::run(&case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap_err();
+    assert!(error.to_string().contains("friction.law = \"coulomb\" does not use"), "{error}");
+    assert_eq!(error.exit_code(), 2);
+    assert!(!out.exists());
 }

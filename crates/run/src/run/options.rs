@@ -21,6 +21,6 @@ pub struct RunOptions {
     pub preload_cache: Option<PathBuf>,
     /// The case file, for the log; with `force` no file that the case is made of is replaced.
     pub source: PathBuf,
-    /// The friction law of a case with `friction.law = "python"`.
+    /// The friction law of a case with `friction.law = "python"`; with another law it is refused.
     pub law: Option<Arc<dyn OwnLaw>>,
 }
