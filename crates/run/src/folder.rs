@@ -70,7 +70,7 @@ pub enum FolderError {
         /// The file.
         path: PathBuf,
     },
-    /// Another process writes the run in the folder.
+    /// Another process writes the run or the sweep in the folder.
     #[error("another process is at work in {}", path.display())]
     #[diagnostic(help("wait for it, or stop it, or choose another folder with --out DIR"))]
     Busy {

@@ -59,13 +59,6 @@ pub enum SweepError {
         /// The folder.
         path: PathBuf,
     },
-    /// Another process runs a sweep in the folder.
-    #[error("another process is at work in {}", path.display())]
-    #[diagnostic(help("wait for it, or stop it, or choose another folder with --out DIR"))]
-    Busy {
-        /// The folder.
-        path: PathBuf,
-    },
     /// A run that needs more memory than there may be used.
     #[error(
         "the run {run} needs about {needed_mb:.0} MB of memory, more than the {free_mb:.0} MB \
@@ -382,7 +375,7 @@ fn lock(folder: &Path) -> Result<Option<File>, SweepError> {
     let file = File::create(&path).map_err(|cause| SweepError::File { path, cause })?;
     match file.try_lock() {
         Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Err(SweepError::Busy { path: folder.into() }),
+        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: folder.into() }.into()),
         // A file system without locks: nobody can be kept out.
         Err(TryLockError::Error(_)) => Ok(None),
     }
