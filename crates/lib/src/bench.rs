@@ -7,7 +7,7 @@ use serde_json::Value;
 
 #[cfg(feature = "clap")]
 use crate::values::words::{element, kernels};
-use crate::values::{EDGE, THREADS, all_cores};
+use crate::values::{EDGE, KERNELS, THREADS, all_cores};
 use crate::{CaseSource, Error};
 
 /// What to measure.
@@ -38,10 +38,11 @@ pub struct BenchOptions {
 /// the document of `creepage bench --json`.
 ///
 /// # Errors
-/// A key of the reference case that cannot be used.
+/// A key of the reference case that cannot be used; kernels that this machine cannot run.
 pub fn bench(options: &BenchOptions) -> Result<Value, Error> {
     THREADS.check("--threads", options.threads.as_ref())?;
     EDGE.check("--block", options.block.as_ref())?;
+    KERNELS.check("--kernels", options.kernels.as_ref())?;
     let threads = options.threads.unwrap_or_else(all_cores);
     if let Some(n) = options.block {
         return Ok(::run::bench_block(n, options.element, threads, options.kernels)?);

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use ::run::Level;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
@@ -20,6 +21,11 @@ pub const THREADS: Rule<usize> =
 /// Edge of a block, in elements.
 pub const EDGE: Rule<usize> =
     Rule { holds: |n| (1..=400).contains(n), wanted: "a whole number from 1 to 400 is needed" };
+/// Instruction set of the element kernels.
+pub const KERNELS: Rule<Level> = Rule {
+    holds: |level| level.available(),
+    wanted: "this machine does not have these instructions",
+};
 /// Contact transits.
 pub const TRANSITS: Rule<f64> =
     Rule { holds: |n| n.is_finite() && *n > 0.0, wanted: "a number greater than 0 is needed" };
@@ -99,7 +105,7 @@ pub mod words {
     use ::run::{BlockElement, Level};
     use ls_dyna::Units;
 
-    use super::{Rule, WINDOW};
+    use super::{KERNELS, Rule, WINDOW};
 
     impl<T: FromStr> Rule<T> {
         /// Reads a value.
@@ -129,11 +135,8 @@ pub mod words {
 
     /// An instruction set of this machine.
     pub fn kernels(text: &str) -> Result<Level, &'static str> {
-        match Level::named(text) {
-            Some(level) if level.available() => Ok(level),
-            Some(_) => Err("this machine does not have these instructions"),
-            None => Err("one of avx512, avx2, fused, portable is needed"),
-        }
+        let level = Level::named(text).ok_or("one of avx512, avx2, fused, portable is needed")?;
+        Some(level).filter(KERNELS.holds).ok_or(KERNELS.wanted)
     }
 
     /// Elements of a block.
@@ -156,9 +159,11 @@ pub mod words {
 mod tests {
     use std::path::PathBuf;
 
+    use ::run::Level;
+
     use crate::{
-        CheckOptions, Error, MeshOptions, PairingReport, RunOptions, SliderOptions, SweepOptions,
-        VerifyOptions,
+        BenchOptions, CheckOptions, Error, MeshOptions, PairingReport, RunOptions, SliderOptions,
+        SweepOptions, VerifyOptions,
     };
 
     fn refused<T>(found: Result<T, Error>, said: &str) {
@@ -172,6 +177,13 @@ mod tests {
         refused(crate::run(&run, &mut ()), "--threads: a whole number from 1 to 1024");
         let mesh = MeshOptions { out: Some("mesh.msh".into()), ..MeshOptions::default() };
         refused(crate::mesh(&mesh, &mut ()), "--out: the file's name must end in .vtu");
+        for level in Level::ALL.into_iter().filter(|level| !level.available()) {
+            let bench = BenchOptions { kernels: Some(level), ..BenchOptions::default() };
+            refused(
+                crate::bench(&bench),
+                "--kernels: this machine does not have these instructions",
+            );
+        }
         let mut check = CheckOptions::default();
         check.span.window = Some([2.0, 1.0]);
         refused(crate::check(&check), "--window: the window ends before it begins");

@@ -39,8 +39,8 @@ method = \"none\"
 /// case, `KEY=VALUE` as on the command line.
 ///
 /// # Errors
-/// Keys that make no case; a mesh that cannot be made or that this machine has no memory for; threads that cannot
-/// be started.
+/// Keys that make no case; a mesh that cannot be made or that this machine has no memory for; kernels that it cannot
+/// run; threads that cannot be started.
 pub fn bench(
     threads: usize,
     kernels: Option<Level>,
@@ -60,9 +60,10 @@ fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<serde_json
     model.kernels = kernels;
     let elements = model.mesh.hexes.len() as f64;
     let nodes = model.mesh.nodes.len();
+    // refuses kernels that this machine cannot run, before any of them does
+    let mut solid = model.solid(&case)?;
     let (bandwidth, peak) = (machine::triad(), machine::peak(kernels, threads));
 
-    let mut solid = model.solid(&case)?;
     let u = vec![Padded::ZERO; nodes];
     let mut force = u.clone();
     let kernel = median(|| {

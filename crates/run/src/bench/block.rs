@@ -39,7 +39,7 @@ impl BlockElement {
 /// edge, with so many `threads` and these `kernels` (by default the machine's best).
 ///
 /// # Errors
-/// Threads that cannot be started.
+/// Kernels that this machine cannot run; threads that cannot be started.
 ///
 /// # Panics
 /// If `n` is 0.
