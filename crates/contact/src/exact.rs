@@ -421,14 +421,16 @@ impl ExactContact {
         }
     }
 
-    /// Sweeps over the constraints until no force changes; returns how many.
+    /// Sweeps over the constraints until no force changes; returns how many, and where they end at their limit the
+    /// last change over the largest force.
     fn gauss_seidel(
         &mut self,
         constraints: &mut [Constraint],
         active: &[u32],
         positions: &Positions<'_>,
         motion: &Motion<'_>,
-    ) -> usize {
+    ) -> (usize, f64) {
+        let mut part = 0.0;
         for sweep in 1..=SWEEPS {
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for &i in active {
@@ -443,10 +445,11 @@ impl ExactContact {
             // NaN ends the sweeps too
             let goes_on = change > TOLERANCE * size;
             if !goes_on {
-                return sweep;
+                return (sweep, 0.0);
             }
+            part = change / size;
         }
-        SWEEPS
+        (SWEEPS, part)
     }
 
     /// Adds the forces of a closed constraint to `force`, and what they do to `sums`.
@@ -595,7 +598,8 @@ impl Contact for ExactContact {
             }
         }
         sums.other.integrated = self.integrated;
-        sums.other.sweeps = self.gauss_seidel(&mut constraints, &active, &positions, motion);
+        (sums.other.sweeps, sums.other.unconverged) =
+            self.gauss_seidel(&mut constraints, &active, &positions, motion);
         for &i in &active {
             let constraint = &mut constraints[i as usize];
             if constraint.is_closed() {

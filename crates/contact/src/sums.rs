@@ -25,6 +25,9 @@ pub struct ContactSums {
     pub damping_ahead: f64,
     /// Sweeps over the contact nodes that exact enforcement took.
     pub sweeps: usize,
+    /// Change of a force in the last sweep over the largest force (dimensionless), where the sweeps ended at their limit
+    /// before forces had converged; else 0.
+    pub unconverged: f64,
     /// Slave nodes at which the law of friction had more than one solution.
     pub non_unique: usize,
     /// Mortar constraints whose integrals were taken in this step.

@@ -1,6 +1,7 @@
 //! Means over the evaluation window.
 
 use crate::mesh_mode::MeshModeSums;
+use case::remedy;
 use serde::{Deserialize, Serialize};
 
 /// Running mean and standard deviation.
@@ -59,9 +60,51 @@ pub(crate) struct Means {
     pub(crate) worst_mismatch: f64,
     /// Most sweeps of exact enforcement in a step.
     pub(crate) most_sweeps: usize,
+    /// Steps whose sweeps ended before forces had converged, and the largest change of a force in the last of them
+    /// over the largest force.
+    pub(crate) unconverged: (u64, f64),
     /// Sum over the steps of the nodes whose friction law had more than one solution.
     pub(crate) non_unique: u64,
     /// Integrals of mortar rows in all steps.
     pub(crate) integrated: u64,
     pub(crate) mesh_mode: MeshModeSums,
+}
+
+impl Means {
+    /// Counts a step whose last sweep changed a force by `change` of the largest, where it did not converge.
+    pub(crate) fn add_unconverged(&mut self, change: f64) {
+        if change > 0.0 {
+            let (steps, largest) = self.unconverged;
+            self.unconverged = (steps + 1, largest.max(change));
+        }
+    }
+
+    /// The warning about steps in which exact enforcement did not converge.
+    pub(crate) fn unconverged_warning(&self) -> Option<String> {
+        let (steps, change) = self.unconverged;
+        (steps > 0).then(|| {
+            format!(
+                "exact contact did not converge in {steps} steps: its last sweep still changed a force by up to \
+                 {change:.1e} of the largest, and the conditions of contact and friction hold no better than that; {}",
+                remedy!(
+                    "give both contact surfaces elements of one size, or make steps shorter with time.factor"
+                )
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_that_did_not_converge_are_counted_and_told() {
+        let mut means = Means::default();
+        assert_eq!(means.unconverged_warning(), None);
+        [0.0, 1e-7, 0.0, 3e-5].into_iter().for_each(|change| means.add_unconverged(change));
+        assert_eq!(means.unconverged, (2, 3e-5));
+        let said = means.unconverged_warning().unwrap_or_default();
+        assert!(said.contains("in 2 steps") && said.contains("3.0e-5"), "{said}");
+    }
 }

@@ -98,8 +98,11 @@ pub(crate) fn summary(
     let checks = json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch,
         "contact_damping": last.contact_damping });
     let exact = (case.contact.enforcement == Enforcement::Exact).then(|| {
-        json!({ "most_sweeps": means.most_sweeps, "manifold_node_steps": means.non_unique,
-            "mortar_integrals": means.integrated })
+        let (steps, change) = means.unconverged;
+        json!({ "most_sweeps": means.most_sweeps, "unconverged_steps": steps,
+            "unconverged_change": change, "manifold_node_steps": means.non_unique,
+            "mortar_integrals": means.integrated,
+            "warnings": means.unconverged_warning().as_slice() })
     });
     let preload = facts.preload.map(|p| p.json());
     let sections = [

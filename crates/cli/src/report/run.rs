@@ -142,8 +142,9 @@ fn mesh_mode(out: &mut String, summary: &Value) {
             energy.unwrap_or_default()
         );
     }
-    let warnings = summary.pointer("/mesh_mode/warnings").and_then(Value::as_array);
-    for warning in warnings.into_iter().flatten().filter_map(Value::as_str) {
+    let warnings = ["/mesh_mode/warnings", "/exact_contact/warnings"];
+    let warnings = warnings.iter().filter_map(|list| summary.pointer(list)?.as_array());
+    for warning in warnings.flatten().filter_map(Value::as_str) {
         let _ = writeln!(out, "  warning: {warning}");
     }
 }
@@ -303,8 +304,9 @@ mod tests {
             page.contains("half-space: Hertz; soft penalty springs and coarse elements"),
             "{page}"
         );
-        exact["exact_contact"] = json!({ "most_sweeps": 5 });
+        exact["exact_contact"] = json!({ "most_sweeps": 100, "warnings": ["did not converge"] });
         let page = text(&exact, Path::new("x"));
+        assert!(page.contains("\n  warning: did not converge\n"), "{page}");
         assert!(
             page.contains("half-space: Hertz; coarse elements make the patch larger"),
             "{page}"

@@ -159,6 +159,20 @@ fn the_conditions_hold_at_the_end_of_the_step() {
 }
 
 #[test]
+fn sweeps_that_end_before_forces_converge_say_by_how_much() {
+    let mut masses = Masses::rolling(0, Rows::NodeToFace, Coulomb { mu: 0.3 });
+    assert_eq!(masses.step(pressed).unconverged, 0.0);
+    // on masters so much lighter the slaves that share one are as good as coupled rigidly
+    let upper = masses.upper;
+    masses.inverse_mass[upper..].iter_mut().for_each(|inverse| *inverse *= 1e5);
+    let told: Vec<f64> = (0..10)
+        .map(|_| masses.step(pressed))
+        .map(|sums| if sums.sweeps < 100 { 0.0 } else { sums.unconverged })
+        .collect();
+    assert!(told.iter().any(|part| *part > 1e-12 && *part < 1.0), "{told:?}");
+}
+
+#[test]
 fn nodes_that_were_pressed_end_the_step_without_a_gap() {
     for rows in ROWS {
         let mut masses = Masses::rolling(0, rows, Coulomb { mu: 0.3 });

@@ -58,6 +58,7 @@ impl Means {
             self.worst_mismatch = self.worst_mismatch.max(resultants.mismatch);
         }
         self.most_sweeps = self.most_sweeps.max(contact.sweeps);
+        self.add_unconverged(contact.unconverged);
         self.integrated += contact.integrated as u64;
         self.non_unique += contact.non_unique as u64;
         if inside {
