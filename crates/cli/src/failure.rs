@@ -1,6 +1,6 @@
 //! The documents of commands that fail.
 
-use creepage::Error;
+use creepage::{BAD_INPUT, Error};
 use miette::Diagnostic;
 use serde_json::{Value, json};
 
@@ -13,6 +13,16 @@ pub fn document(error: &Error) -> Value {
     let others: Vec<_> =
         others.map(|other| json!({ "error": other.to_string(), "help": help(other) })).collect();
     document["others"] = json!(others);
+    document
+}
+
+/// The JSON document of wrong usage, from the text for the terminal: the first paragraph says what was wrong, the others
+/// what to do.
+pub fn usage(text: &str) -> Value {
+    let (error, help) = text.split_once("\n\n").unwrap_or((text, ""));
+    let words: Vec<_> = error.trim_start_matches("error: ").split_whitespace().collect();
+    let mut document = failure(&words.join(" "), BAD_INPUT);
+    document["help"] = json!(help.trim());
     document
 }
 

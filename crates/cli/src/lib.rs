@@ -74,9 +74,7 @@ fn full_disks_are_errors() -> Result<(), Error> {
 fn usage(error: &clap::Error, words: &[OsString]) -> u8 {
     let wanted = words.iter().any(|word| word == "--json");
     if error.use_stderr() && wanted {
-        let text = error.render().to_string();
-        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-        report::print_json(&failure::failure(message, BAD_INPUT));
+        report::print_json(&failure::usage(&error.render().to_string()));
     }
     let _ = error.print();
     if error.use_stderr() { BAD_INPUT } else { 0 }

@@ -115,11 +115,17 @@ fn with_json_standard_output_is_one_document_also_on_failure() {
 
 #[test]
 fn with_json_wrong_usage_is_one_document_too() {
-    for args in [&["--json"][..], &["run", "--json"], &["mesh", "--json", "--fly"]] {
+    for (args, said) in [
+        (&["--json"][..], ""),
+        (&["run", "--json"], "not provided: <CASE>"),
+        (&["mesh", "--json", "--fly"], "'--fly'"),
+    ] {
         let output = creepage(args);
         assert_eq!(output.status.code(), Some(2));
         let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(document["exit_code"], 2, "{args:?}");
+        assert!(document["error"].as_str().unwrap().contains(said), "{document}");
+        assert!(document["help"].as_str().unwrap().contains("Usage: creepage"), "{document}");
     }
 }
 
