@@ -37,7 +37,7 @@ fn names_and_their_order_are_those_that_scripts_rely_on() {
         let found: Vec<&str> = fields.iter().map(|field| &*field.name).collect();
         assert_eq!((*file, found.join(" ")), (wanted, names.to_owned()));
     }
-    let root = "creepage_version case_hash created slip_pairing enforced_on contact_rows diagnosis";
+    let root = "creepage_version case_hash created slip_pairing enforced_on contact_rows symmetry diagnosis";
     assert_eq!(attribute::ALL.map(|(name, _)| name).join(" "), root);
 }
 
