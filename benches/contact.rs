@@ -7,7 +7,7 @@ use contact::{
     TraceFields,
 };
 use friction::{Exponential, Lagged};
-use mesh::{Bar, Disk, FineZone, Padded, bar, disk, join};
+use mesh::{Bar, Disk, FineZone, Grading, Padded, bar, disk, join};
 
 fn main() {
     divan::main();
@@ -41,6 +41,7 @@ impl Rolling {
             start: -15e-3,
             growth: 1.4,
             coarsest: 20e-3,
+            grading: Grading::Tensor,
         };
         let disk_shape = Disk { radius: RADIUS, hub_radius: 0.1, width: 60e-3, crown: None };
         let bar_shape =

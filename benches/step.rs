@@ -6,7 +6,7 @@ use contact::{BodyMaterial, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use divan::counter::ItemsCount;
 use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, System, Vertical};
 use friction::Coulomb;
-use mesh::{Bar, Disk, FineZone, Mesh, Padded};
+use mesh::{Bar, Disk, FineZone, Grading, Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use std::time::Duration;
 
@@ -31,6 +31,7 @@ fn reference(size: f64) -> Mesh {
         start: -10e-3,
         growth: 1.35,
         coarsest: 50e-3,
+        grading: Grading::Tensor,
     };
     let disk = Disk { radius: RADIUS, hub_radius: 0.1, width: 60e-3, crown: None };
     let bar = Bar { length: 0.24, width: 60e-3, height: 70e-3, crown: Some(0.3), start: -0.09 };

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use mesh::import::{Format, SetNames, Shape, Unit, bodies, fit, write_abaqus};
-use mesh::{Bar, Disk, FineZone, quality};
+use mesh::{Bar, Disk, FineZone, Grading, quality};
 use scenario::Remedy;
 
 /// A mesh file, from its bytes to the two bodies fitted to a case: the first byte chooses the format.
@@ -23,6 +23,7 @@ pub fn mesh(data: &[u8]) {
                 start: -0.5,
                 growth: 1.5,
                 coarsest: 1.0,
+                grading: Grading::Tensor,
             },
             exact: first & 128 != 0,
             ends: first & 64 != 0,

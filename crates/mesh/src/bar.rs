@@ -1,10 +1,11 @@
-//! The bar: a tensor-product mesh, fine under the contact.
+//! The bar: fine under the contact, a tensor product or shells about the fine zone.
 
 use crate::error::{MAX_ELEMENTS, finite, positive, within};
-use crate::grading::{Axis, whole};
+use crate::grading::{Axis, cells, divided, joined, whole};
 use crate::grid::{Grid, nodes_of};
+use crate::shells::{BOTTOM, Extent, FRONT, REAR, TOP, ZONE, down, shells};
 use crate::zone::{check_crown, sag};
-use crate::{Allowed, FineZone, Mesh, MeshError, Parameter, SmoothSurface, Surface};
+use crate::{Allowed, FineZone, Grading, Mesh, MeshError, Parameter, SmoothSurface, Surface};
 
 /// The shape of a straight bar along `x`; the apex of its top is at `z = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,11 +34,54 @@ pub struct Bar {
 /// zone that does not fit into the bar; [`MeshError::TooManyElements`].
 pub fn bar(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     check(shape, zone)?;
-    let Bar { length, width, height, crown, start } = *shape;
+    match zone.grading {
+        Grading::Tensor => tensor(shape, zone),
+        Grading::TwoToOne => graded(shape, zone),
+    }
+}
+
+/// Both ends of the bar, and those of the zone on it (m).
+fn spans(shape: &Bar, zone: &FineZone) -> [[f64; 2]; 2] {
+    let span = [shape.start, shape.start + shape.length];
+    [span, [zone.start.max(span[0]), (zone.start + zone.length).min(span[1])]]
+}
+
+/// Shells about the zone.
+fn graded(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
+    let Bar { width, height, crown, .. } = *shape;
+    let [span, fine] = spans(shape, zone);
+    let [from, to] = joined(span, fine, zone.size);
+    let extent = Extent {
+        name: "bar",
+        along: span,
+        lines: [&divided([from, to], cells(to - from, zone.size)), &down(zone, height)],
+        width,
+        depth: height,
+        radius: None,
+        widest: zone.coarsest,
+    };
+    let made = shells(&extent, zone, |[x, y, depth]| {
+        let z = -depth;
+        [x, y, z - sag(crown, y) * (z + height) / height]
+    })?;
+    let smooth = Some(SmoothSurface::Top { apex: 0.0, crown });
+    Ok(made.named(
+        &[("top", TOP), ("bottom", BOTTOM), ("ends", REAR | FRONT), ("zone", ZONE)],
+        &[
+            ("top", TOP, smooth),
+            ("zone", ZONE, smooth),
+            ("rear", REAR, None),
+            ("front", FRONT, None),
+        ],
+    ))
+}
+
+/// A tensor product of three divisions.
+fn tensor(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
+    let Bar { width, height, crown, .. } = *shape;
     let FineZone { size, growth, coarsest, .. } = *zone;
 
-    let span = [start, start + length];
-    let fine = [zone.start.max(span[0]), (zone.start + zone.length).min(span[1])];
+    let [span, fine] = spans(shape, zone);
     let x = Axis::new(span, fine, size, growth, coarsest);
     let (half, fine) = (0.5 * width, 0.5 * whole(zone.width, size).min(width));
     let y = Axis::new([-half, half], [-fine, fine], size, growth, coarsest);
@@ -96,8 +140,8 @@ fn check(shape: &Bar, zone: &FineZone) -> Result<(), MeshError> {
     within(on_the_bar, Parameter::ZoneStart, zone.start, allowed)?;
     let count =
         |span, fine| Axis::estimate(span, fine, zone.size, zone.growth, zone.coarsest).max(1.0);
-    let estimate =
-        count(length, zone.length) * count(width, zone.width) * count(height, zone.depth);
+    let tensor = count(length, zone.length) * count(width, zone.width) * count(height, zone.depth);
+    let estimate = zone.estimate(tensor);
     if estimate > MAX_ELEMENTS {
         return Err(MeshError::TooManyElements { body: "bar", size: zone.size, estimate });
     }

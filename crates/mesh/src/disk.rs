@@ -1,11 +1,14 @@
-//! The disk: a plane mesh of a ring, coarsened towards the hub, extruded along `y`.
+//! The disk: a plane mesh of a ring, coarsened towards the hub, extruded along `y`; or shells about the fine zone.
 
 use crate::error::{MAX_ELEMENTS, positive, within};
-use crate::grading::{Axis, LEAST_GAP, cells, outward, whole};
+use crate::grading::{Axis, LEAST_GAP, cells, divided, joined, outward, whole};
 use crate::grid::nodes_of;
 use crate::ring::Ring;
+use crate::shells::{BOTTOM, Extent, TOP, ZONE, down, shells};
 use crate::zone::{check_crown, sag};
-use crate::{Allowed, Body, Face, FineZone, Mesh, MeshError, Parameter, SmoothSurface, Surface};
+use crate::{
+    Allowed, Body, Face, FineZone, Grading, Mesh, MeshError, Parameter, SmoothSurface, Surface,
+};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -44,18 +47,59 @@ pub struct Disk {
 /// sharp for the width, or a zone that does not fit; [`MeshError::TooManyElements`].
 pub fn disk(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
     check(shape, zone)?;
+    match zone.grading {
+        Grading::Tensor => extruded(shape, zone),
+        Grading::TwoToOne => graded(shape, zone),
+    }
+}
+
+/// The two ends of the turn, half a turn from the middle of the zone, and those of the zone, as arc lengths (m).
+fn spans(shape: &Disk, zone: &FineZone) -> [[f64; 2]; 2] {
+    let length = whole(zone.length, zone.size);
+    let (middle, turn) = (zone.start + 0.5 * length, PI * shape.radius);
+    [[middle - turn, middle + turn], [zone.start, zone.start + length]]
+}
+
+/// Shells about the zone.
+fn graded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
+    let Disk { radius, hub_radius, width, crown } = *shape;
+    let [turn, fine] = spans(shape, zone);
+    let [from, to] = joined(turn, fine, zone.size);
+    let thickness = radius - hub_radius;
+    // the logarithm of the radius makes shells that keep their angles towards the hub
+    let inwards = |depth: f64| -radius * libm::log1p(-depth / radius);
+    let hub = inwards(thickness);
+    let rows: Vec<f64> = down(zone, thickness).into_iter().map(inwards).collect();
+    let extent = Extent {
+        name: "disk",
+        along: turn,
+        lines: [&divided([from, to], cells(to - from, zone.size)), &rows],
+        width,
+        depth: hub,
+        radius: Some(radius),
+        widest: WIDEST_ELEMENT * radius,
+    };
+    let made = shells(&extent, zone, |[s, y, z]| {
+        let (sin, cos) = libm::sincos(s / radius);
+        // the hub exactly, whatever round-off says
+        let r = if z == hub { hub_radius } else { radius * libm::exp(-z / radius) };
+        let r = r - sag(crown, y) * ((r - hub_radius) / thickness);
+        [r * sin, y, radius - r * cos]
+    })?;
+    let smooth = Some(SmoothSurface::Tread { centre: [0.0, 0.0, radius], radius, crown });
+    Ok(made.named(
+        &[("hub", BOTTOM), ("tread", TOP), ("zone", ZONE)],
+        &[("tread", TOP, smooth), ("zone", ZONE, smooth)],
+    ))
+}
+
+/// A plane mesh of the ring, extruded.
+fn extruded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
     let Disk { radius, hub_radius, width, crown } = *shape;
     let FineZone { size, growth, coarsest, .. } = *zone;
 
-    let length = whole(zone.length, size);
-    let (middle, turn) = (zone.start + 0.5 * length, PI * radius);
-    let arc = Axis::new(
-        [middle - turn, middle + turn],
-        [zone.start, zone.start + length],
-        size,
-        growth,
-        coarsest.min(WIDEST_ELEMENT * radius),
-    );
+    let [turn, fine] = spans(shape, zone);
+    let arc = Axis::new(turn, fine, size, growth, coarsest.min(WIDEST_ELEMENT * radius));
     let angles: Vec<f64> = arc.points[..arc.cells()].iter().map(|s| s / radius).collect();
     let (half, fine) = (0.5 * width, 0.5 * whole(zone.width, size).min(width));
     let y = Axis::new([-half, half], [-fine, fine], size, growth, coarsest);
@@ -170,9 +214,10 @@ fn check(shape: &Disk, zone: &FineZone) -> Result<(), MeshError> {
     // With the rows of the fine zone alone this is a lower bound.
     let count =
         |span, fine| Axis::estimate(span, fine, zone.size, zone.growth, zone.coarsest).max(1.0);
-    let estimate = count(2.0 * PI * radius, zone.length)
+    let extruded = count(2.0 * PI * radius, zone.length)
         * count(width, zone.width)
         * (zone.depth / zone.size).max(1.0);
+    let estimate = zone.estimate(extruded);
     if estimate > MAX_ELEMENTS {
         return Err(MeshError::TooManyElements { body: "disk", size: zone.size, estimate });
     }

@@ -27,16 +27,14 @@ impl Axis {
     /// than `growth`. Within it, the size changes only where the stretch reaches an end of the span and is no
     /// whole number of cells long; a gap of less than [`LEAST_GAP`] elements at an end joins the stretch.
     pub fn new(span: [f64; 2], fine: [f64; 2], size: f64, growth: f64, coarsest: f64) -> Self {
-        let from = if fine[0] - span[0] < LEAST_GAP * size { span[0] } else { fine[0] };
-        let to = if span[1] - fine[1] < LEAST_GAP * size { span[1] } else { fine[1] };
+        let [from, to] = joined(span, fine, size);
         let n = cells(to - from, size);
         let rear = outward(size, growth, coarsest, from - span[0]);
         let front = outward(size, growth, coarsest, span[1] - to);
         let mut points = Vec::with_capacity(rear.len() + n + 1 + front.len());
         points.extend(rear.iter().rev().map(|d| from - d));
         let first = points.len();
-        // Weighted form: symmetric stretches get symmetric points to the last bit.
-        points.extend((0..=n).map(|i| (from * (n - i) as f64 + to * i as f64) / n as f64));
+        points.extend(divided([from, to], n));
         points.extend(front.iter().map(|d| to + d));
         let last = points.len() - 1;
         points[0] = span[0];
@@ -91,6 +89,18 @@ pub fn graded_line(
 /// `length` rounded up to a multiple of `size`; an excess of round-off is not rounded up.
 pub(crate) fn whole(length: f64, size: f64) -> f64 {
     (length / size - 1e-9).ceil().max(1.0) * size
+}
+
+/// The ends of the uniform stretch `fine` of `span` (m): a gap of less than [`LEAST_GAP`] elements joins it.
+pub(crate) fn joined(span: [f64; 2], fine: [f64; 2], size: f64) -> [f64; 2] {
+    let from = if fine[0] - span[0] < LEAST_GAP * size { span[0] } else { fine[0] };
+    let to = if span[1] - fine[1] < LEAST_GAP * size { span[1] } else { fine[1] };
+    [from, to]
+}
+
+/// Ends of `n` equal cells. The weighted form makes those of a symmetric stretch symmetric to the last bit.
+pub(crate) fn divided([from, to]: [f64; 2], n: usize) -> Vec<f64> {
+    (0..=n).map(|i| (from * (n - i) as f64 + to * i as f64) / n as f64).collect()
 }
 
 /// Number of cells of about `size` in `length`, at least one.

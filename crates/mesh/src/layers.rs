@@ -45,7 +45,7 @@ pub fn layers_below(mesh: &Mesh, body: &Body, faces: &[Face], layers: usize) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Bar, Disk, FineZone, bar, block, disk, join};
+    use crate::{Bar, Disk, FineZone, Grading, bar, block, disk, join};
 
     #[test]
     fn two_layers_below_a_part_of_the_top_of_a_block_are_the_columns_below_it() {
@@ -81,6 +81,7 @@ mod tests {
             start: -10e-3,
             growth: 1.35,
             coarsest: 50e-3,
+            grading: Grading::Tensor,
         };
         let shape = Disk { radius: 0.1, hub_radius: 0.05, width: 20e-3, crown: None };
         let bed = Bar { length: 0.1, width: 20e-3, height: 20e-3, crown: None, start: -0.05 };

@@ -24,6 +24,21 @@ pub struct FineZone {
     pub growth: f64,
     /// Largest element size far from the zone (m).
     pub coarsest: f64,
+    /// How elements become larger outside the zone.
+    pub grading: Grading,
+}
+
+/// How elements become larger outside the fine zone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grading {
+    /// Rows and columns run through the whole body, and grow by the ratio `growth`: elements far from the zone are
+    /// slender.
+    #[default]
+    Tensor,
+    /// Columns are merged in all three directions, such that sizes grow as those of a series of ratio `growth` do;
+    /// elements stay close to cubes. The number of columns of the zone across is rounded up to an even one, and no
+    /// element lies across y = 0. Far from the zone, a few columns that fan out may become wider than `coarsest`.
+    TwoToOne,
 }
 
 impl FineZone {
@@ -39,6 +54,18 @@ impl FineZone {
         let least = self.length.min(self.width).min(self.depth);
         let allowed = Allowed::AtMost(least, "the least of the zone's length, width and depth");
         within(self.size <= least, Parameter::ZoneSize, self.size, allowed)
+    }
+
+    /// Estimate of the number of elements, from those of the tensor product, `tensor`. Of shells, only the zone is
+    /// known beforehand: a lower bound.
+    pub(crate) fn estimate(&self, tensor: f64) -> f64 {
+        match self.grading {
+            Grading::Tensor => tensor,
+            Grading::TwoToOne => [self.length, self.width, self.depth]
+                .map(|l| (l / self.size).max(1.0))
+                .iter()
+                .product(),
+        }
     }
 
     /// Refuses a zone whose size `value` in one direction is above `most`, that of `what`.

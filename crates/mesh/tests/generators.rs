@@ -1,7 +1,7 @@
 //! Facts about the generated disk and bar that hold for every shape.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use mesh::{Bar, Disk, Face, FineZone, Mesh, bar, check, disk, quality};
+use mesh::{Bar, Disk, Face, FineZone, Grading, Mesh, bar, check, disk, quality};
 use proptest::prelude::*;
 
 fn centre(mesh: &Mesh, nodes: &[u32]) -> [f64; 3] {
@@ -68,6 +68,7 @@ fn zones() -> impl Strategy<Value = FineZone> {
                 start,
                 growth,
                 coarsest: size * coarsest,
+                grading: Grading::Tensor,
             }
         },
     )

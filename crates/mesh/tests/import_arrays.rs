@@ -4,7 +4,7 @@
 use mesh::import::{
     Fault, Foreign, ImportError, Imported, Set, SetNames, SetRole, Shape, Unit, bodies, fit,
 };
-use mesh::{Bar, Disk, FineZone, HEX_FACES, Mesh, Parameter, bar, disk, join};
+use mesh::{Bar, Disk, FineZone, Grading, HEX_FACES, Mesh, Parameter, bar, disk, join};
 
 const DISK: Disk = Disk { radius: 0.1, hub_radius: 0.05, width: 20e-3, crown: None };
 const BAR: Bar = Bar { length: 0.1, width: 20e-3, height: 20e-3, crown: Some(0.3), start: -0.05 };
@@ -16,6 +16,7 @@ const ZONE: FineZone = FineZone {
     start: -10e-3,
     growth: 1.35,
     coarsest: 50e-3,
+    grading: Grading::Tensor,
 };
 const SHAPE: Shape = Shape { disk: DISK, bar: BAR, zone: ZONE, exact: true, ends: true };
 

@@ -3,7 +3,7 @@
 
 use mesh::import::{Fault, Foreign, Format, ImportError, SetNames, Shape, Unit, bodies, fit};
 use mesh::import::{read_abaqus, read_gmsh, read_vtu};
-use mesh::{Bar, Disk, FineZone, Mesh};
+use mesh::{Bar, Disk, FineZone, Grading, Mesh};
 use std::fs;
 use std::path::Path;
 
@@ -19,6 +19,7 @@ const SHAPE: Shape = Shape {
         start: -0.012,
         growth: 1.5,
         coarsest: 0.02,
+        grading: Grading::Tensor,
     },
     exact: true,
     ends: true,

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use mesh::{
-    Bar, Body, Disk, FineZone, Mesh, MeshError, Parameter, bar, check, disk, join, quality,
+    Bar, Body, Disk, FineZone, Grading, Mesh, MeshError, Parameter, bar, check, disk, join, quality,
 };
 use std::f64::consts::PI;
 
@@ -19,6 +19,7 @@ const fn zone(size: f64) -> FineZone {
         start: -0.010,
         growth: 1.35,
         coarsest: 0.05,
+        grading: Grading::Tensor,
     }
 }
 
@@ -275,6 +276,7 @@ fn a_ring_of_too_many_rows_is_refused_while_it_is_made() {
         start: 0.0,
         growth: 3.0,
         coarsest: 2e-5,
+        grading: Grading::Tensor,
     };
     let narrow = Disk { width: 2e-3, ..DISK };
     assert!(matches!(disk(&narrow, &z), Err(MeshError::TooManyElements { estimate, .. })

@@ -7,7 +7,7 @@
 //! The argument is the element size (m). One thread. One size per call, since the peak memory is that of the process.
 #![allow(clippy::unwrap_used)]
 
-use mesh::{Bar, Disk, FineZone};
+use mesh::{Bar, Disk, FineZone, Grading};
 use reference::{StiffnessMatrix, Symbolic, Unknowns};
 use solid::{Element, Material, element_stiffness};
 use statics::Supports;
@@ -23,6 +23,7 @@ fn main() {
         start: -0.010,
         growth: 1.35,
         coarsest: 0.05,
+        grading: Grading::Tensor,
     };
     let disk = Disk { radius: 0.46, hub_radius: 0.10, width: 0.06, crown: None };
     let bar = Bar { length: 0.24, width: 0.06, height: 0.07, crown: Some(0.30), start: -0.09 };

@@ -13,7 +13,7 @@ use contact::{
     Rows,
 };
 use friction::Coulomb;
-use mesh::{Bar, Disk, FineZone, Padded};
+use mesh::{Bar, Disk, FineZone, Grading, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{Axis, Contact, Problem, Supports, Tied};
 use std::time::Instant;
@@ -34,6 +34,7 @@ fn main() {
         start: -0.010,
         growth: 1.35,
         coarsest: 0.05,
+        grading: Grading::Tensor,
     };
     let disk = Disk { radius: RADIUS, hub_radius: 0.10, width: 0.06, crown: None };
     let bar = Bar { length: 0.24, width: 0.06, height: 0.07, crown: Some(0.30), start: -0.09 };

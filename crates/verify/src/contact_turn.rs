@@ -15,7 +15,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{Contact, PenaltyContact, PenaltySettings, PenaltyStiffness, TraceFields};
 use friction::Coulomb;
-use mesh::{Disk, FineZone, Mesh, Padded, Surface};
+use mesh::{Disk, FineZone, Grading, Mesh, Padded, Surface};
 use std::f64::consts::TAU;
 
 const SETTINGS: PenaltySettings = PenaltySettings {
@@ -112,6 +112,7 @@ fn gaps(curvature: bool) -> Result<f64, Cause> {
         start: -0.02,
         growth: 2.0,
         coarsest: 0.1,
+        grading: Grading::Tensor,
     };
     let disk = mesh::disk(&Disk { radius, hub_radius: 0.40, width: 8e-3, crown: None }, &zone)?;
     // of another pitch, so that its nodes meet all parts of a face

@@ -18,7 +18,7 @@ use crate::half_space::{
 };
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use mesh::{Bar, Disk, FineZone, Mesh};
+use mesh::{Bar, Disk, FineZone, Grading, Mesh};
 use reference::{
     Influence, Lateral, Point, Press, Pressed, Rigid, Rolling, SurfaceCompliance, ellipsoid, press,
 };
@@ -159,6 +159,7 @@ fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
         start: -n[0] * size,
         growth: 1.5,
         coarsest: 0.03,
+        grading: Grading::Tensor,
     };
     let shape = Disk { radius: 0.46, hub_radius: 0.10, width: 0.06, crown: None };
     let disk = mesh::disk(&shape, &zone)?;
