@@ -151,6 +151,10 @@ section! {
                 "give the ratio of neighbouring element sizes: 1.35 grades gently");
         /// Largest element size (m). Default 0.05.
         coarsest: f64 = 0.05 => LENGTH;
+        /// How elements become larger outside the fine zone: `"tensor"` (rows and columns run through the
+        /// whole body) or `"2:1"` (columns are merged in all three directions, with elements close to
+        /// cubes and about a third as many). Default `"tensor"`.
+        grading: Grading = Grading::Tensor => word(Grading::WORDS);
         /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
         /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
         /// width, which only scales the forces; one near that of the coarsest elements keeps these well
@@ -187,6 +191,10 @@ impl Meshing {
             start,
             growth: self.growth,
             coarsest: self.coarsest,
+            grading: match self.grading {
+                Grading::Tensor => mesh::Grading::Tensor,
+                Grading::TwoToOne => mesh::Grading::TwoToOne,
+            },
         }
     }
 }
@@ -209,6 +217,17 @@ impl Symmetry {
             Self::Whole => 1.0,
             Self::Half => 2.0,
         }
+    }
+}
+
+words! {
+    /// How elements become larger outside the fine zone.
+    Grading {
+        /// Rows and columns run through the whole body.
+        #[default]
+        Tensor = "tensor",
+        /// Columns are merged in all three directions.
+        TwoToOne = "2:1",
     }
 }
 

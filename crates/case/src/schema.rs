@@ -4,7 +4,8 @@
 //! what it may be, what to do where it is refused, and the keys that it depends on or stands for.
 
 pub use crate::bodies::{
-    Bar, Disk, Ends, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Symmetry, Zone,
+    Bar, Disk, Ends, Grading, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Symmetry,
+    Zone,
 };
 pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;

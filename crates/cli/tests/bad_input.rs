@@ -117,7 +117,7 @@ fn with_json_standard_output_is_one_document_also_on_failure() {
 fn with_json_wrong_usage_is_one_document_too() {
     for (args, said) in [
         (&["--json"][..], ""),
-        (&["run", "--json"], "not provided: <CASE>"),
+        (&["run", "--json"], "not provided: <CASE.toml>"),
         (&["mesh", "--json", "--fly"], "'--fly'"),
     ] {
         let output = creepage(args);

@@ -242,9 +242,9 @@ fn sorted<const N: usize>(mut nodes: [u32; N]) -> [u32; N] {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::{Bar, Disk, FineZone, bar, block, disk, hex_volume, join, layers_below};
+    use crate::{Bar, Disk, FineZone, Grading, bar, block, disk, hex_volume, join, layers_below};
 
-    fn rolling(width: f64) -> Mesh {
+    fn rolling(width: f64, grading: Grading) -> Mesh {
         let zone = FineZone {
             size: 2e-3,
             length: 20e-3,
@@ -253,6 +253,7 @@ mod tests {
             start: -10e-3,
             growth: 1.35,
             coarsest: 50e-3,
+            grading,
         };
         let shape = Disk { radius: 0.1, hub_radius: 0.05, width: 20e-3, crown: None };
         let bed = Bar { length: 0.1, width: 20e-3, height: 20e-3, crown: Some(0.3), start: -0.05 };
@@ -265,10 +266,15 @@ mod tests {
 
     #[test]
     fn the_half_of_disk_and_bar_has_half_their_elements_volume_and_faces() {
-        let whole = rolling(8e-3);
-        let half = half(&whole).unwrap();
+        for grading in [Grading::Tensor, Grading::TwoToOne] {
+            check_halves(&rolling(8e-3, grading));
+        }
+    }
+
+    fn check_halves(whole: &Mesh) {
+        let half = half(whole).unwrap();
         assert!(half.symmetric && 2 * half.hexes.len() == whole.hexes.len());
-        assert!((volume(&half) / volume(&whole) - 0.5).abs() < 1e-14);
+        assert!((volume(&half) / volume(whole) - 0.5).abs() < 1e-14);
         for (part, body) in half.bodies.iter().zip(&whole.bodies) {
             for (name, surface) in &body.surfaces {
                 assert_eq!(2 * part.surfaces[name].faces.len(), surface.faces.len(), "{name}");
@@ -287,7 +293,7 @@ mod tests {
 
     #[test]
     fn an_odd_number_of_columns_has_no_plane_of_nodes() {
-        assert!(matches!(half(&rolling(9e-3)), Err(NotSymmetric::Across { .. })));
+        assert!(matches!(half(&rolling(9e-3, Grading::Tensor)), Err(NotSymmetric::Across { .. })));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{Findings, round};
 use crate::key::number;
-use crate::schema::{Case, Crown, PreloadMethod, Symmetry};
+use crate::schema::{Case, Crown, Grading, PreloadMethod, Symmetry};
 
 /// More elements than this in the fine zones are taken for a typing mistake.
 const MOST_ELEMENTS: f64 = 2e8;
@@ -16,6 +16,7 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
     check_crowns(case, found);
     check_slice(case, found);
     check_symmetry(case, found);
+    check_grading(case, found);
     check_zone_place(case, found);
     check_element_count(case, found);
 }
@@ -176,6 +177,24 @@ fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
         },
         "shorten the fine zone or enlarge the disk",
     );
+}
+
+/// Grading in three directions is of generated meshes, and of those that are more than a slice.
+fn check_grading(case: &Case, found: &mut Findings<'_>) {
+    if case.mesh.grading == Grading::Tensor {
+        return;
+    }
+    for (key, applies, why) in [
+        ("mesh.file", case.mesh.file.is_none(), "a mesh that is read is as its file says"),
+        ("mesh.plane_strain", !case.mesh.plane_strain, "a slice is one element wide"),
+    ] {
+        found.require(
+            applies,
+            &["mesh.grading", key],
+            || format!("mesh.grading = \"2:1\" cannot go with {key}: {why}"),
+            "leave out mesh.grading",
+        );
+    }
 }
 
 /// The fine zones do not have more elements than any machine holds.

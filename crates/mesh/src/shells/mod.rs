@@ -82,7 +82,7 @@ pub(crate) fn shells(
     };
     let flags = nodes.iter().map(|n| n.flags).collect();
     let nodes = nodes.iter().map(|n| point(n.x)).collect();
-    let mesh = Mesh { nodes, hexes, bodies: vec![body] };
+    let mesh = Mesh { nodes, hexes, bodies: vec![body], symmetric: false };
     let outside = boundary(&mesh, &mesh.bodies[0])?;
     Ok(Shells { mesh, flags, outside })
 }
