@@ -30,6 +30,7 @@ impl Rig {
             start: -0.016,
             growth: 2.0,
             coarsest: 0.05,
+            grading: Default::default(),
         };
         let disk = Disk { radius: RADIUS, hub_radius: 0.1, width: 0.06, crown: None };
         let bar = Bar { length: 0.1, width: 0.06, height: 0.03, crown: Some(0.3), start: -0.05 };

@@ -152,7 +152,7 @@ section! {
         /// Largest element size (m). Default 0.05.
         coarsest: f64 = 0.05 => LENGTH;
         /// How elements become larger outside the fine zone: `"tensor"` (rows and columns run through the
-        /// whole body) or `"2:1"` (columns are merged in all three directions, with elements close to
+        /// whole body) or `"two_to_one"` (columns are merged 2:1 in all three directions, with elements close to
         /// cubes and about a third as many). Default `"tensor"`.
         grading: Grading = Grading::Tensor => word(Grading::WORDS);
         /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
@@ -227,7 +227,7 @@ words! {
         #[default]
         Tensor = "tensor",
         /// Columns are merged in all three directions.
-        TwoToOne = "2:1",
+        TwoToOne = "two_to_one",
     }
 }
 

@@ -191,7 +191,7 @@ fn check_grading(case: &Case, found: &mut Findings<'_>) {
         found.require(
             applies,
             &["mesh.grading", key],
-            || format!("mesh.grading = \"2:1\" cannot go with {key}: {why}"),
+            || format!("mesh.grading = \"two_to_one\" cannot go with {key}: {why}"),
             "leave out mesh.grading",
         );
     }
