@@ -107,6 +107,10 @@ fn numbers_of_the_half_are_those_of_the_whole_bodies() {
             assert!((other / one - 1.0).abs() < slack, "{enforcement:?} {pointer}: {one} {other}");
         }
         assert_eq!(half.number("/contact/lateral_force"), 0.0);
+        assert!(half.number("/checks/resultant_mismatch") < 1e-12);
+        let [limit, of_half] = [&whole, &half].map(|run| run.number("/stability/dt_limit"));
+        // the half has no motions that are not symmetric; Lanczos finds its largest frequency to 1e-3
+        assert!((of_half / limit - 1.0).abs() < 2e-3, "{limit:e} {of_half:e}");
         assert!(half.number("/energy/balance_error") < 1e-4);
         assert_eq!(2.0 * half.number("/elements"), whole.number("/elements"));
         assert_eq!(half.number("/preload/closed_pairs"), whole.number("/preload/closed_pairs"));
@@ -158,6 +162,31 @@ fn torque_hub_mass_and_probes_are_of_the_whole_bodies() {
     for column in ["pressure", "shear_x", "shear_y"] {
         let [one, other] = [&whole, &half].map(|run| probe(run, column));
         assert!(one != 0.0 && (other / one - 1.0).abs() < 1e-3, "{column}: {one} {other}");
+    }
+}
+
+#[test]
+fn a_zone_of_an_odd_number_of_elements_gets_one_more_and_the_log_says_so() {
+    let odd = [EXACT, HALF, "mesh.zone.width=5.6e-3", "time.roll=0.0002"];
+    let (_, log) = run_with(&load(&project("tests/small.toml"), &odd), 1, None);
+    assert!(log.contains("the fine zone is 6.4000 mm wide"), "{log}");
+}
+
+#[test]
+fn both_gradings_and_surfaces_without_curvature_roll_at_the_default_step_as_the_whole_does() {
+    for more in
+        [&["contact.curvature=false"][..], &["mesh.grading=two_to_one"], &["contact.rows=mortar"]]
+    {
+        let sets = [&[EXACT, "time.roll=0.002", "load.mode=height"][..], more].concat();
+        let of = |sets: &[&str]| run(&load(&project("tests/small.toml"), sets), 2);
+        let (whole, half) = (of(&sets), of(&[&sets[..], &[HALF]].concat()));
+        for pointer in
+            ["/contact/normal_force", "/contact/tangential_force", "/contact/peak_pressure"]
+        {
+            let [one, other] = [&whole, &half].map(|run| run.number(pointer));
+            assert!((other / one - 1.0).abs() < 1e-3, "{more:?} {pointer}: {one} {other}");
+        }
+        assert!(half.number("/energy/balance_error") < 1e-4);
     }
 }
 

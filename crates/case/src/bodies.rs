@@ -170,23 +170,13 @@ section! {
 }
 
 impl Meshing {
-    /// Width of the fine zone (m): of half a model that of an even number of elements, so that nodes lie on y = 0.
-    fn symmetric_width(&self) -> f64 {
-        let Zone { size, width, .. } = self.zone;
-        match self.symmetry {
-            Symmetry::Whole => width,
-            // a width that is even up to round-off stays
-            Symmetry::Half => 2.0 * size * (0.5 * width / size - 1e-9).ceil(),
-        }
-    }
-
     /// The fine zone and the grading around it.
     pub fn fine_zone(&self) -> mesh::FineZone {
-        let Zone { size, length, depth, start, .. } = self.zone;
+        let Zone { size, length, width, depth, start } = self.zone;
         mesh::FineZone {
             size,
             length,
-            width: self.symmetric_width(),
+            width,
             depth,
             start,
             growth: self.growth,

@@ -288,7 +288,7 @@ section! {
             => key(Count(1, 100_000_000), "-", "give a whole number: 100 (static), 40000 (relaxation)");
         /// Disturbance of the preload's displacement (dimensionless): that of every free node is multiplied by
         /// 1 + r disturbance in each direction, r drawn from -1 to 1. Two runs that differ in it alone show how
-        /// fast small differences grow. Default: none.
+        /// fast small differences grow; of half a model only those that its plane mirrors. Default: none.
         disturbance: Option<f64>
             => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9")
                 .only_with("preload.method", &["static", "relaxation"]);

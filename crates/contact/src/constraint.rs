@@ -16,7 +16,7 @@
 use crate::face::{Positions, Projection, shape, shape_gradients};
 use crate::point::{ContactPoint, Enforced};
 use crate::surface::{ContactSurface, MasterFace};
-use crate::symmetry::{in_plane, symmetric_tangent};
+use crate::symmetry::{in_plane, symmetric_tangents, tangent_in_plane};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -80,7 +80,13 @@ impl MasterPoint {
         if !master.is_on_plane(node) {
             return point;
         }
-        Self { x: in_plane(point.x), tangents: point.tangents.map(symmetric_tangent) }
+        Self { x: in_plane(point.x), tangents: symmetric_tangents(point.tangents) }
+    }
+
+    /// The frame, on a plane of symmetry or not, in which the tangential force of a constraint with unit normal `n` is kept.
+    #[inline]
+    pub fn frame(&self, n: Vec3, on_plane: bool) -> [Vec3; 2] {
+        frame(if on_plane { tangent_in_plane(n) } else { self.tangents[0] }, n)
     }
 
     /// The duals of the tangents in the plane with unit normal `n`.
@@ -150,7 +156,7 @@ impl Constraint {
     ) {
         self.normal = n;
         self.enforcement.on_plane = on_plane;
-        self.enforcement.frame = frame(master_point.tangents[0], n);
+        self.enforcement.frame = master_point.frame(n, on_plane);
         self.enforcement.legs = [legs.len() as u32, shares.len() as u32];
         let [g1, g2] = master_point.duals(n);
         let to_node = sub(x, master_point.x);

@@ -12,7 +12,7 @@
 //! `W_ii = (1/m_s + sum w_J^2/m_J) I` is isotropic for lumped masses, so that its normal problem, and then
 //! its tangential one (`friction::slip_speed`) are closed; blocks of neighbouring nodes couple little. The order is
 //! fixed, hence the bits are. Over nodes on a plane of symmetry, which answer in x and z alone, the true block is smaller
-//! across the plane; the sweeps go on with the isotropic one, which bounds it, to the same solution.
+//! across the plane; the sweeps go on with the isotropic one, which bounds it, to the same solution where that is unique.
 
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
@@ -219,7 +219,7 @@ impl ExactContact {
         let mut kinematics = None;
         if !mean.shares.is_empty() {
             let now = mean.kinematics(sides[1], positions, x);
-            old = Some(frame(now.master_point.tangents[0], now.normal));
+            old = Some(now.master_point.frame(now.normal, sides[1].is_on_plane(x)));
             let near = constraint.is_closed() || now.gap < WATCHED * self.search.margin;
             kinematics = (now.stale <= if near { 1.0 } else { FAR }).then_some(now);
         }
@@ -422,7 +422,7 @@ impl ExactContact {
     }
 
     /// Sweeps over the constraints until no force changes; returns how many, and where they end at their limit the
-    /// last change over the largest force.
+    /// largest change of a constraint's forces in the last, over the largest force.
     fn gauss_seidel(
         &mut self,
         constraints: &mut [Constraint],
@@ -447,7 +447,8 @@ impl ExactContact {
             if !goes_on {
                 return (sweep, 0.0);
             }
-            part = change / size;
+            // a force that falls to zero changes by more than is left
+            part = change / size.max(change);
         }
         (SWEEPS, part)
     }

@@ -107,7 +107,7 @@ impl PenaltyContact {
             normal: point.normal,
             gap: point.gap,
             area: self.sides[slave].area[point.slave as usize],
-            nodes: 1,
+            nodes: 1 + usize::from(self.sides[slave].has_image(point.slave as usize)),
         }
     }
 

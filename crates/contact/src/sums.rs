@@ -47,12 +47,12 @@ pub struct ContactSums {
 }
 
 impl ContactSums {
-    /// Those of bodies made of `parts` parts alike, of which these are the sums of one; the second part is the mirror
-    /// image of the first in y = 0. Counts are of the whole surfaces already.
+    /// Those of bodies made of `parts` parts alike, of which these are the sums of one. Counts are of the whole surfaces
+    /// already. The lateral forces of mirror images cancel; here they stand as if they did not, so that action and
+    /// reaction can be compared.
     pub fn of_parts(self, parts: f64) -> Self {
-        let whole = |[x, y, z]: [f64; 3]| [parts * x, if parts > 1.0 { 0.0 } else { y }, parts * z];
         Self {
-            force: self.force.map(whole),
+            force: self.force.map(|force| force.map(|f| parts * f)),
             normal_force: parts * self.normal_force,
             stored_normal: parts * self.stored_normal,
             stored_tangential: parts * self.stored_tangential,

@@ -131,6 +131,11 @@ impl ContactSurface {
         self.area.len()
     }
 
+    /// Whether a node of the surface has a mirror image.
+    pub fn has_image(&self, local: usize) -> bool {
+        self.symmetric && !self.holds_on_plane(local)
+    }
+
     /// Whether a node of the surface lies on the plane of symmetry.
     pub fn holds_on_plane(&self, local: usize) -> bool {
         self.plane.get(local).is_some_and(|on_plane| *on_plane)

@@ -10,10 +10,6 @@ use crate::face::{FaceGeometry, Positions, Projection, SurfacePoint};
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, dot, norm, scale, sub};
 
-/// A tangent of a symmetric surface at a point of the plane of symmetry is normal to the plane or lies in it. One whose
-/// component along y is more than this part of its length is the former.
-const ACROSS: f64 = 0.5;
-
 impl ContactSurface {
     /// Whether a node at `x` (m) lies on the plane of symmetry of the surface.
     #[inline(always)]
@@ -38,17 +34,26 @@ pub(crate) fn unit_in_plane(a: Vec3) -> Vec3 {
     scale(1.0 / norm(a), a)
 }
 
-/// The tangent of the surface with its mirror image, for the tangent `a` of its half.
-pub(crate) fn symmetric_tangent(a: Vec3) -> Vec3 {
-    if a[1].abs() > ACROSS * norm(a) { [0.0, a[1], 0.0] } else { in_plane(a) }
+/// The tangent in the plane of symmetry of a surface with unit normal `n` there.
+pub(crate) fn tangent_in_plane(n: Vec3) -> Vec3 {
+    [n[2], 0.0, -n[0]]
 }
 
-/// The same of a point of the surface on the plane.
+/// The tangents of the surface with its mirror image, for the tangents of its half: the one that leaves the plane more
+/// is normal to it, the other lies in it.
+pub(crate) fn symmetric_tangents([a, b]: [Vec3; 2]) -> [Vec3; 2] {
+    let across = |t: Vec3| [0.0, t[1], 0.0];
+    let leaves = |t: Vec3| t[1].abs() / norm(t);
+    if leaves(a) > leaves(b) { [across(a), in_plane(b)] } else { [in_plane(a), across(b)] }
+}
+
+/// The point of the surface with its mirror image, for a point of its half on the plane. Its tangent lies in the plane.
 pub(crate) fn symmetric_point(point: SurfacePoint) -> SurfacePoint {
+    let normal = unit_in_plane(point.normal);
     SurfacePoint {
         x: in_plane(point.x),
-        normal: unit_in_plane(point.normal),
-        tangent: symmetric_tangent(point.tangent),
+        normal,
+        tangent: tangent_in_plane(normal),
         offset: point.offset,
     }
 }

@@ -8,6 +8,7 @@
 
 use crate::dashpots::RigidMotion;
 use crate::ledger::{Energies, Ledger};
+use crate::load::Fixed;
 use crate::simulation::{Simulation, StepReport};
 use contact::Contact;
 use mesh::Padded;
@@ -394,7 +395,13 @@ impl Simulation {
         }
         if self.system.contact.is_some() {
             let system = &mut self.system;
-            let product = |x: &[Padded], y: &mut [Padded]| system.add_tangent_product(x, y);
+            let mut free = vec![Padded::ZERO; self.nodes.inverse_mass.len()];
+            let product = |x: &[Padded], y: &mut [Padded]| {
+                free.copy_from_slice(x);
+                Fixed::clear(&system.fixed, &mut free);
+                system.add_tangent_product(&free, y);
+                Fixed::clear(&system.fixed, y);
+            };
             let omega = solid::largest_frequency(&self.nodes.inverse_mass, product, LANCZOS);
             let ratio = self.dt * omega / 2.0;
             if ratio > 1.0 && ratio.is_finite() {
@@ -464,9 +471,9 @@ impl Simulation {
         } else if coefficient > 0.0 {
             Some((USUAL_HOURGLASS / coefficient).max(1.0) * now.hourglass)
         } else {
-            looks.then(|| {
-                self.system.solid.hourglass_energy(&self.nodes.displacement, USUAL_HOURGLASS)
-            })
+            let displacement = &self.nodes.displacement;
+            let energy = || self.system.solid.hourglass_energy(displacement, USUAL_HOURGLASS);
+            looks.then(|| self.system.parts * energy())
         }
     }
 

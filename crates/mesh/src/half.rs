@@ -38,6 +38,20 @@ pub enum NotSymmetric {
         /// Index in the mesh.
         element: usize,
     },
+    /// The mesh ends at the plane.
+    #[error("the body \"{body}\" has no part y < 0: it is a half already")]
+    Half {
+        /// Its name.
+        body: String,
+    },
+    /// A face of a surface lies in the plane.
+    #[error("the set \"{set}\" of the body \"{body}\" has a face in the plane y = 0")]
+    InPlane {
+        /// Its body.
+        body: String,
+        /// Its name.
+        set: String,
+    },
     /// A set is not symmetric.
     #[error(
         "the set \"{set}\" of the body \"{body}\" holds one of two mirror images and not the other"
@@ -99,6 +113,9 @@ impl Mirror {
     }
 
     fn check_sides(&self, mesh: &Mesh, body: &Body) -> Result<(), NotSymmetric> {
+        if body.nodes.clone().all(|node| self.side(mesh, node as u32) >= 0) {
+            return Err(NotSymmetric::Half { body: body.name.clone() });
+        }
         for element in body.hexes.clone() {
             let hex = &mesh.hexes[element];
             let on = |side: i8| hex.iter().any(|&n| self.side(mesh, n) == side);
@@ -159,7 +176,11 @@ impl Mirror {
             let faces: HashSet<[u32; 4]> = surface.faces.iter().map(|f| sorted(f.nodes)).collect();
             let flat = |f: &Face| f.nodes.iter().all(|&n| self.side(mesh, n) == 0);
             let has_image = |f: &Face| faces.contains(&sorted(f.nodes.map(|n| self.image(n))));
-            if surface.faces.iter().any(|f| flat(f) || !has_image(f)) {
+            if surface.faces.iter().any(flat) {
+                let (body, set) = (body.name.clone(), name.clone());
+                return Err(NotSymmetric::InPlane { body, set });
+            }
+            if !surface.faces.iter().all(has_image) {
                 return refused(name);
             }
         }

@@ -41,7 +41,7 @@ names! {
         SLIP_PAIRING = "slip_pairing", "which step's slip stands beside a traction: `before` or `after`";
         ENFORCED_ON = "enforced_on", "the body at whose nodes contact is enforced: `disk` or `bar`";
         CONTACT_ROWS = "contact_rows", "how contact is enforced there: `node_to_face` or `mortar`";
-        SYMMETRY = "symmetry", "`half` where y >= 0 alone is modelled: `fields.vtkhdf` then holds that half, all other numbers are of the whole bodies";
+        SYMMETRY = "symmetry", "`half` where y >= 0 alone is modelled: `fields.vtkhdf` and `postmortem.vtkhdf` then hold that half, and counts of elements and nodes are its own; all other numbers are of the whole bodies";
         DIAGNOSIS = "diagnosis", "why the guards stopped the run";
     }
 }

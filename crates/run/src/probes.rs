@@ -53,7 +53,9 @@ impl Probes {
             };
             let nodes = model.zones[*side].iter().flat_map(|f| f.nodes);
             let nearest = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-            chosen.push((*side, nearest.ok_or(RunError::NoContact)?, sign(point)));
+            let node = nearest.ok_or(RunError::NoContact)?;
+            let on_plane = model.mesh.nodes[node as usize][1] == 0.0;
+            chosen.push((*side, node, if on_plane { 1.0 } else { sign(point) }));
         }
         let tables = [DISK, BAR].map(|side| {
             let around: Vec<Face> = model.zones[side]

@@ -303,7 +303,8 @@ impl Recorder {
     ) -> Result<(), RunError> {
         let clock = Instant::now();
         let n = report.step as u64;
-        let resultants = Resultants::of(report, self.effective_radius, self.speed);
+        let resultants =
+            Resultants::of(report, self.effective_radius, self.speed, self.parts > 1.0);
         let inside = (self.evaluate[0]..=self.evaluate[1]).contains(&report.time);
         self.means.add_step(report, &resultants, inside);
         if let (Some(probes), Some(contact)) = (&mut self.probes, simulation.contact()) {

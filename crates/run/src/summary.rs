@@ -152,7 +152,11 @@ pub(crate) fn without_rolling(
         contact: Contact::default(),
         files: Files { fields: none(), contact: none(), history: none(), postmortem: None },
         stages: [("preload".to_owned(), wall_s)].into(),
-        extra: [("diagnosis".to_owned(), json!(format!("{error}: {}", error.remedy())))].into(),
+        extra: [
+            ("symmetry".to_owned(), json!(case.mesh.symmetry)),
+            ("diagnosis".to_owned(), json!(format!("{error}: {}", error.remedy()))),
+        ]
+        .into(),
     }
 }
 

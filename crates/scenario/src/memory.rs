@@ -25,9 +25,10 @@ pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), Scena
     }
     let zone = &case.mesh.zone;
     let across = if case.mesh.plane_strain { 1.0 } else { zone.width / zone.size };
-    let across = across / case.mesh.symmetry.parts();
     let elements = 2.0 * zone.length * zone.depth / zone.size.powi(2) * across;
-    fits(elements as usize, bytes_per_element, free_mb())
+    let bytes = bytes_per_element / case.mesh.symmetry.parts();
+    // also of half a model the whole mesh is made
+    fits(elements as usize, bytes.max(BYTES_PER_MESH_ELEMENT), free_mb())
 }
 
 /// The same for the mesh and the elements alone.

@@ -14,8 +14,8 @@ use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 use std::sync::Arc;
 
 /// Lanczos steps for the largest frequency, and the factor by which their result, a lower bound, is raised.
-pub(crate) const LANCZOS: usize = 40;
-pub(crate) const MARGIN: f64 = 1.01;
+const LANCZOS: usize = 40;
+const MARGIN: f64 = 1.01;
 
 /// Index of the disk among bodies and contact sides.
 pub const DISK: usize = 0;
@@ -92,24 +92,32 @@ impl Model {
         inverse
     }
 
-    /// Leaves out of a nodal field what acts or moves along y at nodes of a plane of symmetry.
-    pub(crate) fn slide(&self, field: &mut [Padded]) {
-        if self.parts > 1.0 {
-            self.sliding.iter().for_each(|&n| field[n as usize][1] = 0.0);
+    /// Largest angular frequency (rad/s) of a stiffness, of which `add_product` adds the product with x to y, with a
+    /// margin of one per cent; of half a model that of the motions that its plane admits.
+    pub(crate) fn largest_frequency(
+        &self,
+        mut add_product: impl FnMut(&[Padded], &mut [Padded]),
+    ) -> f64 {
+        let inverse_mass = self.inverse_mass();
+        if self.parts == 1.0 {
+            return MARGIN * solid::largest_frequency(&inverse_mass, add_product, LANCZOS);
         }
+        let slide = |field: &mut [Padded]| {
+            self.sliding.iter().for_each(|&n| field[n as usize][1] = 0.0);
+        };
+        let mut slid = vec![Padded::ZERO; inverse_mass.len()];
+        let product = |x: &[Padded], y: &mut [Padded]| {
+            slid.copy_from_slice(x);
+            slide(&mut slid);
+            add_product(&slid, y);
+            slide(y);
+        };
+        MARGIN * solid::largest_frequency(&inverse_mass, product, LANCZOS)
     }
 
     /// Largest angular frequency of the bodies without contact (rad/s), with a margin of one per cent.
     pub fn elastic_frequency(&self, solid: &mut Solid) -> f64 {
-        MARGIN
-            * solid::largest_frequency(
-                &self.inverse_mass(),
-                |x, y| {
-                    solid.add_stiffness_product(x, y);
-                    self.slide(y);
-                },
-                LANCZOS,
-            )
+        self.largest_frequency(|x, y| solid.add_stiffness_product(x, y))
     }
 
     /// Penalty contact of disk and bar, not yet in touch. `scale` is what springs that are given as a fraction of

@@ -71,18 +71,18 @@ impl Sweep {
         let name = run_name(n, &chosen);
         let mut sets: Vec<String> =
             self.sets.iter().map(|(key, value)| format!("{key}={value}")).collect();
-        if self.step.is_some() {
-            // The rule takes a fraction of the limit, which an absolute step in the base would override.
-            let base = Case::load(&self.base, &sets)?;
-            if base.time.step.is_some() {
-                sets.push(format!("time.factor={}", base.contact.enforcement.default_factor()));
-            }
-        }
         sets.extend(chosen.iter().map(|(key, value)| format!("{key}={value}")));
         for follow in &self.follows {
             let x = float(chosen[follow.axis].1).unwrap_or(f64::NAN);
             let value = Value::Float(follow.factor * libm::pow(x, follow.power));
             sets.push(format!("{}={value}", follow.key));
+        }
+        if self.step.is_some() {
+            // The rule takes a fraction of the limit, which an absolute step in the base would override.
+            let run = Case::load(&self.base, &sets)?;
+            if run.time.step.is_some() {
+                sets.push(format!("time.factor={}", run.contact.enforcement.default_factor()));
+            }
         }
         sets.push(format!("name=\"{name}\""));
         let case = Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;

@@ -21,9 +21,11 @@ pub(super) struct Resultants {
 }
 
 impl Resultants {
-    /// Those of a step, with the effective rolling radius (m) and the speed (m/s).
-    pub(super) fn of(report: &StepReport, effective_radius: f64, speed: f64) -> Self {
+    /// Those of a step, with the effective rolling radius (m) and the speed (m/s). The lateral forces of the mirror
+    /// images of `half` a model cancel.
+    pub(super) fn of(report: &StepReport, effective_radius: f64, speed: f64, half: bool) -> Self {
         let [tangential, lateral, normal] = report.contact.force[DISK];
+        let lateral = if half { 0.0 } else { lateral };
         let other = report.contact.force[BAR];
         let sum = (0..3).map(|i| (report.contact.force[DISK][i] + other[i]).powi(2)).sum::<f64>();
         Self {

@@ -6,7 +6,7 @@ use crate::memory::enough_for_mesh;
 use crate::model::{BAR, DISK, Model};
 use case::schema::{Case, ContactLayers, Ends, Symmetry};
 use case::validation::LAYERS;
-use mesh::Mesh;
+use mesh::{FineZone, Mesh};
 use solid::{Element, Level, Material, Volumetric};
 
 /// The model of a case: its mesh is generated, or read from its file.
@@ -17,7 +17,7 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
     enough_for_mesh(case)?;
     let (mut mesh, notes) = match mesh_file::import(case)? {
         Some(imported) => imported,
-        None => (generated(case)?, Vec::new()),
+        None => generated(case)?,
     };
     if case.mesh.symmetry == Symmetry::Half {
         mesh = mesh::half(&mesh)?;
@@ -71,11 +71,21 @@ pub fn elements(case: &Case) -> Result<usize, ScenarioError> {
     Ok(model(case)?.mesh.hexes.len())
 }
 
-/// The meshes of the shapes that a case gives.
-fn generated(case: &Case) -> Result<Mesh, ScenarioError> {
+/// Width of a fine zone (m) with an even number of elements across it, so that nodes lie on y = 0; at most `widest` (m).
+fn even_width(zone: &FineZone, widest: f64) -> f64 {
+    let pair = 2.0 * zone.size;
+    // a width that is even up to round-off stays
+    let pairs = (zone.width / pair - 1e-9).ceil().max(1.0);
+    if pairs * pair <= widest { pairs * pair } else { zone.width }
+}
+
+/// The meshes of the shapes that a case gives, with remarks for the user.
+fn generated(case: &Case) -> Result<(Mesh, Vec<String>), ScenarioError> {
     let (mut disk, mut bar) = (case.disk.shape(), case.bar.shape());
     let mut zone = case.mesh.fine_zone();
-    zone.width = zone.width.min(disk.width).min(bar.width);
+    if case.mesh.symmetry == Symmetry::Half {
+        zone.width = even_width(&zone, disk.width.min(bar.width));
+    }
     let stretch = zone.width / zone.size;
     if case.mesh.plane_strain {
         // a slice is made one cube wide and stretched to its width
@@ -85,7 +95,15 @@ fn generated(case: &Case) -> Result<Mesh, ScenarioError> {
     if case.mesh.plane_strain {
         mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
     }
-    Ok(mesh)
+    let widened = zone.width > case.mesh.zone.width * (1.0 + 1e-9);
+    let note = || {
+        format!(
+            "the fine zone is {:.4} mm wide, an even number of elements, so that nodes lie on y = 0",
+            1e3 * zone.width
+        )
+    };
+    let notes = (widened && !case.mesh.plane_strain).then(note);
+    Ok((mesh, notes.into_iter().collect()))
 }
 
 /// The nodes that do not move along y.

@@ -6,7 +6,7 @@ use super::guards::limits;
 use super::preload::{Bodies, Preloaded, preload};
 use super::store;
 use crate::error::ScenarioError;
-use crate::model::{BAR, DISK, LANCZOS, MARGIN, Model};
+use crate::model::{BAR, DISK, Model};
 use crate::numbers::numbers;
 use crate::progress::Progress;
 use crate::start::{Facts, Found, RollingRadius, Stability, Start};
@@ -97,13 +97,11 @@ fn preloaded_state(
 
     let (omega_max, contact_bound) = match &springs {
         Some(springs) => {
-            let with_springs = |x: &[Padded], y: &mut [Padded]| {
+            let omega = model.largest_frequency(|x, y| {
                 solid.add_stiffness_product(x, y);
                 springs.stiffness_product(x, y);
-                model.slide(y);
-            };
-            let omega = solid::largest_frequency(&inverse_mass, with_springs, LANCZOS);
-            (MARGIN * omega, springs.rigorous_omega_squared(&inverse_mass))
+            });
+            (omega, springs.rigorous_omega_squared(&inverse_mass))
         }
         None => (omega_elastic, 0.0),
     };
