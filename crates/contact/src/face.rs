@@ -2,7 +2,7 @@
 //! surface beyond the facets, and the walk from face to face.
 
 use crate::surface::{ContactSurface, NONE};
-use crate::symmetry::{symmetric_point, symmetric_projection};
+use crate::symmetry::{in_plane, tangent_in_plane, unit_in_plane};
 use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub};
 use mesh::{Padded, SmoothSurface};
 
@@ -215,6 +215,43 @@ pub(crate) struct Followed {
     pub projection: Option<Projection>,
 }
 
+/// The point of the surface with its mirror image, for a point of its half on the plane. Its tangent lies in the plane.
+fn symmetric_point(point: SurfacePoint) -> SurfacePoint {
+    let normal = unit_in_plane(point.normal);
+    SurfacePoint {
+        x: in_plane(point.x),
+        normal,
+        tangent: tangent_in_plane(normal),
+        offset: point.offset,
+    }
+}
+
+/// The projection of a `node` of the plane on a symmetric `surface`: on the edge of the face that lies in the plane.
+fn symmetric_projection(
+    surface: &ContactSurface,
+    positions: &Positions<'_>,
+    curvature: bool,
+    node: Vec3,
+    projection: Projection,
+) -> Projection {
+    let Projection { face, mut xi, mut eta, .. } = projection;
+    let on_plane = surface.faces[face as usize].nodes.map(|n| positions.at(n)[1] == 0.0);
+    for edge in 0..4 {
+        if on_plane[edge] && on_plane[(edge + 1) % 4] {
+            match edge {
+                0 => eta = -1.0,
+                1 => xi = 1.0,
+                2 => eta = 1.0,
+                _ => xi = -1.0,
+            }
+        }
+    }
+    let point = FaceGeometry::new(surface, face, positions, curvature).at(xi, eta);
+    let point = symmetric_point(point);
+    let gap = dot(point.normal, sub(node, point.x)) - point.offset;
+    Projection { face, xi, eta, point, gap }
+}
+
 /// Projects `node` on `surface`, starting on `face` at `(xi, eta)`. A node on the plane of a surface's symmetry stays
 /// on it.
 #[inline]
@@ -235,8 +272,8 @@ pub(crate) fn project(
     Followed { old: symmetric_point(old), projection: projection.map(on_plane) }
 }
 
-/// The walk from face to face to the projection of `node`, which crosses the edge that the projection has left furthest behind. Where the walk would turn
-/// back at once, the node lies over a ridge and belongs to the face of lowest index.
+/// The walk from face to face to the projection of `node`, which crosses the edge that the projection has left furthest
+/// behind. Where the walk would turn back at once, the node lies over a ridge and belongs to the face of lowest index.
 #[inline]
 fn walk(
     surface: &ContactSurface,
@@ -328,4 +365,36 @@ fn on_face(
         evaluated = geometry.evaluate(node, xi, eta);
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::plates::{STEEL, plate};
+
+    /// The half y >= 0 of a roof whose ridge lies in the plane of symmetry, as a surface and its nodes.
+    fn roof(symmetric: bool) -> (ContactSurface, Vec<Padded>) {
+        let (mut mesh, top) = plate([0.0, 0.0], [4.0, 3.0], [4, 3], 0.0, 0.5, true);
+        mesh.symmetric = symmetric;
+        mesh.nodes.iter_mut().for_each(|x| x[2] -= 0.2 * x[1]);
+        let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
+        let nodes = trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize])).collect();
+        (surface, nodes)
+    }
+
+    #[test]
+    fn over_the_ridge_of_a_symmetric_roof_the_normal_is_upright_and_no_lever_crosses_the_plane() {
+        let node = [1.3, 0.0, 0.01];
+        for (symmetric, normal_y) in [(true, 0.0), (false, 0.2 / libm::hypot(1.0, 0.2))] {
+            let (surface, nodes) = roof(symmetric);
+            let positions = Positions(&nodes);
+            let found = project(&surface, &positions, false, node, 1, 0.0, 0.0).projection.unwrap();
+            assert!((found.point.normal[1] - normal_y).abs() < 1e-12, "{symmetric}: {found:?}");
+            if symmetric {
+                assert_eq!([found.point.x[1], found.point.tangent[1]], [0.0; 2]);
+                assert!((found.gap - 0.01).abs() < 1e-15 && (found.point.x[0] - 1.3).abs() < 1e-12);
+            }
+        }
+    }
 }

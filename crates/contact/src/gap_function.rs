@@ -133,9 +133,9 @@ impl GapFunction {
         }
     }
 
-    /// Replaces the normals of `gaps`, whose projections lie on the faces `projections` of the master, by ones
-    /// that are continuous over the surface, on a plane of symmetry with its mirror image. A load dents facets against one another, so that a
-    /// slave over their common edge finds no equilibrium with either normal.
+    /// Replaces the normals of `gaps`, whose projections lie on the faces `projections` of the master, by ones that are
+    /// continuous over the surface, on a plane of symmetry with its mirror image. A load dents facets against one
+    /// another, so that a slave over their common edge finds no equilibrium with either normal.
     fn smooth_normals(&self, positions: &Positions<'_>, projections: &[u32], gaps: &mut [Gap]) {
         let surface = &self.sides[1 - self.slave];
         let mut wanted = vec![false; surface.len()];

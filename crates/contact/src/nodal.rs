@@ -26,9 +26,9 @@ pub struct NodalContact {
     pub pass_pressure: Vec<f64>,
     /// Shear traction on this surface (Pa).
     pub shear: Vec<[f64; 3]>,
-    /// Velocity of this surface relative to the other in the tangent plane (m/s): with springs the
-    /// mean over the step that led to `x^n`, with multipliers that of the step that leaves it. Of the node's own pass; where that is open, the mean of the
-    /// points of the other pass that load the node, weighted with their normal force.
+    /// Velocity of this surface relative to the other in the tangent plane (m/s): with springs the mean over the step
+    /// that led to `x^n`, with multipliers that of the step that leaves it. Of the node's own pass; where that is open,
+    /// the mean of the points of the other pass that load the node, weighted with their normal force.
     pub slip_velocity: Vec<[f64; 3]>,
     /// Tangential motion relative to the other surface since the node's own point closed (m).
     pub slip: Vec<[f64; 3]>,

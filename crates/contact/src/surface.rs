@@ -1,6 +1,7 @@
 //! One contact surface: its nodes, faces, neighbours, tributary areas and masses.
 
 use crate::face::Bilinear;
+use crate::vector::Vec3;
 use crate::{BodyMaterial, ContactError, Trace};
 use mesh::{Mesh, SmoothSurface, Surface};
 use std::collections::BTreeMap;
@@ -129,6 +130,17 @@ impl ContactSurface {
     /// How many nodes it has.
     pub fn len(&self) -> usize {
         self.area.len()
+    }
+
+    /// Whether a node at `x` (m) lies on the plane of symmetry of the surface.
+    #[inline(always)]
+    pub fn is_on_plane(&self, x: Vec3) -> bool {
+        self.symmetric && x[1] == 0.0
+    }
+
+    /// How many nodes of the whole surface a node at `x` (m) stands for: itself, and its mirror image where it has one.
+    pub fn nodes_of_whole(&self, x: Vec3) -> usize {
+        if self.symmetric && x[1] != 0.0 { 2 } else { 1 }
     }
 
     /// Whether a node of the surface has a mirror image.

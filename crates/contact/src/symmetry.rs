@@ -6,22 +6,7 @@
 //! forces on nodes of the plane the components along y cancel with those of the mirror image, so that these nodes
 //! answer in x and z alone.
 
-use crate::face::{FaceGeometry, Positions, Projection, SurfacePoint};
-use crate::surface::ContactSurface;
-use crate::vector::{Vec3, dot, norm, scale, sub};
-
-impl ContactSurface {
-    /// Whether a node at `x` (m) lies on the plane of symmetry of the surface.
-    #[inline(always)]
-    pub fn is_on_plane(&self, x: Vec3) -> bool {
-        self.symmetric && x[1] == 0.0
-    }
-
-    /// How many nodes of the whole surface a node at `x` (m) stands for: itself, and its mirror image where it has one.
-    pub fn nodes_of_whole(&self, x: Vec3) -> usize {
-        if self.symmetric && x[1] != 0.0 { 2 } else { 1 }
-    }
-}
+use crate::vector::{Vec3, norm, scale};
 
 /// A vector in the plane of symmetry.
 pub(crate) fn in_plane(a: Vec3) -> Vec3 {
@@ -47,39 +32,19 @@ pub(crate) fn symmetric_tangents([a, b]: [Vec3; 2]) -> [Vec3; 2] {
     if leaves(a) > leaves(b) { [across(a), in_plane(b)] } else { [in_plane(a), across(b)] }
 }
 
-/// The point of the surface with its mirror image, for a point of its half on the plane. Its tangent lies in the plane.
-pub(crate) fn symmetric_point(point: SurfacePoint) -> SurfacePoint {
-    let normal = unit_in_plane(point.normal);
-    SurfacePoint {
-        x: in_plane(point.x),
-        normal,
-        tangent: tangent_in_plane(normal),
-        offset: point.offset,
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vector::cross;
 
-/// The projection of a `node` of the plane on a symmetric `surface`: on the edge of the face that lies in the plane.
-pub(crate) fn symmetric_projection(
-    surface: &ContactSurface,
-    positions: &Positions<'_>,
-    curvature: bool,
-    node: Vec3,
-    projection: Projection,
-) -> Projection {
-    let Projection { face, mut xi, mut eta, .. } = projection;
-    let on_plane = surface.faces[face as usize].nodes.map(|n| positions.at(n)[1] == 0.0);
-    for edge in 0..4 {
-        if on_plane[edge] && on_plane[(edge + 1) % 4] {
-            match edge {
-                0 => eta = -1.0,
-                1 => xi = 1.0,
-                2 => eta = 1.0,
-                _ => xi = -1.0,
-            }
-        }
+    #[test]
+    fn tangents_of_a_symmetric_surface_lie_in_the_plane_and_across_it_whichever_comes_first() {
+        let (along, across) = ([1.0, 0.0, 0.1], [0.2, 0.8, -0.3]);
+        let expected = ([1.0, 0.0, 0.1], [0.0, 0.8, 0.0]);
+        assert_eq!(symmetric_tangents([along, across]), [expected.0, expected.1]);
+        assert_eq!(symmetric_tangents([across, along]), [expected.1, expected.0]);
+        // of two that leave the plane little, still one is across: the frame does not degenerate
+        let [a, b] = symmetric_tangents([[1.0, 0.3, 0.0], [1.0, 0.1, 0.0]]);
+        assert!(norm(cross(a, b)) > 0.0);
     }
-    let point = FaceGeometry::new(surface, face, positions, curvature).at(xi, eta);
-    let point = symmetric_point(point);
-    let gap = dot(point.normal, sub(node, point.x)) - point.offset;
-    Projection { face, xi, eta, point, gap }
 }

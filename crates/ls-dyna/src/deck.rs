@@ -408,7 +408,8 @@ impl Deck {
         let further = further.next().map(|line| (line.at, card.line));
         let second = self.initial.map(|before| (card.line, before.line));
         if let Some((at, before)) = further.or(second) {
-            let what = format!("a second initial velocity after that of line {before}");
+            let what =
+                format!("a further line or a second initial velocity after that of line {before}");
             return Err(unsupported(at, what, "keep that of the disk alone"));
         }
         self.initial = Some(Initial { line: card.line, speed, spin });

@@ -87,7 +87,7 @@ impl Means {
                 "exact contact did not converge in {steps} steps: its last sweep still changed a force by up to \
                  {change:.1e} of the largest, and the conditions of contact and friction hold no better than that; {}",
                 remedy!(
-                    "give both contact surfaces elements of one size, or make steps shorter with time.factor"
+                    "give both contact surfaces elements of one size"
                 )
             )
         })

@@ -1,10 +1,10 @@
 //! The displacements that the supports and closed constraints admit, and the preconditioner on
 //! them.
 //!
-//! Vectors are full (one entry per node) but lie in the admissible space: zero where a node is
-//! held, without y where it slides, equal on a group of tied nodes, and at constrained slaves moving with their projection along
-//! the normal. With `T` the map from the free coordinates to full vectors, conjugate gradients run
-//! on `T^T K T`, whose residual `T^T r` is kept in a full vector as well.
+//! Vectors are full (one entry per node) but lie in the admissible space: zero where a node is held, without y where it
+//! slides, equal on a group of tied nodes, and at constrained slaves moving with their projection along the normal. With
+//! `T` the map from the free coordinates to full vectors, conjugate gradients run on `T^T K T`, whose residual `T^T r` is
+//! kept in a full vector as well.
 
 use crate::coarse::Coarse;
 use crate::link::Link;

@@ -159,9 +159,9 @@ def with_whole_sets(lines):
         fields = [field.strip() for field in line.split(",") if field.strip()]
         if here is None or not fields or line.startswith("**"):
             continue
-        if in_place:  # the number comes first; a line that ends in a comma goes on in the next
+        if in_place:  # the number comes first; an element that ends in a comma goes on in the next line
             here[1].extend([] if goes_on else fields[:1])
-            goes_on = line.rstrip().endswith(",")
+            goes_on = of == "ELSET" and line.rstrip().endswith(",")
         elif generate:
             first, last, step = (*map(int, fields), 1)[:3]
             here[1].extend(map(str, range(first, last + 1, step)))
