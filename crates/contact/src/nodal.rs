@@ -191,12 +191,17 @@ impl NodalContact {
             table.pressure[row] = normal / table.area[row];
             table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
         }
-        // what loads a node of the plane from one side loads it from the other too
-        for (local, &row) in table.rows.iter().enumerate() {
-            if row != NONE && sides[side].holds_on_plane(local) {
-                let row = row as usize;
-                let vectors = [&mut table.shear, &mut table.slip_velocity, &mut table.slip];
-                vectors.into_iter().for_each(|field| field[row] = in_plane(field[row]));
+        table.keep_in_plane(&sides[side]);
+    }
+
+    /// Leaves vectors at nodes of a plane of symmetry in it: what loads such a node from one side loads it from the other.
+    fn keep_in_plane(&mut self, surface: &ContactSurface) {
+        let Self { rows, shear, slip_velocity, slip, .. } = self;
+        for (local, &row) in rows.iter().enumerate() {
+            if row != NONE && surface.holds_on_plane(local) {
+                for field in [&mut *shear, &mut *slip_velocity, &mut *slip] {
+                    field[row as usize] = in_plane(field[row as usize]);
+                }
             }
         }
     }

@@ -200,6 +200,26 @@ fn wrong_values_are_refused_with_key_value_and_range() {
             ],
             vec!["preload.method = \"relaxation\"", "mesh.plane_strain = true"],
         ),
+        (
+            vec![
+                "mesh={plane_strain=true,symmetry='half',zone={width=0.02}}",
+                "disk={width=0.02,crown_radius='flat'}",
+                "bar={width=0.02,crown_radius='flat'}",
+            ],
+            vec!["mesh.symmetry = \"half\"", "mesh.plane_strain = true"],
+        ),
+        (
+            vec![
+                "mesh={plane_strain=true,grading='two_to_one',zone={width=0.02}}",
+                "disk={width=0.02,crown_radius='flat'}",
+                "bar={width=0.02,crown_radius='flat'}",
+            ],
+            vec!["mesh.grading = \"two_to_one\"", "mesh.plane_strain"],
+        ),
+        (
+            vec!["mesh.symmetry=half", "preload.method=relaxation"],
+            vec!["mesh.symmetry = \"half\"", "preload.method = \"relaxation\""],
+        ),
     ] {
         let text = refusal(set(&sets));
         for word in words {
