@@ -81,7 +81,7 @@ fn stopped(case: &Path, sets: &[&str], most: u64, words: &[&str]) -> Value {
 
 #[test]
 fn a_time_step_above_the_limit() {
-    let words = ["1.30 times the stability limit", "set time.factor below 1"];
+    let words = ["1.30 times the stability limit", "set it below 1"];
     stopped(Path::new(CASE), &["time.factor=1.3"], 100, &words);
 }
 

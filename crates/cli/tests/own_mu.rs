@@ -60,12 +60,14 @@ fn roll(out: &Path, law: &[&str], contact: &[&str], more: &[&str]) {
         .iter()
         .any(|word| law.first().is_some_and(|law| law.contains(word)));
     let text = if has_static { text } else { text.replace("static = 0.3", "") };
+    let brings = law.first().is_some_and(|law| law.contains("python"));
+    let brought = brings.then(|| Arc::new(Brought) as Arc<dyn OwnLaw>);
     let options = RunOptions {
         case: CaseSource { path: "small.toml".into(), sets, text: Some(text) },
         out: Some(out.to_owned()),
         threads: Some(2),
         preload_cache: out.parent().map(|folder| folder.join("preloads")),
-        law: Some(Arc::new(Brought)),
+        law: brought,
         ..RunOptions::default()
     };
     let summary = creepage::run(&options, &mut ()).unwrap().document;

@@ -93,7 +93,7 @@ fn an_unstable_run_ends_with_code_3_the_cause_the_remedy_and_readable_results() 
     let output = run.wait_with_output().unwrap();
     let message = said(&output);
     assert_eq!(output.status.code(), Some(3), "{message}");
-    for words in ["1.60 times the stability limit", "set time.factor below 1", "node", "det F"] {
+    for words in ["1.60 times the stability limit", "set it below 1", "node", "det F"] {
         assert!(message.contains(words), "{words:?} is not in:\n{message}");
     }
     let summary = summary(&out);

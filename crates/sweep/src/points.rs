@@ -79,7 +79,8 @@ impl Sweep {
         }
         if self.step.is_some() {
             // The rule takes a fraction of the limit, which an absolute step in the base would override.
-            let run = Case::load(&self.base, &sets)?;
+            let run =
+                Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
             if run.time.step.is_some() {
                 sets.push(format!("time.factor={}", run.contact.enforcement.default_factor()));
             }
