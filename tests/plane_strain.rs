@@ -55,13 +55,6 @@ fn across(points: &[f64]) -> Vec<[usize; 2]> {
     at.values().flat_map(|nodes| nodes.chunks(2).map(|pair| [pair[0], pair[1]])).collect()
 }
 
-/// How many of the recorded nodes are the disk's; they come first.
-fn nodes_of_disk(found: &Results) -> usize {
-    let faces = found.data["contact/cells"].chunks(4).zip(&found.data["contact/body/0000"]);
-    let nodes = faces.filter(|(_, body)| **body == 0.0).flat_map(|(face, _)| face);
-    nodes.fold(0.0, |most: f64, node| most.max(*node)) as usize + 1
-}
-
 /// The largest difference between the nodes of any of `pairs`, over the largest value.
 fn apart(values: &[f64], pairs: &[[usize; 2]], nodes: usize) -> f64 {
     let components = values.len() / nodes;
@@ -80,7 +73,7 @@ fn nodes_across_a_slice_move_as_one_with_every_law_and_element() {
         // Of mortar rows on the slaves alone, the disk's nodes: what the bar's nodes receive is a mean by integrals
         // that each slave takes anew when it has moved so far, round-off before or after its neighbour across.
         let mortar = sets.contains(&"contact.rows=mortar");
-        let slaves = nodes_of_disk(&found);
+        let slaves = found.nodes_of_disk();
         for (grid, fields, most) in [
             ("fields", &["displacement", "velocity"][..], 0.0),
             ("contact", &["displacement", "velocity", "state"], 0.0),

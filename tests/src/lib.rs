@@ -130,6 +130,13 @@ impl Results {
         steps.map(|(_, values)| values.as_slice()).collect()
     }
 
+    /// How many of the recorded nodes of the contact surfaces are the disk's; they come first.
+    pub fn nodes_of_disk(&self) -> usize {
+        let faces = self.data["contact/cells"].chunks(4).zip(&self.data["contact/body/0000"]);
+        let disk = faces.filter(|(_, body)| **body == 0.0).flat_map(|(face, _)| face);
+        disk.fold(0.0_f64, |last, node| last.max(*node)) as usize + 1
+    }
+
     /// A number of the summary, by its JSON pointer.
     pub fn number(&self, pointer: &str) -> f64 {
         self.summary.pointer(pointer).and_then(Value::as_f64).unwrap()

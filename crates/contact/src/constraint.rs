@@ -83,7 +83,7 @@ impl MasterPoint {
         Self { x: in_plane(point.x), tangents: symmetric_tangents(point.tangents) }
     }
 
-    /// The frame, on a plane of symmetry or not, in which the tangential force of a constraint with unit normal `n` is kept.
+    /// The frame in which the tangential force of a constraint with unit normal `n` is kept.
     #[inline]
     pub fn frame(&self, n: Vec3, on_plane: bool) -> [Vec3; 2] {
         frame(if on_plane { tangent_in_plane(n) } else { self.tangents[0] }, n)

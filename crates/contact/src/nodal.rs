@@ -168,6 +168,7 @@ impl NodalContact {
                 table.gap[row] = if total > 0.0 { table.gap[row] / total } else { margin };
             }
         }
+        table.keep_in_plane(&sides[side]);
         for point in own {
             let Some(row) = table.row(point.slave) else {
                 continue;
@@ -191,15 +192,15 @@ impl NodalContact {
             table.pressure[row] = normal / table.area[row];
             table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
         }
-        table.keep_in_plane(&sides[side]);
     }
 
-    /// Leaves vectors at nodes of a plane of symmetry in it: what loads such a node from one side loads it from the other.
+    /// Leaves vectors that masters on a plane of symmetry gather in it: what loads them from one side loads them from the
+    /// other.
     fn keep_in_plane(&mut self, surface: &ContactSurface) {
-        let Self { rows, shear, slip_velocity, slip, .. } = self;
+        let Self { rows, shear, slip_velocity, .. } = self;
         for (local, &row) in rows.iter().enumerate() {
             if row != NONE && surface.holds_on_plane(local) {
-                for field in [&mut *shear, &mut *slip_velocity, &mut *slip] {
+                for field in [&mut *shear, &mut *slip_velocity] {
                     field[row as usize] = in_plane(field[row as usize]);
                 }
             }
