@@ -4,6 +4,7 @@
 mod damage;
 mod fuzzing;
 mod kills;
+mod properties;
 mod record;
 
 use std::path::Path;
@@ -37,12 +38,16 @@ pub enum Part {
     },
     /// Run every fuzz target for a while
     Fuzzing(fuzzing::Options),
+    /// Run the property tests with many new samples
+    Properties(properties::Options),
     /// Make the long tables of the documents again, and compare
     Tables,
 }
 
 /// Mutations of each run that damage is tried with.
 const MUTATIONS: &str = "500";
+/// Samples of each property.
+const SAMPLES: u32 = 4000;
 /// Minutes of each fuzz target.
 const MINUTES: u32 = 10;
 
@@ -57,7 +62,8 @@ pub fn soak(part: Option<Part>) -> ExitCode {
 fn all() -> Vec<Part> {
     let damage = Part::Damage { options: vec!["--mutations".into(), MUTATIONS.into()] };
     let fuzzing = Part::Fuzzing(fuzzing::Options::all(MINUTES));
-    vec![damage, Part::Kills { options: Vec::new() }, fuzzing, Part::Tables]
+    let properties = Part::Properties(properties::Options::new(SAMPLES));
+    vec![damage, Part::Kills { options: Vec::new() }, fuzzing, properties, Part::Tables]
 }
 
 /// Runs a part and keeps what it said.
@@ -73,6 +79,9 @@ fn run(root: &Path, part: &Part) -> Outcome {
         }
         Part::Kills { options } => ("kills", typed("kills", options), kills::kills(root, options)),
         Part::Fuzzing(options) => ("fuzzing", options.shown(), fuzzing::fuzzing(root, options)),
+        Part::Properties(options) => {
+            ("properties", options.shown(), properties::properties(root, options))
+        }
         Part::Tables => ("tables", typed("tables", &[]), results::compare_long(root)),
     };
     let outcome = found.0;

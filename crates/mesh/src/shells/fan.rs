@@ -6,6 +6,9 @@ use std::ops::Range;
 /// Number of columns over which a side fans out at least: fewer would become wide too soon.
 const LEAST_SPREAD: usize = 4;
 
+/// Gaps below this part of the length of the body are round-off.
+const ROUND_OFF: f64 = 1e-12;
+
 /// Two sides of a direction: the low one and the high one.
 pub(super) const LOW: usize = 0;
 pub(super) const HIGH: usize = 1;
@@ -113,9 +116,11 @@ impl Fan {
     }
 }
 
-/// Distances from the outermost lines to the ends of the body (m).
+/// Distances from the outermost lines to the ends of the body (m): nought, not round-off, where a line lies at the end.
 fn gaps(lines: &[f64], ends: [f64; 2]) -> [f64; 2] {
+    let least = ROUND_OFF * (ends[HIGH] - ends[LOW]);
     [lines[0] - ends[LOW], ends[HIGH] - lines[lines.len() - 1]]
+        .map(|gap| if gap < least { 0.0 } else { gap })
 }
 
 /// The lines of the zone, with columns added at all sides that do not lie at the end of the body, until there are enough
