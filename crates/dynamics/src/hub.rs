@@ -3,6 +3,7 @@
 use exact_sum::ExactSum;
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// What turns the hub about y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,8 +82,13 @@ pub struct Hub {
     arms: Vec<[f64; 3]>,
     /// Mass of the hub with its nodes (kg).
     pub mass: f64,
-    /// Moment of inertia about y with its nodes (kg m^2).
+    /// Moment of inertia about y through the centre, with its nodes (kg m^2).
     pub inertia: f64,
+    /// First moment of its mass in the reference configuration, mass times the arm of the centre of mass in x and z
+    /// (kg m): not zero where the nodes do not lie evenly about the centre.
+    pub(crate) moment: [f64; 2],
+    /// The part of it that a counterweight adds (kg m).
+    pub counterweight: [f64; 2],
     /// What turns it.
     pub spin: Spin,
     /// What presses it.
@@ -121,7 +127,7 @@ impl Hub {
                 [x.0[0] - centre[0], x.0[1] - centre[1], x.0[2] - centre[2]]
             })
             .collect();
-        let [mut mass, mut inertia] = [ExactSum::ZERO; 2];
+        let [mut mass, mut inertia, mut along, mut down] = [ExactSum::ZERO; 4];
         mass.add(extra_mass);
         let mut radius_squared: f64 = 0.0;
         for (&n, arm) in nodes.iter().zip(&arms) {
@@ -129,6 +135,8 @@ impl Hub {
             let r2 = arm[0] * arm[0] + arm[2] * arm[2];
             mass.add(m);
             inertia.add(m * r2);
+            along.add(m * arm[0]);
+            down.add(m * arm[2]);
             radius_squared = radius_squared.max(r2);
         }
         inertia.add(0.5 * extra_mass * radius_squared);
@@ -138,11 +146,30 @@ impl Hub {
             arms,
             mass: mass.value(),
             inertia: inertia.value(),
+            moment: [along.value(), down.value()],
+            counterweight: [0.0; 2],
             spin,
             vertical,
             state: HubState::default(),
             reaction: DriveReaction::default(),
         }
+    }
+
+    /// The hub with a counterweight that balances the disk `nodes`, as wheels are balanced: the lumped masses of a mesh that
+    /// is coarser on one side do not balance by themselves.
+    pub fn balanced(
+        mut self,
+        nodes: Range<usize>,
+        reference: &[Padded],
+        nodal_mass: &[f64],
+    ) -> Self {
+        for (i, axis) in [0, 2].into_iter().enumerate() {
+            let arm = |n: usize| reference[n].0[axis] - self.centre[axis];
+            let moment = exact_sum::sum(nodes.clone().map(|n| nodal_mass[n] * arm(n)));
+            self.counterweight[i] = -moment;
+            self.moment[i] -= moment;
+        }
+        self
     }
 
     /// Resultant force (x, z) and torque about y of `force` on the hub's nodes (N, N m).
@@ -165,8 +192,44 @@ impl Hub {
         move |x| placement.displacement([0, 1, 2].map(|i| x[i] - centre[i]))
     }
 
+    /// Acceleration of the centre in z (m/s^2) and angular acceleration (rad/s^2) at a full step with the first moment
+    /// `s` of the mass, turned with the hub, the angular velocity `omega`, and `load`, force in z and torque about y (N, N m).
+    fn accelerations(
+        &self,
+        [sx, sz]: [f64; 2],
+        omega: f64,
+        [fz, torque]: [f64; 2],
+        given: Given,
+        dt: f64,
+    ) -> (f64, f64) {
+        let pulled = fz + omega * omega * sz;
+        match (self.vertical, given) {
+            (Vertical::Load(load), Given::Acceleration(alpha)) => {
+                ((pulled - load + alpha * sx) / self.mass, alpha)
+            }
+            (Vertical::Load(load), Given::Torque(applied)) => {
+                let (force, torque) = (pulled - load, torque + applied);
+                let determinant = self.mass * self.inertia - sx * sx;
+                (
+                    (self.inertia * force + sx * torque) / determinant,
+                    (self.mass * torque + sx * force) / determinant,
+                )
+            }
+            (Vertical::Held, Given::Acceleration(alpha)) => (-self.state.vz / dt, alpha),
+            (Vertical::Held, Given::Torque(applied)) => {
+                let az = -self.state.vz / dt;
+                (az, (torque + applied + sx * az) / self.inertia)
+            }
+        }
+    }
+
     /// Moves the hub from t^n to t^{n+1} under `load` (force in x and z, torque about y: N, N,
     /// N m) and takes its nodes along.
+    ///
+    /// A rigid body whose centre of mass lies off its centre, with the first moment of mass S (kg m), the acceleration a
+    /// of the centre and the angular acceleration alpha:
+    /// M a_x + alpha S_z - omega^2 S_x = F_x, M a_z - alpha S_x - omega^2 S_z = F_z and
+    /// I alpha + S_z a_x - S_x a_z = T, where a_x = 0.
     pub(crate) fn step(
         &mut self,
         time: f64,
@@ -177,52 +240,64 @@ impl Hub {
     ) -> HubWork {
         let [fx, fz, torque] = load;
         let old = self.state;
-        let new = &mut self.state;
+        let from = Placement::new(old);
+        let [sx, sz] = from.turned(self.moment);
         let half = time + 0.5 * dt;
-        // x: speed prescribed
-        let drive_x = -fx;
-        // z
-        let drive_z = match self.vertical {
-            Vertical::Load(load) => {
-                new.vz += dt * (fz - load) / self.mass;
-                -load
-            }
-            Vertical::Held => {
-                new.vz = 0.0;
-                -fz - self.mass * old.vz / dt
-            }
-        };
-        // rotation
-        let drive_torque = match self.spin {
+        let given = match self.spin {
             Spin::Creepage { free, creepage, ramp } => {
-                new.omega = free * (1.0 + creepage * smoothstep(half, ramp));
-                self.inertia * (new.omega - old.omega) / dt - torque
+                let omega = free * (1.0 + creepage * smoothstep(half, ramp));
+                Given::Acceleration((omega - old.omega) / dt)
             }
-            Spin::Torque { torque: applied, ramp } => {
-                let applied = applied * smoothstep(time, ramp);
-                new.omega += dt * (torque + applied) / self.inertia;
-                applied
-            }
+            Spin::Torque { torque, ramp } => Given::Torque(torque * smoothstep(time, ramp)),
         };
+        // omega at the full step is the mean of the half steps about it
+        let (_, about) = self.accelerations([sx, sz], old.omega, [fz, torque], given, dt);
+        let omega = old.omega + 0.5 * dt * about;
+        let (az, alpha) = self.accelerations([sx, sz], omega, [fz, torque], given, dt);
+        let [pull_x, pull_z] = [sx, sz].map(|s| omega * omega * s);
+        let drive_x = alpha * sz - pull_x - fx;
+        let drive_z = match self.vertical {
+            Vertical::Load(load) => -load,
+            Vertical::Held => self.mass * az - alpha * sx - pull_z - fz,
+        };
+        let drive_torque = match given {
+            Given::Acceleration(_) => self.inertia * alpha - sx * az - torque,
+            Given::Torque(applied) => applied,
+        };
+        let new = &mut self.state;
+        new.vz += dt * az;
+        new.omega += dt * alpha;
         new.x += dt * new.vx;
         new.z += dt * new.vz;
         new.angle += dt * new.omega;
         let new = *new;
         self.reaction = DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
-        let (from, to) = (Placement::new(old), Placement::new(new));
+        let to = Placement::new(new);
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (u, before) = (to.displacement(*arm), from.displacement(*arm));
             displacement[n as usize] = Padded::new(u);
             velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
         }
         let power = |s: HubState| drive_x * s.vx + drive_z * s.vz + drive_torque * s.omega;
+        let coupled = |v: HubState, w: HubState| 0.5 * w.omega * (v.vx * sz - v.vz * sx);
         HubWork {
             before: 0.5 * dt * power(old),
             after: 0.5 * dt * power(new),
             kinetic: 0.5 * self.mass * (old.vx * new.vx + old.vz * new.vz)
-                + 0.5 * self.inertia * old.omega * new.omega,
+                + 0.5 * self.inertia * old.omega * new.omega
+                + coupled(old, new)
+                + coupled(new, old),
         }
     }
+}
+
+/// What the drive gives the rotation of the hub in a step.
+#[derive(Clone, Copy)]
+enum Given {
+    /// Angular acceleration (rad/s^2).
+    Acceleration(f64),
+    /// Torque about y (N m).
+    Torque(f64),
 }
 
 /// The rigid displacement in a state of the hub.
@@ -237,6 +312,11 @@ impl Placement {
         // cos - 1 = -2 sin^2(angle/2), without cancellation
         let half = libm::sin(0.5 * state.angle);
         Self { state, sin: libm::sin(state.angle), cos_minus_one: -2.0 * half * half }
+    }
+
+    /// A vector in x and z of the reference configuration, turned with the hub.
+    fn turned(&self, [x, z]: [f64; 2]) -> [f64; 2] {
+        [x + self.cos_minus_one * x + self.sin * z, z + self.cos_minus_one * z - self.sin * x]
     }
 
     /// Displacement (m) of the point at `arm` from the centre: turned about +y and moved.

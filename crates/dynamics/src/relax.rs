@@ -107,9 +107,6 @@ pub fn relax(
 ) -> Result<(Vec<Padded>, RelaxationReport), RelaxationError> {
     let reference = solid.reference().to_vec();
     let n = reference.len();
-    // The hub with its nodes is a rigid body whose centre of mass lies on the axis.
-    let mut spun = setup.mass[..n].to_vec();
-    setup.hub.nodes.iter().for_each(|&i| spun[i as usize] = 0.0);
     let mut nodes = nodes_at_start(setup, n);
     nodes.trace_of(contact, &reference);
     let mut fictitious = vec![Fictitious::default(); n];
@@ -120,7 +117,7 @@ pub fn relax(
     let mut window = Quotient::default();
     for iteration in 0..setup.max_iterations {
         let check = iteration % CHECK == 0;
-        let pull = centrifugal(&mut nodes, setup, &spun, &reference, hub.z);
+        let pull = centrifugal(&mut nodes, setup, &reference, hub.z);
         let sums = solid.subtract_elastic_force(&nodes.displacement, &mut nodes.force, check);
         let touching = nodes.add_spring_force(contact);
         if check {
@@ -220,11 +217,10 @@ fn nodes_at_start(setup: &Relaxation<'_>, n: usize) -> NodalState<Quotient> {
 }
 
 /// Sets the forces to the centrifugal force of the disk's masses and to zero elsewhere (N); returns
-/// its resultant in z.
+/// its resultant in z, that of the counterweight with it.
 fn centrifugal(
     nodes: &mut NodalState<Quotient>,
     setup: &Relaxation<'_>,
-    mass: &[f64],
     reference: &[Padded],
     hub: f64,
 ) -> f64 {
@@ -235,12 +231,12 @@ fn centrifugal(
         for (i, (f, u)) in (first..).zip(f.iter_mut().zip(u)) {
             *f = Padded::ZERO;
             if setup.disk.contains(&i) {
-                *f = spin.force(mass[i], reference[i], *u);
+                *f = spin.force(setup.mass[i], reference[i], *u);
                 sums.pull += f.0[2];
             }
         }
     });
-    nodes.sum(|p| p.pull)
+    setup.omega * setup.omega * setup.hub.counterweight[1] + nodes.sum(|p| p.pull)
 }
 
 /// One damped step of all nodes; the disk moves with the hub by `shift` besides.

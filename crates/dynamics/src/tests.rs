@@ -264,6 +264,59 @@ fn carried() -> Simulation {
 }
 
 #[test]
+fn a_hub_whose_centre_of_mass_lies_off_its_axis_keeps_momentum_and_energy() {
+    let mesh = mesh::block([2, 2, 2], [4e-3, 4e-3, 4e-3]);
+    let all: Vec<u32> = (0..mesh.nodes.len() as u32).collect();
+    let run = |spin, vertical| {
+        let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
+        let (reference, mass) = (setup.system.solid.reference(), &setup.system.mass);
+        let mut hub = Hub::new([0.5e-3, 0.0, 1e-3], &all, reference, mass, 0.0, spin, vertical);
+        (hub.state.vx, hub.state.omega) = (3.0, 1e4);
+        let total: f64 = mass.iter().sum();
+        setup.system.hub = Some(hub);
+        setup.system.disk = 0..mesh.nodes.len();
+        let mass = setup.system.mass.clone();
+        let mut simulation = Simulation::new(setup);
+        let momentum = |simulation: &Simulation| -> f64 {
+            let v = &simulation.nodes.velocity;
+            mass.iter().zip(v).map(|(m, v)| m * v.0[2]).sum()
+        };
+        simulation.step(true);
+        let before = momentum(&simulation);
+        for _ in 0..2000 {
+            simulation.step(true);
+        }
+        let turned = simulation.system.hub.as_ref().unwrap().state.angle;
+        assert!(turned > 1.0, "{turned}");
+        let scale = total * 1e4 * 1.5e-3;
+        let gained = (momentum(&simulation) - before).abs() / scale;
+        (gained, simulation.ledger().balance_error())
+    };
+    let free = Spin::Torque { torque: 0.0, ramp: 0.0 };
+    let steady = Spin::Creepage { free: 1e4, creepage: 0.0, ramp: 0.0 };
+    for spin in [free, steady] {
+        let (gained, error) = run(spin, Vertical::Load(0.0));
+        assert!(gained < 3e-4 && error < 1e-5, "{gained:e} {error:e}");
+        let (gained, error) = run(spin, Vertical::Held);
+        assert!(gained > 0.1 && error < 1e-5, "{gained:e} {error:e}");
+    }
+}
+
+#[test]
+fn a_counterweight_leaves_nothing_that_turns_unevenly() {
+    let mesh = mesh::block([2, 2, 2], [4e-3, 4e-3, 4e-3]);
+    let all: Vec<u32> = (0..mesh.nodes.len() as u32).collect();
+    let setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
+    let (reference, mass) = (setup.system.solid.reference(), &setup.system.mass);
+    let (spin, vertical) = (Spin::Torque { torque: 0.0, ramp: 0.0 }, Vertical::Load(0.0));
+    let hub = Hub::new([0.5e-3, 0.0, 1e-3], &all, reference, mass, 0.0, spin, vertical);
+    let alone = hub.moment;
+    let hub = hub.balanced(0..mesh.nodes.len(), reference, mass);
+    assert_eq!(hub.counterweight, alone.map(|moment| -moment));
+    assert_eq!(hub.moment, [0.0; 2]);
+}
+
+#[test]
 fn the_end_of_the_bar_stops_a_hub_that_passes_it() {
     let mut simulation = carried();
     simulation.set_limits(GuardLimits { track: [0.0, 2.1e-3], ..GuardLimits::default() });

@@ -24,8 +24,7 @@ pub struct Spin<'a> {
     pub centre: [f64; 3],
     /// Angular velocity (rad/s).
     pub omega: f64,
-    /// Nodes of the body. Tied nodes among them are left out: their group is a rigid body whose
-    /// centre of mass lies on the axis.
+    /// Nodes of the body.
     pub nodes: Range<usize>,
     /// Lumped masses of all nodes (kg).
     pub mass: &'a [f64],

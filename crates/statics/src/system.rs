@@ -25,8 +25,6 @@ pub(crate) struct StaticSystem<'a> {
     pub(crate) springs: Vec<(Link, f64)>,
     cg: Cg,
     pub(crate) reference: Vec<Padded>,
-    /// Whether the centrifugal force acts on a node: not on tied ones.
-    spun: Vec<bool>,
     /// Sum of the loads' magnitudes (N).
     load: f64,
     /// Largest norm of the forces so far, those at supports included (N).
@@ -44,12 +42,6 @@ impl<'a> StaticSystem<'a> {
         let product = |x: &[Padded], y: &mut [Padded]| solid.add_stiffness_product(x, y);
         let space = Space::new(problem.mesh, &reference, problem.supports, &blocks, product);
         let n = blocks.len();
-        let mut spun = vec![false; n];
-        if let Some(spin) = &problem.spin {
-            spun[spin.nodes.clone()].fill(true);
-            let tied = problem.supports.tied.iter().flat_map(|t| &t.nodes);
-            tied.for_each(|&n| spun[n as usize] = false);
-        }
         let load = space.groups.iter().map(|g| g.load.abs()).sum();
         let cg = Cg::new(n);
         Ok(Self {
@@ -60,7 +52,6 @@ impl<'a> StaticSystem<'a> {
             springs: Vec::new(),
             cg,
             reference,
-            spun,
             load,
             largest: f64::MIN_POSITIVE,
         })
@@ -90,17 +81,19 @@ impl<'a> StaticSystem<'a> {
 
     /// Loads, centrifugal and elastic force at `u` (N); returns the strain energy if asked for.
     pub(crate) fn force(&mut self, u: &[Padded], force: &mut [Padded], energy: bool) -> f64 {
-        let (reference, spun) = (&self.reference, &self.spun);
+        let reference = &self.reference;
         let spin = self.problem.spin.as_ref().map(|spin| {
             let hub = u[self.problem.supports.tied[spin.hub].nodes[0] as usize];
             let axis = [spin.centre[0] + hub[0], spin.centre[2] + hub[2]];
-            (spin.mass, Centrifugal { axis, omega: spin.omega })
+            (spin, Centrifugal { axis, omega: spin.omega })
         });
         force.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, force)| {
             for (k, f) in force.iter_mut().enumerate() {
                 let i = chunk * CHUNK + k;
                 *f = match spin {
-                    Some((mass, spin)) if spun[i] => spin.force(mass[i], reference[i], u[i]),
+                    Some((spin, force)) if spin.nodes.contains(&i) => {
+                        force.force(spin.mass[i], reference[i], u[i])
+                    }
                     _ => Padded::ZERO,
                 };
             }

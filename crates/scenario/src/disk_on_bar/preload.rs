@@ -90,14 +90,10 @@ impl Bodies<'_> {
         say: &mut (dyn FnMut(&str) -> Result<(), NotWritten> + Send),
     ) -> Result<Preloaded, ScenarioError> {
         let (case, model, hub) = (self.case, self.model, self.hub);
-        let group = Tied {
-            nodes: hub.nodes.clone(),
-            axes: [
-                Axis::Moved(0.0),
-                Axis::Moved(0.0),
-                Axis::Loaded(-case.load.normal / model.parts),
-            ],
-        };
+        let omega = rolling_omega(case);
+        let load = omega * omega * hub.counterweight[1] - case.load.normal / model.parts;
+        let axes = [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(load)];
+        let group = Tied { nodes: hub.nodes.clone(), axes };
         let supports = Supports {
             held: self.held.to_vec(),
             tied: vec![group],
@@ -108,7 +104,7 @@ impl Bodies<'_> {
             supports: &supports,
             spin: Some(Spin {
                 centre: hub.centre,
-                omega: rolling_omega(case),
+                omega,
                 nodes: model.mesh.bodies[DISK].nodes.clone(),
                 mass: &model.mass,
                 hub: 0,

@@ -294,6 +294,7 @@ fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
         spin(case, model, case.drive.speed / case.disk.radius),
         Vertical::Load(case.load.normal / model.parts),
     )
+    .balanced(model.mesh.bodies[DISK].nodes.clone(), solid.reference(), &model.mass)
 }
 
 fn spin(case: &Case, model: &Model, free: f64) -> Spin {
