@@ -93,6 +93,12 @@ fn mortar_rows_go_on_with_the_integrals_that_they_follow() {
 }
 
 #[test]
+fn a_zone_that_follows_the_contact_goes_on_where_it_was() {
+    let window = ["contact.enforcement=exact", "mesh.window=0.0096", "time.roll=0.006"];
+    interrupted_is_uninterrupted(&window, &["contact/slip/0001", "history/window_x"]);
+}
+
+#[test]
 fn half_a_model_goes_on_where_it_was() {
     for rows in ["contact.rows=node_to_face", "contact.rows=mortar"] {
         let half = ["mesh.symmetry=half", "contact.enforcement=exact", rows];

@@ -164,18 +164,36 @@ section! {
         /// symmetry of, for half the time and memory. Loads, masses and results remain those of the whole bodies;
         /// fluctuations that are not symmetric are suppressed. Default `"whole"`.
         symmetry: Symmetry => word(Symmetry::WORDS);
+        /// Length (m) of a fine zone that follows the contact, in place of `zone.length` and `zone.start`: the mesh then moves
+        /// along the bar and around the disk, the bar needs no room for the roll, and the cost of a run grows with the
+        /// rolled distance alone. At least three patches are sensible. Default: the fine zone stays, and is as long as
+        /// the roll.
+        window: Option<f64> => LENGTH;
         /// The fine zone.
         zone: Zone;
     }
 }
 
 impl Meshing {
+    /// The two ends of the fine zone along x (m): one that follows the contact lies about it.
+    pub fn zone_along(&self) -> [f64; 2] {
+        let Zone { size, length, start, .. } = self.zone;
+        match self.window {
+            Some(window) => {
+                let half = 0.5 * (window / size - 1e-9).ceil() * size;
+                [-half, half]
+            }
+            None => [start, start + length],
+        }
+    }
+
     /// The fine zone and the grading around it.
     pub fn fine_zone(&self) -> mesh::FineZone {
-        let Zone { size, length, width, depth, start } = self.zone;
+        let Zone { size, width, depth, .. } = self.zone;
+        let [start, end] = self.zone_along();
         mesh::FineZone {
             size,
-            length,
+            length: end - start,
             width,
             depth,
             start,

@@ -59,11 +59,12 @@ pub fn path(key: &str) -> String {
 /// Where a formula must give a coefficient of friction: pressures (Pa) up to three times Hertz's largest, which
 /// shocks and coarse meshes may reach, the duration of rolling (s), and x in the fine zone (m).
 pub fn domain(case: &Case) -> Domain {
-    let zone = &case.mesh.zone;
+    let [rear, front] = case.mesh.zone_along();
+    let travel = if case.mesh.window.is_some() { case.rolled() } else { 0.0 };
     Domain {
         pressure: 3.0 * hertz(case).p0,
         duration: case.duration(),
-        along: [zone.start, zone.start + zone.length],
+        along: [rear, front + travel],
     }
 }
 

@@ -30,6 +30,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 pub mod validation;
+mod window;
 
 pub use error::{CaseError, KeyError};
 pub use excerpt::Excerpt;

@@ -351,7 +351,9 @@ fn check_output(case: &Case, found: &mut Findings) {
 /// A probe is recorded at the nearest node of the fine zone, so it must be there.
 fn check_probes(case: &Case, found: &mut Findings) {
     let zone = &case.mesh.zone;
-    let (rear, front) = (zone.start - zone.size, zone.start + zone.length + zone.size);
+    let [rear, front] = case.mesh.zone_along();
+    let travel = if case.mesh.window.is_some() { case.rolled() } else { 0.0 };
+    let (rear, front) = (rear - zone.size, front + travel + zone.size);
     let half = 0.5 * zone.width + zone.size;
     let probes = &case.output.probes;
     for (key, points, along) in
@@ -380,8 +382,8 @@ fn check_probes(case: &Case, found: &mut Findings) {
                      from {} to {} m",
                     number(x),
                     number(y),
-                    number(round(zone.start)),
-                    number(round(zone.start + zone.length)),
+                    number(round(rear + zone.size)),
+                    number(round(front - zone.size)),
                     number(round(-0.5 * zone.width)),
                     number(round(0.5 * zone.width))
                 )
@@ -559,8 +561,9 @@ fn check_path(case: &Case, found: &mut Findings) {
     let zone = &case.mesh.zone;
     let patch = hertz(case);
     let (rear, front) = (-patch.a, case.rolled() + patch.a);
+    let follows = case.mesh.window.is_some();
     found.require(
-        zone.start <= rear,
+        follows || zone.start <= rear,
         &["mesh.zone.start", "load.normal", "material.young"],
         || {
             format!(
@@ -574,7 +577,7 @@ fn check_path(case: &Case, found: &mut Findings) {
     );
     let end = zone.start + zone.length;
     found.require(
-        end >= front,
+        follows || end >= front,
         &[
             "time.roll",
             "time.duration",
@@ -592,7 +595,23 @@ fn check_path(case: &Case, found: &mut Findings) {
                 number(round(end))
             )
         },
-        &help("roll less (time.roll), or lengthen the fine zone (mesh.zone.length)"),
+        &help(
+            "roll less (time.roll), lengthen the fine zone (mesh.zone.length), or let it follow the contact (mesh.window)",
+        ),
+    );
+    found.require(
+        case.window_columns() != Some(0),
+        &["mesh.window", "mesh.zone.size", "load.normal", "material.young"],
+        || {
+            format!(
+                "mesh.window = {} m must be at least {:.5} m: the patch (half length {:.2} mm) with room to move on by one \
+                 element",
+                number(case.mesh.window.unwrap_or_default()),
+                case.shortest_window(),
+                1e3 * patch.a
+            )
+        },
+        &help("lengthen the window: three patches are sensible"),
     );
     found.require(
         zone.width >= 2.0 * patch.b * (1.0 - 1e-12),

@@ -2,6 +2,7 @@
 
 use crate::face::Positions;
 use crate::point::follow_first;
+use crate::renumber::{Renumbered, Renumbering};
 use crate::snapshot::{Points, check_points};
 use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError, Trace};
 use mesh::{Face, Padded};
@@ -48,6 +49,10 @@ pub trait Contact: Send + Debug {
     /// Gives the second slave of each pair of nodes of the mesh the state of the first, of nodes that move as one:
     /// no round-off then sets them apart. The pairs ascend by the first.
     fn follow_first(&mut self, pairs: &[[u32; 2]]);
+
+    /// Carries its state along as the mesh moves along the material. Returns how many closed slaves or faces under them
+    /// have no successor: their contact is forgotten.
+    fn renumber(&mut self, renumbering: Renumbering<'_>) -> usize;
 
     /// `y += K_c x` with the springs closed at the last call; nothing for a method without springs.
     ///
@@ -107,6 +112,12 @@ impl Contact for PenaltyContact {
         }
     }
 
+    fn renumber(&mut self, renumbering: Renumbering<'_>) -> usize {
+        let Self { sides, trace, search, points, .. } = self;
+        let in_mesh = [trace.side(0), trace.side(1)];
+        Renumbered { sides, in_mesh, search }.passes(points, renumbering)
+    }
+
     fn add_stiffness_product(&self, x: &[Padded], y: &mut [Padded]) {
         self.stiffness_product(x, y);
     }
@@ -129,7 +140,7 @@ impl Contact for PenaltyContact {
 
     fn snapshot(&self) -> ContactState {
         let points = Points::Penalty(self.points.clone());
-        ContactState { points, search: self.search.clone() }
+        ContactState { points, search: self.search.clone(), origin: self.sides[0].origin }
     }
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
@@ -138,6 +149,7 @@ impl Contact for PenaltyContact {
             check_points(points, &self.sides[slave], &self.sides[1 - slave])?;
         }
         self.points.clone_from(passes);
+        self.sides.iter_mut().for_each(|side| side.origin = state.origin);
         self.search.restore(&state.search, &self.sides)
     }
 }

@@ -21,6 +21,7 @@ use crate::mortar::{Mean, Mortar};
 use crate::nodal::NodalContact;
 use crate::penalty::{check_common, in_range};
 use crate::point::{State, WATCHED, finer, follow_first, sleep};
+use crate::renumber::{Renumbered, Renumbering};
 use crate::search::{Listed, Search};
 use crate::snapshot::{Points, check_legs, check_points};
 use crate::sums::Accumulator;
@@ -619,6 +620,14 @@ impl Contact for ExactContact {
         follow_first(&mut self.constraints[self.slave], own, pairs);
     }
 
+    fn renumber(&mut self, renumbering: Renumbering<'_>) -> usize {
+        let Self { sides, trace, search, constraints, slave, mortar, .. } = self;
+        let in_mesh = [trace.side(0), trace.side(1)];
+        let means = mortar.as_mut().map(|(_, means)| means.as_mut_slice());
+        let renumbered = Renumbered { sides, in_mesh, search };
+        renumbered.rows(*slave, &mut constraints[*slave], means, renumbering)
+    }
+
     fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}
 
     fn nodal_table(&self, side: usize) -> NodalContact {
@@ -651,7 +660,7 @@ impl Contact for ExactContact {
         let means = self.mortar.as_ref().map(|(_, means)| means.clone()).unwrap_or_default();
         let (constraints, legs) = (self.constraints[self.slave].clone(), self.legs.clone());
         let points = Points::Exact(constraints, legs, means);
-        ContactState { points, search: self.search.clone() }
+        ContactState { points, search: self.search.clone(), origin: self.sides[0].origin }
     }
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
@@ -674,6 +683,7 @@ impl Contact for ExactContact {
         self.legs.clone_from(legs);
         self.legs.reserve((4 * constraints.len()).saturating_sub(legs.len()));
         self.constraints[own].clone_from(constraints);
+        self.sides.iter_mut().for_each(|side| side.origin = state.origin);
         self.search.restore(&state.search, &self.sides)
     }
 }

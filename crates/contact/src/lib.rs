@@ -25,6 +25,7 @@ mod penalty_springs;
 #[cfg(test)]
 mod plates;
 mod point;
+mod renumber;
 mod search;
 mod segment;
 mod snapshot;
@@ -47,6 +48,7 @@ pub use motion::Motion;
 pub use nodal::NodalContact;
 pub use penalty::{PenaltyContact, PenaltySettings};
 pub use point::finer;
+pub use renumber::Renumbering;
 pub use snapshot::{ContactState, StateError};
 pub use stiffness::{BodyMaterial, PenaltyStiffness, StabilityScale};
 pub use sums::ContactSums;

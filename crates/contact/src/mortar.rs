@@ -76,6 +76,11 @@ pub(crate) struct MeanKinematics {
 }
 
 impl Mean {
+    /// Is integrated anew when it is needed next.
+    pub fn forget(&mut self) {
+        self.shares.clear();
+    }
+
     /// Follows the nodes of the mean; the slave is at `x`.
     pub fn kinematics(
         &self,

@@ -150,7 +150,8 @@ impl<E: Enforced> ContactPoint<E> {
     /// Where and when the law of friction is asked, for a node of `surface` at `position`.
     pub fn place(&self, surface: &ContactSurface, position: Vec3, time: f64) -> Place {
         let pressure = self.normal_force / surface.area[self.slave as usize];
-        Place { position, time, pressure }
+        let [x, y, z] = position;
+        Place { position: [x + surface.origin, y, z], time, pressure }
     }
 
     /// What the law of friction is told: the slip speed of the step before.

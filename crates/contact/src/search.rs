@@ -91,6 +91,13 @@ impl Search {
         }
     }
 
+    /// Searches at the next call, whatever moved.
+    pub fn forget(&mut self) {
+        self.at = [const { Vec::new() }; 2];
+        self.allowance = [const { Vec::new() }; 2];
+        self.moved = [const { Vec::new() }; 2];
+    }
+
     /// Looks at the motion at the next call, however small it was so far.
     pub fn expect_jump(&mut self) {
         self.steps_to_check = 0;

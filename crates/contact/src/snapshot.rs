@@ -17,6 +17,8 @@ use serde::{Deserialize, Serialize};
 pub struct ContactState {
     pub(crate) points: Points,
     pub(crate) search: Search,
+    /// Of the coordinates, as the surfaces have it (m).
+    pub(crate) origin: f64,
 }
 
 /// The listed slave nodes of a method.

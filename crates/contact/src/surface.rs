@@ -39,6 +39,9 @@ pub(crate) struct ContactSurface {
     /// face's share in its area.
     pub scaled_stiffness: Vec<f64>,
     pub smooth: Option<SmoothSurface>,
+    /// How far the origin of the coordinates lies ahead along x (m), of the place where it was at the start (module
+    /// `renumber`).
+    pub origin: f64,
     /// Whether y = 0 is a plane of symmetry and this is the half y >= 0 (module `symmetry`).
     pub symmetric: bool,
     /// Which nodes lie on the plane; empty without one.
@@ -82,6 +85,7 @@ impl ContactSurface {
             scaled_stiffness: vec![0.0; nodes.len()],
             faces: Vec::with_capacity(surface.faces.len()),
             smooth: surface.smooth,
+            origin: 0.0,
             symmetric: mesh.symmetric,
             plane: Vec::new(),
         };

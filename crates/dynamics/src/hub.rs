@@ -172,6 +172,42 @@ impl Hub {
         self
     }
 
+    /// Turns the reference configuration of the hub by `angle` (rad), which the hub then has turned less, and takes the nodes
+    /// along that are there then.
+    pub(crate) fn turn_back(
+        &mut self,
+        angle: f64,
+        dt: f64,
+        displacement: &mut [Padded],
+        velocity: &mut [Padded],
+    ) {
+        self.state.angle -= angle;
+        let now = self.state;
+        let before = HubState {
+            x: now.x - dt * now.vx,
+            z: now.z - dt * now.vz,
+            angle: now.angle - dt * now.omega,
+            ..now
+        };
+        self.place([before, now], dt, displacement, velocity);
+    }
+
+    /// Places the nodes in the second of two states, `dt` (s) after the first.
+    fn place(
+        &self,
+        states: [HubState; 2],
+        dt: f64,
+        displacement: &mut [Padded],
+        velocity: &mut [Padded],
+    ) {
+        let [from, to] = states.map(Placement::new);
+        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+            let (u, before) = (to.displacement(*arm), from.displacement(*arm));
+            displacement[n as usize] = Padded::new(u);
+            velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
+        }
+    }
+
     /// Resultant force (x, z) and torque about y of `force` on the hub's nodes (N, N m).
     pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> [f64; 3] {
         let mut sum = [ExactSum::ZERO; 3];
@@ -240,8 +276,7 @@ impl Hub {
     ) -> HubWork {
         let [fx, fz, torque] = load;
         let old = self.state;
-        let from = Placement::new(old);
-        let [sx, sz] = from.turned(self.moment);
+        let [sx, sz] = Placement::new(old).turned(self.moment);
         let half = time + 0.5 * dt;
         let given = match self.spin {
             Spin::Creepage { free, creepage, ramp } => {
@@ -272,12 +307,7 @@ impl Hub {
         new.angle += dt * new.omega;
         let new = *new;
         self.reaction = DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
-        let to = Placement::new(new);
-        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
-            let (u, before) = (to.displacement(*arm), from.displacement(*arm));
-            displacement[n as usize] = Padded::new(u);
-            velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
-        }
+        self.place([old, new], dt, displacement, velocity);
         let power = |s: HubState| drive_x * s.vx + drive_z * s.vz + drive_torque * s.omega;
         let coupled = |v: HubState, w: HubState| 0.5 * w.omega * (v.vx * sz - v.vz * sx);
         HubWork {

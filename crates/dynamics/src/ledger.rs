@@ -63,6 +63,12 @@ pub struct Ledger {
     pub contact_damping: f64,
     /// External work (J).
     pub external: f64,
+    /// Brought by moves of the mesh with the material that enters, less what leaves with the other and what
+    /// interpolation takes (J).
+    pub moved: f64,
+    /// What the next reading has beyond the external work (J), but for the move of the mesh before it.
+    #[serde(skip)]
+    expected: Option<f64>,
     initial: Option<Energies>,
     largest_exchange: f64,
     worst_balance: f64,
@@ -77,8 +83,16 @@ impl Ledger {
         self.external += works.external;
     }
 
+    /// The mesh has moved: what the next reading has beyond the external work and `balance` (J) is booked as moved.
+    pub(crate) fn expect(&mut self, balance: f64) {
+        self.expected = Some(balance);
+    }
+
     /// Takes a reading into the balance; the first one is the initial state.
     pub fn read(&mut self, now: &Energies) {
+        if let Some(expected) = self.expected.take() {
+            self.moved += now.total() - now.external_work - expected;
+        }
         let Some(initial) = self.initial else {
             self.initial = Some(*now);
             self.largest_exchange = now.internal + now.contact_stored;
@@ -97,10 +111,10 @@ impl Ledger {
         self.worst_balance = self.worst_balance.max(self.imbalance(now).abs());
     }
 
-    /// total - external work - initial total (J).
+    /// total - external work - moved - initial total (J).
     pub fn imbalance(&self, now: &Energies) -> f64 {
         let initial = self.initial.unwrap_or(*now);
-        now.total() - now.external_work - (initial.total() - initial.external_work)
+        now.total() - now.external_work - self.moved - (initial.total() - initial.external_work)
     }
 
     /// Largest imbalance read so far over the largest energy exchanged (dimensionless).

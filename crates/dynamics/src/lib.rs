@@ -22,6 +22,7 @@ mod rolling;
 mod simulation;
 mod state;
 mod system;
+mod window;
 
 pub use guard::{
     Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
@@ -35,6 +36,7 @@ pub use rolling::{RollingField, rolling_field};
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};
 pub use system::System;
+pub use window::{MeshMove, Moved, Travel, Window};
 
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,7 @@ use crate::hub::{DriveReaction, Hub};
 use crate::ledger::{Energies, Ledger};
 use crate::nodal_state::NodalState;
 use crate::system::System;
+use crate::window::{Travel, Window};
 use contact::{Contact, ContactSums};
 use mesh::Padded;
 use solid::Solid;
@@ -66,6 +67,9 @@ pub struct Simulation {
     pub(crate) limits: GuardLimits,
     pub(crate) watch: LostContact,
     pub(crate) timers: Timers,
+    /// The moves of a mesh that follows the patch, and how far it has moved.
+    pub(crate) window: Option<Window>,
+    pub(crate) travel: Travel,
 }
 
 impl Simulation {
@@ -87,6 +91,8 @@ impl Simulation {
             limits: GuardLimits::default(),
             watch: LostContact::default(),
             timers: Timers::default(),
+            window: None,
+            travel: Travel::default(),
         }
     }
 

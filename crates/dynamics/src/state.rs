@@ -4,6 +4,7 @@ use crate::guard::LostContact;
 use crate::hub::{DriveReaction, HubState};
 use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
+use crate::window::Travel;
 use contact::{ContactState, StateError};
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
@@ -30,6 +31,8 @@ pub struct SimulationState {
     pub watch: LostContact,
     /// Wall time per stage so far.
     pub timers: Timers,
+    /// How far the meshes have moved.
+    pub travel: Travel,
 }
 
 /// Why a simulation cannot go on from a state.
@@ -64,6 +67,7 @@ impl Simulation {
             contact: self.system.contact.as_ref().map(|contact| contact.snapshot()),
             watch: self.watch,
             timers: self.timers,
+            travel: self.travel,
         }
     }
 
@@ -98,7 +102,7 @@ impl Simulation {
             contact.restore(state)?;
         }
         (self.step, self.ledger, self.timers) = (state.step, state.ledger, state.timers);
-        self.watch = state.watch;
+        (self.watch, self.travel) = (state.watch, state.travel);
         Ok(())
     }
 }

@@ -26,6 +26,7 @@ mod ring;
 mod shells;
 mod slice;
 mod smooth;
+mod transfer;
 mod zone;
 
 pub use bar::{Bar, bar};
@@ -44,4 +45,5 @@ pub use patch::seven_hex_patch;
 pub use quality::{Quality, quality};
 pub use slice::{NoSlice, across};
 pub use smooth::SmoothSurface;
+pub use transfer::{Chart, Source, sources_ahead};
 pub use zone::{FineZone, Grading};

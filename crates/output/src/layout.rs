@@ -42,6 +42,7 @@ names! {
         ENFORCED_ON = "enforced_on", "the body at whose nodes contact is enforced: `disk` or `bar`";
         CONTACT_ROWS = "contact_rows", "how contact is enforced there: `node_to_face` or `mortar`";
         SYMMETRY = "symmetry", "`half` where y >= 0 alone is modelled: `fields.vtkhdf` and `postmortem.vtkhdf` then hold that half, and counts of elements and nodes are its own; all other numbers are of the whole bodies";
+        WINDOW = "window", "`follows` where the fine zone follows the contact: a node is then a place in the mesh, which moves along the material, and displacements count from its place at the start";
         DIAGNOSIS = "diagnosis", "why the guards stopped the run";
     }
 }
@@ -53,6 +54,8 @@ pub const BODY_NAMES: [&str; 2] = ["disk", "bar"];
 pub const NODE_TO_FACE: &str = "node_to_face";
 /// Value of the attribute `symmetry`.
 pub const HALF: &str = "half";
+/// Value of the attribute `window`.
+pub const FOLLOWS: &str = "follows";
 /// Value of the attribute `contact_rows`: conditions that hold in the mean over the faces around each node.
 pub const MORTAR: &str = "mortar";
 
@@ -120,7 +123,9 @@ datasets! {
         friction_dissipated: scalar("J", "dissipated by friction so far"),
         damping_dissipated: scalar("J", "dissipated by damping of every kind so far"),
         external_work: scalar("J", "work of drive, load and constant end reactions so far"),
-        imbalance: scalar("J", "sum of energies less external work less the initial sum"),
+        imbalance: scalar(
+            "J", "sum of energies less external work and window_energy, less the initial sum"
+        ),
         normal_force: scalar("N", "force of the bar on the disk, z"),
         tangential_force: scalar("N", "force of the bar on the disk, x"),
         lateral_force: scalar("N", "force of the bar on the disk, y"),
@@ -151,6 +156,8 @@ datasets! {
         sweeps: scalar("1", "sweeps over the contact nodes, exact enforcement"),
         manifold: scalar("1", "nodes at which the law of friction had more than one solution"),
         resultant_mismatch: scalar("1", "|sum of the contact forces on both bodies| over the normal force"),
+        window_x: scalar("m", "how far the fine zone that follows the contact has moved; 0 where it stays"),
+        window_energy: scalar("J", "brought by its moves so far, less what was taken"),
     }
 }
 

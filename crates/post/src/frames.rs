@@ -4,7 +4,7 @@
 use crate::PostError;
 use crate::surface::Surface;
 use crate::vector::Vec3;
-use output::layout::{BODY_NAMES, CONTACT, MORTAR, Pairing, attribute};
+use output::layout::{BODY_NAMES, CONTACT, FOLLOWS, MORTAR, Pairing, attribute};
 use output::{FieldSpec, GridFile, HistoryFile, OutputError};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -51,6 +51,8 @@ pub struct ContactHistory {
     pub enforced_on: Option<u8>,
     /// Whether it enforces them in the mean over the faces around each node (mortar).
     pub in_means: bool,
+    /// Whether the fine zone follows the contact: a node is then no point of material.
+    pub follows: bool,
     /// The optional fields of its records.
     pub has: Recorded,
 }
@@ -130,7 +132,8 @@ impl ContactHistory {
             .map(|body| body as u8);
         let in_means = text(attribute::CONTACT_ROWS).is_some_and(|rows| rows == MORTAR);
         let surface = Surface::read(&file, path)?;
-        Ok(Self { path: path.into(), surface, times, pairing, enforced_on, in_means, has })
+        let follows = text(attribute::WINDOW).is_some_and(|window| window == FOLLOWS);
+        Ok(Self { path: path.into(), surface, times, pairing, enforced_on, in_means, follows, has })
     }
 
     /// Path of the file.

@@ -104,6 +104,9 @@ impl Replay {
     pub fn new(history: &ContactHistory, basis: &Basis, dt: Option<f64>) -> Result<Self, String> {
         let RecordedLaw { law, known_to } = basis.friction.clone()?;
         let constant = law.remembers() == Remembers::Nothing && !law.is_implicit();
+        if history.follows && law.remembers() != Remembers::Nothing {
+            return Err("the fine zone follows the contact, and the law remembers".into());
+        }
         let method = match history.enforced_on {
             Some(slaves) => Method::Exact { slaves },
             None if history.has.pass_pressure && history.has.gap => Method::Passes,

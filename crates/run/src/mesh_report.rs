@@ -112,7 +112,7 @@ fn write(path: &Path, case: &Case, model: &Model) -> Result<(), RunError> {
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: case.hash(),
         created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        attributes: crate::run::symmetry(case),
+        attributes: crate::run::kinds(case),
     };
     Ok(TransientGrid::create(path, &grid, &[], &provenance)?.append(0.0, &[])?)
 }

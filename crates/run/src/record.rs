@@ -4,7 +4,7 @@ mod images;
 mod row;
 
 use self::images::{Images, mirrored};
-use self::row::{PatchMeasures, Resultants, row};
+use self::row::{PatchMeasures, Resultants, Whereabouts, row};
 use crate::error::RunError;
 use crate::means::Means;
 use crate::mesh_mode::WatchedFaces;
@@ -13,7 +13,7 @@ use case::hertz::patch_shape;
 use case::schema::{Case, Window};
 use contact::NodalContact;
 use contact::patch::{self, PatchShape};
-use dynamics::{Hub, Simulation, StepReport};
+use dynamics::{Hub, Simulation, StepReport, Travel};
 use mesh::Padded;
 use output::layout::{
     BODIES, BODY_NAMES, BodyFields, CONTACT, ContactFields, HISTORY, MORTAR, NODE_TO_FACE, Pairing,
@@ -285,7 +285,7 @@ impl Recorder {
         if self.records_contact(n) {
             let nodes = self.zones.tables.iter().flat_map(|t| &t.nodes);
             for (u, &node) in self.zones.displacement.iter_mut().zip(nodes) {
-                *u = simulation.displacement()[node as usize].xyz();
+                *u = moved(simulation.displacement()[node as usize].xyz(), simulation.travel());
             }
             if self.zones.pairing == Pairing::Before {
                 self.zones.copy_velocity(simulation);
@@ -307,8 +307,8 @@ impl Recorder {
             Resultants::of(report, self.effective_radius, self.speed, self.parts > 1.0);
         let inside = (self.evaluate[0]..=self.evaluate[1]).contains(&report.time);
         self.means.add_step(report, &resultants, inside);
-        if let (Some(probes), Some(contact)) = (&mut self.probes, simulation.contact()) {
-            probes.record(contact, report)?;
+        if let Some(probes) = &mut self.probes {
+            probes.record(simulation, report)?;
         }
         let (reads, records) = (self.reads(n), self.records_contact(n));
         if let Some(contact) = simulation.contact()
@@ -335,8 +335,15 @@ impl Recorder {
             let hub = simulation.hub().map(|h| h.state).unwrap_or_default();
             let patch = self.patch(hub.x);
             self.means.add_patch(&patch, &energies, inside);
-            let imbalance = simulation.ledger().imbalance(&energies);
-            self.rows.extend(row(report, &resultants, &patch, &hub, imbalance).each());
+            let travel = simulation.travel();
+            let at = Whereabouts {
+                hub_x: hub.x + travel.x,
+                hub_z: hub.z,
+                window_x: travel.x,
+                window_energy: simulation.ledger().moved,
+                imbalance: simulation.ledger().imbalance(&energies),
+            };
+            self.rows.extend(row(report, &resultants, &patch, &at).each());
             if self.rows.len() >= HISTORY_BATCH * HISTORY.each().len() {
                 self.flush_history()?;
             }
@@ -399,7 +406,9 @@ impl Recorder {
             to.tensors(solid.elements(), |out| solid.cauchy_stress(displacement, out));
         };
         let fields = BodyFields::<Option<&dyn Fn(&mut Snapshot<'_>)>> {
-            displacement: Some(&|to| to.vectors(displacement.iter().map(|u| u.xyz()))),
+            displacement: Some(&|to| {
+                to.vectors(displacement.iter().map(|u| moved(u.xyz(), simulation.travel())));
+            }),
             deformation: Some(&|to| to.vectors(displacement.iter().enumerate().map(deformation))),
             velocity: Some(&|to| to.vectors(simulation.velocity().iter().map(|v| v.xyz()))),
             stress: stress.then_some(&cauchy),
@@ -567,6 +576,11 @@ fn pairing(enforced_on: Option<usize>) -> Pairing {
 /// 0 for the first `counts[0]` entries, 1 for the next, and so on.
 fn labels(counts: &[usize]) -> Vec<u8> {
     counts.iter().enumerate().flat_map(|(k, &n)| std::iter::repeat_n(k as u8, n)).collect()
+}
+
+/// A displacement (m) in a mesh that has moved, from the place of the node at the start.
+fn moved([x, y, z]: [f64; 3], travel: Travel) -> [f64; 3] {
+    [x + travel.x, y, z]
 }
 
 fn length(v: [f64; 3]) -> f64 {

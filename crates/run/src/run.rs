@@ -26,7 +26,7 @@ use friction::{Kind, Uses};
 use opening::{Opened, Opening, open};
 pub use options::RunOptions;
 use output::NotWritten;
-use output::layout::{HALF, attribute, file};
+use output::layout::{FOLLOWS, HALF, attribute, file};
 use output::summary::Status;
 use output::{CHECKPOINTS, LOG_END, Provenance};
 use rolling::{Rolled, Rolling, Stopped};
@@ -174,7 +174,7 @@ fn basis<'a>(
                 Some(resumed) => resumed.checkpoint.provenance.created.clone(),
                 None => humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
             },
-            attributes: symmetry(case),
+            attributes: kinds(case),
         },
         effective_radius: facts.radius.effective,
         hertz_pressure: hertz(case).p0,
@@ -182,11 +182,15 @@ fn basis<'a>(
     }
 }
 
-/// The attribute of every file of a run of half the bodies.
-pub(crate) fn symmetry(case: &Case) -> Vec<(String, String)> {
+/// The attributes of every file of a run that say what of the bodies is modelled, and where.
+pub(crate) fn kinds(case: &Case) -> Vec<(String, String)> {
     let half = case.mesh.symmetry == Symmetry::Half;
-    let attribute = (attribute::SYMMETRY.to_owned(), HALF.to_owned());
-    half.then_some(attribute).into_iter().collect()
+    let follows = case.mesh.window.is_some();
+    [(half, attribute::SYMMETRY, HALF), (follows, attribute::WINDOW, FOLLOWS)]
+        .into_iter()
+        .filter(|(holds, ..)| *holds)
+        .map(|(_, name, value)| (name.to_owned(), value.to_owned()))
+        .collect()
 }
 
 /// Writes the summary, and removes the checkpoints of a run that is complete.

@@ -25,7 +25,8 @@ pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), Scena
     }
     let zone = &case.mesh.zone;
     let across = if case.mesh.plane_strain { 1.0 } else { zone.width / zone.size };
-    let elements = 2.0 * zone.length * zone.depth / zone.size.powi(2) * across;
+    let [rear, front] = case.mesh.zone_along();
+    let elements = 2.0 * (front - rear) * zone.depth / zone.size.powi(2) * across;
     let bytes = bytes_per_element / case.mesh.symmetry.parts();
     // also of half a model the whole mesh is made
     fits(elements as usize, bytes.max(BYTES_PER_MESH_ELEMENT), free_mb())

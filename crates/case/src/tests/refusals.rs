@@ -217,6 +217,16 @@ fn wrong_values_are_refused_with_key_value_and_range() {
             vec!["mesh.grading = \"two_to_one\"", "mesh.plane_strain"],
         ),
         (
+            vec![
+                "mesh={plane_strain=true,window=0.03,zone={width=0.02}}",
+                "disk={width=0.02,crown_radius='flat'}",
+                "bar={width=0.02,crown_radius='flat'}",
+            ],
+            vec!["mesh.window", "mesh.plane_strain = true"],
+        ),
+        (vec!["mesh.window=0.012"], vec!["mesh.window = 0.012 m", "at least", "lengthen"]),
+        (vec!["mesh.window=0.3"], vec!["mesh.window = 0.3 m", "bar.length"]),
+        (
             vec!["mesh.symmetry=half", "preload.method=relaxation"],
             vec!["mesh.symmetry = \"half\"", "preload.method = \"relaxation\""],
         ),

@@ -17,6 +17,7 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
     check_slice(case, found);
     check_symmetry(case, found);
     check_grading(case, found);
+    check_window(case, found);
     check_zone_place(case, found);
     check_element_count(case, found);
 }
@@ -28,16 +29,17 @@ fn check_zone_size(case: &Case, found: &mut Findings<'_>) {
                           smaller, for example 1e-3";
     const GROWS: &str = "elements grow from zone.size to coarsest: make coarsest larger";
     let (width, depth, size) = ("mesh.zone.width", "mesh.zone.depth", "mesh.zone.size");
-    let length = "mesh.zone.length";
+    let length = if case.mesh.window.is_some() { "mesh.window" } else { "mesh.zone.length" };
+    let along = case.mesh.window.unwrap_or(zone.length);
     let coarsest = case.mesh.coarsest;
     // `zone.depth` and `coarsest` are without meaning beside a mesh that is read
     let generated = case.mesh.file.is_none();
     for (key, value, limit_key, limit, remedy, applies) in [
         (width, zone.width, "bar.width", bar.width, NOT_INSIDE, true),
         (width, zone.width, "disk.width", disk.width, NOT_INSIDE, true),
-        (length, zone.length, "bar.length", bar.length, NOT_INSIDE, true),
+        (length, along, "bar.length", bar.length, NOT_INSIDE, true),
         (depth, zone.depth, "bar.height", bar.height, NOT_INSIDE, generated),
-        (size, zone.size, length, zone.length, COARSE, true),
+        (size, zone.size, length, along, COARSE, true),
         (size, zone.size, width, zone.width, COARSE, true),
         (size, zone.size, depth, zone.depth, COARSE, generated),
         (size, zone.size, "mesh.coarsest", coarsest, GROWS, generated),
@@ -145,18 +147,36 @@ fn check_symmetry(case: &Case, found: &mut Findings<'_>) {
     );
 }
 
+/// A zone that follows the contact needs a generated mesh in three dimensions.
+fn check_window(case: &Case, found: &mut Findings<'_>) {
+    let stays = case.mesh.window.is_none();
+    found.require(
+        stays || case.mesh.file.is_none(),
+        &["mesh.window", "mesh.file"],
+        || "mesh.window does not go with mesh.file: the pattern of a mesh that is read is not known".into(),
+        "leave out mesh.window, or let the mesh be generated",
+    );
+    found.require(
+        stays || !case.mesh.plane_strain,
+        &["mesh.window", "mesh.plane_strain"],
+        || "mesh.window does not go with mesh.plane_strain = true".into(),
+        "a slice has few elements: give it a mesh.zone.length for the whole roll",
+    );
+}
+
 /// The fine zone lies on the bar.
 fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
-    let (bar, zone) = (&case.bar, &case.mesh.zone);
-    let (bar_end, zone_end) = (bar.start + bar.length, zone.start + zone.length);
+    let bar = &case.bar;
+    let [zone_start, zone_end] = case.mesh.zone_along();
+    let bar_end = bar.start + bar.length;
     let rounding = 1e-12;
     found.require(
-        zone.start >= bar.start - rounding && zone_end <= bar_end + rounding,
-        &["mesh.zone.start", "mesh.zone.length", "bar.start", "bar.length"],
+        zone_start >= bar.start - rounding && zone_end <= bar_end + rounding,
+        &["mesh.zone.start", "mesh.zone.length", "mesh.window", "bar.start", "bar.length"],
         || {
             format!(
                 "the fine zone from x = {} to {} m must lie inside the bar, x = {} to {} m",
-                number(round(zone.start)),
+                number(round(zone_start)),
                 number(round(zone_end)),
                 number(round(bar.start)),
                 number(round(bar_end))
@@ -165,13 +185,14 @@ fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
         "move or shorten the fine zone (mesh.zone.start, mesh.zone.length), or lengthen the bar",
     );
     let quarter = 0.5 * case.disk.radius * std::f64::consts::PI;
+    let length = zone_end - zone_start;
     found.require(
-        zone.length <= quarter,
-        &["mesh.zone.length", "disk.radius"],
+        length <= quarter,
+        &["mesh.zone.length", "mesh.window", "disk.radius"],
         || {
             format!(
-                "mesh.zone.length = {} m must be at most a quarter of the disk's circumference, {} m",
-                number(zone.length),
+                "the fine zone is {} m long and must be at most a quarter of the disk's circumference, {} m",
+                number(round(length)),
                 number(round(quarter))
             )
         },
@@ -200,7 +221,8 @@ fn check_grading(case: &Case, found: &mut Findings<'_>) {
 /// The fine zones do not have more elements than any machine holds.
 fn check_element_count(case: &Case, found: &mut Findings<'_>) {
     let zone = &case.mesh.zone;
-    let elements = 2.0 * zone.length * zone.width * zone.depth / zone.size.powi(3);
+    let [rear, front] = case.mesh.zone_along();
+    let elements = 2.0 * (front - rear) * zone.width * zone.depth / zone.size.powi(3);
     found.require(
         case.mesh.file.is_some() || elements <= MOST_ELEMENTS,
         &["mesh.zone.size"],

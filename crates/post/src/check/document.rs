@@ -168,6 +168,13 @@ impl Evaluation<'_> {
                 notes.push(format!("the file has no {lost}"));
             }
         }
+        if self.history.follows {
+            notes.push(
+                "the fine zone follows the contact, so that a node is no point of material: switching_rate, roughness_ratio \
+                 and laws that remember are not judged"
+                    .into(),
+            );
+        }
         let other = match self.history.pairing.0 {
             Pairing::Before => "after",
             Pairing::After => "before",
@@ -285,6 +292,7 @@ impl Evaluation<'_> {
         let used = if states.is_empty() { &slips } else { &states };
         let worst = used.iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let time = self.scales.shear_wave.map(|speed| self.scales.size / speed);
+        let worst = worst.filter(|_| !self.history.follows);
         let value = worst.zip(time).map(|((_, rate), time)| rate * time);
         let mut entry = entry(measure, value, limit, asked);
         if let Some((view, rate)) = worst {

@@ -85,6 +85,8 @@ impl<'a> Evaluation<'a> {
         let bodies = surface.bodies();
         let pair = (bodies.len() == 2 && history.has.motion)
             .then(|| Pair::new(surface, finer_body(surface, &bodies)));
+        // a mean over time at a node is one at a point of material only where the mesh stays
+        let span = scales.roughness_span.filter(|_| !history.follows);
         let views = bodies.iter().map(|&body| (View::Side(body), body));
         let views = views.chain(pair.as_ref().map(|pair| (View::Pair, pair.slave)));
         let channels = views
@@ -93,7 +95,7 @@ impl<'a> Evaluation<'a> {
                     view,
                     body,
                     pairing,
-                    accumulator: Accumulator::new(nodes, scales.roughness_span),
+                    accumulator: Accumulator::new(nodes, span),
                 })
             })
             .collect();

@@ -1,7 +1,7 @@
 //! What a step contributes to the history and to the means of the evaluation window.
 
 use contact::patch;
-use dynamics::{Energies, HubState, StepReport};
+use dynamics::{Energies, StepReport};
 use output::layout::HistoryRow;
 use scenario::{BAR, DISK};
 
@@ -93,13 +93,22 @@ impl Means {
     }
 }
 
-/// The row of the history of a step; `imbalance` is that of the energy ledger (J).
+/// Where the hub is after a step (m), how far the mesh has moved (m), and what the energy ledger says (J).
+#[derive(Clone, Copy)]
+pub(super) struct Whereabouts {
+    pub(super) hub_x: f64,
+    pub(super) hub_z: f64,
+    pub(super) window_x: f64,
+    pub(super) window_energy: f64,
+    pub(super) imbalance: f64,
+}
+
+/// The row of the history of a step.
 pub(super) fn row(
     report: &StepReport,
     resultants: &Resultants,
     patch: &PatchMeasures,
-    hub: &HubState,
-    imbalance: f64,
+    at: &Whereabouts,
 ) -> HistoryRow<f64> {
     let e = report.energies.unwrap_or_default();
     let Resultants { tangential, lateral, normal, creepage, mismatch } = *resultants;
@@ -115,7 +124,7 @@ pub(super) fn row(
         friction_dissipated: e.friction_dissipated,
         damping_dissipated: e.damping_dissipated,
         external_work: e.external_work,
-        imbalance,
+        imbalance: at.imbalance,
         normal_force: normal,
         tangential_force: tangential,
         lateral_force: lateral,
@@ -124,8 +133,8 @@ pub(super) fn row(
         omega: report.omega,
         torque: report.drive.torque,
         drive_force: report.drive.force_x,
-        hub_x: hub.x,
-        hub_z: hub.z,
+        hub_x: at.hub_x,
+        hub_z: at.hub_z,
         patch_half_length: a,
         patch_half_width: b,
         patch_x: xc,
@@ -144,5 +153,7 @@ pub(super) fn row(
         sweeps: report.contact.sweeps as f64,
         manifold: report.contact.non_unique as f64,
         resultant_mismatch: mismatch,
+        window_x: at.window_x,
+        window_energy: at.window_energy,
     }
 }

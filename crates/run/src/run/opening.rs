@@ -101,6 +101,12 @@ fn log_opening(
              are suppressed",
         )?;
     }
+    if let Some(columns) = case.window_columns() {
+        log.say(&format!(
+            "window: the fine zone follows the contact by {columns} columns of elements, {:.4} mm, at a time",
+            1e3 * f64::from(columns) * case.mesh.zone.size
+        ))?;
+    }
     match model.fully_integrated() {
         0 => Ok(()),
         full => log.say(&format!("fully integrated: {full} elements")),

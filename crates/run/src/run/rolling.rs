@@ -7,11 +7,11 @@ use crate::held::FolderLock;
 use crate::means::Means;
 use crate::record::{RecordBasis, Recorder};
 use case::schema::Case;
-use dynamics::{Diagnosis, Energies, Simulation, StepReport};
+use dynamics::{Diagnosis, Energies, Moved, Simulation, StepReport};
 use output::summary::Status;
-use scenario::Facts;
 use scenario::progress::{Progress, Stage};
 use scenario::remedy::Remedy;
+use scenario::{Facts, ScenarioError};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -108,8 +108,13 @@ impl<'a> Rolling<'a> {
             if stops {
                 return Ok(Stopped { status: Status::Interrupted, diagnosis: None, guard: None });
             }
+            let moved = self.simulation.move_window().map_err(ScenarioError::from)?;
+            if let Some(Moved { lost: lost @ 1.. }) = moved {
+                return Ok(self.left_behind(lost));
+            }
             self.recorder.before_step(&self.simulation)?;
-            let read = self.recorder.reads(n) || n + 1 == steps || n.is_multiple_of(READING);
+            let due = self.recorder.reads(n) || n + 1 == steps || n.is_multiple_of(READING);
+            let read = due || moved.is_some();
             let report = self.simulation.step(read);
             if let Some(failure) = options.law.as_ref().and_then(|law| law.failure()) {
                 let diagnosis = format!("the friction law failed at step {n}: {failure}");
@@ -127,6 +132,17 @@ impl<'a> Rolling<'a> {
             }
         }
         Ok(Stopped { status: Status::Completed, diagnosis: None, guard: None })
+    }
+
+    /// The end of a run whose window does not hold the patch.
+    fn left_behind(&self, lost: usize) -> Stopped {
+        let diagnosis = format!(
+            "stopped at step {}, t = {:.6} ms: {lost} nodes in contact lie outside of the fine zone that follows the contact; \
+             remedy: lengthen mesh.window, or widen mesh.zone.width",
+            self.simulation.steps(),
+            1e3 * self.simulation.time()
+        );
+        Stopped { status: Status::Failed, diagnosis: Some(diagnosis), guard: None }
     }
 
     /// Keeps a checkpoint.

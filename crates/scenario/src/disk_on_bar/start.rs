@@ -13,9 +13,10 @@ use crate::start::{Facts, Found, RollingRadius, Stability, Start};
 use case::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
 use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{
-    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System, Vertical,
+    Fixed, Hub, MeshMove, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System,
+    Vertical, Window,
 };
-use mesh::Padded;
+use mesh::{Chart, Padded};
 use output::NotWritten;
 use solid::Solid;
 use std::path::Path;
@@ -270,8 +271,26 @@ fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
     let omega_max = 2.0 / stability.dt_limit;
     let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
     simulation.set_limits(limits(case, model));
+    if let Some(window) = window(case, model) {
+        simulation.set_window(window);
+    }
     let numbers = numbers(case, model, dt);
     Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }
+}
+
+/// The moves of a fine zone that follows the contact, by whole columns of it, if it does.
+fn window(case: &Case, model: &Model) -> Option<Window> {
+    let size = case.mesh.zone.size;
+    let by = f64::from(case.window_columns()?) * size;
+    let radius = case.disk.radius;
+    let charts = [(Chart::Ring { radius }, by / radius), (Chart::Straight, by)];
+    let [disk, bar] = [DISK, BAR].map(|side| {
+        let body = &model.mesh.bodies[side];
+        let (chart, moved) = charts[side];
+        let sources = mesh::sources_ahead(&model.mesh, body, chart, by, size);
+        MeshMove { nodes: body.nodes.clone(), sources, by: moved }
+    });
+    Some(Window::new(disk, bar))
 }
 
 /// The scale of penalty springs that are a fraction of the stability limit.
