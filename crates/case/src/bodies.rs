@@ -153,8 +153,8 @@ section! {
         coarsest: f64 = 0.05 => LENGTH;
         /// How elements become larger outside the fine zone: `"tensor"` (rows and columns run through the
         /// whole body) or `"two_to_one"` (columns are merged 2:1 in all three directions, with elements close to
-        /// cubes and about a third as many). Default `"tensor"`.
-        grading: Grading = Grading::Tensor => word(Grading::WORDS);
+        /// cubes and about a third as many). Default without `file`: `"two_to_one"`, and `"tensor"` with `plane_strain`.
+        grading: Option<Grading> => word(Grading::WORDS);
         /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
         /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
         /// width, which only scales the forces; one near that of the coarsest elements keeps these well
@@ -170,6 +170,13 @@ section! {
 }
 
 impl Meshing {
+    /// How elements become larger outside the fine zone. Merging in three directions is of meshes that are generated,
+    /// and of those that are more than a slice.
+    pub fn grading(&self) -> Grading {
+        let three_directions = self.file.is_none() && !self.plane_strain;
+        self.grading.unwrap_or(if three_directions { Grading::TwoToOne } else { Grading::Tensor })
+    }
+
     /// The fine zone and the grading around it.
     pub fn fine_zone(&self) -> mesh::FineZone {
         let Zone { size, length, width, depth, start } = self.zone;
@@ -181,7 +188,7 @@ impl Meshing {
             start,
             growth: self.growth,
             coarsest: self.coarsest,
-            grading: match self.grading {
+            grading: match self.grading() {
                 Grading::Tensor => mesh::Grading::Tensor,
                 Grading::TwoToOne => mesh::Grading::TwoToOne,
             },
