@@ -3,7 +3,8 @@
 
 Usage: render.py RUNDIR OUT.png [--width PIXELS]
 
-Colours show the von Mises stress where the run holds stresses, else the speed. Works without a
+Colours show the von Mises stress where the run holds stresses, else the speed. Of half a model (y >= 0)
+the mirror image is drawn too. Works without a
 display: VTK then draws through EGL, which needs a system library (Debian and Ubuntu:
 `apt-get install libegl1 libgl1-mesa-dri`).
 """
@@ -11,6 +12,7 @@ display: VTK then draws through EGL, which needs a system library (Debian and Ub
 import argparse
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pyvista
 from matplotlib.colors import LinearSegmentedColormap
@@ -49,6 +51,13 @@ def coloured(grid):
         return grid, "von Mises stress (MPa)"
     grid.point_data["shown"] = np.linalg.norm(grid.point_data["velocity"], axis=1)
     return grid, "speed (m/s)"
+
+
+def whole(grid, path):
+    """The grid with its mirror image where the run modelled the half y >= 0."""
+    with h5py.File(path, "r") as file:
+        half = file.attrs.get("symmetry") == "half"
+    return grid.merge(grid.reflect((0.0, 1.0, 0.0))) if half else grid
 
 
 def contact_point(grid):
@@ -120,8 +129,10 @@ def main():
     parser.add_argument("out", type=Path, help="picture to write (PNG)")
     parser.add_argument("--width", type=int, default=1600)
     arguments = parser.parse_args()
-    grid, time = last_step(arguments.run / "fields.vtkhdf")
+    fields = arguments.run / "fields.vtkhdf"
+    grid, time = last_step(fields)
     grid, title = coloured(grid)
+    grid = whole(grid, fields)
     arguments.out.parent.mkdir(parents=True, exist_ok=True)
     draw(grid, title, time, arguments.out, arguments.width)
     print(f"{arguments.out}: {title} at t = {time:.6g} s, {grid.n_cells} cells")

@@ -153,8 +153,8 @@ section! {
         coarsest: f64 = 0.05 => LENGTH;
         /// How elements become larger outside the fine zone: `"tensor"` (rows and columns run through the
         /// whole body) or `"two_to_one"` (columns are merged 2:1 in all three directions, with elements close to
-        /// cubes and about a third as many). Default `"tensor"`.
-        grading: Grading = Grading::Tensor => word(Grading::WORDS);
+        /// cubes and about a third as many). Default without `file`: `"two_to_one"`, and `"tensor"` with `plane_strain`.
+        grading: Option<Grading> => word(Grading::WORDS);
         /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
         /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
         /// width, which only scales the forces; one near that of the coarsest elements keeps these well
@@ -175,31 +175,44 @@ section! {
 }
 
 impl Meshing {
-    /// The two ends of the fine zone along x (m): one that follows the contact lies about it.
-    pub fn zone_along(&self) -> [f64; 2] {
+    /// Where the fine zone begins and how long it is, along x (m): one that follows the contact lies about it.
+    fn zone_place(&self) -> [f64; 2] {
         let Zone { size, length, start, .. } = self.zone;
         match self.window {
             Some(window) => {
-                let half = 0.5 * (window / size - 1e-9).ceil() * size;
-                [-half, half]
+                let length = (window / size - 1e-9).ceil() * size;
+                [-0.5 * length, length]
             }
-            None => [start, start + length],
+            None => [start, length],
         }
+    }
+
+    /// The two ends of the fine zone along x (m).
+    pub fn zone_along(&self) -> [f64; 2] {
+        let [start, length] = self.zone_place();
+        [start, start + length]
+    }
+
+    /// How elements become larger outside the fine zone. Merging in three directions is of meshes that are generated,
+    /// and of those that are more than a slice.
+    pub fn grading(&self) -> Grading {
+        let three_directions = self.file.is_none() && !self.plane_strain;
+        self.grading.unwrap_or(if three_directions { Grading::TwoToOne } else { Grading::Tensor })
     }
 
     /// The fine zone and the grading around it.
     pub fn fine_zone(&self) -> mesh::FineZone {
         let Zone { size, width, depth, .. } = self.zone;
-        let [start, end] = self.zone_along();
+        let [start, length] = self.zone_place();
         mesh::FineZone {
             size,
-            length: end - start,
+            length,
             width,
             depth,
             start,
             growth: self.growth,
             coarsest: self.coarsest,
-            grading: match self.grading {
+            grading: match self.grading() {
                 Grading::Tensor => mesh::Grading::Tensor,
                 Grading::TwoToOne => mesh::Grading::TwoToOne,
             },

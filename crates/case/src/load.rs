@@ -150,6 +150,8 @@ fn write_defaults(case: &mut Case) {
         ] {
             set.get_or_insert_with(|| name.to_owned());
         }
+    } else {
+        case.mesh.grading = Some(case.mesh.grading());
     }
     case.preload.tolerance = Some(case.preload_tolerance());
     case.preload.max_iterations = Some(case.preload_iterations());

@@ -131,13 +131,13 @@ fn with_json_wrong_usage_is_one_document_too() {
 
 #[test]
 fn a_mesh_that_is_too_large_is_refused_at_its_line_and_costs_no_earlier_run_its_results() {
-    let (dir, path) = case(&format!("{SHORT}[mesh]\ngrowth = 1.05\ncoarsest = 1e-3\n"));
+    let (dir, path) = case(&format!("{SHORT}[mesh]\ngrowth = 1.05\ncoarsest = 3e-4\n"));
     let out = dir.path().join("run");
     fs::create_dir(&out).unwrap();
     fs::write(out.join("summary.json"), "{}").unwrap();
-    let sets = ["--set", "mesh.zone.size=1e-3"];
+    let sets = ["--set", "mesh.zone.size=3e-4"];
     let run = ["run", &path, "--out", out.to_str().unwrap(), "--force"];
-    let words = ["--set: mesh.zone.size: elements of 0.001 m", "allowed", "raise mesh.zone.size"];
+    let words = ["--set: mesh.zone.size: elements of 0.0003 m", "allowed", "raise mesh.zone.size"];
     refused(&[&run[..], &sets].concat(), &words);
     assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "{}");
     assert!(!out.join("case.toml").exists());

@@ -10,7 +10,7 @@ use std::path::Path;
 use miette::Diagnostic;
 
 use crate::hertz::hertz;
-use crate::schema::{ContactLayers, Crown, DriveMode, Stiffness};
+use crate::schema::{ContactLayers, Crown, DriveMode, Grading, Meshing, Stiffness};
 use crate::{Case, CaseError};
 
 const SHORT: &str = "load.normal = 100e3\ndrive.speed = 38.89\ndrive.creepage = 2.4e-3\n\
@@ -49,6 +49,20 @@ fn four_keys_make_the_reference_case() {
     assert_eq!(case.output.fields_interval, Some(0.060 / 38.89 / 40.0));
     assert_eq!(case.bar.crown_radius, Crown::Radius(0.30));
     assert!(case.warnings().is_empty(), "{:?}", case.warnings());
+}
+
+#[test]
+fn meshes_grow_in_three_directions_but_for_slices_and_meshes_that_are_read() {
+    assert_eq!(set(&[]).unwrap().mesh.grading, Some(Grading::TwoToOne));
+    assert_eq!(set(&["mesh.grading=tensor"]).unwrap().mesh.grading, Some(Grading::Tensor));
+    let slice = set(&[
+        "mesh={plane_strain=true,zone={width=0.02}}",
+        "disk={width=0.02,crown_radius='flat'}",
+        "bar={width=0.02,crown_radius='flat'}",
+    ]);
+    assert_eq!(slice.unwrap().mesh.grading, Some(Grading::Tensor));
+    let read = Meshing { file: Some("disk-on-bar.vtu".into()), ..Meshing::default() };
+    assert_eq!((read.grading, read.grading()), (None, Grading::Tensor));
 }
 
 #[test]

@@ -202,7 +202,7 @@ fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
 
 /// Grading in three directions is of generated meshes, and of those that are more than a slice.
 fn check_grading(case: &Case, found: &mut Findings<'_>) {
-    if case.mesh.grading == Grading::Tensor {
+    if case.mesh.grading() == Grading::Tensor {
         return;
     }
     for (key, applies, why) in [
