@@ -21,6 +21,7 @@ mod contact_turn;
 mod dispersion;
 mod finite_body;
 mod free_block;
+mod grading_reflection;
 mod half_space;
 mod hertz;
 mod interface_patch;

@@ -8,7 +8,8 @@
 use crate::problem::Outcome;
 use crate::row::Row;
 use crate::{
-    Size, contact_turn, finite_body, free_block, interface_patch, patch, shear_column, sliding,
+    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, patch,
+    shear_column, sliding,
 };
 use contact::{Contact, PenaltyContact};
 use friction::{Implicit, Lagged};
@@ -147,5 +148,20 @@ fn creepage_by_the_nominal_radius_is_caught_by_the_disk_on_the_bar() {
         "creepage of free rolling",
         Ok(finite_body::disk_on_bar(&found, |rolled| rolled.free)),
         Ok(finite_body::disk_on_bar(&found, |_| 0.0)),
+    );
+}
+
+#[test]
+fn mass_missing_where_elements_grow_is_caught_by_the_wave_that_comes_back() {
+    let lighter = |mesh: &Mesh, mass: &mut [f64]| {
+        let below = mesh.nodes.iter().zip(mass).filter(|(x, _)| x[2] < -4.5e-3);
+        below.for_each(|(_, mass)| *mass *= 0.95);
+    };
+    catches(
+        "mass 5 % off below the fine zone",
+        "grading-reflection",
+        "P wave, 2:1, growth 1.35",
+        grading_reflection::run(Size::Quick),
+        grading_reflection::run_with(Size::Quick, lighter),
     );
 }

@@ -1,9 +1,10 @@
 //! The list of problems.
 
 use crate::{
-    Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block, hertz,
-    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture,
-    shear_column, shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
+    Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
+    grading_reflection, hertz, interface_patch, kalker, lamb, lysmer, patch, perturbation_growth,
+    rolling_dynamic, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
+    steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -107,6 +108,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "lysmer",
         about: "A wave that meets a quiet end: what comes back",
         run: lysmer::run,
+    },
+    Problem {
+        name: "grading-reflection",
+        about: "Plane waves that run down into elements that grow: what comes back",
+        run: grading_reflection::run,
     },
     Problem {
         name: "lamb",
