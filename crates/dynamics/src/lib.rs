@@ -13,6 +13,7 @@ mod guard;
 mod hub;
 mod ledger;
 mod load;
+mod mesh_move;
 mod nodal_state;
 mod nodes;
 mod paired;
@@ -30,13 +31,14 @@ pub use guard::{
 pub use hub::{DriveReaction, Hub, HubState, Spin, Vertical, smoothstep};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
+pub use mesh_move::Moved;
 pub use quiet::QuietEnd;
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
 pub use rolling::{RollingField, rolling_field};
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};
 pub use system::System;
-pub use window::{MeshMove, Moved, Travel, Window};
+pub use window::{MeshMove, Travel, Window};
 
 #[cfg(test)]
 mod tests;

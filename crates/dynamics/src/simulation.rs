@@ -146,6 +146,11 @@ impl Simulation {
         &self.timers
     }
 
+    /// How far the meshes have moved.
+    pub fn travel(&self) -> Travel {
+        self.travel
+    }
+
     /// Bytes held for the time loop, contact apart.
     pub fn bytes(&self) -> usize {
         self.system.solid.bytes() + self.nodes.bytes()
