@@ -165,8 +165,8 @@ section! {
         /// fluctuations that are not symmetric are suppressed. Default `"whole"`.
         symmetry: Symmetry => word(Symmetry::WORDS);
         /// Length (m) of a fine zone that follows the contact, in place of `zone.length` and `zone.start`: the mesh then moves
-        /// along the bar and around the disk, the bar needs no room for the roll, and the cost of a run grows with the
-        /// rolled distance alone. At least three patches are sensible. Default: the fine zone stays, and is as long as
+        /// along the bar and around the disk, the bar needs no room for the roll, time grows with the rolled distance and memory does
+        /// not. At least three patches are sensible. Default: the fine zone stays, and is as long as
         /// the roll.
         window: Option<f64> => LENGTH;
         /// The fine zone.

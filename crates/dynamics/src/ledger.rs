@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Energies at a full step (J), with signs as in the balance
-/// kinetic + internal + hourglass + contact_stored + friction + damping = external + initial.
+/// kinetic + internal + hourglass + contact_stored + friction + damping = external + moved + initial.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energies {
     /// Kinetic energy in the conserved form.

@@ -8,7 +8,7 @@
 //! reference configuration, such as masses and gradients, is that of the mesh and stays.
 //!
 //! The disk turns through its mesh: components along the radius and around the axis are interpolated of what the motion is
-//! beyond that of the hub. Of that motion momentum and its moment are kept by a rigid motion of the nodes that interpolate; the
+//! beyond that of the hub. Of that motion of the disk momentum and its moment are kept by a rigid motion of the nodes that interpolate; the
 //! hub's own motion is balanced in either mesh (module `hub`).
 //! Material that enters the bar has the motion of its front end. The ledger books what the move brings or takes.
 
@@ -92,6 +92,7 @@ impl Simulation {
             field[nodes.clone()].copy_from_slice(&values);
         }
         for &n in &self.system.held {
+            self.nodes.displacement[n as usize] = Padded::ZERO;
             self.nodes.velocity[n as usize] = Padded::ZERO;
         }
         self.nodes.displacement[window.disk.nodes.clone()].iter_mut().for_each(|u| u[0] -= by);

@@ -170,6 +170,7 @@ impl<'a> Neighbours<'a> {
         let mut nodes: Vec<u32> = around.flat_map(|&e| self.hexes[e as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
+        nodes.shrink_to_fit();
         nodes
     }
 }

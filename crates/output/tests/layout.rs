@@ -17,7 +17,8 @@ const NAMES: [(&str, &str); 5] = [
          external_work imbalance normal_force tangential_force lateral_force traction_coefficient creepage \
          omega torque drive_force hub_x hub_z patch_half_length patch_half_width patch_x peak_pressure \
          peak_pressure_raw peak_shear patch_area stick_fraction slip_fraction stick_border closed_pairs \
-         slipping_pairs max_penetration cone_excess contact_damping sweeps manifold resultant_mismatch",
+         slipping_pairs max_penetration cone_excess contact_damping sweeps manifold resultant_mismatch \
+         window_x window_energy",
     ),
     (
         "probes.h5",
@@ -37,7 +38,8 @@ fn names_and_their_order_are_those_that_scripts_rely_on() {
         let found: Vec<&str> = fields.iter().map(|field| &*field.name).collect();
         assert_eq!((*file, found.join(" ")), (wanted, names.to_owned()));
     }
-    let root = "creepage_version case_hash created slip_pairing enforced_on contact_rows symmetry diagnosis";
+    let root = "creepage_version case_hash created slip_pairing enforced_on contact_rows symmetry \
+                window diagnosis";
     assert_eq!(attribute::ALL.map(|(name, _)| name).join(" "), root);
 }
 

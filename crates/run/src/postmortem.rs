@@ -1,6 +1,7 @@
 //! The state in which the guards stopped a run, for a look at the place.
 
 use crate::error::RunError;
+use crate::record::moved;
 use dynamics::{Diagnosis, Simulation};
 use mesh::Padded;
 use output::layout::{POSTMORTEM, PostmortemFields, attribute, file};
@@ -52,8 +53,10 @@ pub(crate) fn write(
     let fields = POSTMORTEM.each().map(FieldSpec::clone);
     let path = folder.join(file::POSTMORTEM);
     let mut grid = TransientGrid::create(path, &grid, &fields, &provenance)?;
+    let places = simulation.displacement().iter().map(|u| moved(u.xyz(), simulation.travel()));
+    let displacement: Vec<_> = places.collect();
     let values = PostmortemFields {
-        displacement: Values::Vector(&vectors(simulation.displacement())),
+        displacement: Values::Vector(&displacement),
         velocity: Values::Vector(&vectors(simulation.velocity())),
         force: Values::Vector(&vectors(&force)),
         suspect_node: Values::Integer(&suspect_node),

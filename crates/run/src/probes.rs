@@ -10,6 +10,7 @@ use mesh::{Face, Padded};
 use output::layout::{BODY_NAMES, HISTORY, PROBE, ProbeRow, file, of_probe};
 use output::{FieldSpec, History};
 use scenario::{BAR, DISK, Model};
+use std::f64::consts::PI;
 
 /// Surface nodes recorded at every step.
 pub(crate) struct Probes {
@@ -51,6 +52,12 @@ impl Places {
         [along, y]
     }
 
+    /// How far ahead a place is that lies `distance` away (m): on the disk at most half a turn.
+    fn ahead(&self, side: usize, distance: f64) -> f64 {
+        let turn = 2.0 * PI * self.radius;
+        if side == DISK { distance - turn * (distance / turn).round() } else { distance }
+    }
+
     /// The node of a zone nearest to a point now, and the sign of y. None where a zone that follows the contact does not
     /// hold the point.
     fn nearest(
@@ -60,16 +67,18 @@ impl Places {
         reference: &[Padded],
         travel: Travel,
     ) -> Option<(u32, f64)> {
+        // of two nodes at the same distance always the same one
+        let s = if self.follows { s - 1e-6 * self.size } else { s };
         let passed = if side == DISK { self.radius * travel.angle } else { travel.x };
         let sign = if self.symmetric && y < 0.0 { -1.0 } else { 1.0 };
         let distance = |n: u32| {
             let place = self.of(side, reference[n as usize].xyz());
-            libm::hypot(place[0] + passed - s, place[1] - sign * y)
+            libm::hypot(self.ahead(side, place[0] + passed - s), place[1] - sign * y)
         };
         let nodes = self.zones[side].iter().flat_map(|f| f.nodes);
         let node = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
         let along = self.of(side, reference[node as usize].xyz())[0];
-        let held = !self.follows || (along + passed - s).abs() <= 0.51 * self.size;
+        let held = !self.follows || self.ahead(side, along + passed - s).abs() <= 0.51 * self.size;
         let on_plane = reference[node as usize][1] == 0.0;
         held.then_some((node, if on_plane { 1.0 } else { sign }))
     }

@@ -579,7 +579,7 @@ fn labels(counts: &[usize]) -> Vec<u8> {
 }
 
 /// A displacement (m) in a mesh that has moved, from the place of the node at the start.
-fn moved([x, y, z]: [f64; 3], travel: Travel) -> [f64; 3] {
+pub(crate) fn moved([x, y, z]: [f64; 3], travel: Travel) -> [f64; 3] {
     [x + travel.x, y, z]
 }
 

@@ -209,6 +209,11 @@ fn conclude(
     if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
         summary.extra.insert(output::SAMPLED_LAW.into(), serde_json::json!(points));
     }
+    if case.mesh.window.is_some() {
+        let (travel, energy) = (simulation.travel().x, simulation.ledger().moved);
+        let moves = serde_json::json!({ "travel": travel, "energy": energy });
+        summary.extra.insert("mesh_window".into(), moves);
+    }
     held.prove()?;
     let document = write_summary(&options.out, &summary)?;
     if ending.status == Status::Completed {

@@ -171,7 +171,7 @@ impl Evaluation<'_> {
         if self.history.follows {
             notes.push(
                 "the fine zone follows the contact, so that a node is no point of material: switching_rate, roughness_ratio \
-                 and laws that remember are not judged"
+                 and laws that remember are not judged; moves of the mesh add to the fluctuation of slip"
                     .into(),
             );
         }

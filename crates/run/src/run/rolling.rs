@@ -137,7 +137,7 @@ impl<'a> Rolling<'a> {
     /// The end of a run whose window does not hold the patch.
     fn left_behind(&self, lost: usize) -> Stopped {
         let diagnosis = format!(
-            "stopped at step {}, t = {:.6} ms: {lost} nodes in contact lie outside of the fine zone that follows the contact; \
+            "stopped at step {}, t = {:.6} ms: {lost} contact points lie outside of the fine zone that follows the contact; \
              remedy: lengthen mesh.window, or widen mesh.zone.width",
             self.simulation.steps(),
             1e3 * self.simulation.time()
