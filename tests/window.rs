@@ -34,10 +34,10 @@ fn forces_patch_and_material_points_are_those_of_a_zone_as_long_as_the_roll() {
     assert!(fixed.data["history/window_x"].iter().all(|x| *x == 0.0));
     assert!(window.data["history/hub_x"].windows(2).all(|x| x[1] > x[0]));
     for (name, limit) in [
-        ("/contact/normal_force", 2e-3),
-        ("/contact/traction_coefficient", 3e-3),
-        ("/contact/peak_pressure", 3e-3),
-        ("/contact/patch_half_length", 3e-3),
+        ("/contact/normal_force", 5e-4),
+        ("/contact/traction_coefficient", 2.5e-3),
+        ("/contact/peak_pressure", 2e-4),
+        ("/contact/patch_half_length", 3e-4),
     ] {
         let apart = apart(&window, &fixed, name);
         assert!(apart < limit, "{name}: {apart:e}");
@@ -50,7 +50,7 @@ fn forces_patch_and_material_points_are_those_of_a_zone_as_long_as_the_roll() {
     assert!(window[0].is_nan() && !fixed[0].is_nan());
     let largest = |p: &[f64]| p.iter().fold(0.0, |most: f64, p| most.max(*p));
     let apart = largest(window) / largest(fixed) - 1.0;
-    assert!(apart.abs() < 1e-2, "{apart:e}");
+    assert!(apart.abs() < 4e-3, "{apart:e}");
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn springs_and_mortar_rows_are_carried_along() {
     for kind in ["contact.enforcement=penalty", "contact.rows=mortar"] {
         let [fixed, window] = [&[kind][..], &[kind, WINDOW]].map(|sets| small(sets, 2));
         let apart = apart(&window, &fixed, "/contact/traction_coefficient");
-        assert!(apart < 5e-3, "{kind}: {apart:e}");
+        assert!(apart < 2.5e-3, "{kind}: {apart:e}");
     }
 }
 
@@ -79,5 +79,5 @@ fn places_of_friction_are_those_of_the_start() {
     let rolled = |sets: &[&str]| run(&load(&case, &[&SMALL, sets].concat()), 2);
     let [fixed, window] = [&[][..], &[WINDOW]].map(rolled);
     let apart = apart(&window, &fixed, "/contact/traction_coefficient");
-    assert!(apart < 5e-3, "{apart:e}");
+    assert!(apart < 4e-3, "{apart:e}");
 }

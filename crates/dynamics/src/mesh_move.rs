@@ -7,9 +7,11 @@
 //! Coordinates move with the mesh: the origin goes ahead, and the hub falls back by the same length. What is stored of the
 //! reference configuration, such as masses and gradients, is that of the mesh and stays.
 //!
-//! The disk turns through its mesh: components along the radius and around the axis are interpolated of what the motion is
-//! beyond that of the hub. Of that motion of the disk momentum and its moment are kept by a rigid motion of the nodes that interpolate; the
-//! hub's own motion is balanced in either mesh (module `hub`).
+//! The disk turns through its mesh. Its motion is the rigid motion of the hub and a rest. The rest is interpolated, by its
+//! components along the radius, across, and around the axis. The nodes that interpolate then receive a small rigid motion, so
+//! that the momentum of the rest and its moment are what they were. The rigid motion itself needs no such correction: the
+//! hub balances the disk in either place of the mesh (module `hub`).
+//!
 //! Material that enters the bar has the motion of its front end. The ledger books what the move brings or takes.
 
 use crate::hub::HubState;
@@ -41,11 +43,10 @@ impl Simulation {
     /// # Errors
     /// None but by a fault of the program: the state is set aside and taken up again.
     pub fn move_window(&mut self) -> Result<Option<Moved>, RestoreError> {
-        let (Some(window), Some(hub)) = (self.window.take(), &self.system.hub) else {
-            return Ok(None);
-        };
-        let turns = hub.state.angle > 0.5 * window.disk.by;
-        let advances = hub.state.x > 0.5 * window.bar.by;
+        let Some(hub) = self.system.hub.as_ref().map(|hub| hub.state) else { return Ok(None) };
+        let Some(window) = self.window.take() else { return Ok(None) };
+        let turns = hub.angle > 0.5 * window.disk.by;
+        let advances = hub.x > 0.5 * window.bar.by;
         let mut moved = None;
         if turns || advances {
             let before = self.balance_at_present()?;
