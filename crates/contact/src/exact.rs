@@ -97,7 +97,7 @@ pub struct ExactContact {
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step; `dt/m` is zero in a direction
     /// in which a plane of symmetry holds a node.
     velocity: [Vec<Vec3>; 2],
-    pace: [Vec<Vec3>; 2],
+    dt_by_mass: [Vec<Vec3>; 2],
     stamp: [Vec<u64>; 2],
     now: u64,
 }
@@ -136,7 +136,7 @@ impl ExactContact {
             slid: Vec::new(),
             integrated: 0,
             velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
-            pace: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
+            dt_by_mass: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
             now: 0,
             loaded: Vec::new(),
@@ -265,9 +265,9 @@ impl ExactContact {
         let node = self.sides[side].node(local);
         self.stamp[side][i] = self.now;
         self.velocity[side][i] = (free_motion.velocity)(node, force[node as usize].xyz());
-        let pace = motion.dt * motion.inverse_mass[node as usize];
+        let dt_by_mass = motion.dt * motion.inverse_mass[node as usize];
         let held = self.sides[side].is_on_plane(motion.position[node as usize].xyz());
-        self.pace[side][i] = [pace, if held { 0.0 } else { pace }, pace];
+        self.dt_by_mass[side][i] = [dt_by_mass, if held { 0.0 } else { dt_by_mass }, dt_by_mass];
     }
 
     /// Rates at the velocities that the forces found so far give.
@@ -299,12 +299,15 @@ impl ExactContact {
     fn push(&mut self, constraint: &Constraint, normal: f64, friction: Vec3) {
         let (i, own) = (constraint.slave as usize, self.slave);
         let on_slave = axpy(friction, normal, constraint.normal);
-        self.velocity[own][i] = pushed(self.velocity[own][i], self.pace[own][i], on_slave);
-        let (velocity, pace) = (&mut self.velocity[1 - own], &self.pace[1 - own]);
+        self.velocity[own][i] = pushed(self.velocity[own][i], self.dt_by_mass[own][i], on_slave);
+        let (velocity, dt_by_mass) = (&mut self.velocity[1 - own], &self.dt_by_mass[1 - own]);
         for leg in &self.legs[constraint.legs()] {
             let node = leg.node as usize;
-            velocity[node] =
-                pushed(velocity[node], pace[node], constraint.reaction(leg, normal, friction));
+            velocity[node] = pushed(
+                velocity[node],
+                dt_by_mass[node],
+                constraint.reaction(leg, normal, friction),
+            );
         }
     }
 
@@ -386,12 +389,12 @@ impl ExactContact {
     ) -> bool {
         let own = self.slave;
         self.release(own, constraint.slave, free_motion, force, motion);
-        constraint.enforcement.delassus = self.pace[own][constraint.slave as usize][0];
+        constraint.enforcement.delassus = self.dt_by_mass[own][constraint.slave as usize][0];
         for k in constraint.legs() {
             let Leg { node, weight, .. } = self.legs[k];
             self.release(1 - own, node, free_motion, force, motion);
             constraint.enforcement.delassus +=
-                weight * weight * self.pace[1 - own][node as usize][0];
+                weight * weight * self.dt_by_mass[1 - own][node as usize][0];
         }
         // both ends held: nothing to enforce
         if constraint.enforcement.delassus == 0.0 {
@@ -689,8 +692,8 @@ impl Contact for ExactContact {
 }
 
 /// A velocity after a force, with `dt/m` in each direction.
-fn pushed(velocity: Vec3, pace: Vec3, force: Vec3) -> Vec3 {
-    [0, 1, 2].map(|i| velocity[i] + pace[i] * force[i])
+fn pushed(velocity: Vec3, dt_by_mass: Vec3, force: Vec3) -> Vec3 {
+    [0, 1, 2].map(|i| velocity[i] + dt_by_mass[i] * force[i])
 }
 
 fn add_to(force: &mut Padded, by: Vec3) {
