@@ -248,7 +248,11 @@ impl Channel {
                 continue;
             };
             let step = record.frame.time - before.frame.time;
-            if !scales.dt.is_some_and(|dt| (step / dt - 1.0).abs() < 0.01) {
+            let follows_it = scales.dt.is_some_and(|dt| (step / dt - 1.0).abs() < 0.01);
+            // a node is no point of material across a move
+            let moved =
+                history.follows && mesh_moved(&history.surface.area, &before.frame, &record.frame);
+            if !follows_it || moved {
                 continue;
             }
             let (traction, slip) = match own {
@@ -294,6 +298,13 @@ impl Channel {
         }
         accumulator.end_record(traction.time, weight);
     }
+}
+
+/// Whether the mesh moved along the material between two records one step apart: a node then jumps by columns of elements.
+fn mesh_moved(areas: &[f64], before: &Frame, after: &Frame) -> bool {
+    let (Some([u, _]), Some([v, _])) = (&before.motion, &after.motion) else { return false };
+    let smallest = areas.iter().fold(f64::INFINITY, |smallest: f64, area| smallest.min(*area));
+    u.iter().zip(v).any(|(u, v)| (v[0] - u[0]).abs() > smallest.sqrt())
 }
 
 /// The law's coefficient: of a law that remembers no more than one step, at the slip velocity of the same instant;
@@ -410,4 +421,22 @@ fn take_side(
 /// meets a cone of zero.
 fn excess(shear: f64, cone: f64) -> f64 {
     if shear == 0.0 { 0.0 } else { shear / cone - 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_by_a_column_of_elements_is_a_move_of_the_mesh_and_a_step_of_rolling_is_none() {
+        let at = |x: f64| Frame {
+            motion: Some([vec![[x, 0.0, 0.0]; 4], vec![[0.0; 3]; 4]]),
+            ..Frame::default()
+        };
+        // nodes bear from a quarter of an element of 1 mm to all of it
+        let areas = [0.25e-6, 0.5e-6, 0.5e-6, 1e-6];
+        assert!(!mesh_moved(&areas, &at(0.0), &at(8e-6)));
+        assert!(mesh_moved(&areas, &at(0.0), &at(1e-3)));
+        assert!(!mesh_moved(&areas, &at(0.0), &Frame::default()));
+    }
 }

@@ -24,6 +24,10 @@ pub(super) fn growth(bases: [&Basis; 2], [a, b]: [&ContactHistory; 2]) -> Result
     if !alike {
         return Ok(Value::Null);
     }
+    if a.follows || b.follows {
+        let reason = "the fine zone follows the contact: meshes that do not move at the same step are no twins";
+        return Ok(json!({ "rate": null, "reason": reason }));
+    }
     let mut series = Vec::new();
     let mut largest = 0.0_f64;
     let mut index = 0;
