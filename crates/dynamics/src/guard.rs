@@ -125,6 +125,11 @@ pub enum Cause {
         /// The longest time allowed (s).
         limit: f64,
     },
+    /// The moves of a mesh that follows the patch brought or took too much energy.
+    MeshMoves {
+        /// What they brought (J).
+        energy: f64,
+    },
     /// The disk has reached the end of the bar.
     EndOfBar {
         /// Where the hub is in x (m).
@@ -248,6 +253,11 @@ impl fmt::Display for Diagnosis {
                 since * 1e3,
                 limit * 1e3
             )?,
+            Cause::MeshMoves { energy } => write!(
+                f,
+                "the mesh that follows the patch does not carry the motion along: its moves brought {energy:.3e} J, more \
+                 than a quarter of the energy exchanged"
+            )?,
             Cause::EndOfBar { hub, end } => write!(
                 f,
                 "the disk has reached the end of the bar: its hub is at x = {:.3} mm, the bar ends \
@@ -283,12 +293,17 @@ impl Diagnosis {
     }
 }
 
-/// Whether `now` can no longer be a solution: not finite, or energy from nowhere beyond a quarter
-/// of all that was exchanged (with a floor of 1e-5 of the initial energy, far above round-off).
+/// Whether `now` can no longer be a solution: not finite, or energy from nowhere beyond what is allowed.
 pub(crate) fn violated(ledger: &Ledger, now: &Energies) -> bool {
     let total = now.total() - now.external_work;
+    !total.is_finite() || ledger.imbalance(now).abs() > allowed(ledger)
+}
+
+/// Energy that may be in error (J): a quarter of all that was exchanged, with a floor of 1e-5 of the initial energy, far
+/// above round-off.
+fn allowed(ledger: &Ledger) -> f64 {
     let floor = ledger.initial().map_or(0.0, |i| 1e-5 * i.total().abs());
-    !total.is_finite() || ledger.imbalance(now).abs() > 0.25 * ledger.largest_exchange() + floor
+    0.25 * ledger.largest_exchange() + floor
 }
 
 /// Whether the shape of the elements is looked at after a step.
@@ -441,6 +456,9 @@ impl Simulation {
                 let end = if x < first { first } else { last };
                 return Some(Cause::EndOfBar { hub: x, end });
             }
+        }
+        if self.ledger.moved.abs() > allowed(&self.ledger) {
+            return Some(Cause::MeshMoves { energy: self.ledger.moved });
         }
         let looks = looks_at_shape(report.step);
         if let Some(usual) = self.usual_hourglass(now, looks)

@@ -317,6 +317,21 @@ fn a_counterweight_leaves_nothing_that_turns_unevenly() {
 }
 
 #[test]
+fn moves_of_the_mesh_that_bring_as_much_energy_as_is_exchanged_stop_the_run() {
+    let kicked = |by: f64| {
+        let mut simulation = carried();
+        let read = simulation.step(true).energies.unwrap();
+        simulation.ledger.expect(read.total() - read.external_work);
+        simulation.nodes.velocity.iter_mut().for_each(|v| v[1] += by);
+        let report = simulation.step(true);
+        simulation.check(&report).map(|found| found.cause)
+    };
+    let found = kicked(1.0);
+    assert!(matches!(found, Some(Cause::MeshMoves { energy }) if energy > 0.0), "{found:?}");
+    assert_eq!(kicked(0.0), None);
+}
+
+#[test]
 fn the_end_of_the_bar_stops_a_hub_that_passes_it() {
     let mut simulation = carried();
     simulation.set_limits(GuardLimits { track: [0.0, 2.1e-3], ..GuardLimits::default() });

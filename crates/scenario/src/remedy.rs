@@ -321,6 +321,9 @@ impl Remedy for Cause {
                 "check load.normal, disk.lift and load.hub_mass, or raise guards.parted where the disk \
                  is meant to jump"
             ),
+            Self::MeshMoves { .. } => remedy!(
+                "lengthen mesh.window, or lower mesh.zone.size; without mesh.window the zone stays"
+            ),
             Self::EndOfBar { .. } => {
                 remedy!("roll less (time.roll), or lengthen the bar (bar.length)")
             }
