@@ -38,7 +38,7 @@ pub use rolling::{RollingField, rolling_field};
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};
 pub use system::System;
-pub use window::{MeshMove, Travel, Window};
+pub use window::{MeshMove, Missed, Travel, Window};
 
 #[cfg(test)]
 mod tests;

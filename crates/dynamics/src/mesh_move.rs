@@ -12,6 +12,8 @@
 //! that the momentum of the rest and its moment are what they were. The rigid motion itself needs no such correction: the
 //! hub balances the disk in either place of the mesh (module `hub`).
 //!
+//! Displacements receive besides what their sources miss of those at rest ([`Missed`](crate::Missed)).
+//!
 //! Material that enters the bar has the motion of its front end. The ledger books what the move brings or takes.
 
 use crate::hub::HubState;
@@ -49,13 +51,13 @@ impl Simulation {
         let advances = hub.x > 0.5 * window.bar.by;
         let mut moved = None;
         if turns || advances {
-            let before = self.balance_at_present()?;
+            let (before, [disk, bar]) = self.present()?;
             let mut lost = 0;
             if turns {
-                lost += self.turn(&window);
+                lost += self.turn(&window, disk);
             }
             if advances {
-                lost += self.advance(&window);
+                lost += self.advance(&window, bar);
             }
             Fixed::clear(&self.system.fixed, &mut self.nodes.displacement);
             Fixed::clear(&self.system.fixed, &mut self.nodes.velocity);
@@ -66,12 +68,16 @@ impl Simulation {
         Ok(moved)
     }
 
-    /// What the energies at the present state have beyond the external work (J), as its step would read them.
-    fn balance_at_present(&mut self) -> Result<f64, RestoreError> {
+    /// What the energies at the present state have beyond the external work (J), as its step would read them, and the
+    /// forces of contact on disk and bar then (N).
+    fn present(&mut self) -> Result<(f64, [[f64; 3]; 2]), RestoreError> {
         let state = self.snapshot();
-        let read = self.step(true).energies.unwrap_or_default();
+        let report = self.step(true);
         self.restore(&state)?;
-        Ok(read.total() - read.external_work)
+        let read = report.energies.unwrap_or_default();
+        let parts = self.system.parts;
+        let force = report.contact.force.map(|force| force.map(|f| f / parts));
+        Ok((read.total() - read.external_work, force))
     }
 
     /// Renumbers the contact after a move of one body.
@@ -85,13 +91,17 @@ impl Simulation {
     }
 
     /// Moves the mesh of the bar ahead.
-    fn advance(&mut self, window: &Window) -> usize {
-        let MeshMove { nodes, sources, by } = &window.bar;
-        for field in [&mut self.nodes.displacement, &mut self.nodes.velocity] {
-            let values = sources.iter().map(|source| carried(source, |n| field[n as usize]));
-            let values: Vec<Padded> = values.collect();
-            field[nodes.clone()].copy_from_slice(&values);
-        }
+    fn advance(&mut self, window: &Window, force: [f64; 3]) -> usize {
+        let MeshMove { nodes, sources, by, missed } = &window.bar;
+        let missed = missed.under([force[0], force[2], 0.0]);
+        let (u, v) = (&mut self.nodes.displacement, &mut self.nodes.velocity);
+        let placed = sources.iter().zip(missed);
+        let placed = placed.map(|(source, missed)| sum(source.of(|n| u[n as usize]), missed));
+        let placed: Vec<Padded> = placed.collect();
+        let moving: Vec<Padded> =
+            sources.iter().map(|source| source.of(|n| v[n as usize])).collect();
+        u[nodes.clone()].copy_from_slice(&placed);
+        v[nodes.clone()].copy_from_slice(&moving);
         for &n in &self.system.held {
             self.nodes.displacement[n as usize] = Padded::ZERO;
             self.nodes.velocity[n as usize] = Padded::ZERO;
@@ -105,9 +115,11 @@ impl Simulation {
     }
 
     /// Turns the mesh of the disk back against the disk.
-    fn turn(&mut self, window: &Window) -> usize {
-        let MeshMove { nodes, sources, by } = &window.disk;
+    fn turn(&mut self, window: &Window, force: [f64; 3]) -> usize {
+        let MeshMove { nodes, sources, by, missed } = &window.disk;
         let Some(hub) = &mut self.system.hub else { return 0 };
+        // at the lowest point of the disk, outward is down
+        let missed = missed.under([force[0], -force[2], hub.state.omega * hub.state.omega]);
         let reference = self.system.solid.reference();
         let (from, to) = (hub.state, HubState { angle: hub.state.angle - by, ..hub.state });
         let [from, to] = [from, to].map(|state| Carrier::new(hub.centre, state));
@@ -125,26 +137,18 @@ impl Simulation {
         let before = momentum(u, v);
         let mut interpolated = Vec::new();
         let mut carried_over = Vec::with_capacity(sources.len());
-        for (n, source) in nodes.clone().zip(sources) {
-            carried_over.push(match source {
-                Source::Node(m) => {
-                    let m = *m as usize;
-                    let place = |i: usize| reference[m][i] + u[m][i] - reference[n][i];
-                    (Padded::new([0, 1, 2].map(place)), v[m])
-                }
-                Source::Between { .. } => {
-                    if free(n) {
-                        interpolated.push(n);
-                    }
-                    let elastic = |m: u32| from.elastic(reference[m as usize], u[m as usize]);
-                    let place = to.placed(reference[n], carried(source, elastic));
-                    let moving = |m: u32| {
-                        let m = m as usize;
-                        from.relative(reference[m], u[m], v[m])
-                    };
-                    (place, to.moving(reference[n], place, carried(source, moving)))
-                }
-            });
+        for (n, (source, missed)) in nodes.clone().zip(sources.iter().zip(missed)) {
+            if matches!(source, Source::Between { .. }) && free(n) {
+                interpolated.push(n);
+            }
+            let elastic = |m: u32| from.elastic(reference[m as usize], u[m as usize]);
+            let place = to.placed(reference[n], sum(source.of(elastic), missed));
+            let moving = |m: u32| {
+                let m = m as usize;
+                from.relative(reference[m], u[m], v[m])
+            };
+            let velocity = to.moving(reference[n], place, source.of(moving));
+            carried_over.push((place, velocity));
         }
         for (n, (place, velocity)) in nodes.clone().zip(carried_over) {
             (u[n], v[n]) = (place, velocity);
@@ -164,19 +168,8 @@ impl Simulation {
     }
 }
 
-/// A vector taken over from its source.
-fn carried(source: &Source, at: impl Fn(u32) -> Padded) -> Padded {
-    match source {
-        Source::Node(n) => at(*n),
-        Source::Between { nodes, weights } => {
-            let mut sum = Padded::ZERO;
-            for (&n, w) in nodes.iter().zip(weights) {
-                let value = at(n);
-                (0..3).for_each(|i| sum[i] += w * value[i]);
-            }
-            sum
-        }
-    }
+fn sum(a: Padded, b: Padded) -> Padded {
+    Padded::new([0, 1, 2].map(|i| a[i] + b[i]))
 }
 
 /// The hub's rigid motion, which carries the disk.
@@ -205,17 +198,17 @@ impl Carrier {
         [arm(0, self.state.x), arm(2, self.state.z)]
     }
 
-    /// Components of a vector along the radius, across and around the axis, at the place of a point that moves with the hub.
+    /// Components of a vector around the axis, across and along the radius, at the place of a point that moves with the hub.
     fn polar(&self, reference: Padded, [x, y, z]: [f64; 3]) -> Padded {
         let [sin, cos] = direction(self.rigid_arm(reference));
-        Padded::new([x * sin + z * cos, y, x * cos - z * sin])
+        Padded::new([z * sin - x * cos, y, x * sin + z * cos])
     }
 
     /// The vector of such components.
     fn cartesian(&self, reference: Padded, polar: Padded) -> [f64; 3] {
         let [sin, cos] = direction(self.rigid_arm(reference));
-        let [radial, y, around] = polar.xyz();
-        [radial * sin + around * cos, y, radial * cos - around * sin]
+        let [around, y, radial] = polar.xyz();
+        [radial * sin - around * cos, y, radial * cos + around * sin]
     }
 
     /// Polar components of the displacement beyond the hub's (m).

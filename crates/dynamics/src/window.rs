@@ -1,6 +1,6 @@
 //! A mesh that follows the patch: how it moves, and how far it has moved (module `mesh_move` moves it).
 
-use mesh::Source;
+use mesh::{Padded, Source};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -13,6 +13,36 @@ pub struct MeshMove {
     pub sources: Vec<Source>,
     /// How far the mesh moves: along the bar (m), or about the axis of the disk (rad).
     pub by: f64,
+    /// What the sources miss of the displacements.
+    pub missed: Missed,
+}
+
+/// What the sources of a mesh that moves miss of the displacements that its body has at rest under the forces that roll over
+/// it.
+///
+/// At rest the displacements are those of the mesh: with the force at the same place of the body, they are a little
+/// different for the mesh before and after its move, and what is interpolated differs more. Without this part,
+/// the difference would run through the body as a wave after every move. All by their components along the coordinates of
+/// the body (module `mesh::transfer`), one entry for each of its nodes.
+#[derive(Clone, Debug)]
+pub struct Missed {
+    /// Under contact's force along the surface (m/N).
+    pub along: Vec<Padded>,
+    /// Under contact's force outward from the surface (m/N).
+    pub outward: Vec<Padded>,
+    /// Under the centrifugal force of the body's turning, over the square of its angular velocity (m s^2).
+    pub centrifugal: Vec<Padded>,
+}
+
+impl Missed {
+    /// The displacements (m) that are missed of each node under the `loads`: both forces of contact (N), and the square of
+    /// the angular velocity (1/s^2).
+    pub(crate) fn under(&self, loads: [f64; 3]) -> impl Iterator<Item = Padded> {
+        let Self { along, outward, centrifugal } = self;
+        along.iter().zip(outward).zip(centrifugal).map(move |((a, o), c)| {
+            Padded::new([0, 1, 2].map(|i| loads[0] * a[i] + loads[1] * o[i] + loads[2] * c[i]))
+        })
+    }
 }
 
 impl MeshMove {

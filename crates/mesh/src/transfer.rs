@@ -5,7 +5,7 @@
 //! their place and of its neighbours (moving least squares, Lancaster and Salkauskas 1981). Trilinear interpolation would
 //! flatten a field of positive curvature at every move, as if a force acted.
 
-use crate::{Body, HEX_CORNERS, Mesh};
+use crate::{Body, HEX_CORNERS, Mesh, Padded};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -37,12 +37,23 @@ pub enum Chart {
 
 impl Chart {
     /// The coordinates of a point (m).
-    fn of(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub fn of(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Straight => [x, y, z],
             Self::Ring { radius } => {
                 let down = radius - z;
                 [radius * libm::atan2(x, down), y, libm::hypot(x, down)]
+            }
+        }
+    }
+
+    /// The unit vectors along the coordinates at a point, in x, y, z.
+    pub fn directions(self, [x, _, z]: [f64; 3]) -> [[f64; 3]; 3] {
+        match self {
+            Self::Straight => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Self::Ring { radius } => {
+                let (sin, cos) = libm::sincos(libm::atan2(x, radius - z));
+                [[cos, 0.0, sin], [0.0, 1.0, 0.0], [sin, 0.0, -cos]]
             }
         }
     }
@@ -68,6 +79,23 @@ pub enum Source {
         /// Their weights, whose sum is one.
         weights: Vec<f64>,
     },
+}
+
+impl Source {
+    /// The value that the source gives of a field over the nodes.
+    pub fn of(&self, field: impl Fn(u32) -> Padded) -> Padded {
+        match self {
+            Self::Node(n) => field(*n),
+            Self::Between { nodes, weights } => {
+                let mut sum = Padded::ZERO;
+                for (&n, w) in nodes.iter().zip(weights) {
+                    let value = field(n);
+                    (0..3).for_each(|i| sum[i] += w * value[i]);
+                }
+                sum
+            }
+        }
+    }
 }
 
 /// Where each node of `body` finds the material that lies `ahead` of it (m) along the first coordinate of `chart`. Places

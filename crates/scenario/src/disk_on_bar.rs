@@ -8,6 +8,7 @@ mod mesh_file;
 mod preload;
 mod start;
 mod store;
+mod window;
 
 pub use bodies::{elements, model};
 pub use start::{restart, stable_limit, start};

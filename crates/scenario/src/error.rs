@@ -55,6 +55,17 @@ pub enum ScenarioError {
          or mesh.symmetry = \"whole\""
     ))]
     Symmetry(#[from] mesh::NotSymmetric),
+    /// A fine zone that shall follow the contact, but does not repeat along a body.
+    #[error(
+        "mesh.window: the columns of elements in the fine zone of the {body} are not alike, so that it cannot move along"
+    )]
+    #[diagnostic(help(
+        "let the bar end two elements or more beyond the zone (bar.start, bar.length), or with it"
+    ))]
+    Pattern {
+        /// Name of the body.
+        body: String,
+    },
     /// The time step asked for is not stable.
     #[error(
         "time.step = {step:.4e} s is above the stability limit of {limit:.4e} s, which the closed \
@@ -89,6 +100,7 @@ impl ScenarioError {
             Self::Memory { .. } => Some(key!("mesh.zone.size")),
             Self::Slice(_) => Some(key!("mesh.plane_strain")),
             Self::Symmetry(_) => Some(key!("mesh.symmetry")),
+            Self::Pattern { .. } => Some(key!("mesh.window")),
             Self::Step { .. } => Some(key!("time.step")),
             _ => None,
         }

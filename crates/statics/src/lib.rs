@@ -10,6 +10,7 @@ mod coarse;
 mod components;
 mod error;
 mod exact;
+mod linear;
 mod link;
 mod newton;
 mod problem;
@@ -21,6 +22,7 @@ mod supports;
 mod system;
 
 pub use error::StaticsError;
+pub use linear::LinearStatics;
 pub use problem::{Contact, Ending, Equilibrium, Iteration, NewtonReport, Problem, Spin};
 pub use solve::solve;
 pub use supports::{Axis, Supports, Tied};

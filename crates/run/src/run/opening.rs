@@ -102,8 +102,11 @@ fn log_opening(
         )?;
     }
     if let Some(columns) = case.window_columns() {
+        let [rear, front] = case.mesh.zone_along();
         log.say(&format!(
-            "window: the fine zone follows the contact by {columns} columns of elements, {:.4} mm, at a time",
+            "window: in place of mesh.zone.start and mesh.zone.length, the fine zone is {:.4} mm long and follows the \
+             contact by {columns} columns of elements, {:.4} mm, at a time",
+            1e3 * (front - rear),
             1e3 * f64::from(columns) * case.mesh.zone.size
         ))?;
     }

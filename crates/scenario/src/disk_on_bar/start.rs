@@ -5,6 +5,7 @@ use super::disturbance::disturb;
 use super::guards::limits;
 use super::preload::{Bodies, Preloaded, preload};
 use super::store;
+use super::window::window;
 use crate::error::ScenarioError;
 use crate::model::{BAR, DISK, Model};
 use crate::numbers::numbers;
@@ -13,10 +14,9 @@ use crate::start::{Facts, Found, RollingRadius, Stability, Start};
 use case::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
 use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{
-    Fixed, Hub, MeshMove, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System,
-    Vertical, Window,
+    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System, Vertical,
 };
-use mesh::{Chart, Padded};
+use mesh::Padded;
 use output::NotWritten;
 use solid::Solid;
 use std::path::Path;
@@ -202,7 +202,7 @@ pub fn start(
     };
     let radius = RollingRadius { nominal, effective };
     let found = Found { stability, radius, preload, preload_wall, steps: steps as u64 };
-    Ok(assemble(case, model, found, Parts { solid, contact, hub, quiet, displacement, velocity }))
+    assemble(case, model, found, Parts { solid, contact, hub, quiet, displacement, velocity })
 }
 
 /// The simulation in the `state` of a checkpoint, with what was `found` when it began.
@@ -227,7 +227,7 @@ pub fn restart(
     let rest = vec![Padded::ZERO; model.mass.len()];
     let (displacement, velocity) = (rest.clone(), rest);
     let parts = Parts { solid, contact, hub, quiet, displacement, velocity };
-    let mut start = assemble(case, model, found, parts);
+    let mut start = assemble(case, model, found, parts)?;
     start.simulation.restore(state)?;
     Ok(start)
 }
@@ -243,8 +243,14 @@ struct Parts {
 }
 
 /// The simulation with its boundary conditions and the limits of its guards.
-fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
-    let Parts { solid, contact, mut hub, quiet, displacement, velocity } = parts;
+fn assemble(
+    case: &Case,
+    model: &Model,
+    found: Found,
+    parts: Parts,
+) -> Result<Start, ScenarioError> {
+    let Parts { mut solid, contact, mut hub, quiet, displacement, velocity } = parts;
+    let window = window(case, model, &mut solid)?;
     let Found { stability, radius, preload, preload_wall, steps } = found;
     let dt = case.duration() / steps as f64;
     hub.spin = spin(case, model, case.drive.speed / radius.effective);
@@ -271,26 +277,14 @@ fn assemble(case: &Case, model: &Model, found: Found, parts: Parts) -> Start {
     let omega_max = 2.0 / stability.dt_limit;
     let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
     simulation.set_limits(limits(case, model));
-    if let Some(window) = window(case, model) {
+    if let Some(window) = window {
         simulation.set_window(window);
     }
     let numbers = numbers(case, model, dt);
-    Start { simulation, facts: Facts { stability, radius, preload, preload_wall, numbers, steps } }
-}
-
-/// The moves of a fine zone that follows the contact, by whole columns of it, if it does.
-fn window(case: &Case, model: &Model) -> Option<Window> {
-    let size = case.mesh.zone.size;
-    let by = f64::from(case.window_columns()?) * size;
-    let radius = case.disk.radius;
-    let charts = [(Chart::Ring { radius }, by / radius), (Chart::Straight, by)];
-    let [disk, bar] = [DISK, BAR].map(|side| {
-        let body = &model.mesh.bodies[side];
-        let (chart, moved) = charts[side];
-        let sources = mesh::sources_ahead(&model.mesh, body, chart, by, size);
-        MeshMove { nodes: body.nodes.clone(), sources, by: moved }
-    });
-    Some(Window::new(disk, bar))
+    Ok(Start {
+        simulation,
+        facts: Facts { stability, radius, preload, preload_wall, numbers, steps },
+    })
 }
 
 /// The scale of penalty springs that are a fraction of the stability limit.
