@@ -11,6 +11,7 @@
 
 mod bodies;
 pub mod check;
+mod contact_layers;
 pub mod error;
 mod excerpt;
 pub mod forms;

@@ -128,7 +128,7 @@ fn write_defaults(case: &mut Case) {
         case.contact.rows.get_or_insert_default();
     }
     if case.element.contact_layers == ContactLayers::Full {
-        case.element.layers.get_or_insert(validation::LAYERS);
+        case.element.layers = Some(case.contact_layers());
         case.element.volumetric.get_or_insert_default();
     }
     if case.time.step.is_none() {

@@ -90,8 +90,9 @@ section! {
         /// `"one-point"`, as everywhere else: slip that alternates from node to node is then a soft mode
         /// of the mesh, which falling friction feeds. Default `"full"`.
         contact_layers: ContactLayers => word(ContactLayers::WORDS);
-        /// Layers of elements below each surface that `contact_layers` speaks of (count). Default 2
-        /// with `contact_layers = "full"`, refused with `"one-point"`.
+        /// Layers of elements below each surface that `contact_layers` speaks of (count). Default with
+        /// `contact_layers = "full"`: as many as reach a quarter of Hertz's half length of the patch deep, at least 2;
+        /// refused with `"one-point"`.
         layers: Option<u64>
             => key(Count(1, 1000), "layers", "give a whole number: 2").only_with("element.contact_layers", &["full"]);
         /// Volumetric part of the fully integrated elements: `"mean"` (its mean over the element, which

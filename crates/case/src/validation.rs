@@ -15,9 +15,6 @@ use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
 
-/// Default of `element.layers` with `element.contact_layers = "full"`.
-pub const LAYERS: u64 = 2;
-
 /// More steps than the first are taken for a typing mistake; more than the second deserve a warning.
 const MOST_STEPS: f64 = 1e9;
 const MANY_STEPS: f64 = 1e7;

@@ -3,7 +3,6 @@
 use crate::error::RunError;
 use case::remedy;
 use case::schema::{Case, ContactLayers};
-use case::validation::LAYERS;
 use contact::NodalContact;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
 use contact::patch::IN_CONTACT;
@@ -102,7 +101,7 @@ impl WatchedFaces {
                 faces[side].push(quad);
             }
         }
-        let layers = case.element.layers.unwrap_or(LAYERS) as usize;
+        let layers = case.contact_layers() as usize;
         let below = |side: usize| {
             mesh::layers_below(&model.mesh, &model.mesh.bodies[side], &model.zones[side], layers)
         };

@@ -5,7 +5,6 @@ use crate::error::ScenarioError;
 use crate::memory::enough_for_mesh;
 use crate::model::{BAR, DISK, Model};
 use case::schema::{Case, ContactLayers, Ends, Symmetry};
-use case::validation::LAYERS;
 use mesh::{FineZone, Mesh};
 use solid::{Element, Level, Material, Volumetric};
 
@@ -130,7 +129,7 @@ fn fully_integrated(case: &Case, mesh: &Mesh) -> Vec<bool> {
     if case.element.contact_layers == ContactLayers::OnePoint {
         return Vec::new();
     }
-    let layers = case.element.layers.unwrap_or(LAYERS) as usize;
+    let layers = case.contact_layers() as usize;
     let mut full = vec![false; mesh.hexes.len()];
     for body in &mesh.bodies {
         let faces = body.surfaces.get("zone").map_or(&[][..], |zone| &zone.faces);
