@@ -16,6 +16,13 @@ const EDGE: f64 = 1e-9;
 /// The same at the border of the surface.
 const BORDER: f64 = 1e-2;
 const HOPS: usize = 16;
+/// Part of the determinant without the face's twist below which Newton's iteration leaves the twist out.
+const FAR: f64 = 0.5;
+/// How far (in face coordinates) Newton's iteration goes. A face that tapers folds over further out, where a node has other
+/// projections on it that mean nothing.
+const REACH: f64 = 1.5;
+/// After so many steps beyond that the next face is looked at.
+const STOPS: usize = 3;
 
 /// Shape functions of the bilinear face, corners counter-clockwise from (-1, -1).
 #[inline(always)]
@@ -183,8 +190,13 @@ impl<'a> FaceGeometry<'a> {
             normal = axpy(axpy(scale(nu, n_f), w1, a1), w2, a2);
             normal = scale(1.0 / norm(normal), normal);
         }
-        let h12 = g12 - dot(d, self.current.t);
-        let per_det = 1.0 / (g11 * g22 - h12 * h12);
+        let mut h12 = g12 - dot(d, self.current.t);
+        let mut det = g11 * g22 - h12 * h12;
+        // far from the projection the second derivative can lead astray; then as if the face did not twist
+        if det < FAR * (area * area) {
+            (h12, det) = (g12, area * area);
+        }
+        let per_det = 1.0 / det;
         let correction = [(g22 * r1 - h12 * r2) * per_det, (g11 * r2 - h12 * r1) * per_det];
         (SurfacePoint { x, normal, tangent: a1, offset }, correction)
     }
@@ -273,7 +285,7 @@ pub(crate) fn project(
 }
 
 /// The walk from face to face to the projection of `node`, which crosses the edge that the projection has left furthest
-/// behind. Where the walk would turn back at once, the node lies over a ridge and belongs to the face of lowest index.
+/// behind, at a border the other one. Where the walk would turn back at once, the node lies over a ridge and belongs to the face of lowest index.
 #[inline]
 fn walk(
     surface: &ContactSurface,
@@ -292,13 +304,18 @@ fn walk(
         let Some(here) = projection else {
             return Followed { old, projection: None };
         };
-        let (edge, beyond) = exit(here.xi, here.eta);
+        let [(edge, beyond), (other, less)] = exits(here.xi, here.eta);
         if beyond <= EDGE {
             return Followed { old, projection };
         }
-        let (next, its_edge) = surface.faces[here.face as usize].neighbours[edge];
+        let neighbours = &surface.faces[here.face as usize].neighbours;
+        let aside = neighbours[edge].0 == NONE && less > EDGE && neighbours[other].0 != NONE;
+        let edge = if aside { other } else { edge };
+        let (next, its_edge) = neighbours[edge];
         if next == NONE || (next == previous && here.face < next) {
-            let accepted = next != NONE || beyond <= BORDER;
+            // over a ridge, not where the iteration was stopped
+            let ridge = next != NONE && beyond < REACH - 1.0;
+            let accepted = ridge || beyond <= BORDER;
             return Followed { old, projection: projection.filter(|_| accepted) };
         }
         let [xi, eta] = enter(edge, here.xi, here.eta, its_edge);
@@ -307,15 +324,16 @@ fn walk(
         projection = on_face(&geometry, node, next, [xi, eta], None);
     }
     // Either the wedge at a vertex, where any of its faces serves, or a walk from too far.
-    Followed { old, projection: projection.filter(|f| exit(f.xi, f.eta).1 <= BORDER) }
+    Followed { old, projection: projection.filter(|f| exits(f.xi, f.eta)[0].1 <= BORDER) }
 }
 
-/// The edge that `(xi, eta)` lies furthest beyond, and how far.
+/// The edges that `(xi, eta)` lies furthest beyond in either coordinate, and how far, the furthest first.
 #[inline(always)]
-fn exit(xi: f64, eta: f64) -> (usize, f64) {
+fn exits(xi: f64, eta: f64) -> [(usize, f64); 2] {
     let (edge_x, out_x) = if xi < 0.0 { (3, -xi) } else { (1, xi) };
     let (edge_y, out_y) = if eta < 0.0 { (0, -eta) } else { (2, eta) };
-    if out_x > out_y { (edge_x, out_x - 1.0) } else { (edge_y, out_y - 1.0) }
+    let (x, y) = ((edge_x, out_x - 1.0), (edge_y, out_y - 1.0));
+    if out_x > out_y { [x, y] } else { [y, x] }
 }
 
 /// Coordinates on the neighbour of the point where edge `edge` is crossed; the neighbour runs
@@ -336,7 +354,7 @@ fn enter(edge: usize, xi: f64, eta: f64, its_edge: u8) -> [f64; 2] {
     }
 }
 
-/// Newton's iteration on one face, extended beyond its edges.
+/// Newton's iteration on one face, extended beyond its edges up to [`REACH`], where it stops for the next face.
 #[inline(always)]
 fn on_face(
     geometry: &FaceGeometry<'_>,
@@ -349,16 +367,16 @@ fn on_face(
         Some(known) => known,
         None => geometry.evaluate(node, xi, eta),
     };
+    let mut stopped = 0;
     for _ in 0..ROUNDS {
         let (point, [d_xi, d_eta]) = evaluated;
-        xi += d_xi;
-        eta += d_eta;
-        // NaN fails this test too.
-        let near = xi.abs() < 100.0 && eta.abs() < 100.0;
-        if !near {
+        let to = [xi + d_xi, eta + d_eta];
+        if !to.iter().all(|c| c.is_finite()) {
             return None;
         }
-        if d_xi.abs() < CONVERGED && d_eta.abs() < CONVERGED {
+        [xi, eta] = to.map(|c| c.clamp(-REACH, REACH));
+        stopped += usize::from([xi, eta] != to);
+        if stopped == STOPS || d_xi.abs() < CONVERGED && d_eta.abs() < CONVERGED {
             let gap = dot(point.normal, sub(node, point.x)) - point.offset;
             return Some(Projection { face, xi, eta, point, gap });
         }
@@ -381,6 +399,31 @@ mod tests {
         let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
         let nodes = trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize])).collect();
         (surface, nodes)
+    }
+
+    #[test]
+    fn over_tapering_faces_a_node_is_found_from_either_and_under_its_place() {
+        // two faces that meet in x = 0 and are twice as long at the top, as where columns of elements merge
+        let (mut mesh, top) = plate([0.0, 0.0], [2.0, 1.0], [2, 1], 0.0, 0.5, true);
+        mesh.nodes.iter_mut().for_each(|x| x[0] = (x[0] - 1.0) * (0.9 + 1.1 * x[1]));
+        let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
+        let nodes: Vec<Padded> =
+            trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize])).collect();
+        let positions = Positions(&nodes);
+        let height = mesh.nodes.iter().fold(f64::MIN, |top, x| top.max(x[2]));
+        for (i, j) in (0..40).flat_map(|i| (0..20).map(move |j| (i, j))) {
+            let y = (f64::from(j) + 0.5) / 20.0;
+            let x = (f64::from(i) / 20.0 - 0.975) * (0.9 + 1.1 * y);
+            for (face, xi) in [(0, -0.9), (0, 0.9), (1, -0.9), (1, 0.9)] {
+                for eta in [-0.9, 0.9] {
+                    let node = [x, y, height + 0.01];
+                    let found = project(&surface, &positions, false, node, face, xi, eta);
+                    let found = found.projection.unwrap();
+                    assert!((found.gap - 0.01).abs() < 1e-12, "{node:?} from {face}: {found:?}");
+                    assert!(norm(sub(found.point.x, [x, y, height])) < 1e-8, "{found:?}");
+                }
+            }
+        }
     }
 
     #[test]

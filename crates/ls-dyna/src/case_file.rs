@@ -79,7 +79,7 @@ impl Settings {
         }
         if elements.full {
             notes.push(
-                "ELFORM 2: the two layers of elements below the contact are fully integrated, the others \
+                "ELFORM 2: the layers of elements below the contact are fully integrated, the others \
                  have one point"
                     .into(),
             );

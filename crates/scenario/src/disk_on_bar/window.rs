@@ -39,7 +39,7 @@ pub(super) fn window(
         body.repeats(sources, case.mesh.zone_along()[1] - by)?;
     }
     let at_rest =
-        AtRest::new(model, solid, &bodies, &hertz(case), by).map_err(PreloadError::from)?;
+        AtRest::new(model, solid, &bodies, &patch(case), by).map_err(PreloadError::from)?;
     let [of_disk, of_bar] = sources;
     let [disk, bar] = [(&bodies[DISK], of_disk, by / radius), (&bodies[BAR], of_bar, by)].map(
         |(body, sources, by)| {
@@ -48,6 +48,12 @@ pub(super) fn window(
         },
     );
     Ok(Some(Window::new(disk, bar)))
+}
+
+/// Hertz's patch; one smaller than an element would hold no node.
+fn patch(case: &Case) -> Hertz {
+    let (patch, size) = (hertz(case), case.mesh.zone.size);
+    Hertz { a: patch.a.max(size), b: patch.b.max(size), ..patch }
 }
 
 /// Coordinates of a body: along its surface, and outward from it.
