@@ -8,7 +8,8 @@ use friction::Coulomb;
 use mesh::{Mesh, Padded};
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{
-    Axis, Contact, Ending, Equilibrium, Iteration, Problem, StaticsError, Supports, Tied, solve,
+    Axis, Contact, Ending, Equilibrium, Iteration, LinearStatics, Problem, StaticsError, Supports,
+    Tied, solve,
 };
 
 const YOUNG: f64 = 210e9;
@@ -411,4 +412,35 @@ fn supports_that_contradict_each_other_are_refused() {
     assert!(solve_alone(&mesh, &mut solid, &good, |_| true).is_ok());
     let stopped = solve_alone(&mesh, &mut solid, &good, |_| false).unwrap_err();
     assert_eq!(stopped, StaticsError::Interrupted);
+}
+
+#[test]
+fn a_clamped_block_under_two_pulls_stretches_as_hooke_says_under_each() {
+    let (mesh, mut solid) = alone(CORK);
+    let supports = Supports { held: set(&mesh, 0, "z-"), ..Supports::default() };
+    let problem = Problem {
+        mesh: &mesh,
+        supports: &supports,
+        spin: None,
+        tolerance: 1e-10,
+        max_iterations: 1,
+    };
+    let mut statics = LinearStatics::new(&mut solid, &problem).unwrap();
+    for traction in [1e6, -3e6] {
+        let mut force = vec![Padded::ZERO; mesh.nodes.len()];
+        for face in &mesh.bodies[0].surfaces["z+"].faces {
+            let areas = mesh::quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize]));
+            for (&n, area) in face.nodes.iter().zip(areas) {
+                force[n as usize][2] += traction * area;
+            }
+        }
+        let found = statics.displacement(&force).unwrap();
+        let largest = traction.abs() * SIDE / YOUNG;
+        for (x, u) in mesh.nodes.iter().zip(&found) {
+            let expected = [0.0, 0.0, traction * x[2] / YOUNG];
+            for i in 0..3 {
+                assert!((u[i] - expected[i]).abs() < 1e-8 * largest, "{x:?}: {u:?}");
+            }
+        }
+    }
 }
