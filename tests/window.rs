@@ -62,8 +62,10 @@ fn a_move_sends_no_wave_to_the_contact() {
     for (force, limit) in [("history/normal_force", 5.0), ("history/tangential_force", 2.0)] {
         let change: Vec<f64> =
             window.data[force].iter().zip(&fixed.data[force]).map(|(a, b)| a - b).collect();
+        let mut moves = 0;
         for (k, x) in window.data["history/window_x"].windows(2).enumerate() {
             if x[1] > x[0] {
+                moves += 1;
                 let change = &change[k..k + after];
                 let mean = change.iter().sum::<f64>() / after as f64;
                 let square = change.iter().map(|c| (c - mean).powi(2)).sum::<f64>();
@@ -71,6 +73,7 @@ fn a_move_sends_no_wave_to_the_contact() {
                 assert!(rms < limit, "{force} of 10 kN and 2.5 kN at record {k}: {rms} N");
             }
         }
+        assert_eq!(moves, 2);
     }
 }
 

@@ -284,8 +284,9 @@ pub(crate) fn project(
     Followed { old: symmetric_point(old), projection: projection.map(on_plane) }
 }
 
-/// The walk from face to face to the projection of `node`, which crosses the edge that the projection has left furthest
-/// behind, at a border the other one. Where the walk would turn back at once, the node lies over a ridge and belongs to the face of lowest index.
+/// The walk from face to face to the projection of `node`. It crosses the edge that the projection has left furthest behind;
+/// where that is a border and the projection lies beyond another edge as well, that one. Where the walk would turn back at
+/// once, the node lies over a ridge and belongs to the face of lowest index.
 #[inline]
 fn walk(
     surface: &ContactSurface,

@@ -194,26 +194,26 @@ impl AtRest {
         }
     }
 
-    /// The displacements after a move that leave the patch where it is by those `before` it: the `steady` ones, and those
-    /// of the force of contact that this takes. A body that contact would displace otherwise in either place, because its
-    /// mesh is not the same there, would slip by the difference at every move.
+    /// The displacements after a move that stand for those `before` it: the `steady` ones, and those of a force of contact that
+    /// puts the patch where it was. The same force would not do: the mesh gives way a little differently in the two
+    /// places, and the body would slip by the difference at every move.
     fn after_move<'a>(
         &'a self,
         body: &Rolled<'_>,
         before: &[Padded],
         steady: Option<&'a [Padded]>,
     ) -> impl Fn(usize) -> Padded + 'a {
-        // displacement of the patch along a unit load, weighted as the load is
-        let along = |response: &Response, u: &[Padded]| -> f64 {
+        // mean displacement of the patch along a unit load, weighted as the load is
+        let of_patch = |response: &Response, u: &[Padded]| -> f64 {
             let work = |n: usize| (0..3).map(|i| response.load[n][i] * u[n][i]).sum::<f64>();
             body.nodes().map(work).sum()
         };
         let [a, b] = &self.after;
         let missing = [0, 1].map(|i| {
-            let there = steady.map_or(0.0, |u| along(&self.after[i], u));
-            along(&self.before[i], before) - there
+            let there = steady.map_or(0.0, |u| of_patch(&self.after[i], u));
+            of_patch(&self.before[i], before) - there
         });
-        let compliance = [a, b].map(|load| [a, b].map(|by| along(load, &by.displacement)));
+        let compliance = [a, b].map(|load| [a, b].map(|by| of_patch(load, &by.displacement)));
         let [[aa, ab], [ba, bb]] = compliance;
         let determinant = aa * bb - ab * ba;
         let force = [
