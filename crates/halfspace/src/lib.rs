@@ -1,0 +1,42 @@
+//! Rolling contact of two equal elastic half-spaces with inertia: no mesh in the depth, no penalty, exact friction.
+//!
+//! The shear traction `tau` (Pa) that the lower body exerts on the upper one moves the upper surface against the lower
+//! one by `u` (m). For each wavenumber of the plane of contact [`HalfSpaces::compliance`] gives `u` as a function of the
+//! complex frequency; [`Quadrature`] turns that into weights `w_m` of the time step, and [`Kernel`] cuts them to the
+//! patch, so that
+//!
+//! ```text
+//! u_n = sum over m of  w_m * tau_(n-m)                       (* convolution in the plane)
+//! s_n = rigid slip + (3/2 u_n - 2 u_(n-1) + 1/2 u_(n-2))/dt
+//! ```
+//!
+//! with the slip velocity `s` of the upper body against the lower one, and friction between `tau` and `s` of the same
+//! instant at every point of the patch ([`Rolling`]).
+//!
+//! Equal materials: shear does not move the normal problem, and the pressure is Hertz's.
+//!
+//! # Frame
+//! Both materials stand, and the patch travels in +x over them. The grid is periodic and belongs to the material: the
+//! patch rolls around it. Nothing is felt across the seam, since the weights are zero beyond half of the grid: outside the
+//! patch the traction is zero, so that only points no farther apart than the patch is long must feel each other. So no
+//! image of the patch is felt, which a periodic kernel has (Cochard and Rice 1997 cut theirs for the same
+//! reason).
+//!
+//! SI units.
+
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
+mod compliance;
+mod history;
+mod kernel;
+mod plane;
+mod quadrature;
+mod return_mapping;
+mod rolling;
+
+pub use compliance::{Compliance, HalfSpaces};
+pub use kernel::{Extent, Kernel, KernelError};
+pub use quadrature::Quadrature;
+pub use rolling::{
+    Along, Ellipse, Inertia, PatchPoint, Rigid, Rolling, RollingError, RollingState, Setup, StepSums,
+};

@@ -1,0 +1,55 @@
+//! Friction at a point of the patch.
+
+use friction::{NodeFriction, Place, slip_speed};
+
+/// A point of the patch, and what its law of friction needs.
+pub(crate) struct Point<'a> {
+    pub(crate) law: &'a dyn NodeFriction,
+    pub(crate) state: [f64; 2],
+    pub(crate) at: Place,
+    /// Whether it slipped in the step before.
+    pub(crate) slipped: bool,
+}
+
+/// Traction on the upper body (Pa), slip velocity (m/s) and coefficient of friction of a point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Friction {
+    pub(crate) shear: [f64; 2],
+    pub(crate) slip_velocity: [f64; 2],
+    pub(crate) mu: f64,
+    pub(crate) slips: bool,
+}
+
+/// Friction at a point whose slip velocity is `free + compliance * shear` (m/s, m/s per Pa): the traction that holds it, or
+/// where that is beyond the bound the traction of the bound against the slip.
+pub(crate) fn return_mapping(point: &Point<'_>, free: [f64; 2], compliance: f64) -> Friction {
+    let pressure = point.at.pressure;
+    let speed = libm::hypot(free[0], free[1]);
+    let bound = compliance * pressure;
+    let slip = if point.law.is_implicit() {
+        let curve = |s: f64| {
+            (point.law.mu(point.state, s, &point.at), point.law.slope(point.state, s, &point.at))
+        };
+        slip_speed::solve(speed, bound, point.slipped, &curve)
+    } else {
+        let mu = point.law.mu(point.state, 0.0, &point.at);
+        (bound * mu < speed).then(|| (speed - bound * mu, mu))
+    };
+    match slip {
+        Some((s, mu)) => {
+            let direction = free.map(|v| v / speed);
+            Friction {
+                shear: direction.map(|d| -mu * pressure * d),
+                slip_velocity: direction.map(|d| s * d),
+                mu,
+                slips: true,
+            }
+        }
+        None => Friction {
+            shear: free.map(|v| -v / compliance),
+            slip_velocity: [0.0; 2],
+            mu: point.law.mu(point.state, 0.0, &point.at),
+            slips: false,
+        },
+    }
+}

@@ -1,0 +1,652 @@
+//! A patch that travels over two half-spaces, with friction.
+
+use crate::compliance::HalfSpaces;
+use crate::history::History;
+use crate::kernel::{Extent, Kernel, KernelError};
+use crate::plane::Plane;
+use crate::return_mapping::{Friction, Point, return_mapping};
+use friction::{NodeFriction, Place, Slid};
+use realfft::num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Iterations of a step at most, and the change of the slip velocity, over the largest velocity of the step, at which they
+/// end.
+const MOST_ITERATIONS: usize = 2000;
+const CONVERGED: f64 = 1e-9;
+
+/// Columns of points that the patch may gain beyond its length while the memory of a step lasts.
+const SLACK: usize = 2;
+
+/// The pressure of Hertz's contact: an ellipse, or in plane strain a strip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipse {
+    /// Half axis along x (m).
+    pub half_length: f64,
+    /// Half axis along y (m); `None` in plane strain.
+    pub half_width: Option<f64>,
+    /// Largest pressure (Pa).
+    pub peak_pressure: f64,
+}
+
+impl Ellipse {
+    /// Pressure (Pa) at a point relative to the centre (m).
+    pub fn pressure(&self, x: f64, y: f64) -> f64 {
+        let across = self.half_width.map_or(0.0, |b| (y / b).powi(2));
+        let inside = 1.0 - (x / self.half_length).powi(2) - across;
+        self.peak_pressure * inside.max(0.0).sqrt()
+    }
+}
+
+/// Whether the half-spaces have inertia.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inertia {
+    /// Waves.
+    Dynamic,
+    /// The quasi-static limit on the same grid.
+    Static,
+}
+
+/// What rolls.
+#[derive(Clone)]
+pub struct Setup {
+    /// The bodies.
+    pub bodies: HalfSpaces,
+    /// Spacing of the grid (m).
+    pub spacing: f64,
+    /// The pressure.
+    pub patch: Ellipse,
+    /// Rolling speed V (m/s).
+    pub speed: f64,
+    /// Place of the patch's centre at t = 0 (m).
+    pub start: f64,
+    /// Time step (s).
+    pub step: f64,
+    /// Whether the half-spaces have inertia.
+    pub inertia: Inertia,
+    /// The law of friction.
+    pub law: Arc<dyn NodeFriction>,
+}
+
+/// What is prescribed of the rigid motion of the upper body against the lower one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rigid {
+    /// Along x: the creepage, positive when driving.
+    pub along: Along,
+    /// Lateral velocity of the upper body over V, positive along +y.
+    pub lateral: f64,
+    /// Turn about +z over V (rad/m).
+    pub spin: f64,
+}
+
+/// What is prescribed along x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Along {
+    /// The upper body's surface slips backward at this share of V.
+    Creepage(f64),
+    /// The force on the upper body (N; N/m in plane strain).
+    Force(f64),
+}
+
+/// Why nothing rolls.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RollingError {
+    /// There are no weights.
+    #[error(transparent)]
+    Kernel(#[from] KernelError),
+    /// The patch has too few points.
+    #[error("the patch is {points:.1} spacings long")]
+    Coarse {
+        /// Its length over the spacing.
+        points: f64,
+    },
+    /// A state of another model.
+    #[error("the state is that of another grid or memory")]
+    State,
+}
+
+/// Sums over the patch at one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepSums {
+    /// Number n of the step.
+    pub step: usize,
+    /// Its time (s).
+    pub time: f64,
+    /// Place of the patch's centre (m).
+    pub centre: f64,
+    /// Normal force (N; N/m in plane strain).
+    pub normal: f64,
+    /// Shear force on the upper body along x and y (same units).
+    pub shear: [f64; 2],
+    /// The creepage along x.
+    pub creepage: f64,
+    /// Points in contact, and those of them that slip.
+    pub points: usize,
+    /// Points that slip.
+    pub slipping: usize,
+    /// Points where adhesion and slip both were solutions.
+    pub non_unique: usize,
+    /// Iterations, and the change of slip velocity in the last one over the largest velocity, where that is above the
+    /// tolerance.
+    pub iterations: usize,
+    /// See `iterations`.
+    pub unconverged: f64,
+    /// Power of friction, and of the tractions on the elastic surfaces (W; W/m in plane strain).
+    pub dissipated: f64,
+    /// See `dissipated`.
+    pub stored: f64,
+}
+
+/// Fields at the points of the patch, at the end of a step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Fields {
+    /// Traction on the upper body (Pa).
+    shear: [Vec<f64>; 2],
+    /// Displacement of the upper surface against the lower one (m), now, one and two steps ago.
+    moved: [[Vec<f64>; 2]; 3],
+    slip_velocity: [Vec<f64>; 2],
+    /// Slip since the point came into contact (m).
+    slip: [Vec<f64>; 2],
+    pressure: Vec<f64>,
+    mu: Vec<f64>,
+    /// State of the friction law.
+    state: Vec<[f64; 2]>,
+    /// 0 open, 1 stick, 2 slip.
+    contact: Vec<u8>,
+}
+
+/// Everything that a patch needs to roll on with the same bits.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RollingState {
+    steps: usize,
+    centre: f64,
+    fields: Fields,
+    past: Vec<f64>,
+    done: usize,
+}
+
+/// A patch that travels over two half-spaces.
+pub struct Rolling {
+    setup: Setup,
+    kernel: KernelFacts,
+    plane: Plane,
+    history: History,
+    steps: usize,
+    centre: f64,
+    /// Rigid slip of the upper body backward (m/s).
+    backward: f64,
+    fields: Fields,
+    /// Points of the patch: grid index, place relative to the centre (m).
+    points: Vec<(usize, [f64; 2])>,
+    work: Work,
+}
+
+/// What stays of the kernel once the history has its weights.
+#[derive(Clone, Copy, Debug)]
+struct KernelFacts {
+    bounds: [f64; 2],
+    memory: usize,
+    static_tail: f64,
+}
+
+/// Buffers of a step.
+struct Work {
+    spectra: [[Vec<Complex64>; 2]; 2],
+    field: Vec<f64>,
+    /// Displacement that the past leaves (m).
+    left: [Vec<f64>; 2],
+    /// Displacement by the present tractions (m).
+    now: [Vec<f64>; 2],
+    /// Tractions of the iteration before (Pa), and the point from which the next one starts.
+    before: [Vec<f64>; 2],
+    from: [Vec<f64>; 2],
+    /// Free velocity of each point of the patch (m/s), rigid slip included.
+    free: Vec<[f64; 2]>,
+    found: Vec<Friction>,
+    slid: Vec<Slid>,
+}
+
+impl Rolling {
+    /// A patch at rest, without shear.
+    ///
+    /// # Errors
+    /// A patch of too few points, more weights than fit into memory.
+    pub fn new(setup: Setup) -> Result<Self, RollingError> {
+        let h = setup.spacing;
+        let long = 2.0 * setup.patch.half_length / h;
+        if !(long >= 4.0) {
+            return Err(RollingError::Coarse { points: long });
+        }
+        let reach = |half: f64| (2.0 * half / h).floor() as usize + 1;
+        let longest = setup.patch.half_width.map_or(0.0, |b| b.max(setup.patch.half_length));
+        let diameter = 2.0 * longest.max(setup.patch.half_length);
+        let crossing = diameter / setup.bodies.rayleigh_speed();
+        let carried = (1.6 * crossing * setup.speed / h).ceil() as usize;
+        let extent = Extent {
+            spacing: h,
+            reach: (reach(setup.patch.half_length) + SLACK + carried, setup.patch.half_width.map(reach)),
+            diameter,
+        };
+        let kernel = match setup.inertia {
+            Inertia::Dynamic => Kernel::new(&setup.bodies, &extent, setup.step)?,
+            // the weights of any step have the same sum
+            Inertia::Static => Kernel::new(&setup.bodies, &extent, 0.5 * h / setup.bodies.pressure_speed)?
+                .without_inertia(&setup.bodies, h),
+        };
+        let plane = Plane::new(kernel.grid[0], kernel.grid[1]);
+        let (points, modes) = (plane.points(), plane.modes());
+        let zeros = || vec![0.0; points];
+        let pair = || [zeros(), zeros()];
+        let spectra = || [vec![Complex64::ZERO; modes], vec![Complex64::ZERO; modes]];
+        let fields = Fields {
+            shear: pair(),
+            moved: [pair(), pair(), pair()],
+            slip_velocity: pair(),
+            slip: pair(),
+            pressure: zeros(),
+            mu: vec![setup.law.mu_static(); points],
+            state: vec![[0.0; 2]; points],
+            contact: vec![0; points],
+        };
+        let facts = KernelFacts {
+            bounds: kernel.bounds,
+            memory: kernel.memory(),
+            static_tail: kernel.static_tail,
+        };
+        Ok(Self {
+            kernel: facts,
+            history: History::new(&kernel),
+            work: Work {
+                spectra: [spectra(), spectra()],
+                field: zeros(),
+                left: pair(),
+                now: pair(),
+                before: pair(),
+                from: pair(),
+                free: Vec::with_capacity(points),
+                found: Vec::with_capacity(points),
+                slid: Vec::with_capacity(points),
+            },
+            plane,
+            steps: 0,
+            centre: setup.start,
+            backward: 0.0,
+            fields,
+            points: Vec::with_capacity(points),
+            setup,
+        })
+    }
+
+    /// Takes a step: the patch moves on by V dt (not at all where `speed` is zero), and friction is solved at its end.
+    pub fn step(&mut self, rigid: Rigid) -> StepSums {
+        let step = self.setup.step;
+        self.steps += 1;
+        self.centre += self.setup.speed * step;
+        self.list_points();
+        self.advance_friction();
+        let Self { fields, history, plane, work, .. } = self;
+        // the displacement of two steps ago makes room for the present one
+        fields.moved.rotate_right(1);
+        history.left(&mut work.spectra[0]);
+        for c in 0..2 {
+            plane.inverse(&mut work.spectra[0][c], &mut work.left[c]);
+        }
+        self.free_velocities(rigid);
+        let (backward, iterations, unconverged) = self.solve(rigid);
+        self.backward = backward;
+        let sums = self.take_over();
+        StepSums { iterations, unconverged, ..sums }
+    }
+
+    /// Lists the points of the patch at its present place, and opens those that it has left.
+    fn list_points(&mut self) {
+        let (h, ellipse) = (self.setup.spacing, self.setup.patch);
+        let a = ellipse.half_length;
+        self.points.clear();
+        let columns = ((self.centre - a) / h).ceil() as i64..=((self.centre + a) / h).floor() as i64;
+        let lines = ellipse.half_width.map_or(0, |b| (b / h).floor() as i64);
+        self.work.field.fill(0.0);
+        for j in -lines..=lines {
+            for i in columns.clone() {
+                let at = [i as f64 * h - self.centre, j as f64 * h];
+                let pressure = ellipse.pressure(at[0], at[1]);
+                if pressure > 0.0 {
+                    let index = self.index(i, j);
+                    self.work.field[index] = pressure;
+                    self.points.push((index, at));
+                }
+            }
+        }
+        let fields = &mut self.fields;
+        for i in 0..fields.pressure.len() {
+            let pressure = self.work.field[i];
+            if pressure == 0.0 && fields.contact[i] != 0 {
+                fields.contact[i] = 0;
+                fields.mu[i] = self.setup.law.mu_static();
+                for c in 0..2 {
+                    fields.shear[c][i] = 0.0;
+                    fields.slip_velocity[c][i] = 0.0;
+                    fields.slip[c][i] = 0.0;
+                }
+            }
+            fields.pressure[i] = pressure;
+        }
+    }
+
+    /// Grid index of a point of the material (columns and lines from x = 0 and y = 0).
+    fn index(&self, column: i64, line: i64) -> usize {
+        let (nx, ny) = (self.plane.nx as i64, self.plane.ny as i64);
+        (column.rem_euclid(nx) + nx * line.rem_euclid(ny)) as usize
+    }
+
+    fn place(&self, index: usize, at: [f64; 2]) -> Place {
+        Place {
+            position: [at[0] + self.centre, at[1], 0.0],
+            time: self.time(),
+            pressure: self.fields.pressure[index],
+        }
+    }
+
+    /// Brings the states of the friction law to this step.
+    fn advance_friction(&mut self) {
+        let mut slid = std::mem::take(&mut self.work.slid);
+        slid.clear();
+        for &(i, at) in &self.points {
+            let s = [0, 1].map(|c| self.fields.slip_velocity[c][i]);
+            slid.push(Slid {
+                state: self.fields.state[i],
+                slip_speed: libm::hypot(s[0], s[1]),
+                at: self.place(i, at),
+            });
+        }
+        // a law that is expensive to call is called once
+        let old = |i: &(usize, [f64; 2])| self.fields.contact[i.0] != 0;
+        if self.points.iter().all(old) {
+            self.setup.law.advance_all(&mut slid, self.setup.step);
+            for (&(i, _), s) in self.points.iter().zip(&slid) {
+                self.fields.state[i] = s.state;
+            }
+        } else {
+            let mut some: Vec<Slid> =
+                self.points.iter().zip(&slid).filter(|(p, _)| old(p)).map(|(_, s)| *s).collect();
+            self.setup.law.advance_all(&mut some, self.setup.step);
+            let mut next = some.into_iter();
+            for (&(i, _), s) in self.points.iter().zip(&slid) {
+                self.fields.state[i] = if self.fields.contact[i] == 0 {
+                    self.setup.law.begin(&s.at)
+                } else {
+                    next.next().map_or(s.state, |s| s.state)
+                };
+            }
+        }
+        self.work.slid = slid;
+    }
+
+    /// The velocities that the points would have without the present tractions (m/s), but for the creepage along x.
+    fn free_velocities(&mut self, rigid: Rigid) {
+        let (v, step) = (self.setup.speed, self.setup.step);
+        let [_, one, two] = &self.fields.moved;
+        self.work.free.clear();
+        for &(i, [x, y]) in &self.points {
+            let elastic = |c: usize| {
+                (1.5 * self.work.left[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step
+            };
+            let carried = [-v * rigid.spin * y, v * (rigid.lateral + rigid.spin * x)];
+            self.work.free.push([0, 1].map(|c| elastic(c) + carried[c]));
+        }
+    }
+
+    /// Displacements by the tractions `work.from` at this instant, into `work.now`.
+    fn displace(&mut self) {
+        let Work { spectra: [taus, found], from, now, .. } = &mut self.work;
+        for c in 0..2 {
+            self.plane.forward(&from[c], &mut taus[c]);
+        }
+        self.history.now(taus, found);
+        for c in 0..2 {
+            self.plane.inverse(&mut found[c], &mut now[c]);
+        }
+    }
+
+    /// Finds tractions that obey friction at every point, by the proximal gradient method with Nesterov's momentum
+    /// (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a convex function.
+    /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
+    fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
+        let rate = 1.5 / self.setup.step;
+        let [least, most] = self.kernel.bounds;
+        let compliance = rate * most;
+        let root = (least / most).sqrt();
+        let momentum = (1.0 - root) / (1.0 + root);
+        let mut backward = match rigid.along {
+            Along::Creepage(creepage) => creepage * self.setup.speed,
+            Along::Force(_) => self.backward,
+        };
+        for c in 0..2 {
+            self.work.before[c].copy_from_slice(&self.fields.shear[c]);
+            self.work.from[c].copy_from_slice(&self.fields.shear[c]);
+        }
+        self.work.found.clear();
+        self.work.found.resize(self.points.len(), Friction::default());
+        let mut change = 0.0;
+        for iteration in 1..=MOST_ITERATIONS {
+            self.displace();
+            if let Along::Force(force) = rigid.along {
+                backward = self.backward_at(force, backward, rate, compliance);
+            }
+            let mut largest: f64 = 0.0;
+            change = 0.0;
+            for (k, &(i, at)) in self.points.iter().enumerate() {
+                let free = self.trial(k, i, backward, rate, compliance);
+                let point = self.point(i, at);
+                let found = return_mapping(&point, free, compliance);
+                let work = &mut self.work;
+                for c in 0..2 {
+                    let step = found.shear[c] - work.before[c][i];
+                    change = f64::max(change, compliance * step.abs());
+                    largest = largest.max(free[c].abs());
+                    work.from[c][i] = found.shear[c] + momentum * step;
+                    work.before[c][i] = found.shear[c];
+                }
+                work.found[k] = found;
+            }
+            if change <= CONVERGED * largest {
+                return (backward, iteration, 0.0);
+            }
+            change /= largest;
+        }
+        (backward, MOST_ITERATIONS, change)
+    }
+
+    /// Velocity of point `k` of the patch without its own traction, which `compliance` then adds (m/s).
+    fn trial(&self, k: usize, i: usize, backward: f64, rate: f64, compliance: f64) -> [f64; 2] {
+        let work = &self.work;
+        let rigid = [-backward, 0.0];
+        [0, 1].map(|c| {
+            work.free[k][c] + rigid[c] + rate * work.now[c][i] - compliance * work.from[c][i]
+        })
+    }
+
+    fn point(&self, i: usize, at: [f64; 2]) -> Point<'_> {
+        Point {
+            law: &*self.setup.law,
+            state: self.fields.state[i],
+            at: self.place(i, at),
+            slipped: self.fields.contact[i] == 2,
+        }
+    }
+
+    /// The rigid slip backward (m/s) at which the tractions of this iteration add up to the force along x.
+    fn backward_at(&self, force: f64, guess: f64, rate: f64, compliance: f64) -> f64 {
+        let excess = |backward: f64| {
+            let sum: f64 = self
+                .points
+                .iter()
+                .enumerate()
+                .map(|(k, &(i, at))| {
+                    let free = self.trial(k, i, backward, rate, compliance);
+                    return_mapping(&self.point(i, at), free, compliance).shear[0]
+                })
+                .sum();
+            sum * self.cell() - force
+        };
+        let mean = force.abs() / self.cell() / self.points.len().max(1) as f64;
+        let mut width = 1e-3 * compliance * mean + 1e-12;
+        let (mut low, mut high) = (guess - width, guess + width);
+        let (mut at_low, mut at_high) = (excess(low), excess(high));
+        for _ in 0..60 {
+            if at_low <= 0.0 && at_high >= 0.0 {
+                break;
+            }
+            width *= 2.0;
+            if at_low > 0.0 {
+                (high, at_high) = (low, at_low);
+                low -= width;
+                at_low = excess(low);
+            } else {
+                (low, at_low) = (high, at_high);
+                high += width;
+                at_high = excess(high);
+            }
+        }
+        // regula falsi, with the Illinois rule (Dowell and Jarratt 1971)
+        let mut side = 0;
+        for _ in 0..60 {
+            if !(at_high > at_low) {
+                break;
+            }
+            let middle = (low * at_high - high * at_low) / (at_high - at_low);
+            let at = excess(middle);
+            if at.abs() <= 1e-13 * force.abs() || high - low <= 1e-15 * (low.abs() + high.abs()) {
+                return middle;
+            }
+            if at < 0.0 {
+                (low, at_low) = (middle, at);
+                if side == -1 {
+                    at_high *= 0.5;
+                }
+                side = -1;
+            } else {
+                (high, at_high) = (middle, at);
+                if side == 1 {
+                    at_low *= 0.5;
+                }
+                side = 1;
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// Takes over the tractions that were found, and sums them up.
+    fn take_over(&mut self) -> StepSums {
+        for c in 0..2 {
+            let (from, to) = (&self.work.before[c], &mut self.work.from[c]);
+            to.copy_from_slice(from);
+        }
+        self.displace();
+        let cell = self.cell();
+        let mut sums = StepSums {
+            step: self.steps,
+            time: self.time(),
+            centre: self.centre,
+            creepage: self.backward / self.setup.speed,
+            points: self.points.len(),
+            ..StepSums::default()
+        };
+        for c in 0..2 {
+            let (left, now) = (&self.work.left[c], &self.work.now[c]);
+            for (to, (left, now)) in self.fields.moved[0][c].iter_mut().zip(left.iter().zip(now)) {
+                *to = left + now;
+            }
+        }
+        let step = self.setup.step;
+        for (k, &(i, _)) in self.points.iter().enumerate() {
+            let found = self.work.found[k];
+            let fields = &mut self.fields;
+            fields.mu[i] = found.mu;
+            fields.contact[i] = if found.slips { 2 } else { 1 };
+            sums.normal += cell * fields.pressure[i];
+            sums.slipping += usize::from(found.slips);
+            for c in 0..2 {
+                fields.shear[c][i] = found.shear[c];
+                fields.slip_velocity[c][i] = found.slip_velocity[c];
+                fields.slip[c][i] += step * found.slip_velocity[c];
+                sums.shear[c] += cell * found.shear[c];
+                sums.dissipated -= cell * found.shear[c] * found.slip_velocity[c];
+                let [now, one, two] = &fields.moved;
+                let rate = (1.5 * now[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step;
+                sums.stored += cell * found.shear[c] * rate;
+            }
+        }
+        self.history.push(&self.work.spectra[0]);
+        sums
+    }
+
+    /// Area of a point (m^2); in plane strain its length (m).
+    fn cell(&self) -> f64 {
+        let h = self.setup.spacing;
+        if self.setup.patch.half_width.is_some() { h * h } else { h }
+    }
+
+    /// Time of the last step (s).
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.setup.step
+    }
+
+    /// Steps of memory, and the share of the static compliance that is felt at its static value from the memory's
+    /// end on.
+    pub fn memory(&self) -> (usize, f64) {
+        (self.kernel.memory, self.kernel.static_tail)
+    }
+
+    /// Points of the grid along x and y.
+    pub fn grid(&self) -> [usize; 2] {
+        [self.plane.nx, self.plane.ny]
+    }
+
+    /// The points in contact: column and line of the material, and what holds there.
+    pub fn patch(&self) -> impl Iterator<Item = PatchPoint> + '_ {
+        let h = self.setup.spacing;
+        self.points.iter().map(move |&(i, at)| PatchPoint {
+            column: ((at[0] + self.centre) / h).round() as i64,
+            line: (at[1] / h).round() as i64,
+            at,
+            pressure: self.fields.pressure[i],
+            shear: [0, 1].map(|c| self.fields.shear[c][i]),
+            slip_velocity: [0, 1].map(|c| self.fields.slip_velocity[c][i]),
+            slip: [0, 1].map(|c| self.fields.slip[c][i]),
+            displacement: [0, 1].map(|c| self.fields.moved[0][c][i]),
+            mu: self.fields.mu[i],
+            slips: self.fields.contact[i] == 2,
+        })
+    }
+
+    /// Changes the rolling speed (m/s), from the next step on.
+    pub fn set_speed(&mut self, speed: f64) {
+        self.setup.speed = speed;
+    }
+}
+
+/// What holds at a point of the patch; tractions act on the upper body, and motion is its against the lower one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchPoint {
+    /// Column of the material, x over the spacing.
+    pub column: i64,
+    /// Line of the material, y over the spacing.
+    pub line: i64,
+    /// Place relative to the patch's centre (m).
+    pub at: [f64; 2],
+    /// Pressure (Pa).
+    pub pressure: f64,
+    /// Shear traction (Pa).
+    pub shear: [f64; 2],
+    /// Slip velocity (m/s).
+    pub slip_velocity: [f64; 2],
+    /// Slip since the point came into contact (m).
+    pub slip: [f64; 2],
+    /// Elastic displacement (m).
+    pub displacement: [f64; 2],
+    /// Coefficient of friction.
+    pub mu: f64,
+    /// Whether it slips.
+    pub slips: bool,
+}
