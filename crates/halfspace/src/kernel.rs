@@ -35,10 +35,12 @@ pub enum KernelError {
 /// Weights take no more than this (bytes).
 const MOST_BYTES: f64 = 12e9;
 
-/// How much longer than a Rayleigh wave crosses the patch the memory lasts: in three dimensions, where nothing is left
-/// but what the quadrature spreads, and in plane strain, where the field decays as 1/t.
-const MARGIN: [f64; 2] = [1.15, 1.6];
+/// How much longer than a Rayleigh wave crosses the patch the memory lasts: in plane strain, where the field decays as
+/// 1/t, and in three dimensions, where nothing is left but what the quadrature spreads.
+const MARGIN: [f64; 2] = [2.0, 1.15];
 const MARGIN_LAGS: usize = 24;
+/// The part of the memory of plane strain after which it fades.
+const FADES: f64 = 0.6;
 
 /// The weights `w_m` in the space of wavenumbers of a periodic grid, real and even (`xx`, `yy`) or odd along both axes
 /// (`xy`): m/Pa.
@@ -79,7 +81,7 @@ impl Kernel {
     pub fn new(bodies: &HalfSpaces, extent: &Extent, step: f64) -> Result<Self, KernelError> {
         let plane = extent.reach.1.is_some();
         let crossing = extent.diameter / bodies.rayleigh_speed() / step;
-        let lags = (MARGIN[usize::from(!plane)] * crossing).ceil() as usize + MARGIN_LAGS;
+        let lags = (MARGIN[usize::from(plane)] * crossing).ceil() as usize + MARGIN_LAGS;
         let h = extent.spacing;
         let grid = [even_length(extent.reach.0), extent.reach.1.map_or(1, even_length)];
         let far = extent.reach.0.max(extent.reach.1.unwrap_or(0));
@@ -137,7 +139,7 @@ impl Kernel {
                 }
             })
             .collect();
-        let static_tail = if plane { 0.0 } else { close(bodies, extent, grid[0], step, &mut weights) };
+        let static_tail = if plane { 0.0 } else { fade(bodies, extent, grid[0], step, &mut weights) };
         let highest = PI / h * if plane { std::f64::consts::SQRT_2 } else { 1.0 };
         let bounds = bounds(bodies, &weights[0], highest, Complex64::from(1.5 / step));
         Ok(Self { grid, lags: weights, step, bounds, static_tail })
@@ -181,50 +183,71 @@ fn bounds(bodies: &HalfSpaces, weights: &Weights, highest: f64, s: Complex64) ->
     [least.in_plane.re.min(least.antiplane.re), largest.fold(0.0, f64::max)]
 }
 
-/// Adds to the last weights of plane strain the static value of what comes after them, but for what is uniform; returns
-/// its share of the largest static weight that is not uniform.
-fn close(
+/// Lets the memory of plane strain fade towards its end, and spreads over the time in which it fades the static value of what is
+/// lost, but for what is uniform. Returns its share of what differs in the static compliance between the ends of the patch.
+///
+/// An end without fading, or a static value felt at one instant, feeds waves of the shortest periods.
+fn fade(
     bodies: &HalfSpaces,
     extent: &Extent,
     nx: usize,
     step: f64,
     weights: &mut [Weights],
 ) -> f64 {
-    let end = (weights.len() as f64 - 0.5) * step;
     let reach = extent.reach.0;
+    let end = weights.len() as f64 * step;
+    let begin = FADES * end;
+    // 1 at `begin` and before, 0 at the end, smooth
+    let left = |t: f64| {
+        let x = ((t - begin) / (end - begin)).clamp(0.0, 1.0);
+        1.0 - x * x * (3.0 - 2.0 * x)
+    };
     let uniform = bodies.late_line_impulse(0.0);
-    // integral of (f(v) - f(0))/v over 0 < v < x/(c_s end), f even, by Simpson's rule in v
-    let tail = |j: usize| {
-        let top = j as f64 * extent.spacing / (bodies.shear_speed * end);
-        let value = |i: u32| {
-            let v = top * f64::from(i) / 64.0;
+    // integral of (1 - left(t)) (f(v) - f(0))/t over t > begin, v = x/(c_s t), f even: dt/t = -dv/v
+    let lost = |j: usize| {
+        let x = j as f64 * extent.spacing / bodies.shear_speed;
+        let top = x / begin;
+        let value = |i: usize| {
+            let v = top * i as f64 / SIMPSON as f64;
             let late = bodies.late_line_impulse(v);
-            std::array::from_fn::<f64, 2, _>(|c| if i == 0 { 0.0 } else { (late[c] - uniform[c]) / v })
+            let part = if v == 0.0 { 0.0 } else { (1.0 - left(x / v)) / v };
+            [0, 1].map(|c| part * (late[c] - uniform[c]))
         };
         let mut sum = [0.0; 2];
-        for i in 0..=64 {
-            let weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+        for i in 0..=SIMPSON {
+            let ends = i == 0 || i == SIMPSON;
+            let weight = if ends { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
             let found = value(i);
             (0..2).for_each(|c| sum[c] += weight * found[c]);
         }
         // a traction on one cell of the line
-        sum.map(|s| s * top / 64.0 / 3.0 * extent.spacing)
+        sum.map(|s| s * top / SIMPSON as f64 / 3.0 * extent.spacing)
     };
-    let tails: Vec<[f64; 2]> = (0..=reach).map(tail).collect();
-    let Some(last) = weights.last_mut() else { return 0.0 };
+    let lost: Vec<[f64; 2]> = (0..=reach).map(lost).collect();
+    let bump = |m: usize| {
+        let part = left(m as f64 * step);
+        part * (1.0 - part)
+    };
+    let bumps: f64 = (0..weights.len()).map(bump).sum();
     for k in 0..=nx / 2 {
         let mut sum = [0.0; 2];
-        for (j, tail) in tails.iter().enumerate() {
+        for (j, lost) in lost.iter().enumerate() {
             let images = if j == 0 { 1.0 } else { 2.0 };
-            let c = images * libm::cos(2.0 * PI * (k * j) as f64 / nx as f64);
-            (0..2).for_each(|i| sum[i] += c * tail[i]);
+            let c = images * libm::cos(2.0 * PI * ((k * j) % nx) as f64 / nx as f64);
+            (0..2).for_each(|i| sum[i] += c * lost[i]);
         }
-        last.xx[k] += sum[0];
-        last.yy[k] += sum[1];
+        for (m, w) in weights.iter_mut().enumerate() {
+            let (left, share) = (left(m as f64 * step), bump(m) / bumps);
+            w.xx[k] = left * w.xx[k] + share * sum[0];
+            w.yy[k] = left * w.yy[k] + share * sum[1];
+        }
     }
     let across = libm::log(reach as f64) * uniform[0] * extent.spacing;
-    tails.iter().map(|t| t[0].abs()).fold(0.0, f64::max) / across
+    lost.iter().map(|t| t[0].abs()).fold(0.0, f64::max) / across
 }
+
+/// Intervals of Simpson's rule.
+const SIMPSON: usize = 128;
 
 /// The smallest length of a grid, even and with small factors, on which points up to `reach` apart meet without the
 /// others across the seam.
