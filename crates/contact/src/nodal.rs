@@ -52,25 +52,36 @@ pub struct NodalContact {
 }
 
 impl NodalContact {
-    fn new(side: usize, nodes: &[u32], area: &[f64], wanted: impl Fn(usize) -> bool) -> Self {
-        let mut table = Self { side, rows: vec![NONE; nodes.len()], ..Self::default() };
-        for i in (0..nodes.len()).filter(|&i| wanted(i)) {
-            table.rows[i] = table.nodes.len() as u32;
-            table.nodes.push(nodes[i]);
-            table.area.push(area[i]);
+    /// The table of `nodes` with these tributary areas (m^2), all of them open and their gaps 0. It belongs to no
+    /// [`Contact`](crate::Contact): who finds the contact fills it.
+    pub fn of_nodes(nodes: Vec<u32>, area: Vec<f64>) -> Self {
+        let n = nodes.len();
+        Self {
+            nodes,
+            area,
+            pressure: vec![0.0; n],
+            pass_pressure: vec![0.0; n],
+            shear: vec![[0.0; 3]; n],
+            slip_velocity: vec![[0.0; 3]; n],
+            slip: vec![[0.0; 3]; n],
+            mu: vec![0.0; n],
+            state: vec![State::Open as u8; n],
+            gap: vec![0.0; n],
+            side: 0,
+            rows: Vec::new(),
+            slipping: vec![0.0; n],
+            carried: vec![0.0; n],
         }
-        let n = table.nodes.len();
-        table.pressure = vec![0.0; n];
-        table.pass_pressure = vec![0.0; n];
-        table.shear = vec![[0.0; 3]; n];
-        table.slip_velocity = vec![[0.0; 3]; n];
-        table.slip = vec![[0.0; 3]; n];
-        table.mu = vec![0.0; n];
-        table.state = vec![State::Open as u8; n];
-        table.gap = vec![0.0; n];
-        table.slipping = vec![0.0; n];
-        table.carried = vec![0.0; n];
-        table
+    }
+
+    fn new(side: usize, nodes: &[u32], area: &[f64], wanted: impl Fn(usize) -> bool) -> Self {
+        let (mut rows, mut kept, mut areas) = (vec![NONE; nodes.len()], Vec::new(), Vec::new());
+        for i in (0..nodes.len()).filter(|&i| wanted(i)) {
+            rows[i] = kept.len() as u32;
+            kept.push(nodes[i]);
+            areas.push(area[i]);
+        }
+        Self { side, rows, ..Self::of_nodes(kept, areas) }
     }
 
     fn clear(&mut self, margin: f64) {

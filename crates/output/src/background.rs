@@ -9,8 +9,8 @@ use std::thread::JoinHandle;
 /// The HDF5 files of one run.
 #[derive(Debug)]
 pub struct RunFiles {
-    /// Writer of `fields.vtkhdf`.
-    pub fields: TransientGrid,
+    /// Writer of `fields.vtkhdf`; none where a run does not record its bodies.
+    pub fields: Option<TransientGrid>,
     /// Writer of `contact.vtkhdf`.
     pub contact: TransientGrid,
     /// Writer of `history.h5`.
@@ -98,7 +98,8 @@ impl BackgroundWriter {
     /// Sends a snapshot at `time` (s) for `fields.vtkhdf`; see [`TransientGrid::append`].
     ///
     /// # Errors
-    /// The first error of the thread, whatever it wrote; then [`OutputError::Stopped`].
+    /// The first error of the thread, whatever it wrote; then [`OutputError::Stopped`]. [`OutputError::NoFields`]
+    /// where the run has no such file.
     pub fn append_fields(&mut self, time: f64, values: &[Values<'_>]) -> Result<(), OutputError> {
         self.send(Target::Fields, time, |buffer| buffer.fill(values))
     }
@@ -289,7 +290,10 @@ fn write_all(
         match message {
             Message::Append { target, time, buffer } => {
                 match target {
-                    Target::Fields => files.fields.append(time, &buffer.values())?,
+                    Target::Fields => match &mut files.fields {
+                        Some(fields) => fields.append(time, &buffer.values())?,
+                        None => return Err(OutputError::NoFields),
+                    },
                     Target::Contact => files.contact.append(time, &buffer.values())?,
                     Target::History => files.history.append(&buffer.numbers)?,
                 }
@@ -313,10 +317,12 @@ fn write_checkpoint(
     beside: Option<(PathBuf, Kept)>,
 ) -> Result<(), OutputError> {
     let (beside, probes) = beside.unzip();
-    let own = [files.fields.path(), files.contact.path(), files.history.path()];
-    own.into_iter().chain(beside.as_deref()).try_for_each(sync_file)?;
+    let fields = files.fields.as_ref();
+    let own = [files.contact.path(), files.history.path()];
+    let others = fields.map(TransientGrid::path).into_iter().chain(beside.as_deref());
+    own.into_iter().chain(others).try_for_each(sync_file)?;
     let results = Results {
-        fields: files.fields.kept(),
+        fields: fields.map(TransientGrid::kept).unwrap_or_default(),
         contact: files.contact.kept(),
         history: files.history.kept(),
         probes: probes.unwrap_or_default(),

@@ -44,7 +44,7 @@ static STATE: FieldSpec =
 /// The part of each result file that belongs to a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Results {
-    /// Of `fields.vtkhdf`.
+    /// Of `fields.vtkhdf`; the default where the run has none.
     pub fields: Kept,
     /// Of `contact.vtkhdf`.
     pub contact: Kept,

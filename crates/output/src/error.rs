@@ -72,6 +72,9 @@ pub enum OutputError {
         /// What was expected, what was found, and the remedy.
         problem: String,
     },
+    /// A snapshot of the bodies for a run that does not record them.
+    #[error("the run has no fields.vtkhdf, so no snapshot of its bodies can be written")]
+    NoFields,
     /// The system has no thread left.
     #[error(
         "a thread that reads or writes results cannot be started: {cause}; raise the limits of processes and \

@@ -107,7 +107,7 @@ pub struct Contact {
 /// Files of a run, relative to its folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Files {
-    /// Fields of both bodies.
+    /// Fields of both bodies; empty where the run has no such file.
     pub fields: String,
     /// Both contact surfaces.
     pub contact: String,
@@ -126,6 +126,13 @@ impl Default for Files {
             history: file::HISTORY.into(),
             postmortem: None,
         }
+    }
+}
+
+impl Files {
+    /// Those of a run that does not record its bodies.
+    pub fn without_fields() -> Self {
+        Self { fields: String::new(), ..Self::default() }
     }
 }
 

@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::{
-    BackgroundWriter, Cells, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
-    OutputError, Provenance, RunFiles, StaticField, TransientGrid, Values, write_json_atomically,
+    BackgroundWriter, Cells, Checkpoint, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
+    OutputError, Provenance, Results, RunFiles, StaticField, TransientGrid, Values,
+    write_json_atomically,
 };
 use std::path::Path;
 
@@ -127,7 +128,7 @@ fn a_history_reads_back_whatever_the_sizes_of_its_appends() {
 /// Writes the three files of a run with `step` calls in a fixed order.
 fn write_run(folder: &Path, background: bool) {
     let mut files = RunFiles {
-        fields: fields_file(&folder.join("fields.vtkhdf")),
+        fields: Some(fields_file(&folder.join("fields.vtkhdf"))),
         contact: contact_file(&folder.join("contact.vtkhdf")),
         history: history_file(&folder.join("history.h5")),
     };
@@ -150,12 +151,14 @@ fn write_run(folder: &Path, background: bool) {
         for step in 0..40 {
             let ((u, s), (p, state)) = (frame(step), contact(step));
             let time = step as f64;
-            files.fields.append(time, &[Values::Vector(&u), Values::Tensor(&s)]).unwrap();
+            let fields = files.fields.as_mut().unwrap();
+            fields.append(time, &[Values::Vector(&u), Values::Tensor(&s)]).unwrap();
             files.contact.append(time, &[Values::Scalar(&p), Values::Integer(&state)]).unwrap();
             files.history.append(&[time, 1.0]).unwrap();
         }
     }
-    assert_eq!((files.fields.steps(), files.contact.steps(), files.history.rows()), (40, 40, 40));
+    let fields = files.fields.as_ref().unwrap();
+    assert_eq!((fields.steps(), files.contact.steps(), files.history.rows()), (40, 40, 40));
 }
 
 #[test]
@@ -178,7 +181,7 @@ fn the_background_writer_hands_back_the_error_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fields.vtkhdf");
     let files = RunFiles {
-        fields: fields_file(&path),
+        fields: Some(fields_file(&path)),
         contact: contact_file(&folder.path().join("contact.vtkhdf")),
         history: history_file(&folder.path().join("history.h5")),
     };
@@ -193,6 +196,31 @@ fn the_background_writer_hands_back_the_error_of_the_file() {
         .unwrap();
     assert!(error.to_string().contains("fields.vtkhdf"), "{error}");
     assert!(writer.finish().is_err());
+}
+
+#[test]
+fn a_run_may_have_no_fields_and_then_takes_no_snapshot_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = || RunFiles {
+        fields: None,
+        contact: contact_file(&folder.path().join("contact.vtkhdf")),
+        history: history_file(&folder.path().join("history.h5")),
+    };
+    let mut writer = BackgroundWriter::start(files()).unwrap();
+    writer.append_history(&[0.0, 1.0]).unwrap();
+    let (sender, kept) = std::sync::mpsc::channel();
+    let provenance = provenance();
+    let make = move |results: Results| {
+        sender.send(results.clone()).unwrap();
+        Checkpoint::new(provenance, 1, results, &0u64)
+    };
+    writer.keep(make, folder.path(), None).unwrap();
+    assert!(writer.finish().unwrap().fields.is_none());
+    let kept = kept.recv().unwrap();
+    assert_eq!((kept.fields, kept.history.records), (Kept::default(), 1));
+    let mut writer = BackgroundWriter::start(files()).unwrap();
+    writer.append_fields(0.0, &[]).unwrap();
+    assert!(matches!(writer.finish(), Err(OutputError::NoFields)));
 }
 
 #[test]

@@ -159,13 +159,11 @@ fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, 
 /// Whether the result files hold all that belongs to the checkpoint, unchanged, and can be extended.
 fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
     let Results { fields, contact, history, probes } = &checkpoint.results;
-    let mut files =
-        vec![(file::FIELDS, fields), (file::CONTACT, contact), (file::HISTORY, history)];
-    // Only of cases with probes.
-    if !probes.sums.is_empty() {
-        files.push((file::PROBES, probes));
-    }
-    for (name, kept) in files {
+    let always = [(file::CONTACT, contact), (file::HISTORY, history)];
+    // Only of runs that record their bodies, and of cases with probes.
+    let others = [(file::FIELDS, fields), (file::PROBES, probes)];
+    let others = others.into_iter().filter(|(_, kept)| !kept.sums.is_empty());
+    for (name, kept) in others.chain(always) {
         prove(folder.join(name), kept).map_err(|error| error.to_string())?;
     }
     Ok(())

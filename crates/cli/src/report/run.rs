@@ -226,21 +226,27 @@ fn stability(out: &mut String, summary: &Value) {
 }
 
 fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
-    let file = |name: &str| {
-        let name = word(summary, &format!("/files/{name}"));
-        folder.join(name).display().to_string()
+    let name = |name: &str| word(summary, &format!("/files/{name}"));
+    let file = |file: &str| folder.join(name(file)).display().to_string();
+    let (contact, history) = (file("contact"), file("history"));
+    // a run that does not record its bodies shows its surfaces
+    let (grid, look, surfaces, colour) = if name("fields").is_empty() {
+        let look = "colour by pressure, shear, slip_velocity or state";
+        (contact, look, String::new(), "pressure")
+    } else {
+        let surfaces = format!("             {contact}: pressure, shear, slip_velocity, state\n");
+        let look = "Filters > Warp By Vector: displacement; colour by velocity or stress";
+        (file("fields"), look, surfaces, "velocity")
     };
-    let (fields, contact, history) = (file("fields"), file("contact"), file("history"));
     let _ = write!(
         out,
         "\nHow to look at the results
-  ParaView   paraview {fields}
-             Apply; Filters > Warp By Vector: displacement; colour by velocity or stress
-             {contact}: pressure, shear, slip_velocity, state
-  Python     import h5py, vtk, pyvista
-             reader = vtk.vtkHDFReader(); reader.SetFileName(\"{fields}\")
+  ParaView   paraview {grid}
+             Apply; {look}
+{surfaces}  Python     import h5py, vtk, pyvista
+             reader = vtk.vtkHDFReader(); reader.SetFileName(\"{grid}\")
              reader.UpdateInformation(); reader.SetStep(reader.GetNumberOfSteps() - 1)
-             reader.Update(); pyvista.wrap(reader.GetOutput()).plot(scalars=\"velocity\")
+             reader.Update(); pyvista.wrap(reader.GetOutput()).plot(scalars=\"{colour}\")
              history = h5py.File(\"{history}\"); print(list(history))
   Numbers    {}
 ",
@@ -294,6 +300,17 @@ mod tests {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
         }
         assert!(!page.contains("null") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn a_run_without_fields_shows_its_surfaces() {
+        let mut surfaces = summary();
+        surfaces["files"] =
+            json!({ "fields": "", "contact": "contact.vtkhdf", "history": "history.h5" });
+        let page = text(&surfaces, Path::new("runs/quick"));
+        assert!(page.contains("\n  ParaView   paraview runs/quick/contact.vtkhdf\n"), "{page}");
+        assert!(!page.contains("fields") && !page.contains("runs/quick/\""), "{page}");
+        assert!(page.contains("plot(scalars=\"pressure\")"), "{page}");
     }
 
     #[test]

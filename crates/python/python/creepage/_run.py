@@ -286,7 +286,7 @@ class Run:
         if name not in self._open:
             path = self.path / name
             if not path.is_file():
-                raise CaseError(f"{path} does not exist: the run has not come so far")
+                raise CaseError(f"{path} does not exist: the run has not come so far, or does not write it")
             self._open[name] = kind(path)
         return self._open[name]
 

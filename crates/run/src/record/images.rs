@@ -1,7 +1,5 @@
 //! The recorded surfaces as wholes: where half of the bodies is modelled, their nodes have mirror images in y = 0.
 
-use mesh::Mesh;
-
 /// Which nodes of a table of each side have mirror images; none where the bodies are modelled whole.
 pub(super) struct Images {
     /// How many rows each table has.
@@ -11,11 +9,11 @@ pub(super) struct Images {
 }
 
 impl Images {
-    /// Of tables with these undeformed positions (m) of nodes of `mesh`.
-    pub(super) fn new(mesh: &Mesh, points: &[Vec<[f64; 3]>; 2]) -> Self {
+    /// Of tables with these undeformed positions (m) of nodes, of `half` the bodies or of whole ones.
+    pub(super) fn new(half: bool, points: &[Vec<[f64; 3]>; 2]) -> Self {
         let off_plane = |points: &Vec<[f64; 3]>| {
             let rows = 0..points.len() as u32;
-            rows.filter(|&row| mesh.symmetric && points[row as usize][1] != 0.0).collect()
+            rows.filter(|&row| half && points[row as usize][1] != 0.0).collect()
         };
         Self { rows: points.each_ref().map(Vec::len), imaged: points.each_ref().map(off_plane) }
     }
@@ -97,14 +95,13 @@ mod tests {
     #[test]
     fn the_half_of_a_face_and_its_image_share_the_edge_on_the_plane_and_look_the_same_way() {
         let points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.5], [0.0, 2.0, 0.5]];
-        let mesh = Mesh { symmetric: true, ..Mesh::default() };
-        let images = Images::new(&mesh, &[points.clone(), Vec::new()]);
+        let images = Images::new(true, &[points.clone(), Vec::new()]);
         assert_eq!(images.counts(), [6, 0]);
         let whole = images.vectors([&points, &[]]);
         assert_eq!(whole[4..], [[1.0, -2.0, 0.5], [0.0, -2.0, 0.5]]);
         assert_eq!(images.faces(0, &[[0, 1, 2, 3]]), [[0, 1, 2, 3], [5, 4, 1, 0]]);
         assert_eq!(images.areas([&[1.0; 4], &[]]), [2.0, 2.0, 1.0, 1.0, 1.0, 1.0]);
-        let alone = Images::new(&Mesh::default(), &[points.clone(), Vec::new()]);
+        let alone = Images::new(false, &[points.clone(), Vec::new()]);
         assert_eq!(alone.vectors([&points, &[]]), points);
         assert_eq!(alone.areas([&[1.0; 4], &[]]), [1.0; 4]);
         assert_eq!(alone.faces(0, &[[0, 1, 2, 3]]), [[0, 1, 2, 3]]);

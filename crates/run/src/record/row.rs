@@ -39,17 +39,17 @@ impl Resultants {
 }
 
 /// Measures of the patch on the bar at one instant.
-pub(super) struct PatchMeasures {
+pub(crate) struct PatchMeasures {
     /// Half axes along and across (m), peak pressure (Pa) and x of the centre relative to the hub (m), by the fit of
     /// Hertz's distribution; NaN where none fits.
-    pub(super) fit: [f64; 4],
-    pub(super) areas: patch::PatchAreas,
+    pub(crate) fit: [f64; 4],
+    pub(crate) areas: patch::PatchAreas,
     /// Largest shear traction (Pa).
-    pub(super) peak_shear: f64,
+    pub(crate) peak_shear: f64,
     /// Largest (|shear| - mu p) over the Hertz peak pressure.
-    pub(super) cone_excess: f64,
+    pub(crate) cone_excess: f64,
     /// Rear end of the zone of stick on the centre line, relative to the patch's centre (m).
-    pub(super) stick_border: f64,
+    pub(crate) stick_border: f64,
 }
 
 impl Means {
@@ -95,12 +95,12 @@ impl Means {
 
 /// Where the hub is after a step (m), how far the mesh has moved (m), and what the energy ledger says (J).
 #[derive(Clone, Copy)]
-pub(super) struct Whereabouts {
-    pub(super) hub_x: f64,
-    pub(super) hub_z: f64,
-    pub(super) window_x: f64,
-    pub(super) window_energy: f64,
-    pub(super) imbalance: f64,
+pub(crate) struct Whereabouts {
+    pub(crate) hub_x: f64,
+    pub(crate) hub_z: f64,
+    pub(crate) window_x: f64,
+    pub(crate) window_energy: f64,
+    pub(crate) imbalance: f64,
 }
 
 /// The row of the history of a step.
