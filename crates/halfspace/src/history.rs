@@ -33,7 +33,6 @@ pub(crate) struct History {
     /// Steps of the batch that are done.
     done: usize,
     now: Weights,
-    xy: bool,
 }
 
 /// The weight of a wavenumber of a spectrum of `[nx/2 + 1, ny]` in weights of `[nx/2 + 1, ny/2 + 1]`, and the sign of
@@ -76,7 +75,7 @@ impl History {
             now.xy.push(xy);
             now.yy.push(yy);
         }
-        Self { blocks, modes, lags, done: 0, now, xy: kernel.grid[1] > 1 }
+        Self { blocks, modes, lags, done: 0, now }
     }
 
     /// The spectra (x and y) of the displacement (m) that past tractions leave now.
@@ -134,7 +133,12 @@ impl History {
             out[0][mode] = tx * xx[mode] + ty * xy[mode];
             out[1][mode] = tx * xy[mode] + ty * yy[mode];
         }
-        debug_assert!(self.xy || xy.iter().all(|w| *w == 0.0));
+    }
+
+    /// Bytes of spectra and weights.
+    pub(crate) fn bytes(&self) -> usize {
+        let per_lag = size_of::<Tensor>() + size_of::<Spectra>();
+        self.blocks.len() * self.lags * per_lag
     }
 
     /// The spectra of past tractions, oldest first and lane by lane, with the steps of the batch that are done.

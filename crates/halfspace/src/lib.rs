@@ -33,6 +33,7 @@ mod plane;
 mod quadrature;
 mod return_mapping;
 mod rolling;
+mod tangential;
 
 pub use compliance::{Compliance, HalfSpaces};
 pub use kernel::{Extent, Kernel, KernelError};

@@ -4,16 +4,11 @@ use crate::compliance::HalfSpaces;
 use crate::history::History;
 use crate::kernel::{Extent, Kernel, KernelError};
 use crate::plane::Plane;
-use crate::return_mapping::{Friction, Point, return_mapping};
+use crate::return_mapping::{Friction, Point};
 use friction::{NodeFriction, Place, Slid};
 use realfft::num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Iterations of a step at most, and the change of the slip velocity, over the largest velocity of the step, at which they
-/// end.
-const MOST_ITERATIONS: usize = 2000;
-const CONVERGED: f64 = 1e-9;
 
 /// Columns of points that the patch may gain beyond its length while the memory of a step lasts.
 const SLACK: usize = 2;
@@ -79,6 +74,14 @@ pub struct Rigid {
     pub spin: f64,
 }
 
+impl Rigid {
+    /// Velocity (m/s) of the upper body against the lower one at a point relative to the centre (m), at the speed V, but for
+    /// the creepage along x.
+    fn carried(&self, v: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+        [-v * self.spin * y, v * (self.lateral + self.spin * x)]
+    }
+}
+
 /// What is prescribed along x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Along {
@@ -135,24 +138,34 @@ pub struct StepSums {
     pub dissipated: f64,
     /// See `dissipated`.
     pub stored: f64,
+    /// Power of what prescribes the rigid motion (same units).
+    pub driven: f64,
 }
 
 /// Fields at the points of the patch, at the end of a step.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-struct Fields {
+pub(crate) struct Fields {
     /// Traction on the upper body (Pa).
-    shear: [Vec<f64>; 2],
+    pub(crate) shear: [Vec<f64>; 2],
     /// Displacement of the upper surface against the lower one (m), now, one and two steps ago.
-    moved: [[Vec<f64>; 2]; 3],
-    slip_velocity: [Vec<f64>; 2],
+    pub(crate) moved: [[Vec<f64>; 2]; 3],
+    pub(crate) slip_velocity: [Vec<f64>; 2],
     /// Slip since the point came into contact (m).
-    slip: [Vec<f64>; 2],
-    pressure: Vec<f64>,
-    mu: Vec<f64>,
+    pub(crate) slip: [Vec<f64>; 2],
+    pub(crate) pressure: Vec<f64>,
+    pub(crate) mu: Vec<f64>,
     /// State of the friction law.
-    state: Vec<[f64; 2]>,
+    pub(crate) state: Vec<[f64; 2]>,
     /// 0 open, 1 stick, 2 slip.
-    contact: Vec<u8>,
+    pub(crate) contact: Vec<u8>,
+}
+
+impl Fields {
+    /// Rate of the displacement `c` of a point (m/s), by the backward difference of second order over the step `dt` (s).
+    fn rate(&self, c: usize, i: usize, dt: f64) -> f64 {
+        let [now, one, two] = &self.moved;
+        (1.5 * now[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / dt
+    }
 }
 
 /// Everything that a patch needs to roll on with the same bits.
@@ -160,6 +173,7 @@ struct Fields {
 pub struct RollingState {
     steps: usize,
     centre: f64,
+    backward: f64,
     fields: Fields,
     past: Vec<f64>,
     done: usize,
@@ -167,43 +181,43 @@ pub struct RollingState {
 
 /// A patch that travels over two half-spaces.
 pub struct Rolling {
-    setup: Setup,
-    kernel: KernelFacts,
-    plane: Plane,
-    history: History,
+    pub(crate) setup: Setup,
+    pub(crate) kernel: KernelFacts,
+    pub(crate) plane: Plane,
+    pub(crate) history: History,
     steps: usize,
     centre: f64,
     /// Rigid slip of the upper body backward (m/s).
-    backward: f64,
-    fields: Fields,
+    pub(crate) backward: f64,
+    pub(crate) fields: Fields,
     /// Points of the patch: grid index, place relative to the centre (m).
-    points: Vec<(usize, [f64; 2])>,
-    work: Work,
+    pub(crate) points: Vec<(usize, [f64; 2])>,
+    pub(crate) work: Work,
 }
 
 /// What stays of the kernel once the history has its weights.
 #[derive(Clone, Copy, Debug)]
-struct KernelFacts {
-    bounds: [f64; 2],
+pub(crate) struct KernelFacts {
+    pub(crate) bounds: [f64; 2],
     memory: usize,
     static_tail: f64,
 }
 
 /// Buffers of a step.
-struct Work {
-    spectra: [[Vec<Complex64>; 2]; 2],
-    field: Vec<f64>,
+pub(crate) struct Work {
+    pub(crate) spectra: [[Vec<Complex64>; 2]; 2],
+    pub(crate) field: Vec<f64>,
     /// Displacement that the past leaves (m).
-    left: [Vec<f64>; 2],
+    pub(crate) left: [Vec<f64>; 2],
     /// Displacement by the present tractions (m).
-    now: [Vec<f64>; 2],
+    pub(crate) now: [Vec<f64>; 2],
     /// Tractions of the iteration before (Pa), and the point from which the next one starts.
-    before: [Vec<f64>; 2],
-    from: [Vec<f64>; 2],
+    pub(crate) before: [Vec<f64>; 2],
+    pub(crate) from: [Vec<f64>; 2],
     /// Free velocity of each point of the patch (m/s), rigid slip included.
-    free: Vec<[f64; 2]>,
-    found: Vec<Friction>,
-    slid: Vec<Slid>,
+    pub(crate) free: Vec<[f64; 2]>,
+    pub(crate) found: Vec<Friction>,
+    pub(crate) slid: Vec<Slid>,
 }
 
 impl Rolling {
@@ -294,7 +308,7 @@ impl Rolling {
         self.free_velocities(rigid);
         let (backward, iterations, unconverged) = self.solve(rigid);
         self.backward = backward;
-        let sums = self.take_over();
+        let sums = self.take_over(rigid);
         StepSums { iterations, unconverged, ..sums }
     }
 
@@ -339,7 +353,7 @@ impl Rolling {
         (column.rem_euclid(nx) + nx * line.rem_euclid(ny)) as usize
     }
 
-    fn place(&self, index: usize, at: [f64; 2]) -> Place {
+    pub(crate) fn place(&self, index: usize, at: [f64; 2]) -> Place {
         Place {
             position: [at[0] + self.centre, at[1], 0.0],
             time: self.time(),
@@ -387,86 +401,16 @@ impl Rolling {
         let (v, step) = (self.setup.speed, self.setup.step);
         let [_, one, two] = &self.fields.moved;
         self.work.free.clear();
-        for &(i, [x, y]) in &self.points {
+        for &(i, at) in &self.points {
             let elastic = |c: usize| {
                 (1.5 * self.work.left[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step
             };
-            let carried = [-v * rigid.spin * y, v * (rigid.lateral + rigid.spin * x)];
+            let carried = rigid.carried(v, at);
             self.work.free.push([0, 1].map(|c| elastic(c) + carried[c]));
         }
     }
 
-    /// Displacements by the tractions `work.from` at this instant, into `work.now`.
-    fn displace(&mut self) {
-        let Work { spectra: [taus, found], from, now, .. } = &mut self.work;
-        for c in 0..2 {
-            self.plane.forward(&from[c], &mut taus[c]);
-        }
-        self.history.now(taus, found);
-        for c in 0..2 {
-            self.plane.inverse(&mut found[c], &mut now[c]);
-        }
-    }
-
-    /// Finds tractions that obey friction at every point, by the proximal gradient method with Nesterov's momentum
-    /// (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a convex function.
-    /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
-    fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
-        let rate = 1.5 / self.setup.step;
-        let [least, most] = self.kernel.bounds;
-        let compliance = rate * most;
-        let root = (least / most).sqrt();
-        let momentum = (1.0 - root) / (1.0 + root);
-        let mut backward = match rigid.along {
-            Along::Creepage(creepage) => creepage * self.setup.speed,
-            Along::Force(_) => self.backward,
-        };
-        for c in 0..2 {
-            self.work.before[c].copy_from_slice(&self.fields.shear[c]);
-            self.work.from[c].copy_from_slice(&self.fields.shear[c]);
-        }
-        self.work.found.clear();
-        self.work.found.resize(self.points.len(), Friction::default());
-        let mut change = 0.0;
-        for iteration in 1..=MOST_ITERATIONS {
-            self.displace();
-            if let Along::Force(force) = rigid.along {
-                backward = self.backward_at(force, backward, rate, compliance);
-            }
-            let mut largest: f64 = 0.0;
-            change = 0.0;
-            for (k, &(i, at)) in self.points.iter().enumerate() {
-                let free = self.trial(k, i, backward, rate, compliance);
-                let point = self.point(i, at);
-                let found = return_mapping(&point, free, compliance);
-                let work = &mut self.work;
-                for c in 0..2 {
-                    let step = found.shear[c] - work.before[c][i];
-                    change = f64::max(change, compliance * step.abs());
-                    largest = largest.max(free[c].abs());
-                    work.from[c][i] = found.shear[c] + momentum * step;
-                    work.before[c][i] = found.shear[c];
-                }
-                work.found[k] = found;
-            }
-            if change <= CONVERGED * largest {
-                return (backward, iteration, 0.0);
-            }
-            change /= largest;
-        }
-        (backward, MOST_ITERATIONS, change)
-    }
-
-    /// Velocity of point `k` of the patch without its own traction, which `compliance` then adds (m/s).
-    fn trial(&self, k: usize, i: usize, backward: f64, rate: f64, compliance: f64) -> [f64; 2] {
-        let work = &self.work;
-        let rigid = [-backward, 0.0];
-        [0, 1].map(|c| {
-            work.free[k][c] + rigid[c] + rate * work.now[c][i] - compliance * work.from[c][i]
-        })
-    }
-
-    fn point(&self, i: usize, at: [f64; 2]) -> Point<'_> {
+    pub(crate) fn point(&self, i: usize, at: [f64; 2]) -> Point<'_> {
         Point {
             law: &*self.setup.law,
             state: self.fields.state[i],
@@ -475,69 +419,8 @@ impl Rolling {
         }
     }
 
-    /// The rigid slip backward (m/s) at which the tractions of this iteration add up to the force along x.
-    fn backward_at(&self, force: f64, guess: f64, rate: f64, compliance: f64) -> f64 {
-        let excess = |backward: f64| {
-            let sum: f64 = self
-                .points
-                .iter()
-                .enumerate()
-                .map(|(k, &(i, at))| {
-                    let free = self.trial(k, i, backward, rate, compliance);
-                    return_mapping(&self.point(i, at), free, compliance).shear[0]
-                })
-                .sum();
-            sum * self.cell() - force
-        };
-        let mean = force.abs() / self.cell() / self.points.len().max(1) as f64;
-        let mut width = 1e-3 * compliance * mean + 1e-12;
-        let (mut low, mut high) = (guess - width, guess + width);
-        let (mut at_low, mut at_high) = (excess(low), excess(high));
-        for _ in 0..60 {
-            if at_low <= 0.0 && at_high >= 0.0 {
-                break;
-            }
-            width *= 2.0;
-            if at_low > 0.0 {
-                (high, at_high) = (low, at_low);
-                low -= width;
-                at_low = excess(low);
-            } else {
-                (low, at_low) = (high, at_high);
-                high += width;
-                at_high = excess(high);
-            }
-        }
-        // regula falsi, with the Illinois rule (Dowell and Jarratt 1971)
-        let mut side = 0;
-        for _ in 0..60 {
-            if !(at_high > at_low) {
-                break;
-            }
-            let middle = (low * at_high - high * at_low) / (at_high - at_low);
-            let at = excess(middle);
-            if at.abs() <= 1e-13 * force.abs() || high - low <= 1e-15 * (low.abs() + high.abs()) {
-                return middle;
-            }
-            if at < 0.0 {
-                (low, at_low) = (middle, at);
-                if side == -1 {
-                    at_high *= 0.5;
-                }
-                side = -1;
-            } else {
-                (high, at_high) = (middle, at);
-                if side == 1 {
-                    at_low *= 0.5;
-                }
-                side = 1;
-            }
-        }
-        0.5 * (low + high)
-    }
-
     /// Takes over the tractions that were found, and sums them up.
-    fn take_over(&mut self) -> StepSums {
+    fn take_over(&mut self, rigid: Rigid) -> StepSums {
         for c in 0..2 {
             let (from, to) = (&self.work.before[c], &mut self.work.from[c]);
             to.copy_from_slice(from);
@@ -559,8 +442,10 @@ impl Rolling {
             }
         }
         let step = self.setup.step;
-        for (k, &(i, _)) in self.points.iter().enumerate() {
+        for (k, &(i, at)) in self.points.iter().enumerate() {
             let found = self.work.found[k];
+            let mut carried = rigid.carried(self.setup.speed, at);
+            carried[0] -= self.backward;
             let fields = &mut self.fields;
             fields.mu[i] = found.mu;
             fields.contact[i] = if found.slips { 2 } else { 1 };
@@ -572,9 +457,8 @@ impl Rolling {
                 fields.slip[c][i] += step * found.slip_velocity[c];
                 sums.shear[c] += cell * found.shear[c];
                 sums.dissipated -= cell * found.shear[c] * found.slip_velocity[c];
-                let [now, one, two] = &fields.moved;
-                let rate = (1.5 * now[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step;
-                sums.stored += cell * found.shear[c] * rate;
+                sums.stored += cell * found.shear[c] * fields.rate(c, i, step);
+                sums.driven -= cell * found.shear[c] * carried[c];
             }
         }
         self.history.push(&self.work.spectra[0]);
@@ -582,7 +466,7 @@ impl Rolling {
     }
 
     /// Area of a point (m^2); in plane strain its length (m).
-    fn cell(&self) -> f64 {
+    pub(crate) fn cell(&self) -> f64 {
         let h = self.setup.spacing;
         if self.setup.patch.half_width.is_some() { h * h } else { h }
     }
@@ -615,9 +499,53 @@ impl Rolling {
             slip_velocity: [0, 1].map(|c| self.fields.slip_velocity[c][i]),
             slip: [0, 1].map(|c| self.fields.slip[c][i]),
             displacement: [0, 1].map(|c| self.fields.moved[0][c][i]),
+            rate: [0, 1].map(|c| self.fields.rate(c, i, self.setup.step)),
             mu: self.fields.mu[i],
             slips: self.fields.contact[i] == 2,
         })
+    }
+
+    /// The state, to roll on from with the same bits.
+    pub fn snapshot(&self) -> RollingState {
+        let (past, done) = self.history.snapshot();
+        let Self { steps, centre, backward, fields, .. } = self;
+        RollingState {
+            steps: *steps,
+            centre: *centre,
+            backward: *backward,
+            fields: fields.clone(),
+            past,
+            done,
+        }
+    }
+
+    /// Takes over the state of a patch of the same setup.
+    ///
+    /// # Errors
+    /// A state of another grid or memory.
+    pub fn restore(&mut self, state: &RollingState) -> Result<(), RollingError> {
+        let fits = state.fields.pressure.len() == self.plane.points();
+        if !fits || !self.history.restore(&state.past, state.done) {
+            return Err(RollingError::State);
+        }
+        (self.steps, self.centre, self.backward) = (state.steps, state.centre, state.backward);
+        self.fields = state.fields.clone();
+        Ok(())
+    }
+
+    /// Steps taken.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Time step (s).
+    pub fn step_length(&self) -> f64 {
+        self.setup.step
+    }
+
+    /// Bytes of the memory of past tractions and its weights.
+    pub fn bytes(&self) -> usize {
+        self.history.bytes()
     }
 
     /// Changes the rolling speed (m/s), from the next step on.
@@ -643,8 +571,10 @@ pub struct PatchPoint {
     pub slip_velocity: [f64; 2],
     /// Slip since the point came into contact (m).
     pub slip: [f64; 2],
-    /// Elastic displacement (m).
+    /// Elastic displacement (m) and its rate (m/s).
     pub displacement: [f64; 2],
+    /// See `displacement`.
+    pub rate: [f64; 2],
     /// Coefficient of friction.
     pub mu: f64,
     /// Whether it slips.

@@ -1,0 +1,146 @@
+//! The tangential problem of a step: tractions that obey friction at every point of the patch.
+
+use crate::return_mapping::{Friction, return_mapping};
+use crate::rolling::{Along, Rigid, Rolling, Work};
+
+/// Iterations of a step at most, and the change of the slip velocity, over the largest velocity of the step, at which they
+/// end.
+const MOST_ITERATIONS: usize = 2000;
+const CONVERGED: f64 = 1e-9;
+
+impl Rolling {
+    /// Displacements by the tractions `work.from` at this instant, into `work.now`.
+    pub(crate) fn displace(&mut self) {
+        let Work { spectra: [taus, found], from, now, .. } = &mut self.work;
+        for c in 0..2 {
+            self.plane.forward(&from[c], &mut taus[c]);
+        }
+        self.history.now(taus, found);
+        for c in 0..2 {
+            self.plane.inverse(&mut found[c], &mut now[c]);
+        }
+    }
+
+    /// Finds tractions that obey friction at every point, by the proximal gradient method with Nesterov's momentum
+    /// (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a convex function.
+    /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
+    pub(crate) fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
+        let rate = 1.5 / self.setup.step;
+        let [least, most] = self.kernel.bounds;
+        let compliance = rate * most;
+        let root = (least / most).sqrt();
+        let momentum = (1.0 - root) / (1.0 + root);
+        let mut backward = match rigid.along {
+            Along::Creepage(creepage) => creepage * self.setup.speed,
+            Along::Force(_) => self.backward,
+        };
+        for c in 0..2 {
+            self.work.before[c].copy_from_slice(&self.fields.shear[c]);
+            self.work.from[c].copy_from_slice(&self.fields.shear[c]);
+        }
+        self.work.found.clear();
+        self.work.found.resize(self.points.len(), Friction::default());
+        let mut change = 0.0;
+        for iteration in 1..=MOST_ITERATIONS {
+            self.displace();
+            if let Along::Force(force) = rigid.along {
+                backward = self.backward_at(force, backward, rate, compliance);
+            }
+            let (mut largest, mut finite): (f64, bool) = (0.0, true);
+            change = 0.0;
+            for (k, &(i, at)) in self.points.iter().enumerate() {
+                let free = self.trial(k, i, backward, rate, compliance);
+                let point = self.point(i, at);
+                let found = return_mapping(&point, free, compliance);
+                let work = &mut self.work;
+                for c in 0..2 {
+                    let step = found.shear[c] - work.before[c][i];
+                    change = f64::max(change, compliance * step.abs());
+                    largest = largest.max(free[c].abs());
+                    finite &= step.is_finite();
+                    work.from[c][i] = found.shear[c] + momentum * step;
+                    work.before[c][i] = found.shear[c];
+                }
+                work.found[k] = found;
+            }
+            if !finite {
+                return (backward, iteration, f64::INFINITY);
+            }
+            if change <= CONVERGED * largest {
+                return (backward, iteration, 0.0);
+            }
+            change /= largest;
+        }
+        (backward, MOST_ITERATIONS, change)
+    }
+
+    /// Velocity of point `k` of the patch without its own traction, which `compliance` then adds (m/s).
+    fn trial(&self, k: usize, i: usize, backward: f64, rate: f64, compliance: f64) -> [f64; 2] {
+        let work = &self.work;
+        let rigid = [-backward, 0.0];
+        [0, 1].map(|c| {
+            work.free[k][c] + rigid[c] + rate * work.now[c][i] - compliance * work.from[c][i]
+        })
+    }
+
+    /// The rigid slip backward (m/s) at which the tractions of this iteration add up to the force along x.
+    fn backward_at(&self, force: f64, guess: f64, rate: f64, compliance: f64) -> f64 {
+        let excess = |backward: f64| {
+            let sum: f64 = self
+                .points
+                .iter()
+                .enumerate()
+                .map(|(k, &(i, at))| {
+                    let free = self.trial(k, i, backward, rate, compliance);
+                    return_mapping(&self.point(i, at), free, compliance).shear[0]
+                })
+                .sum();
+            sum * self.cell() - force
+        };
+        let mean = force.abs() / self.cell() / self.points.len().max(1) as f64;
+        let mut width = 1e-3 * compliance * mean + 1e-12;
+        let (mut low, mut high) = (guess - width, guess + width);
+        let (mut at_low, mut at_high) = (excess(low), excess(high));
+        for _ in 0..60 {
+            if at_low <= 0.0 && at_high >= 0.0 {
+                break;
+            }
+            width *= 2.0;
+            if at_low > 0.0 {
+                (high, at_high) = (low, at_low);
+                low -= width;
+                at_low = excess(low);
+            } else {
+                (low, at_low) = (high, at_high);
+                high += width;
+                at_high = excess(high);
+            }
+        }
+        // regula falsi, with the Illinois rule (Dowell and Jarratt 1971)
+        let mut side = 0;
+        for _ in 0..60 {
+            if !(at_high > at_low) {
+                break;
+            }
+            let middle = (low * at_high - high * at_low) / (at_high - at_low);
+            let at = excess(middle);
+            if at.abs() <= 1e-13 * force.abs() || high - low <= 1e-15 * (low.abs() + high.abs()) {
+                return middle;
+            }
+            if at < 0.0 {
+                (low, at_low) = (middle, at);
+                if side == -1 {
+                    at_high *= 0.5;
+                }
+                side = -1;
+            } else {
+                (high, at_high) = (middle, at);
+                if side == 1 {
+                    at_low *= 0.5;
+                }
+                side = 1;
+            }
+        }
+        0.5 * (low + high)
+    }
+}
