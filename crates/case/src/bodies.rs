@@ -11,15 +11,16 @@ section! {
         /// Rolling radius (m). Default 0.46.
         radius: f64 = 0.46 => LENGTH;
         /// Radius of the rigid hub (m). Default 0.10.
-        hub_radius: f64 = 0.10 => LENGTH;
+        hub_radius: f64 = 0.10 => LENGTH.finite_elements_only();
         /// Width in y (m). Default 0.06.
-        width: f64 = 0.06 => LENGTH;
+        width: f64 = 0.06 => LENGTH.finite_elements_only();
         /// Transverse radius of the tread (m), or `"flat"` for a straight tread. Default `"flat"`.
         crown_radius: Crown = Crown::Flat => CROWN;
         /// Height of the undeformed disk above touching at the start (m). Default 0. Above zero only
         /// with `preload.method = "none"`: a disk that does not touch cannot be preloaded.
         lift: f64
-            => key(Number(within(0.0, 0.1)), "m", "leave it out: the disk then touches the bar at the start");
+            => key(Number(within(0.0, 0.1)), "m", "leave it out: the disk then touches the bar at the start")
+                .finite_elements_only();
         /// Material keys in which the disk differs from `[material]`. Default: none.
         #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
         material: MaterialOverride;
@@ -42,19 +43,19 @@ section! {
     /// The bar: clamped at its bottom, its top's apex at z = 0.
     optional Bar ["bar."] {
         /// Length in x (m). Default 0.24.
-        length: f64 = 0.24 => LENGTH;
+        length: f64 = 0.24 => LENGTH.finite_elements_only();
         /// Width in y (m). Default 0.06.
-        width: f64 = 0.06 => LENGTH;
+        width: f64 = 0.06 => LENGTH.finite_elements_only();
         /// Height from the clamped bottom to the top's apex (m). Default 0.07.
-        height: f64 = 0.07 => LENGTH;
+        height: f64 = 0.07 => LENGTH.finite_elements_only();
         /// Transverse radius of the top (m), or `"flat"`. Default 0.30.
         crown_radius: Crown = Crown::Radius(0.30) => CROWN;
         /// x of the bar's rear end (m); rolling starts at x = 0. Default -0.09.
         start: f64 = -0.09
             => key(Number(within(-10.0, 10.0)), "m",
-                "give x of the bar's rear end, negative: rolling starts at x = 0");
+                "give x of the bar's rear end, negative: rolling starts at x = 0").finite_elements_only();
         /// `"quiet"` (Lysmer's viscous boundary, waves leave) or `"free"` ends. Default `"quiet"`.
-        ends: Ends = Ends::Quiet => word(Ends::WORDS);
+        ends: Ends = Ends::Quiet => word(Ends::WORDS).finite_elements_only();
         /// Material keys in which the bar differs from `[material]`. Default: none.
         #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
         material: MaterialOverride;
@@ -98,6 +99,15 @@ section! {
     }
 }
 
+impl Material {
+    /// Speed of pressure waves (m/s).
+    pub fn pressure_wave(&self) -> f64 {
+        let Self { young, poisson, density } = *self;
+        let modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+        (modulus / density).sqrt()
+    }
+}
+
 section! {
     /// Those keys of a [`Material`] in which one body differs.
     #[derive(Copy)]
@@ -135,26 +145,29 @@ section! {
         file: Option<String>
             => key(Text, "",
                 "give the path of a .msh, .inp or .vtu file in quotes, relative to the case file; with --set, \
-         to the working directory");
+         to the working directory").finite_elements_only();
         /// SHA-256 of the file, in hexadecimal. Written into the case of a run, so that no other mesh
         /// takes its place unseen. Default with `file`: that of the file.
         sha256: Option<String>
-            => key(Text, "", "leave it out: it is written into the case of a run").only_with("mesh.file", &[]);
+            => key(Text, "", "leave it out: it is written into the case of a run").only_with("mesh.file", &[])
+                .finite_elements_only();
         /// Unit of the file's coordinates: `"m"`, `"cm"`, `"mm"` or `"in"`. Default with `file`: `"m"`.
-        unit: Option<LengthUnit> => word(LengthUnit::WORDS).only_with("mesh.file", &[]);
+        unit: Option<LengthUnit>
+            => word(LengthUnit::WORDS).only_with("mesh.file", &[])
+                .finite_elements_only();
         /// Names of the sets in the file.
         #[serde(skip_serializing_if = "MeshSets::is_empty")]
         sets: MeshSets;
         /// Ratio of neighbouring element sizes outside the fine zone (dimensionless). Default 1.35.
         growth: f64 = 1.35
             => key(Number(within(1.05, 3.0)), "-",
-                "give the ratio of neighbouring element sizes: 1.35 grades gently");
+                "give the ratio of neighbouring element sizes: 1.35 grades gently").finite_elements_only();
         /// Largest element size (m). Default 0.05.
-        coarsest: f64 = 0.05 => LENGTH;
+        coarsest: f64 = 0.05 => LENGTH.finite_elements_only();
         /// How elements become larger outside the fine zone: `"tensor"` (rows and columns run through the
         /// whole body) or `"two_to_one"` (columns are merged 2:1 in all three directions, with elements close to
         /// cubes and about a third as many). Default without `file`: `"two_to_one"`, and `"tensor"` with `plane_strain`.
-        grading: Option<Grading> => word(Grading::WORDS);
+        grading: Option<Grading> => word(Grading::WORDS).finite_elements_only();
         /// Whether no node moves in y (true or false): plane strain, the contact of two cylinders, by a
         /// slice one element wide. Both bodies and the fine zone must then be flat across and of one
         /// width, which only scales the forces; one near that of the coarsest elements keeps these well
@@ -163,7 +176,7 @@ section! {
         /// What of the bodies is modelled: `"whole"`, or `"half"`, the part y >= 0 of bodies that y = 0 is a plane of
         /// symmetry of, for half the time and memory. Loads, masses and results remain those of the whole bodies;
         /// fluctuations that are not symmetric are suppressed. Default `"whole"`.
-        symmetry: Symmetry => word(Symmetry::WORDS);
+        symmetry: Symmetry => word(Symmetry::WORDS).finite_elements_only();
         /// Length (m) of a fine zone that follows the contact, in place of `zone.length` and `zone.start`: the mesh then moves
         /// along the bar and around the disk, the bar needs no room for the roll, time grows with the rolled distance and memory does
         /// not. At least three patches are sensible. Default: the fine zone stays, and is as long as
@@ -272,17 +285,17 @@ section! {
     #[derive(Eq)]
     optional MeshSets ["mesh.sets."] {
         /// The disk's elements. Default with `mesh.file`: `"disk"`.
-        disk: Option<String> => SET;
+        disk: Option<String> => SET.finite_elements_only();
         /// The bar's elements. Default with `mesh.file`: `"bar"`.
-        bar: Option<String> => SET;
+        bar: Option<String> => SET.finite_elements_only();
         /// Nodes or faces of the rigid hub. Default with `mesh.file`: `"hub"`.
-        hub: Option<String> => SET;
+        hub: Option<String> => SET.finite_elements_only();
         /// Faces or nodes of the disk's running surface. Default with `mesh.file`: `"tread"`.
-        tread: Option<String> => SET;
+        tread: Option<String> => SET.finite_elements_only();
         /// Faces or nodes of the bar's running surface. Default with `mesh.file`: `"top"`.
-        top: Option<String> => SET;
+        top: Option<String> => SET.finite_elements_only();
         /// Nodes or faces by which the bar is clamped. Default with `mesh.file`: `"clamp"`.
-        clamp: Option<String> => SET;
+        clamp: Option<String> => SET.finite_elements_only();
     }
 }
 
@@ -303,7 +316,7 @@ section! {
         /// Width in y, centred on y = 0 (m). Default 0.02.
         width: f64 = 0.02 => LENGTH;
         /// Depth below the surface (m). Default 0.008.
-        depth: f64 = 0.008 => LENGTH;
+        depth: f64 = 0.008 => LENGTH.finite_elements_only();
         /// x of the zone's rear end (m); rolling starts at x = 0. Default -0.010.
         start: f64 = -0.010
             => key(Number(within(-10.0, 10.0)), "m",

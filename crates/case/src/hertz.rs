@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use crate::schema::Case;
+use crate::schema::{BodyModel, Case};
 use contact::patch::PatchShape;
 
 /// Patch and pressure of Hertz's elliptic contact, or of its line contact.
@@ -39,7 +39,7 @@ pub fn patch_shape(case: &Case) -> PatchShape {
 }
 
 /// Hertz's contact of a case's disk on its bar under `load.normal`. A line contact has the width of the narrower
-/// body.
+/// body, or that of the fine zone on half-spaces.
 pub fn hertz(case: &Case) -> Hertz {
     let compliance = |m: crate::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
     let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
@@ -47,7 +47,10 @@ pub fn hertz(case: &Case) -> Hertz {
     let across = across(case);
     let load = case.load.normal;
     if patch_shape(case) == PatchShape::Rectangle {
-        let width = case.disk.width.min(case.bar.width);
+        let width = match case.model {
+            BodyModel::FiniteElements => case.disk.width.min(case.bar.width),
+            BodyModel::HalfSpace => case.mesh.zone.width,
+        };
         return line(load / width, along, modulus, width);
     }
     // Half the sum of the curvatures in each direction, the gap being A x^2 + B y^2.

@@ -59,7 +59,10 @@ fn annotate(schema: &mut Map<String, Value>, key: &Key) {
         schema.insert("maximum".into(), json!(high));
     }
     let said = schema.get("description").and_then(Value::as_str).unwrap_or_default();
-    let description = format!("{said}\nAllowed: {}.", key.form.allowed(key.unit));
+    let mut description = format!("{said}\nAllowed: {}.", key.form.allowed(key.unit));
+    if let Some(model) = key.model {
+        description += &format!("\nOnly with model = \"{}\".", model.word());
+    }
     schema.insert("description".into(), json!(description));
 }
 

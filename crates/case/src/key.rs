@@ -1,5 +1,6 @@
 //! A key of a case file: what it may hold, its unit, and what to do where its value is refused.
 
+use crate::model::BodyModel;
 use std::fmt;
 
 /// One end of a range.
@@ -97,6 +98,8 @@ pub struct Key {
     /// The key that it replaces: the two are not given together in one layer, and this one removes the other from
     /// the layers below.
     pub instead_of: Option<&'static str>,
+    /// The model for which alone it has meaning; none where it has meaning for all.
+    pub model: Option<BodyModel>,
 }
 
 impl Key {
@@ -112,6 +115,21 @@ impl Key {
     /// The key, which replaces `other`.
     pub(crate) const fn instead_of(self, other: &'static str) -> Self {
         Self { instead_of: Some(other), ..self }
+    }
+
+    /// The key, which has no meaning for half-spaces.
+    pub(crate) const fn finite_elements_only(self) -> Self {
+        Self { model: Some(BodyModel::FiniteElements), ..self }
+    }
+
+    /// The key, which has meaning for half-spaces alone.
+    pub(crate) const fn half_space_only(self) -> Self {
+        Self { model: Some(BodyModel::HalfSpace), ..self }
+    }
+
+    /// Whether it has meaning for a model.
+    pub fn has_meaning_for(&self, model: BodyModel) -> bool {
+        self.model.is_none_or(|only| only == model)
     }
 
     /// Whether every case must give it.
@@ -137,7 +155,7 @@ pub(crate) const fn within(low: f64, high: f64) -> Range {
 
 /// A row of the table of keys, without its path.
 pub(crate) const fn key(form: Form, unit: &'static str, remedy: &'static str) -> Key {
-    Key { path: "", form, unit, needed: false, remedy, only: None, instead_of: None }
+    Key { path: "", form, unit, needed: false, remedy, only: None, instead_of: None, model: None }
 }
 
 /// The same, of a key that must be given.

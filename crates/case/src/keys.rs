@@ -4,9 +4,9 @@ use crate::friction_law;
 use crate::key::Form::{Count, Crown, Flag, Number, Points, Stiffness, Text, Word};
 use crate::key::{FLAG, Form, Key, STIFFNESS};
 use crate::schema::{
-    Bar, Case, Checkpoint, Contact, Damping, Disk, Drive, Element, Evaluate, Guards, Load,
-    Material, MaterialOverride, MeshSets, Meshing, Output, Penalty, Preload, Probes, Time, Window,
-    Zone,
+    Bar, Case, Checkpoint, Contact, Damping, Disk, Drive, Element, Evaluate, Guards, HalfSpace,
+    Load, Material, MaterialOverride, MeshSets, Meshing, Output, Penalty, Preload, Probes, Time,
+    Window, Zone,
 };
 
 /// The keys of each section.
@@ -19,6 +19,7 @@ const SECTIONS: &[&[&[Key]]] = &[
     Meshing::KEYS,
     MeshSets::KEYS,
     Zone::KEYS,
+    HalfSpace::KEYS,
     Element::KEYS,
     Load::KEYS,
     Drive::KEYS,

@@ -56,7 +56,7 @@ pub struct Layers {
     pub table: Table,
     /// Where each key was written, by its dotted path with indices as `[i]`.
     pub origins: BTreeMap<String, Origin>,
-    /// The texts, the lowest layer first.
+    /// The texts: the case file, those that it extends, one after the other, and then the options.
     pub sources: Vec<Source>,
 }
 
@@ -203,6 +203,14 @@ impl Layers {
         }
     }
 
+    /// How high the layer lies that was written at `origin`: the file that extends no other lies lowest, and of the
+    /// options the last highest.
+    pub(crate) fn height(&self, origin: &Origin) -> usize {
+        let files = self.sources.iter().filter(|source| source.name != SET).count();
+        // a file is read before the one that it extends
+        if origin.source < files { files - 1 - origin.source } else { origin.source }
+    }
+
     fn parse(
         &mut self,
         name: String,
@@ -263,12 +271,9 @@ impl Layers {
         self.origins.extend(origins);
     }
 
-    fn drop_key(&mut self, path: &str) {
-        let Some((section, key)) = path.rsplit_once('.') else {
-            return;
-        };
-        if let Some(Value::Table(section)) = self.table.get_mut(section) {
-            section.remove(key);
+    /// Takes a key out of the layers.
+    pub(crate) fn drop_key(&mut self, path: &str) {
+        if remove(&mut self.table, path) {
             forget(&mut self.origins, path);
         }
     }
@@ -482,4 +487,17 @@ pub fn get<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
         value = value.as_table()?.get(segment)?;
     }
     Some(value)
+}
+
+/// Removes the value at a dotted path without indices; whether there was one.
+pub(crate) fn remove(table: &mut Table, path: &str) -> bool {
+    let mut table = table;
+    let mut path = path;
+    while let Some((section, rest)) = path.split_once('.') {
+        match table.get_mut(section) {
+            Some(Value::Table(inner)) => (table, path) = (inner, rest),
+            _ => return false,
+        }
+    }
+    table.remove(path).is_some()
 }

@@ -8,12 +8,16 @@ use sha2::{Digest, Sha256};
 use crate::check;
 use crate::error::CaseError;
 use crate::layers::{Layers, get};
+use crate::left_out::{keep_meaningful, leave_out};
 use crate::mesh_file;
 use crate::name;
-use crate::schema::{Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing};
+use crate::schema::{
+    BodyModel, Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing,
+};
 use crate::table;
 use crate::validation;
 use output::hexadecimal;
+use toml::Table;
 
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
@@ -38,7 +42,20 @@ impl Case {
     /// The resolved case as TOML; loading it again gives an equal case.
     pub fn to_toml(&self) -> String {
         // A case holds nothing that TOML cannot: the round-trip test shows it.
-        toml::to_string(self).unwrap_or_default()
+        let text = match self.model {
+            BodyModel::FiniteElements => toml::to_string(self),
+            BodyModel::HalfSpace => toml::to_string(&self.table()),
+        };
+        text.unwrap_or_default()
+    }
+
+    /// The keys of the case that have meaning for its model.
+    pub fn table(&self) -> Table {
+        let mut table = Table::try_from(self).unwrap_or_default();
+        if self.model == BodyModel::HalfSpace {
+            keep_meaningful(&mut table, self.model);
+        }
+        table
     }
 
     /// SHA-256, in hexadecimal, of [`Case::results_toml`].
@@ -98,6 +115,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     for set in sets {
         layers.add_set(set)?;
     }
+    let left_out = leave_out(&mut layers)?;
     table::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
     check::keys(&layers)?;
@@ -106,6 +124,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
         let remedy = "see `creepage schema` for the keys and their forms";
         CaseError::Key(Box::new(layers.error_nowhere("", &message, remedy)))
     })?;
+    case.left_out = left_out;
     choose(&mut case, &layers);
     if case.name.is_empty() && get(&layers.table, "name").is_none() {
         case.name = name_from(path);
@@ -123,6 +142,9 @@ fn choose(case: &mut Case, layers: &Layers) {
 }
 
 fn write_defaults(case: &mut Case) {
+    if case.is_half_space() {
+        case.half_space.inertia.get_or_insert(true);
+    }
     case.friction.write_defaults(case.contact.enforcement == Enforcement::Exact);
     if case.contact.enforcement == Enforcement::Exact {
         case.contact.rows.get_or_insert_default();

@@ -11,6 +11,8 @@ pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
 use crate::key::Form::{Count, Number, Points, Text};
 use crate::key::{FLAG, INTERVAL, PENALTY, key, needed, over, within, word};
+pub use crate::left_out::LeftOut;
+pub use crate::model::BodyModel;
 use crate::section::{section, words};
 
 section! {
@@ -29,6 +31,18 @@ section! {
         /// is AVX-512 or no AVX2). Default false: the fastest of the machine.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         deterministic: bool => FLAG;
+        /// How the bodies are modelled: `"finite-elements"`, a disk and a bar; or `"half-space"`, two elastic
+        /// half-spaces of one material, whose profiles near the contact are those of disk and bar. These have no
+        /// mesh in depth, no penalty and exact friction; `mesh.zone.size` is the spacing of the points on their surfaces.
+        /// Default `"finite-elements"`.
+        #[serde(default, skip_serializing_if = "BodyModel::is_default")]
+        model: BodyModel => word(BodyModel::WORDS);
+        /// Keys of the layers below that have no meaning for the model.
+        #[serde(skip)]
+        left_out: LeftOut;
+        /// The half-spaces.
+        #[serde(default, skip_serializing_if = "HalfSpace::is_empty")]
+        half_space: HalfSpace;
         /// The disk.
         #[serde(default)]
         disk: Disk;
@@ -79,27 +93,44 @@ section! {
 }
 
 section! {
+    /// The half-spaces of `model = "half-space"`.
+    optional HalfSpace ["half_space."] {
+        /// Whether the half-spaces have inertia (true or false); without it their state is that of equilibrium at each
+        /// instant. Default with `model = "half-space"`: true.
+        inertia: Option<bool> => FLAG.half_space_only();
+    }
+}
+
+impl HalfSpace {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+section! {
     /// The hexahedron.
     optional Element ["element."] {
         /// Flanagan-Belytschko hourglass stiffness coefficient of the one-point element
         /// (dimensionless). Default 0.05.
         hourglass: f64 = 0.05
-            => key(Number(within(0.0, 1.0)), "-", "0.05 is usual; 0.01 to 0.1 is the sensible range");
+            => key(Number(within(0.0, 1.0)), "-", "0.05 is usual; 0.01 to 0.1 is the sensible range")
+                .finite_elements_only();
         /// Integration of the elements below the fine zone of each contact surface: `"full"` (2x2x2
         /// points, no hourglass modes, two to three times the time of each such element), or
         /// `"one-point"`, as everywhere else: slip that alternates from node to node is then a soft mode
         /// of the mesh, which falling friction feeds. Default `"full"`.
-        contact_layers: ContactLayers => word(ContactLayers::WORDS);
+        contact_layers: ContactLayers => word(ContactLayers::WORDS).finite_elements_only();
         /// Layers of elements below each surface that `contact_layers` speaks of (count). Default with
         /// `contact_layers = "full"`: as many as reach a quarter of Hertz's half length of the patch deep, at least 2;
         /// refused with `"one-point"`.
         layers: Option<u64>
-            => key(Count(1, 1000), "layers", "give a whole number: 2").only_with("element.contact_layers", &["full"]);
+            => key(Count(1, 1000), "layers", "give a whole number: 2").only_with("element.contact_layers", &["full"])
+                .finite_elements_only();
         /// Volumetric part of the fully integrated elements: `"mean"` (its mean over the element, which
         /// does not lock as Poisson's ratio nears 1/2) or `"full"` (at every point).
         /// Default `"mean"` with `contact_layers = "full"`, refused with `"one-point"`.
         volumetric: Option<Volumetric>
-            => word(Volumetric::WORDS).only_with("element.contact_layers", &["full"]);
+            => word(Volumetric::WORDS).only_with("element.contact_layers", &["full"]).finite_elements_only();
     }
 }
 
@@ -136,10 +167,12 @@ section! {
         /// `"load"`: the force is prescribed while rolling; `"height"`: the hub is held at the
         /// height that the preload found. Default `"load"`.
         #[serde(default)]
-        mode: LoadMode => word(LoadMode::WORDS);
+        mode: LoadMode => word(LoadMode::WORDS).finite_elements_only();
         /// Extra mass of hub and wheelset carried by the hub (kg). Default 0.
         #[serde(default)]
-        hub_mass: f64 => key(Number(within(0.0, 1e5)), "kg", "give a mass in kg; 0 for the disk alone");
+        hub_mass: f64
+            => key(Number(within(0.0, 1e5)), "kg", "give a mass in kg; 0 for the disk alone")
+                .finite_elements_only();
     }
 }
 
@@ -172,6 +205,18 @@ section! {
             => needed(Number(within(-0.5, 0.5)), "-",
                 "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille")
                 .only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
+        /// Lateral velocity of the disk over V (dimensionless), positive in +y. Other than 0 only with
+        /// `model = "half-space"`. Default 0.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        lateral_creepage: f64
+            => key(Number(within(-0.5, 0.5)), "-",
+                "give the ratio of the velocities: `lateral_creepage = 1e-3` for 1 per mille");
+        /// Angular velocity of the disk about the vertical over V (rad/m), positive about +z. Other than 0 only with
+        /// `model = "half-space"`. Default 0.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        spin: f64
+            => key(Number(within(-100.0, 100.0)), "rad/m",
+                "give the angular velocity over the speed, in rad/m: `spin = 0.1`");
         /// Torque about the hub's axis (N m); positive when driving. Required with
         /// `mode = "torque"`, refused with `"creepage"`.
         torque: Option<f64>
@@ -187,6 +232,10 @@ impl Drive {
     fn default_ramp() -> f64 {
         0.74e-3
     }
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 words! {
@@ -206,14 +255,16 @@ section! {
         /// `"penalty"`: two-pass surface-to-surface penalty with a friction spring (Eqs 10-11), or
         /// `"exact"`: no penetration and no slip in adhesion at the nodes of the finer surface.
         /// Default `"penalty"`.
-        enforcement: Enforcement = Enforcement::Penalty => word(Enforcement::WORDS);
+        enforcement: Enforcement = Enforcement::Penalty => word(Enforcement::WORDS).finite_elements_only();
         /// What the slave nodes of `enforcement = "exact"` meet: `"node_to_face"`, the face under each, or
         /// `"mortar"`, the faces near it in the mean weighted with dual mortar functions, for meshes that do not
         /// match. Default `"node_to_face"` with `"exact"`, refused with `"penalty"`.
-        rows: Option<Rows> => word(Rows::WORDS).only_with("contact.enforcement", &["exact"]);
+        rows: Option<Rows>
+            => word(Rows::WORDS).only_with("contact.enforcement", &["exact"])
+                .finite_elements_only();
         /// Correct gap and normal with the exact cylinder and crown instead of the facets
         /// (true or false). Default true.
-        curvature: bool = true => FLAG;
+        curvature: bool = true => FLAG.finite_elements_only();
         /// The penalty springs; without meaning for `enforcement = "exact"`.
         penalty: Penalty;
     }
@@ -247,12 +298,13 @@ section! {
         /// Normal spring: a number (multiple of K/d per pass, LS-DYNA's scale factor),
         /// `{ stiffness = N/m^3 }` (sum of both passes) or `{ stability = fraction }` of the
         /// stability limit. Default 0.1.
-        normal: Stiffness = Stiffness::Factor(0.1) => PENALTY;
+        normal: Stiffness = Stiffness::Factor(0.1) => PENALTY.finite_elements_only();
         /// Tangential spring, in the same three forms. Default 0.1.
-        tangential: Stiffness = Stiffness::Factor(0.1) => PENALTY;
+        tangential: Stiffness = Stiffness::Factor(0.1) => PENALTY.finite_elements_only();
         /// Normal viscous damping as a fraction of critical (dimensionless). Default 0.1.
         damping: f64 = 0.1
-            => key(Number(within(0.0, 1.0)), "-", "give a fraction of critical, not per cent: 0.1");
+            => key(Number(within(0.0, 1.0)), "-", "give a fraction of critical, not per cent: 0.1")
+                .finite_elements_only();
     }
 }
 
@@ -260,14 +312,21 @@ section! {
     /// Damping.
     optional Damping ["damping."] {
         /// Linear bulk viscosity coefficient (dimensionless). Default 0.
-        bulk_linear: f64 => key(Number(within(0.0, 2.0)), "-", "0.06 is usual; 0 turns it off");
+        bulk_linear: f64
+            => key(Number(within(0.0, 2.0)), "-", "0.06 is usual; 0 turns it off")
+                .finite_elements_only();
         /// Quadratic bulk viscosity coefficient (dimensionless). Default 0.
-        bulk_quadratic: f64 => key(Number(within(0.0, 20.0)), "-", "1.2 is usual; 0 turns it off");
+        bulk_quadratic: f64
+            => key(Number(within(0.0, 20.0)), "-", "1.2 is usual; 0 turns it off")
+                .finite_elements_only();
         /// Kelvin-Voigt time constant (s). Default 0.
         kelvin_voigt: f64
-            => key(Number(within(0.0, 1e-3)), "s", "give 0.1 to 1 time steps, about 1e-8 s; 0 turns it off");
+            => key(Number(within(0.0, 1e-3)), "s", "give 0.1 to 1 time steps, about 1e-8 s; 0 turns it off")
+                .finite_elements_only();
         /// Mass-proportional damping relative to the rigid motion (1/s). Default 0.
-        mass: f64 => key(Number(within(0.0, 1e6)), "1/s", "give a rate in 1/s; 0 turns it off");
+        mass: f64
+            => key(Number(within(0.0, 1e6)), "1/s", "give a rate in 1/s; 0 turns it off")
+                .finite_elements_only();
     }
 }
 
@@ -276,26 +335,29 @@ section! {
     optional Preload ["preload."] {
         /// `"static"` (Newton's method for the equilibrium under the load), `"relaxation"` (dynamic
         /// relaxation to it) or `"none"` (the load acts suddenly). Default `"static"`.
-        method: PreloadMethod => word(PreloadMethod::WORDS);
+        method: PreloadMethod => word(PreloadMethod::WORDS).finite_elements_only();
         /// Where the preload has converged (dimensionless): the residual force over the load with
         /// `"static"`, the kinetic over the internal energy with `"relaxation"`. Default 1e-9 with
         /// `"static"`, 1e-8 with `"relaxation"`.
         tolerance: Option<f64>
             => key(Number(over(0.0, 1e-2)), "-",
-                "give the residual over the load (static) or the ratio of kinetic to internal energy: 1e-9");
+                "give the residual over the load (static) or the ratio of kinetic to internal energy: 1e-9")
+                .finite_elements_only();
         /// The preload gives up after so many iterations (dimensionless). Default 100 of Newton's with
         /// `"static"`, 40000 with `"relaxation"`.
         max_iterations: Option<u64>
-            => key(Count(1, 100_000_000), "-", "give a whole number: 100 (static), 40000 (relaxation)");
+            => key(Count(1, 100_000_000), "-", "give a whole number: 100 (static), 40000 (relaxation)")
+                .finite_elements_only();
         /// Disturbance of the preload's displacement (dimensionless): that of every free node is multiplied by
         /// 1 + r disturbance in each direction, r drawn from -1 to 1. Two runs that differ in it alone show how
         /// fast small differences grow; of half a model only those that its plane mirrors. Default: none.
         disturbance: Option<f64>
             => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9")
-                .only_with("preload.method", &["static", "relaxation"]);
+                .only_with("preload.method", &["static", "relaxation"]).finite_elements_only();
         /// What the draws of `disturbance` begin with (dimensionless). Default 1 with it, refused without.
         seed: Option<u64>
-            => key(Count(0, 1_000_000), "-", "give a whole number").only_with("preload.disturbance", &[]);
+            => key(Count(0, 1_000_000), "-", "give a whole number").only_with("preload.disturbance", &[])
+                .finite_elements_only();
     }
 }
 
@@ -323,9 +385,10 @@ section! {
     /// Time.
     optional Time ["time."] {
         /// Time step as a fraction of 2/omega_max (dimensionless). Above 1 the run is unstable;
-        /// that is accepted with a warning, to show a blow-up. Give this or `step`, not both.
+        /// that is accepted with a warning, to show a blow-up. With `model = "half-space"` it is a fraction of the
+        /// time in which pressure waves pass `mesh.zone.size`. Give this or `step`, not both.
         /// Default without `step`: 0.67 with `contact.enforcement = "penalty"`, whose springs stiffen the assembly as
-        /// nodes close, and 0.95 with `"exact"`, which has none.
+        /// nodes close, 0.95 with `"exact"`, which has none, and 0.5 with `model = "half-space"`.
         factor: Option<f64>
             => key(Number(over(0.0, 2.0)), "-",
                 "up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
@@ -344,13 +407,16 @@ section! {
     }
 }
 
+/// `time.factor` of half-spaces where neither it nor `time.step` is given (dimensionless).
+const HALF_SPACE_FACTOR: f64 = 0.5;
+
 impl Enforcement {
-    /// `time.factor` where neither it nor `time.step` is given (dimensionless).
+    /// `time.factor` of finite elements where neither it nor `time.step` is given (dimensionless).
     ///
     /// The springs that close after the preload raise the largest frequency; a third of the step is left to them. Exact
     /// contact has no springs: what is left is for the frequencies that rise as elements are compressed, by half their
     /// strain.
-    pub fn default_factor(self) -> f64 {
+    fn default_factor(self) -> f64 {
         match self {
             Self::Penalty => 0.67,
             Self::Exact => 0.95,
@@ -396,9 +462,9 @@ section! {
     /// Output.
     optional Output ["output."] {
         /// Interval of `fields.vtkhdf` (s). Default: a fortieth of the run.
-        fields_interval: Option<f64> => INTERVAL;
+        fields_interval: Option<f64> => INTERVAL.finite_elements_only();
         /// Write the stress of every element to `fields.vtkhdf` (true or false). Default true.
-        stress: bool = true => FLAG;
+        stress: bool = true => FLAG.finite_elements_only();
         /// Interval of `contact.vtkhdf` outside windows (s). Default 5.7e-6, the paper's.
         contact_interval: f64 = 5.7e-6 => INTERVAL;
         /// Interval of `history.h5` (steps). Default 10.
@@ -429,13 +495,19 @@ section! {
     optional Guards ["guards."] {
         /// Hourglass energy over strain energy (dimensionless), reckoned with the usual coefficient 0.05
         /// where `element.hourglass` is smaller. Default 0.5.
-        hourglass: f64 = 0.5 => key(Number(over(0.0, 1e6)), "-", "give a share of the strain energy: 0.5");
+        hourglass: f64 = 0.5
+            => key(Number(over(0.0, 1e6)), "-", "give a share of the strain energy: 0.5")
+                .finite_elements_only();
         /// Largest penetration in element sizes `mesh.zone.size` (dimensionless). Default 0.5: the search for
         /// contact looks half a face deep.
-        penetration: f64 = 0.5 => key(Number(over(0.0, 1e6)), "-", "give element sizes: 0.5 for half a one");
+        penetration: f64 = 0.5
+            => key(Number(over(0.0, 1e6)), "-", "give element sizes: 0.5 for half a one")
+                .finite_elements_only();
         /// Longest time without contact once there was contact (s). Default 1e-4 after a preload; none with
         /// `preload.method = "none"`, where the disk may bounce.
-        parted: Option<f64> => key(Number(over(0.0, 10.0)), "s", "give a time in seconds: 1e-4");
+        parted: Option<f64>
+            => key(Number(over(0.0, 10.0)), "s", "give a time in seconds: 1e-4")
+                .finite_elements_only();
         /// Largest coefficient of friction that the law may give (dimensionless). Default 5; none with
         /// `friction.law = "prakash_clifton"`, whose friction lags behind a pressure that may go to zero.
         friction: Option<f64> => key(Number(over(0.0, 1e12)), "-", "give a coefficient of friction: 5");
@@ -465,10 +537,14 @@ section! {
     /// Points whose nearest surface node is recorded at every step.
     optional Probes ["output.probes."] {
         /// Points [x, y] on the bar's top (m). Default: none.
-        bar: Vec<[f64; 2]> => key(Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]");
+        bar: Vec<[f64; 2]>
+            => key(Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
+                .finite_elements_only();
         /// Points [s, y] on the disk's tread (m), s the arc length from the first point of contact,
         /// positive towards +x. Default: none.
-        disk: Vec<[f64; 2]> => key(Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]");
+        disk: Vec<[f64; 2]>
+            => key(Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
+                .finite_elements_only();
     }
 }
 
@@ -493,7 +569,32 @@ impl Case {
 
     /// The time step as a fraction of the stability limit (dimensionless), where `time.step` does not give it.
     pub fn factor(&self) -> f64 {
-        self.time.factor.unwrap_or(self.contact.enforcement.default_factor())
+        self.time.factor.unwrap_or(self.default_factor())
+    }
+
+    /// `time.factor` where neither it nor `time.step` is given (dimensionless).
+    pub fn default_factor(&self) -> f64 {
+        match self.model {
+            BodyModel::FiniteElements => self.contact.enforcement.default_factor(),
+            BodyModel::HalfSpace => HALF_SPACE_FACTOR,
+        }
+    }
+
+    /// The time (s) in which the faster pressure waves pass an element of the fine zone, or go from point to point
+    /// of half-spaces, of which their `time.factor` is a fraction.
+    pub fn wave_time(&self) -> f64 {
+        let speeds = [self.disk_material(), self.bar_material()].map(|m| m.pressure_wave());
+        self.mesh.zone.size / speeds[0].max(speeds[1])
+    }
+
+    /// Whether the bodies are half-spaces.
+    pub fn is_half_space(&self) -> bool {
+        self.model == BodyModel::HalfSpace
+    }
+
+    /// Whether half-spaces have inertia.
+    pub fn has_inertia(&self) -> bool {
+        self.half_space.inertia.unwrap_or(true)
     }
 
     /// Duration of rolling (s).

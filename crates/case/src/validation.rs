@@ -1,6 +1,7 @@
 //! The case against itself: sizes that fit, choices that agree, a path that stays in the fine zone.
 
 mod geometry;
+mod half_space;
 
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
@@ -10,7 +11,7 @@ use crate::key::number;
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
-use crate::schema::{Case, Enforcement, LoadMode, Material, PreloadMethod, Stiffness, Window};
+use crate::schema::{BodyModel, Case, Enforcement, LoadMode, PreloadMethod, Stiffness, Window};
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
@@ -84,7 +85,10 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
     let mut found = Findings { layers, errors: Vec::new() };
     check_name(case, &mut found);
     check_choices(case, &mut found);
-    geometry::check(case, &mut found);
+    match case.model {
+        BodyModel::FiniteElements => geometry::check(case, &mut found),
+        BodyModel::HalfSpace => half_space::check_zone(case, &mut found),
+    }
     check_output(case, &mut found);
     // The path is judged only for a case whose shape makes sense.
     if found.errors.is_empty() {
@@ -104,11 +108,15 @@ fn check_name(case: &Case, found: &mut Findings) {
 fn check_choices(case: &Case, found: &mut Findings) {
     check_rules(case, found);
     check_friction(&case.friction, found);
+    match case.model {
+        BodyModel::FiniteElements => check_straight(case, found),
+        BodyModel::HalfSpace => half_space::check(case, found),
+    }
     let friction = &case.friction;
     let exact = case.contact.enforcement == Enforcement::Exact;
     if friction.mode == Some(Mode::Exact) {
         found.require(
-            exact,
+            exact || case.is_half_space(),
             &["friction.mode", "contact.enforcement"],
             || "friction.mode = \"exact\" needs exact enforcement of contact".into(),
             "set contact.enforcement = \"exact\", or friction.mode = \"lagged\"",
@@ -171,6 +179,26 @@ fn check_choices(case: &Case, found: &mut Findings) {
         || "load.mode = \"height\" holds the height of the preload, but there is none".into(),
         "set preload.method = \"static\", or load.mode = \"load\"",
     );
+}
+
+/// A disk of finite elements rolls straight.
+fn check_straight(case: &Case, found: &mut Findings) {
+    for (key, value, unit) in [
+        ("drive.lateral_creepage", case.drive.lateral_creepage, ""),
+        ("drive.spin", case.drive.spin, " rad/m"),
+    ] {
+        found.require(
+            value == 0.0,
+            &[key],
+            || {
+                format!(
+                    "{key} = {}{unit}: the finite elements roll straight: needs model = \"half-space\"",
+                    number(value)
+                )
+            },
+            "set model = \"half-space\", or leave it out",
+        );
+    }
 }
 
 /// No key is given that another makes useless, and none is missing that another needs.
@@ -393,12 +421,7 @@ fn check_probes(case: &Case, found: &mut Findings) {
 /// Time steps of the run, roughly: the smallest element over the speed of pressure waves. The
 /// stable step of the mesh is not known before the mesh is.
 fn steps(case: &Case) -> f64 {
-    let speed = |m: Material| {
-        let modulus = m.young * (1.0 - m.poisson) / ((1.0 + m.poisson) * (1.0 - 2.0 * m.poisson));
-        (modulus / m.density).sqrt()
-    };
-    let fastest = speed(case.disk_material()).max(speed(case.bar_material()));
-    case.duration() / case.step().under(case.mesh.zone.size / fastest)
+    case.duration() / case.step().under(case.wave_time())
 }
 
 /// The run does not need more steps than anybody waits for.
@@ -637,6 +660,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
             warnings.push(text);
         }
     };
+    case.left_out.warning(case.model).into_iter().for_each(|left_out| warn(true, left_out));
     units(case).into_iter().for_each(|unit| warn(true, unit));
     warn(
         case.element.hourglass == 0.0,
@@ -644,7 +668,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
     );
     let factor = case.factor();
     warn(
-        factor > 1.0,
+        factor > 1.0 && !case.is_half_space(),
         format!("time.factor = {factor} is above 1: THE RUN IS UNSTABLE and will blow up"),
     );
     let steps = steps(case);

@@ -47,7 +47,8 @@ pub fn bench(options: &BenchOptions) -> Result<Value, Error> {
     if let Some(n) = options.block {
         return Ok(::run::bench_block(n, options.element, threads, options.kernels)?);
     }
+    // the reference case is no file: a key that the error is about is looked for in the options
     let (path, sets) = (PathBuf::from("reference.toml"), options.sets.clone());
     ::run::bench(threads, options.kernels, &options.sets)
-        .map_err(|error| CaseSource { path, sets, text: None }.placed(error))
+        .map_err(|error| CaseSource { path, sets, text: Some(String::new()) }.placed(error))
 }

@@ -60,7 +60,7 @@ pub struct Basis {
     pub friction: Result<RecordedLaw, String>,
     /// The bound of friction.
     pub bound: Bound,
-    /// `contact.enforcement` of the case.
+    /// `contact.enforcement` of the case; `exact` for half-spaces.
     pub enforcement: Option<String>,
     /// The evaluation window, from and to (s); `None` where no summary states it.
     pub window: Option<[f64; 2]>,
@@ -206,7 +206,10 @@ impl Basis {
         if let Some(name) = self.word("name") {
             self.name = name;
         }
-        self.enforcement = self.word("contact.enforcement");
+        // half-spaces have no penalty
+        let half_space = self.word("model").is_some_and(|model| model == "half-space");
+        let exact = half_space.then(|| "exact".to_owned());
+        self.enforcement = exact.or_else(|| self.word("contact.enforcement"));
         self.law = self.parameters().and_then(|parameters| Law::of(&parameters));
         let remembers = self.case.as_ref().and_then(|case| value_at(case, "friction.memory"));
         if self.law.is_some() && remembers.is_none() {

@@ -98,8 +98,7 @@ fn difference(case: &Case, folder: &Path) -> Option<String> {
         Ok(theirs) => theirs,
         Err(error) => return Some(format!("its case.toml cannot be read: {error}")),
     };
-    let ours = toml::Table::try_from(case).unwrap_or_default();
-    let theirs = toml::Table::try_from(&theirs).unwrap_or_default();
+    let (ours, theirs) = (case.table(), theirs.table());
     let mut keys = Vec::new();
     differing(&ours, &theirs, "", &mut keys);
     // no result depends on these

@@ -75,6 +75,9 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
+    if case.is_half_space() {
+        return Err(RunError::HalfSpace);
+    }
     let law = case.friction.law;
     match (law == Kind::Python, options.law.is_some()) {
         (true, false) => return Err(RunError::NoLaw),

@@ -22,6 +22,10 @@ pub enum ScenarioError {
         "give a mesh one element wide, extruded along y, or mesh.plane_strain = false"
     ))]
     Slice(#[from] mesh::NoSlice),
+    /// The mesh of a case without one.
+    #[error("model = \"half-space\": the bodies have no mesh")]
+    #[diagnostic(help("set model = \"finite-elements\""))]
+    NoMesh,
     /// The elements cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
@@ -98,6 +102,7 @@ impl ScenarioError {
         match self {
             Self::Mesh(error) => key_of_mesh(error),
             Self::Memory { .. } => Some(key!("mesh.zone.size")),
+            Self::NoMesh => Some("model"),
             Self::Slice(_) => Some(key!("mesh.plane_strain")),
             Self::Symmetry(_) => Some(key!("mesh.symmetry")),
             Self::Pattern { .. } => Some(key!("mesh.window")),

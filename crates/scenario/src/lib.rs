@@ -14,15 +14,17 @@ pub mod numbers;
 pub mod preload;
 pub mod progress;
 pub mod remedy;
+mod size;
 pub mod start;
 #[cfg(test)]
 mod tests;
 
-// there is one scenario; with a second one, these functions choose by the case
-pub use disk_on_bar::{elements, model, restart, stable_limit, start};
+// there is one scenario of finite elements; with a second one, these functions choose by the case
+pub use disk_on_bar::{model, restart, start};
 pub use error::{MeshFileError, ScenarioError};
 pub use model::{BAR, DISK, Model};
 pub use preload::{PreloadError, PreloadReport};
 pub use progress::{Progress, Stage};
 pub use remedy::Remedy;
+pub use size::{elements, stable_limit};
 pub use start::{Facts, Found, Start};

@@ -82,7 +82,7 @@ impl Sweep {
             let run =
                 Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
             if run.time.step.is_some() {
-                sets.push(format!("time.factor={}", run.contact.enforcement.default_factor()));
+                sets.push(format!("time.factor={}", run.default_factor()));
             }
         }
         sets.push(format!("name=\"{name}\""));

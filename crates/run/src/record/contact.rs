@@ -20,8 +20,8 @@ use std::path::{Path, PathBuf};
 /// Rows of the history gathered before they are handed to the writer.
 const HISTORY_BATCH: usize = 64;
 
-/// Writes contact surfaces and history, and gathers the means over the evaluation window. It knows nothing of the bodies
-/// below the surfaces.
+/// Writes contact surfaces and history, and gathers the means over the evaluation window. It knows nothing of the
+/// bodies below the surfaces.
 pub(crate) struct ContactRecord {
     writer: BackgroundWriter,
     /// Contact at the nodes of disk and bar, for the recorder to fill before a record or a row is written.

@@ -13,6 +13,9 @@ use solid::{Element, Level, Material, Volumetric};
 /// # Errors
 /// A mesh that cannot be made or read, or that this machine has no memory for.
 pub fn model(case: &Case) -> Result<Model, ScenarioError> {
+    if case.is_half_space() {
+        return Err(ScenarioError::NoMesh);
+    }
     enough_for_mesh(case)?;
     let (mut mesh, notes) = match mesh_file::import(case)? {
         Some(imported) => imported,

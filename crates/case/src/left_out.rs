@@ -1,0 +1,78 @@
+//! Keys that have no meaning for the model of a case.
+
+use crate::check::raise;
+use crate::error::CaseError;
+use crate::keys::KEYS;
+use crate::layers::{Layers, Origin, get, remove};
+use crate::model::BodyModel;
+use toml::{Table, Value};
+
+const MODEL: &str = "model";
+
+/// Keys that a layer below that of `model` gives and that have no meaning for it. They are no part of what a case says:
+/// all of them are equal.
+#[derive(Clone, Debug, Default)]
+pub struct LeftOut(pub Vec<&'static str>);
+
+impl PartialEq for LeftOut {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl LeftOut {
+    /// The warning about them.
+    pub(crate) fn warning(&self, model: BodyModel) -> Option<String> {
+        let keys = self.0.join(", ");
+        let model = model.word();
+        (!self.0.is_empty())
+            .then(|| format!("without meaning for model = \"{model}\" and left out: {keys}"))
+    }
+}
+
+/// Removes the keys that have no meaning for the model of the case from the layers below the one that chooses it.
+///
+/// # Errors
+/// Such keys in the layer that chooses the model, or in one above it: all of them.
+pub fn leave_out(layers: &mut Layers) -> Result<LeftOut, CaseError> {
+    let given = get(&layers.table, MODEL);
+    let model = match given.map(|word| word.as_str().and_then(BodyModel::named)) {
+        None => BodyModel::default(),
+        Some(Some(model)) => model,
+        // refused where each key is checked
+        Some(None) => return Ok(LeftOut::default()),
+    };
+    let chosen = layers.origins.get(MODEL).map(|origin| layers.height(origin));
+    let below = |origin: &Origin| chosen.is_some_and(|chosen| layers.height(origin) < chosen);
+    let useless = KEYS.iter().filter(|key| !key.has_meaning_for(model));
+    let (mut left_out, mut errors) = (Vec::new(), Vec::new());
+    for key in useless.filter(|key| get(&layers.table, key.path).is_some()) {
+        if layers.origins.get(key.path).is_some_and(below) {
+            left_out.push(key.path);
+        } else {
+            let message = format!("{} has no meaning for model = \"{}\"", key.path, model.word());
+            errors.push(layers.error_at(key.path, &message, "leave it out"));
+        }
+    }
+    raise(errors)?;
+    left_out.iter().for_each(|path| layers.drop_key(path));
+    Ok(LeftOut(left_out))
+}
+
+/// Removes from the keys of a case those that have no meaning for its model, and sections that then are empty.
+pub fn keep_meaningful(table: &mut Table, model: BodyModel) {
+    for key in KEYS.iter().filter(|key| !key.has_meaning_for(model)) {
+        remove(table, key.path);
+    }
+    drop_empty(table);
+}
+
+fn drop_empty(table: &mut Table) {
+    table.retain(|_, value| match value {
+        Value::Table(section) => {
+            drop_empty(section);
+            !section.is_empty()
+        }
+        _ => true,
+    });
+}
