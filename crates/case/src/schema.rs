@@ -581,8 +581,11 @@ impl Case {
     }
 
     /// The time (s) in which the faster pressure waves pass an element of the fine zone, or go from point to point
-    /// of half-spaces, of which their `time.factor` is a fraction.
+    /// of half-spaces, of which their `time.factor` is a fraction; without inertia, the time in which the patch does.
     pub fn wave_time(&self) -> f64 {
+        if self.is_half_space() && !self.has_inertia() {
+            return self.mesh.zone.size / self.drive.speed;
+        }
         let speeds = [self.disk_material(), self.bar_material()].map(|m| m.pressure_wave());
         self.mesh.zone.size / speeds[0].max(speeds[1])
     }

@@ -533,6 +533,16 @@ impl Rolling {
         Ok(())
     }
 
+    /// Place of the patch's centre (m).
+    pub fn centre(&self) -> f64 {
+        self.centre
+    }
+
+    /// The law's coefficient of friction at rest.
+    pub fn mu_static(&self) -> f64 {
+        self.setup.law.mu_static()
+    }
+
     /// Steps taken.
     pub fn steps(&self) -> usize {
         self.steps

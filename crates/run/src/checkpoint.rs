@@ -12,14 +12,18 @@ use serde::{Deserialize, Serialize};
 /// Attribute: the instruction set of the kernels.
 pub(crate) const KERNELS: &str = "kernels";
 
-/// Everything that a run needs to go on with the same bits.
+/// The state of a run of finite elements.
+pub(crate) type State = RunState<SimulationState, RecorderState, Found>;
+
+/// Everything that a run needs to go on with the same bits: the state of the bodies, of the recorder, and what was found
+/// before they began to move.
 #[derive(Serialize, Deserialize)]
-pub(crate) struct State {
-    pub(crate) simulation: SimulationState,
-    pub(crate) recorder: RecorderState,
+pub(crate) struct RunState<S, R, F> {
+    pub(crate) simulation: S,
+    pub(crate) recorder: R,
     /// The last energies read.
     pub(crate) energies: Energies,
-    pub(crate) found: Found,
+    pub(crate) found: F,
     /// Wall time so far: of the whole run, and of rolling.
     pub(crate) wall: [Duration; 2],
 }
@@ -62,15 +66,16 @@ impl Clock {
     }
 }
 
-impl State {
-    /// The checkpoint of this state; `results` says how much of the result files belongs to it.
+impl<S: Serialize, R: Serialize, F: Serialize> RunState<S, R, F> {
+    /// The checkpoint of this state at `step`; `results` says how much of the result files belongs to it.
     pub(crate) fn checkpoint(
         &self,
+        step: u64,
         mut provenance: Provenance,
         kernels: &str,
         results: Results,
     ) -> Result<Checkpoint, OutputError> {
         provenance.attributes = vec![(KERNELS.into(), kernels.into())];
-        Checkpoint::new(provenance, self.simulation.step as u64, results, self)
+        Checkpoint::new(provenance, step, results, self)
     }
 }

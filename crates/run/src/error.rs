@@ -19,10 +19,6 @@ pub enum RunError {
     #[error("the mesh has no contact surface in its fine zone")]
     #[diagnostic(help("enlarge mesh.zone"))]
     NoContact,
-    /// Half-spaces, which cannot be run yet.
-    #[error("model = \"half-space\" is not there yet: it cannot be run")]
-    #[diagnostic(help("set model = \"finite-elements\""))]
-    HalfSpace,
     /// `friction.law = "python"` without its function.
     #[error("friction.law = \"python\": the run needs the function of its friction law")]
     #[diagnostic(help(
@@ -60,7 +56,6 @@ impl RunError {
     pub fn key(&self) -> Option<&'static str> {
         match self {
             Self::Scenario(error) => error.key(),
-            Self::HalfSpace => Some("model"),
             _ => None,
         }
     }
@@ -77,8 +72,7 @@ impl RunError {
             Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,
             Self::Scenario(error) => error.exit_code(),
             Self::Folder(_) | Self::Resume(_) | Self::NoContact => 2,
-            Self::HalfSpace
-            | Self::NoLaw
+            Self::NoLaw
             | Self::UnusedLaw { .. }
             | Self::Case(_)
             | Self::Threads(_) => 2,

@@ -4,39 +4,58 @@ pub(crate) mod error;
 
 use std::path::Path;
 
-use crate::checkpoint::{KERNELS, State};
+use crate::checkpoint::KERNELS;
+use crate::log::Log;
+use crate::text_file::remove;
 use crate::folder::{Content, content, has_no_results, is_run};
 use case::schema::Case;
 use error::ResumeError;
 use output::layout::file;
 use output::summary::Status;
 use output::{
-    CHECKPOINTS, Checkpoint, OutputError, Results, as_long_as_written, prove, read_summary,
+    CHECKPOINTS, Checkpoint, NotWritten, OutputError, Results, as_long_as_written, prove, read_summary,
 };
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 use solid::Level;
 
 /// Where a run goes on.
-pub(crate) enum ResumeFrom {
+pub(crate) enum ResumeFrom<T> {
     /// Nowhere: the run is complete. Its summary.
     Complete(Value),
     /// At its beginning. The reason.
     Beginning(String),
     /// At a checkpoint.
-    Checkpoint(Box<Point>),
+    Checkpoint(Box<Point<T>>),
 }
 
-/// A checkpoint to go on from.
-pub(crate) struct Point {
+/// A checkpoint to go on from, with the state that it holds.
+pub(crate) struct Point<T> {
     pub(crate) checkpoint: Checkpoint,
-    pub(crate) state: State,
+    pub(crate) state: T,
     pub(crate) kernels: Level,
     /// Newer checkpoints that cannot be used, and why.
     pub(crate) damaged: Vec<(&'static str, String)>,
 }
 
+impl<T> Point<T> {
+    /// Says in the log where the run goes on, and removes checkpoints that cannot be used.
+    pub(crate) fn tell(self, folder: &Path, log: &mut Log) -> Result<Self, NotWritten> {
+        for (name, damage) in &self.damaged {
+            log.warn(&format!("not used, {name}: {damage}; the one before is"))?;
+            // of two checkpoints the next one replaces the older: that must not be the good one
+            remove(&folder.join(name))?;
+        }
+        log.say(&format!("resumed from the checkpoint of step {}", self.checkpoint.step))?;
+        Ok(self)
+    }
+}
+
 /// Where the run of `case` in `folder` goes on.
-pub(crate) fn resume_from(case: &Case, folder: &Path) -> Result<ResumeFrom, ResumeError> {
+pub(crate) fn resume_from<T: DeserializeOwned>(
+    case: &Case,
+    folder: &Path,
+) -> Result<ResumeFrom<T>, ResumeError> {
     let path = || folder.to_path_buf();
     match content(folder) {
         Content::Run if is_run(folder) => {}
@@ -131,7 +150,11 @@ fn differing(ours: &toml::Table, theirs: &toml::Table, prefix: &str, keys: &mut 
 }
 
 /// The checkpoint if the run can go on from it, or else why not.
-fn usable(case: &Case, folder: &Path, name: &str) -> Result<(Checkpoint, State, Level), String> {
+fn usable<T: DeserializeOwned>(
+    case: &Case,
+    folder: &Path,
+    name: &str,
+) -> Result<(Checkpoint, T, Level), String> {
     let checkpoint = Checkpoint::read(&folder.join(name)).map_err(|error| match error {
         OutputError::Read { reason, .. } => format!("it is damaged: {reason}"),
         error => error.to_string(),

@@ -1,6 +1,7 @@
 //! From a resolved case to a finished run.
 
 mod begin;
+mod half_space;
 mod opening;
 mod options;
 mod rolling;
@@ -23,7 +24,7 @@ use case::schema::{Case, Symmetry};
 use case::validation;
 use dynamics::Simulation;
 use friction::{Kind, Uses};
-use opening::{Opened, Opening, open};
+use opening::{Opened, Opening, log_model, model, open};
 pub use options::RunOptions;
 use output::NotWritten;
 use output::layout::{FOLLOWS, HALF, attribute, file};
@@ -75,16 +76,17 @@ fn run_in_pool(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<serde_json::Value, RunError> {
     let wall = Instant::now();
-    if case.is_half_space() {
-        return Err(RunError::HalfSpace);
-    }
     let law = case.friction.law;
     match (law == Kind::Python, options.law.is_some()) {
         (true, false) => return Err(RunError::NoLaw),
         (false, true) => return Err(RunError::UnusedLaw { law: Uses::of(law).word }),
         _ => {}
     }
-    let mut opened = match open(case, options)? {
+    if case.is_half_space() {
+        return half_space::run(case, options, wall, stop, observe);
+    }
+    let make = |point: Option<&_>| model(case, options, point);
+    let mut opened = match open(case, options, make, |model, log| log_model(case, model, log))? {
         Opening::Complete(summary) => return Ok(complete(&options.out, summary)),
         Opening::Run(opened) => *opened,
     };

@@ -174,7 +174,7 @@ pub(crate) fn write(folder: &Path, summary: &Summary) -> Result<Value, RunError>
     Ok(document)
 }
 
-fn contact_means(means: &Means) -> Contact {
+pub(crate) fn contact_means(means: &Means) -> Contact {
     let [tangential, lateral, normal] = means.force;
     Contact {
         normal_force: normal.mean(),
@@ -193,7 +193,7 @@ fn contact_means(means: &Means) -> Contact {
 
 /// The section `window`: the span of the evaluation window (s), means that the section `contact` does not hold, and
 /// standard deviations.
-fn window(case: &Case, means: &Means) -> serde_json::Value {
+pub(crate) fn window(case: &Case, means: &Means) -> serde_json::Value {
     let [from, to] = case.evaluation_window();
     json!({
         "from": from,

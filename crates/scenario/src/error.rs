@@ -26,6 +26,14 @@ pub enum ScenarioError {
     #[error("model = \"half-space\": the bodies have no mesh")]
     #[diagnostic(help("set model = \"finite-elements\""))]
     NoMesh,
+    /// The half-spaces cannot be set up.
+    #[error(transparent)]
+    #[diagnostic(help("{}", match .0 {
+        halfspace::RollingError::Coarse { .. } => "make mesh.zone.size smaller: the patch must have at least 4",
+        halfspace::RollingError::Kernel(_) => "make mesh.zone.size larger, or the patch smaller",
+        halfspace::RollingError::State => "begin the run anew with --force",
+    }))]
+    HalfSpace(#[from] halfspace::RollingError),
     /// The elements cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]

@@ -8,6 +8,7 @@
 
 mod disk_on_bar;
 pub mod error;
+mod half_space;
 pub mod memory;
 pub mod model;
 pub mod numbers;
@@ -21,6 +22,7 @@ mod tests;
 
 // there is one scenario of finite elements; with a second one, these functions choose by the case
 pub use disk_on_bar::{model, restart, start};
+pub use half_space::{HalfSpaceModel, SurfacePoints, drive, half_space};
 pub use error::{MeshFileError, ScenarioError};
 pub use model::{BAR, DISK, Model};
 pub use preload::{PreloadError, PreloadReport};

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::key::number;
-use crate::schema::{Case, DriveMode};
+use crate::schema::Case;
 
 /// More points than this on a surface are taken for a typing mistake.
 const MOST_POINTS: f64 = 1e8;
@@ -27,15 +27,6 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
         },
         "give [material] alone, or set model = \"finite-elements\"",
     );
-    found.require(
-        case.drive.mode == DriveMode::Creepage,
-        &["drive.mode", "drive.torque", "model"],
-        || {
-            "drive.mode = \"torque\" has no meaning for model = \"half-space\", which has no hub"
-                .into()
-        },
-        "give drive.creepage",
-    );
     let flat = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature() == 0.0;
     found.require(
         flat == case.mesh.plane_strain,
@@ -51,16 +42,17 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
         "for a line contact set mesh.plane_strain = true and both crown radii to \"flat\"; for an ellipse give a \
          crown_radius, and mesh.plane_strain = false",
     );
-    for (key, value) in
-        [("drive.lateral_creepage", case.drive.lateral_creepage), ("drive.spin", case.drive.spin)]
-    {
-        found.require(
-            value == 0.0 || !case.mesh.plane_strain,
-            &[key, "mesh.plane_strain"],
-            || format!("{key} = {} does not go with mesh.plane_strain = true", number(value)),
-            "in plane strain nothing moves across: leave it out",
-        );
-    }
+    found.require(
+        case.drive.spin == 0.0 || !case.mesh.plane_strain,
+        &["drive.spin", "mesh.plane_strain"],
+        || {
+            format!(
+                "drive.spin = {} does not go with mesh.plane_strain = true: a line contact has no centre to turn about",
+                number(case.drive.spin)
+            )
+        },
+        "leave it out",
+    );
 }
 
 /// Checks the fine zone, in which the points of half-spaces lie.

@@ -7,10 +7,9 @@ use crate::error::RunError;
 use crate::log::REFUSED;
 use crate::resume::Point;
 use crate::summary::{without_rolling, write as write_summary};
-use crate::text_file::remove;
 use case::schema::Case;
 use output::{Checkpoint, LOG_END};
-use scenario::Start;
+use scenario::{Model, Start};
 use scenario::{Progress, ScenarioError};
 use scenario::{restart, start};
 use std::sync::atomic::AtomicBool;
@@ -34,7 +33,7 @@ pub(super) enum Begun {
 pub(super) fn begin(
     case: &Case,
     options: &RunOptions,
-    opened: &mut Opened,
+    opened: &mut Opened<Model, State>,
     wall: Instant,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
@@ -65,17 +64,10 @@ pub(super) fn begin(
 fn resume(
     case: &Case,
     options: &RunOptions,
-    opened: &mut Opened,
-    point: Point,
+    opened: &mut Opened<Model, State>,
+    point: Point<State>,
 ) -> Result<Begun, RunError> {
-    let Point { checkpoint, state, damaged, .. } = point;
-    let log = &mut opened.log;
-    for (name, damage) in damaged {
-        log.warn(&format!("not used, {name}: {damage}; the one before is"))?;
-        // of two checkpoints the next one replaces the older: that must not be the good one
-        remove(&options.out.join(name))?;
-    }
-    log.say(&format!("resumed from the checkpoint of step {}", checkpoint.step))?;
+    let Point { checkpoint, state, .. } = point.tell(&options.out, &mut opened.log)?;
     let start = restart(case, &opened.model, state.found.clone(), &state.simulation)?;
     Ok(Begun::Rolling(Box::new(start), Some(Box::new(Resumed { checkpoint, state }))))
 }

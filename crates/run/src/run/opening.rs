@@ -7,33 +7,41 @@ use crate::held::FolderLock;
 use crate::log::Log;
 use crate::resume::{self, Point, ResumeFrom};
 use crate::text_file::write_text;
+use crate::checkpoint::State;
 use case::load::inputs;
 use case::schema::Case;
 use output::NotWritten;
 use output::layout::file;
 use scenario::Model;
+use serde::de::DeserializeOwned;
 use scenario::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 
-/// A run about to begin, or to go on.
-pub(super) struct Opened {
+/// A run of the model `M` about to begin, or to go on from a state `T`.
+pub(crate) struct Opened<M, T> {
     /// The lock of its folder.
-    pub(super) held: FolderLock,
-    pub(super) log: Log,
-    pub(super) model: Model,
+    pub(crate) held: FolderLock,
+    pub(crate) log: Log,
+    pub(crate) model: M,
     /// The checkpoint where it goes on; none for a run that begins.
-    pub(super) point: Option<Point>,
+    pub(crate) point: Option<Point<T>>,
 }
 
 /// What there is to do in a folder.
-pub(super) enum Opening {
+pub(crate) enum Opening<M, T> {
     /// Nothing: the run is complete. Its summary.
     Complete(serde_json::Value),
     /// A run to begin, or to go on with.
-    Run(Box<Opened>),
+    Run(Box<Opened<M, T>>),
 }
 
-/// Locks the folder of a run and makes its model; results of an earlier run are removed only once the mesh is made.
-pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunError> {
+/// Locks the folder of a run and makes its model by `make`; results of an earlier run are removed only once it is made.
+/// `tell` writes of the model into the log.
+pub(crate) fn open<M, T: DeserializeOwned>(
+    case: &Case,
+    options: &RunOptions,
+    make: impl FnOnce(Option<&Point<T>>) -> Result<M, RunError>,
+    tell: impl FnOnce(&M, &mut Log) -> Result<(), NotWritten>,
+) -> Result<Opening<M, T>, RunError> {
     let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
     let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
     let (point, why) = match resume_from(case, options)? {
@@ -51,19 +59,24 @@ pub(super) fn open(case: &Case, options: &RunOptions) -> Result<Opening, RunErro
         // Before the mesh is made, which takes time; the files of an earlier run are removed only after it.
         folder::check(&options.out, replaces)?;
     }
-    let model = model(case, options, point.as_ref())?;
+    let model = make(point.as_ref())?;
     let log_file = options.out.join(file::LOG);
     let (held, mut log) = match (&point, held) {
         (Some(_), Some(held)) => (held, Log::append(log_file)?),
         (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
     };
     write_text(options.out.join(file::CASE), &case.to_toml())?;
-    log_opening(case, options, &model, why, &mut log)?;
+    log_opening(case, options, why, &mut log)?;
+    tell(&model, &mut log)?;
     Ok(Opening::Run(Box::new(Opened { held, log, model, point })))
 }
 
 /// The model of a case that this machine has the memory for.
-fn model(case: &Case, options: &RunOptions, point: Option<&Point>) -> Result<Model, RunError> {
+pub(super) fn model(
+    case: &Case,
+    options: &RunOptions,
+    point: Option<&Point<State>>,
+) -> Result<Model, RunError> {
     enough_for_zones(case, BYTES_PER_ELEMENT)?;
     let mut model = scenario::model(case)?;
     model.law = options.law.clone();
@@ -78,7 +91,6 @@ fn model(case: &Case, options: &RunOptions, point: Option<&Point>) -> Result<Mod
 fn log_opening(
     case: &Case,
     options: &RunOptions,
-    model: &Model,
     why: Option<String>,
     log: &mut Log,
 ) -> Result<(), NotWritten> {
@@ -91,7 +103,11 @@ fn log_opening(
     if let Some(why) = why {
         log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
     }
-    case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))?;
+    case.warnings().iter().try_for_each(|w| log.say(&format!("warning: {w}")))
+}
+
+/// Writes of the meshes into the log.
+pub(super) fn log_model(case: &Case, model: &Model, log: &mut Log) -> Result<(), NotWritten> {
     model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     log.say(&format!("mesh: {elements} elements, {nodes} nodes"))?;
@@ -117,7 +133,10 @@ fn log_opening(
 }
 
 /// Where a run that is to be resumed goes on; none for one that begins.
-fn resume_from(case: &Case, options: &RunOptions) -> Result<Option<ResumeFrom>, RunError> {
+fn resume_from<T: DeserializeOwned>(
+    case: &Case,
+    options: &RunOptions,
+) -> Result<Option<ResumeFrom<T>>, RunError> {
     if !options.resume {
         return Ok(None);
     }

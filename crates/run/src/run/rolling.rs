@@ -158,7 +158,8 @@ impl<'a> Rolling<'a> {
         };
         let kernels = self.simulation.solid().level().name();
         let provenance = basis.provenance.clone();
-        let make = move |results| state.checkpoint(provenance, kernels, results);
+        let step = self.simulation.steps() as u64;
+        let make = move |results| state.checkpoint(step, provenance, kernels, results);
         self.recorder.keep(make, basis.folder)?;
         self.keeping += begun.elapsed();
         Ok(())
