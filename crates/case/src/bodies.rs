@@ -3,7 +3,8 @@
 use crate::forms::Crown;
 use crate::key::Form::{Number, Text};
 use crate::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, over, within, word};
-use crate::section::{section, words};
+use crate::section::section;
+use crate::words::words;
 
 section! {
     /// The disk: an annulus with a rigid hub, rolling in +x.

@@ -4,31 +4,10 @@ use crate::check::raise;
 use crate::error::CaseError;
 use crate::keys::KEYS;
 use crate::layers::{Layers, Origin, get, remove};
-use crate::model::BodyModel;
+use crate::model::{BodyModel, LeftOut};
 use toml::{Table, Value};
 
 const MODEL: &str = "model";
-
-/// Keys that a layer below that of `model` gives and that have no meaning for it. They are no part of what a case says:
-/// all of them are equal.
-#[derive(Clone, Debug, Default)]
-pub struct LeftOut(pub Vec<&'static str>);
-
-impl PartialEq for LeftOut {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-impl LeftOut {
-    /// The warning about them.
-    pub(crate) fn warning(&self, model: BodyModel) -> Option<String> {
-        let keys = self.0.join(", ");
-        let model = model.word();
-        (!self.0.is_empty())
-            .then(|| format!("without meaning for model = \"{model}\" and left out: {keys}"))
-    }
-}
 
 /// Removes the keys that have no meaning for the model of the case from the layers below the one that chooses it.
 ///

@@ -34,6 +34,7 @@ mod table;
 mod tests;
 pub mod validation;
 mod window;
+mod words;
 
 pub use error::{CaseError, KeyError};
 pub use excerpt::Excerpt;

@@ -11,9 +11,9 @@ pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
 use crate::key::Form::{Count, Number, Points, Text};
 use crate::key::{FLAG, INTERVAL, PENALTY, key, needed, over, within, word};
-pub use crate::left_out::LeftOut;
-pub use crate::model::BodyModel;
-use crate::section::{section, words};
+pub use crate::model::{BodyModel, LeftOut};
+use crate::section::section;
+use crate::words::words;
 
 section! {
     /// A case: a disk pressed on a bar and rolled along it. SI units throughout.

@@ -63,20 +63,6 @@ macro_rules! section {
     };
 }
 
-/// Declares the words that a key may be as an enum, each word with its variant; one is the default.
-macro_rules! words {
-    ($(#[$meta:meta])* $name:ident { $($(#[$of:meta])* $variant:ident = $word:literal,)+ }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-        pub enum $name { $($(#[$of])* #[serde(rename = $word)] $variant,)+ }
-
-        impl $name {
-            pub(crate) const WORDS: &'static [&'static str] = &[$($word),+];
-        }
-    };
-}
-
 /// Declares the rows of keys whose struct another crate declares.
 macro_rules! rows {
     ($(#[$meta:meta])* $($path:literal => $key:expr;)*) => {
@@ -85,4 +71,4 @@ macro_rules! rows {
     };
 }
 
-pub(crate) use {rows, section, words};
+pub(crate) use {rows, section};
