@@ -187,6 +187,7 @@ impl HalfSpaceRecorder {
             let centre = (model.rolling.centre() / self.spacing).floor() as i64;
             self.travel = centre.div_euclid(columns as i64) * columns as i64;
         }
+        // in linear theory points that are opposite stay so: none is displaced but by the moves of the grid
         let travel = [self.travel as f64 * self.spacing, 0.0, 0.0];
         self.displacement.fill(travel);
         self.velocity.fill([0.0; 3]);
@@ -210,16 +211,13 @@ impl HalfSpaceRecorder {
                 for (side, sign) in [(DISK, 1.0), (BAR, -1.0)] {
                     let table = &mut self.contact.tables[side];
                     set(table, row, &point, sign);
-                    // each surface takes half of the displacement
-                    let half = |v: [f64; 2]| v.map(|v| 0.5 * sign * v);
-                    let (moved, rate) = (half(point.displacement), half(point.rate));
-                    // the rigid slip is the disk's
-                    let rigid = [0, 1].map(|c| {
-                        if side == DISK { point.slip_velocity[c] - point.rate[c] } else { 0.0 }
-                    });
+                    // each surface takes half of the elastic motion, and the disk the rigid slip
                     let i = side * n + row;
-                    self.displacement[i] = [travel[0] + moved[0], moved[1], 0.0];
-                    self.velocity[i] = [rate[0] + rigid[0], rate[1] + rigid[1], 0.0];
+                    for c in 0..2 {
+                        let elastic = 0.5 * sign * point.rate[c];
+                        let rigid = point.slip_velocity[c] - point.rate[c];
+                        self.velocity[i][c] = if side == DISK { elastic + rigid } else { elastic };
+                    }
                 }
             }
         }
