@@ -12,7 +12,7 @@ fn main() {
     let v = 38.89;
     let step = if inertia == Inertia::Static { factor * h / v } else { factor * h / bodies.pressure_speed };
     let t0 = std::time::Instant::now();
-    let mut r = Rolling::new(Setup { bodies, spacing: h, patch, speed: v, start: 0.0, step, inertia, law: Arc::new(friction::Coulomb { mu: 0.5 }) }).unwrap();
+    let mut r = Rolling::new(Setup { bodies, spacing: h, patch, offset: 0.0, speed: v, start: 0.0, step, inertia, law: Arc::new(friction::Coulomb { mu: 0.5 }) }).unwrap();
     println!("grid {:?} memory {:?} made in {:?}", r.grid(), r.memory(), t0.elapsed());
     let n = (roll / v / step) as usize;
     let t0 = std::time::Instant::now();

@@ -87,7 +87,7 @@ impl History {
         }
         self.blocks.par_iter_mut().with_min_len(4).for_each(|block| {
             if done == 0 {
-                block.sum_old(lags);
+                sum_old(block, lags);
             }
             // the steps of this batch
             let mut sum = block.old[done];
@@ -165,8 +165,26 @@ impl History {
     }
 }
 
+/// Sums what the steps before the batch leave at each of its steps, with the widest vectors of the machine: products and
+/// sums are rounded alike with any.
+fn sum_old(block: &mut Block, lags: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        // SAFETY: the machine has AVX2
+        unsafe { sum_old_avx2(block, lags) };
+        return;
+    }
+    block.sum_old(lags);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn sum_old_avx2(block: &mut Block, lags: usize) {
+    block.sum_old(lags);
+}
+
 impl Block {
-    /// Sums what the steps before the batch leave at each of its steps.
+    #[inline(always)]
     fn sum_old(&mut self, lags: usize) {
         self.old = [[[0.0; LANES]; 4]; BATCH];
         for (row, past) in self.past[..lags].iter().enumerate() {

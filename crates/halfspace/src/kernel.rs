@@ -165,6 +165,28 @@ impl Kernel {
         self
     }
 
+    /// Displacement (m) at the point `[i, j]` of the grid by a unit traction (Pa) at the origin, `lag` steps before: along
+    /// x by one along x, along x by one along y, along y by one along y. Points farther than the patch is long have no
+    /// meaning.
+    pub fn response(&self, lag: usize, [i, j]: [usize; 2]) -> [f64; 3] {
+        let [nx, ny] = self.grid;
+        let Some(weights) = self.lags.get(lag) else { return [0.0; 3] };
+        let mut sum = [0.0; 3];
+        for (mode, xx) in weights.xx.iter().enumerate() {
+            let (k, l) = (mode % (nx / 2 + 1), mode / (nx / 2 + 1));
+            let images = |k: usize, n: usize| if k == 0 || 2 * k == n { 1.0 } else { 2.0 };
+            let angle = |k: usize, i: usize, n: usize| 2.0 * PI * ((k * i) % n) as f64 / n as f64;
+            let (x, y) = (angle(k, i, nx), angle(l, j, ny));
+            let share = images(k, nx) * images(l, ny) / (nx * ny) as f64;
+            sum[0] += share * libm::cos(x) * libm::cos(y) * xx;
+            sum[2] += share * libm::cos(x) * libm::cos(y) * weights.yy[mode];
+            // odd along both axes: i times i
+            let xy = weights.xy.get(mode).copied().unwrap_or(0.0);
+            sum[1] -= share * libm::sin(x) * libm::sin(y) * xy;
+        }
+        sum
+    }
+
     /// Time steps of memory.
     pub fn memory(&self) -> usize {
         self.lags.len()

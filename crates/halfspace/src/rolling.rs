@@ -51,6 +51,8 @@ pub struct Setup {
     pub spacing: f64,
     /// The pressure.
     pub patch: Ellipse,
+    /// Distance of the line of points nearest to y = 0 from it, over the spacing.
+    pub offset: f64,
     /// Rolling speed V (m/s).
     pub speed: f64,
     /// Place of the patch's centre at t = 0 (m).
@@ -318,11 +320,15 @@ impl Rolling {
         let a = ellipse.half_length;
         self.points.clear();
         let columns = ((self.centre - a) / h).ceil() as i64..=((self.centre + a) / h).floor() as i64;
-        let lines = ellipse.half_width.map_or(0, |b| (b / h).floor() as i64);
+        let offset = self.setup.offset;
+        let lines = match ellipse.half_width {
+            Some(b) => (-b / h - offset).ceil() as i64..=(b / h - offset).floor() as i64,
+            None => 0..=0,
+        };
         self.work.field.fill(0.0);
-        for j in -lines..=lines {
+        for j in lines {
             for i in columns.clone() {
-                let at = [i as f64 * h - self.centre, j as f64 * h];
+                let at = [i as f64 * h - self.centre, (j as f64 + offset) * h];
                 let pressure = ellipse.pressure(at[0], at[1]);
                 if pressure > 0.0 {
                     let index = self.index(i, j);
@@ -492,7 +498,7 @@ impl Rolling {
         let h = self.setup.spacing;
         self.points.iter().map(move |&(i, at)| PatchPoint {
             column: ((at[0] + self.centre) / h).round() as i64,
-            line: (at[1] / h).round() as i64,
+            line: (at[1] / h - self.setup.offset).round() as i64,
             at,
             pressure: self.fields.pressure[i],
             shear: [0, 1].map(|c| self.fields.shear[c][i]),

@@ -55,6 +55,7 @@ pub fn half_space(
             half_width: (!line).then_some(hertz.b),
             peak_pressure: hertz.p0,
         },
+        offset: 0.0,
         speed: case.drive.speed,
         start: 0.0,
         step: case.duration() / steps,

@@ -23,6 +23,8 @@ mod finite_body;
 mod free_block;
 mod grading_reflection;
 mod half_space;
+mod half_space_rolling;
+mod half_space_waves;
 mod hertz;
 mod interface_patch;
 mod kalker;

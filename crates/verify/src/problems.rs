@@ -2,7 +2,7 @@
 
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
-    grading_reflection, hertz, interface_patch, kalker, lamb, lysmer, patch, perturbation_growth,
+    grading_reflection, half_space_rolling, half_space_waves, hertz, interface_patch, kalker, lamb, lysmer, patch, perturbation_growth,
     rolling_dynamic, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
     steady_rolling, waves,
 };
@@ -163,6 +163,36 @@ pub const PROBLEMS: &[Problem] = &[
         name: "creep-force",
         about: "The reference wheel: eight points of the creep-force curve of CONTACT",
         run: steady_rolling::creep_force,
+    },
+    Problem {
+        name: "half-space-waves",
+        about: "Half-spaces with inertia: single modes, a line impulse (Lamb), a point force (Cerruti)",
+        run: half_space_waves::run,
+    },
+    Problem {
+        name: "half-space-carter",
+        about: "Half-spaces without a mesh, without inertia: Carter's creepage and zone of stick",
+        run: half_space_rolling::carter,
+    },
+    Problem {
+        name: "half-space-kalker",
+        about: "The same: Kalker's coefficients C11, C22 and C23 of CONTACT",
+        run: half_space_rolling::kalker,
+    },
+    Problem {
+        name: "half-space-steady",
+        about: "The same: creepage, stick and shear of CONTACT's steady rolling",
+        run: half_space_rolling::steady,
+    },
+    Problem {
+        name: "half-space-transient",
+        about: "The same: from Cattaneo's shift to steady rolling, CONTACT's creepage on the way",
+        run: half_space_rolling::transient,
+    },
+    Problem {
+        name: "half-space-memory",
+        about: "The same: falling friction with memory, T/N of CONTACT",
+        run: half_space_rolling::memory,
     },
     Problem {
         name: "finite-body",

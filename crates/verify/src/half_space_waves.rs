@@ -1,0 +1,154 @@
+//! The compliance of half-spaces in time and space: single modes, Lamb's problem of a line, the static tail of a point.
+
+use crate::body::STEEL;
+use crate::convergence::Convergence;
+use crate::problem::{Outcome, Size};
+use crate::row::Row;
+use halfspace::{Extent, HalfSpaces, Kernel, Quadrature};
+
+/// Distance (m) across which patches are felt in these problems.
+const REACH: f64 = 0.016;
+
+fn steel() -> HalfSpaces {
+    HalfSpaces::new(STEEL.young, STEEL.poisson, STEEL.density)
+}
+
+pub(crate) fn run(size: Size) -> Outcome {
+    let mut rows = mode(size);
+    rows.extend(line(size)?);
+    rows.extend(point(size)?);
+    Ok(rows)
+}
+
+/// An antiplane mode after an impulse: 2 c_s/G J_0(k c_s t).
+fn mode(size: Size) -> Vec<Row> {
+    let steel = steel();
+    let unit = 1.0 / steel.shear_speed;
+    let steps: &[usize] = match size {
+        Size::Quick => &[40, 80, 160],
+        Size::Full => &[40, 80, 160, 320, 640],
+    };
+    // k c_s t at which it is looked at; the mode has k = 1/m
+    let at = |t: f64| {
+        let values = steps.iter().map(|&n| {
+            let dt = unit / n as f64;
+            let lag = (t * n as f64).round() as usize;
+            let quadrature = Quadrature::new(lag + 1, dt);
+            let transform = quadrature.frequencies().iter();
+            let weights =
+                quadrature.weights(transform.map(|&s| steel.compliance(1.0, s).antiplane).collect());
+            let scale = 2.0 * steel.shear_speed / steel.shear_modulus;
+            (dt, weights[lag] / dt / scale)
+        });
+        Convergence::by_theory(values, 2.0)
+    };
+    [1.0, 5.0, 12.0]
+        .map(|t| {
+            let quantity = format!("antiplane mode after k c_s t = {t}, over 2 c_s/G");
+            let source = "J_0(k c_s t): Lapusta, Rice, Ben-Zion and Zheng (2000), Eq. 6";
+            Row::extrapolated(&quantity, libm::j0(t), &at(t), (0.0, ""), source)
+        })
+        .into()
+}
+
+/// Spacings (m) of the grids.
+fn spacings(size: Size) -> &'static [f64] {
+    match size {
+        Size::Quick => &[1e-3, 0.5e-3, 0.25e-3],
+        Size::Full => &[0.5e-3, 0.25e-3, 0.125e-3, 0.0625e-3],
+    }
+}
+
+/// The time step (s) at a spacing h.
+fn step(h: f64) -> f64 {
+    0.25 * h / steel().pressure_speed
+}
+
+/// The mean of a field about a point, in which the highest wavenumber of the grid has no part.
+fn smoothed(field: impl Fn(usize, usize) -> f64, [i, j]: [usize; 2]) -> f64 {
+    let parts = [(-1, 0.25), (0, 0.5), (1, 0.25)];
+    // the fields are even about the origin
+    let near = |i: usize, step: i64| (i as i64 + step).unsigned_abs() as usize;
+    let both = parts.iter().flat_map(|a| parts.iter().map(move |b| (a, b)));
+    both.map(|((di, wi), (dj, wj))| wi * wj * field(near(i, *di), near(j, *dj))).sum()
+}
+
+/// Displacement that an impulse along a line leaves: between the arrivals of P and S waves, and after the Rayleigh wave.
+fn line(size: Size) -> Outcome {
+    let steel = steel();
+    let x = 0.012;
+    let kernels = spacings(size)
+        .iter()
+        .map(|&h| {
+            let reach = (REACH / h).round() as usize;
+            let extent = Extent { spacing: h, reach: (reach, None), diameter: REACH };
+            Ok((h, Kernel::new(&steel, &extent, step(h))?))
+        })
+        .collect::<Result<Vec<_>, halfspace::KernelError>>()?;
+    let mut rows = Vec::new();
+    for (when, arrival) in [
+        ("between P and S waves", 0.75 * x / steel.shear_speed),
+        ("after the Rayleigh wave", 1.35 * x / steel.shear_speed),
+    ] {
+        for (c, what) in ["plane strain", "antiplane"].into_iter().enumerate() {
+            let exact = steel.line_impulse(x, arrival)[c];
+            // before its waves there is nothing to compare
+            if exact == 0.0 {
+                continue;
+            }
+            let values = kernels.iter().map(|(h, kernel)| {
+                let dt = step(*h);
+                let place = (x / h).round() as usize;
+                let at = |lag: usize| smoothed(|i, _| kernel.response(lag, [i, 0])[2 * c], [place, 1]) / (h * dt);
+                let lag = arrival / dt;
+                let (low, part) = (lag.floor() as usize, lag.fract());
+                (*h, ((1.0 - part) * at(low) + part * at(low + 1)) / exact)
+            });
+            let study = Convergence::with_known_order(values, 2.0);
+            let quantity = format!("line impulse in {what}, {when}, over the closed form");
+            let source = "Lamb (1904) for shear, by Cagniard's method";
+            rows.push(Row::extrapolated(&quantity, 1.0, &study, (0.0, ""), source));
+        }
+    }
+    Ok(rows)
+}
+
+/// Displacement by a force at a point that stays: what is left when its waves have passed.
+fn point(size: Size) -> Outcome {
+    let steel = steel();
+    let all = [2e-3, 1e-3, 0.5e-3];
+    let some = if size == Size::Quick { &all[..2] } else { &all[..] };
+    let mut kernels = Vec::new();
+    for &h in some {
+        let reach = (REACH / h).round() as usize;
+        let extent = Extent { spacing: h, reach: (reach, Some(reach)), diameter: 2.0 * REACH };
+        kernels.push((h, Kernel::new(&steel, &extent, step(h))?));
+    }
+    let nu = STEEL.poisson;
+    let mut rows = Vec::new();
+    for [x, y] in [[0.012, 0.0], [0.0, 0.012], [0.008, 0.008]] {
+        let r = libm::hypot(x, y);
+        let scale = 1.0 / (std::f64::consts::PI * steel.shear_modulus * r);
+        let exact =
+            [1.0 - nu + nu * (x / r).powi(2), nu * x * y / (r * r), 1.0 - nu + nu * (y / r).powi(2)];
+        for (c, name) in ["x by x", "x by y", "y by y"].into_iter().enumerate() {
+            if exact[c] == 0.0 {
+                continue;
+            }
+            let values = kernels.iter().map(|(h, kernel)| {
+                let place = [x, y].map(|x| (x / h).round() as usize);
+                let left = |i: usize, j: usize| -> f64 {
+                    (0..kernel.memory()).map(|lag| kernel.response(lag, [i, j])[c]).sum()
+                };
+                let sum = smoothed(left, place);
+                (*h, sum / (h * h) / scale)
+            });
+            let study = Convergence::with_known_order(values, 2.0);
+            let quantity =
+                format!("displacement {name} at ({:.0}, {:.0}) mm, over 1/(pi G r)", 1e3 * x, 1e3 * y);
+            let source = "Cerruti (1882); Johnson (1985), Sec. 3.6";
+            rows.push(Row::extrapolated(&quantity, exact[c], &study, (0.0, ""), source));
+        }
+    }
+    Ok(rows)
+}
