@@ -207,3 +207,72 @@ fn add(sum: &mut Spectra, [xx, xy, yy]: &Tensor, [xr, xi, yr, yi]: &Spectra) {
         sum[3][l] += xy[l] * xi[l] + yy[l] * yi[l];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane::Plane;
+    use crate::{Extent, HalfSpaces};
+
+    /// Numbers between -1 and 1 that look random (Steele, Lea and Flood 2014).
+    fn noise(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = *seed;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Work of random tractions on a patch of `[a, b]` points, the least of it on the way, and the sum of its sizes. The
+    /// tractions of a point keep their value for a random number of steps, `longest` at most.
+    fn work(reach: (usize, Option<usize>), patch: [usize; 2], longest: f64) -> [f64; 3] {
+        let steel = HalfSpaces::new(210e9, 0.3, 7850.0);
+        let h = 1e-3;
+        let dt = 0.5 * h / steel.pressure_speed;
+        let diameter = h * libm::hypot(patch[0] as f64, patch[1] as f64);
+        let kernel = Kernel::new(&steel, &Extent { spacing: h, reach, diameter }, dt).unwrap();
+        let mut plane = Plane::new(kernel.grid[0], kernel.grid[1]);
+        let mut history = History::new(&kernel);
+        let spectra = || [0, 1].map(|_| vec![Complex64::ZERO; plane.modes()]);
+        let (mut taus, mut left, mut now) = (spectra(), spectra(), spectra());
+        let zeros = || [0, 1].map(|_| vec![0.0; plane.points()]);
+        let (mut tau, mut moved) = (zeros(), [zeros(), zeros(), zeros()]);
+        let (mut seed, mut sums) = (7, [0.0, f64::INFINITY, 0.0]);
+        for _ in 0..4 * kernel.memory() {
+            for (i, j) in (0..patch[0]).flat_map(|i| (0..patch[1]).map(move |j| (i, j))) {
+                for c in 0..2 {
+                    if noise(&mut seed).abs() * longest < 1.0 {
+                        tau[c][i + plane.nx * j] = 1e8 * noise(&mut seed);
+                    }
+                }
+            }
+            (0..2).for_each(|c| plane.forward(&tau[c], &mut taus[c]));
+            history.left(&mut left);
+            history.now(&taus, &mut now);
+            moved.rotate_right(1);
+            for c in 0..2 {
+                now[c].iter_mut().zip(&left[c]).for_each(|(n, l)| *n += l);
+                plane.inverse(&mut now[c], &mut moved[0][c]);
+                for (i, t) in tau[c].iter().enumerate() {
+                    let [u, one, two] = [0, 1, 2].map(|k| moved[k][c][i]);
+                    let part = h * h * t * (1.5 * u - 2.0 * one + 0.5 * two);
+                    sums[0] += part;
+                    sums[2] += part.abs();
+                }
+            }
+            sums[1] = f64::min(sums[1], sums[0]);
+            history.push(&taus);
+        }
+        sums
+    }
+
+    #[test]
+    fn no_tractions_get_back_more_work_than_they_put_in() {
+        for longest in [1.0, 10.0, 100.0] {
+            for (reach, patch) in [((10, Some(8)), [8, 6]), ((40, None), [38, 1])] {
+                let [total, least, sizes] = work(reach, patch, longest);
+                assert!(total > 0.0 && least > -1e-9 * sizes, "{patch:?}: {total} {least} {sizes}");
+            }
+        }
+    }
+}

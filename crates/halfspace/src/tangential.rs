@@ -7,6 +7,11 @@ use crate::rolling::{Along, Rigid, Rolling, Work};
 /// end.
 const MOST_ITERATIONS: usize = 2000;
 const CONVERGED: f64 = 1e-9;
+/// A compliance whose bounds differ by less than this factor is nearly local.
+const LOCAL: f64 = 3.0;
+/// Iterations after which a point that slips takes the solution in slip where there are several, as if it had slipped in the
+/// step before: under friction that falls steeply, neighbours may else make one another stick and slip in turn.
+const SETTLED: usize = 30;
 
 impl Rolling {
     /// Displacements by the tractions `work.from` at this instant, into `work.now`.
@@ -21,15 +26,21 @@ impl Rolling {
         }
     }
 
-    /// Finds tractions that obey friction at every point, by the proximal gradient method with Nesterov's momentum
-    /// (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a convex function.
+    /// Finds tractions that obey friction at every point, by the proximal gradient method, with Nesterov's momentum where
+    /// the compliance couples far points (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a
+    /// convex function.
     /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
     pub(crate) fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
         let rate = 1.5 / self.setup.step;
         let [least, most] = self.kernel.bounds;
-        let compliance = rate * most;
-        let root = (least / most).sqrt();
-        let momentum = (1.0 - root) / (1.0 + root);
+        // With inertia the compliance of a step is nearly local, and its mean takes each point to its own solution; without, the
+        // method of gradients needs its upper bound, and momentum.
+        let (compliance, momentum) = if most < LOCAL * least {
+            (0.5 * rate * (least + most), 0.0)
+        } else {
+            let root = (least / most).sqrt();
+            (rate * most, (1.0 - root) / (1.0 + root))
+        };
         let mut backward = match rigid.along {
             Along::Creepage(creepage) => creepage * self.setup.speed,
             Along::Force(_) => self.backward,
@@ -50,7 +61,8 @@ impl Rolling {
             change = 0.0;
             for (k, &(i, at)) in self.points.iter().enumerate() {
                 let free = self.trial(k, i, backward, rate, compliance);
-                let point = self.point(i, at);
+                let mut point = self.point(i, at);
+                point.slipped |= iteration > SETTLED && self.work.found[k].slips;
                 let found = return_mapping(&point, free, compliance);
                 let work = &mut self.work;
                 for c in 0..2 {

@@ -144,13 +144,13 @@ pub(crate) fn carter(size: Size) -> Outcome {
     const TABLE: [[f64; 2]; 4] =
         [[0.25, 6.225e-4], [0.5, 1.3609e-3], [0.75, 2.3232e-3], [0.9, 3.1771e-3]];
     let a = LINE.half_axes[0];
-    let all = [a / 6.0, a / 12.0, a / 24.0, a / 48.0];
+    let all = [a / 8.0, a / 16.0, a / 32.0, a / 64.0];
     let problem = Problem {
         hertz: &LINE,
         material: STEEL,
         law: Arc::new(Coulomb { mu: MU }),
         distance: 16.0 * a,
-        mean: 0.5 * a,
+        mean: a,
     };
     let mut rows = Vec::new();
     for [share, creepage] in TABLE {
@@ -264,8 +264,8 @@ pub(crate) fn steady(size: Size) -> Outcome {
         hertz: &WHEEL,
         material: STEEL,
         law: Arc::new(Coulomb { mu: 0.5 }),
-        distance: 8.0 * a,
-        mean: a,
+        distance: 12.0 * a,
+        mean: 2.0 * a,
     };
     let mut rows = Vec::new();
     for [traction, creepage, edge, peak] in STEADY {
