@@ -25,13 +25,32 @@ pub struct Ellipse {
 }
 
 impl Ellipse {
-    /// Pressure (Pa) at a point relative to the centre (m).
-    pub fn pressure(&self, x: f64, y: f64) -> f64 {
-        let across = self.half_width.map_or(0.0, |b| (y / b).powi(2));
-        let inside = 1.0 - (x / self.half_length).powi(2) - across;
-        self.peak_pressure * inside.max(0.0).sqrt()
+    /// Mean pressure (Pa) over a square of the side `h` (m; in plane strain over the length h) about a point relative to the
+    /// centre (m): so that a patch that moves over the points bears the same load at any place.
+    ///
+    /// Exact along x; across by the midpoint rule on [`LINES`] lines.
+    pub fn mean_pressure(&self, [x, y]: [f64; 2], h: f64) -> f64 {
+        let a = self.half_length;
+        // of the integral of sqrt(c^2 - x^2)
+        let area = |x: f64, c: f64| {
+            let x = x.clamp(-c, c);
+            0.5 * (x * (c * c - x * x).max(0.0).sqrt() + c * c * libm::asin(x / c))
+        };
+        let line = |inside: f64| {
+            if inside <= 0.0 {
+                return 0.0;
+            }
+            let c = a * inside.sqrt();
+            self.peak_pressure / a * (area(x + 0.5 * h, c) - area(x - 0.5 * h, c)) / h
+        };
+        let Some(b) = self.half_width else { return line(1.0) };
+        let across = (0..LINES).map(|i| y + ((f64::from(i) + 0.5) / f64::from(LINES) - 0.5) * h);
+        across.map(|y| line(1.0 - (y / b).powi(2))).sum::<f64>() / f64::from(LINES)
     }
 }
+
+/// Lines across a square over which the pressure is taken.
+const LINES: u32 = 4;
 
 /// Whether the half-spaces have inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,7 +252,8 @@ impl Rolling {
         if !(long >= 4.0) {
             return Err(RollingError::Coarse { points: long });
         }
-        let reach = |half: f64| (2.0 * half / h).floor() as usize + 1;
+        // squares that the patch touches bear pressure, too
+        let reach = |half: f64| (2.0 * half / h).floor() as usize + 2;
         let longest = setup.patch.half_width.map_or(0.0, |b| b.max(setup.patch.half_length));
         let diameter = 2.0 * longest.max(setup.patch.half_length);
         let crossing = diameter / setup.bodies.rayleigh_speed();
@@ -319,17 +339,22 @@ impl Rolling {
         let (h, ellipse) = (self.setup.spacing, self.setup.patch);
         let a = ellipse.half_length;
         self.points.clear();
+        // squares that the patch touches: those of points up to half a spacing beyond it
+        let a = a + 0.5 * h;
         let columns = ((self.centre - a) / h).ceil() as i64..=((self.centre + a) / h).floor() as i64;
         let offset = self.setup.offset;
         let lines = match ellipse.half_width {
-            Some(b) => (-b / h - offset).ceil() as i64..=(b / h - offset).floor() as i64,
+            Some(b) => {
+                let b = b / h + 0.5;
+                (-b - offset).ceil() as i64..=(b - offset).floor() as i64
+            }
             None => 0..=0,
         };
         self.work.field.fill(0.0);
         for j in lines {
             for i in columns.clone() {
                 let at = [i as f64 * h - self.centre, (j as f64 + offset) * h];
-                let pressure = ellipse.pressure(at[0], at[1]);
+                let pressure = ellipse.mean_pressure(at, h);
                 if pressure > 0.0 {
                     let index = self.index(i, j);
                     self.work.field[index] = pressure;
