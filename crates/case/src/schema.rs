@@ -206,15 +206,16 @@ section! {
                 "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille")
                 .only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
         /// Lateral velocity of the disk over V (dimensionless), positive in +y; it rises over `ramp`. With finite elements
-        /// the hub drifts so, and the rim follows as it deforms. Refused with half a model, plane strain, or a fine zone that
-        /// follows the contact. Default 0.
+        /// the hub drifts so, and the rim follows as the disk bends, which takes longer than a roll of 60 mm unless
+        /// `disk.hub_radius` leaves a shallow rim. Refused with half a model, plane strain, or a fine zone that follows the
+        /// contact. Default 0.
         #[serde(default, skip_serializing_if = "is_zero")]
         lateral_creepage: f64
             => key(Number(within(-0.5, 0.5)), "-",
                 "give the ratio of the velocities: `lateral_creepage = 1e-3` for 1 per mille");
         /// Angular velocity of the disk about the vertical over V (rad/m), positive about +z; it rises over `ramp`. With
-        /// finite elements the hub turns so and follows its heading, on an arc of this curvature; the disk's inertia is
-        /// carried round with it. Refused as `lateral_creepage` is. Default 0.
+        /// finite elements the hub turns so and follows its heading, on an arc of this curvature; the rim follows as with
+        /// `lateral_creepage`, against its inertia. Refused where that is. Default 0.
         #[serde(default, skip_serializing_if = "is_zero")]
         spin: f64
             => key(Number(within(-100.0, 100.0)), "rad/m",
