@@ -346,11 +346,11 @@ impl Hub {
             Some(sideways) => sideways.velocities(old, half, dt),
             None => [old.vx, old.vy, old.turning],
         };
-        let [ax, ay] = placement.to_heading([(vx - old.vx) / dt, (vy - old.vy) / dt]);
+        let [ax, ay] = placement.along_and_across([(vx - old.vx) / dt, (vy - old.vy) / dt]);
         let turn = Turn { rate: 0.5 * (old.turning + turning), rise: (turning - old.turning) / dt };
         let second = placement.turned_about_the_axle(&self.second);
-        let [fx, fy] = placement.to_heading([load.force[0], load.force[1]]);
-        let [_, torque] = placement.to_heading([load.moment[0], load.moment[1]]);
+        let [fx, fy] = placement.along_and_across([load.force[0], load.force[1]]);
+        let [_, torque] = placement.along_and_across([load.moment[0], load.moment[1]]);
         let fz = load.force[2];
         let torque = torque - (sz * ax - turn.rise * second.yz - turn.rate * turn.rate * second.xz);
         let given = match self.spin {
@@ -388,7 +388,7 @@ impl Hub {
         new.angle += dt * new.omega;
         new.heading += dt * new.turning;
         let new = *new;
-        let [force_x, force_y] = placement.from_heading([drive_x, drive_y]);
+        let [force_x, force_y] = placement.in_x_and_y([drive_x, drive_y]);
         self.reaction = DriveReaction {
             force_x,
             force_y,
@@ -407,7 +407,7 @@ impl Hub {
         };
         let across = self.moment_across;
         let coupled = |v: HubState, w: HubState| {
-            let [vx, vy] = placement.to_heading([v.vx, v.vy]);
+            let [vx, vy] = placement.along_and_across([v.vx, v.vy]);
             0.5 * w.omega * (vx * sz - v.vz * sx)
                 + 0.5 * w.turning * (vy * sx - vx * across - v.omega * second.yz)
         };
@@ -496,13 +496,13 @@ impl Placement {
     }
 
     /// Components along and across the heading of a vector in x and y.
-    fn to_heading(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    fn along_and_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [sin, cos_minus_one] = self.heading;
         [x + (cos_minus_one * x + sin * y), y + (cos_minus_one * y - sin * x)]
     }
 
     /// The vector in x and y of components along and across the heading.
-    fn from_heading(&self, [along, across]: [f64; 2]) -> [f64; 2] {
+    fn in_x_and_y(&self, [along, across]: [f64; 2]) -> [f64; 2] {
         let [sin, cos_minus_one] = self.heading;
         [
             along + (cos_minus_one * along - sin * across),
