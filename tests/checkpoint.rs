@@ -93,6 +93,13 @@ fn mortar_rows_go_on_with_the_integrals_that_they_follow() {
 }
 
 #[test]
+fn a_hub_that_drifts_and_turns_goes_on_where_it_was() {
+    let sideways = ["drive.lateral_creepage=2e-3", "drive.spin=0.5", "time.roll=0.004"];
+    let sets = [&sideways[..], &["contact.enforcement=exact", "damping.mass=4000"]].concat();
+    interrupted_is_uninterrupted(&sets, &["contact/slip/0001", "history/lateral_force"]);
+}
+
+#[test]
 fn a_zone_that_follows_the_contact_goes_on_where_it_was() {
     let window = ["contact.enforcement=exact", "mesh.window=0.0096", "time.roll=0.006"];
     interrupted_is_uninterrupted(&window, &["contact/slip/0001", "history/window_x"]);

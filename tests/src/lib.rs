@@ -83,7 +83,10 @@ pub fn results(out: &Path) -> Results {
     let summary = std::fs::read(out.join("summary.json")).unwrap();
     let mut data = BTreeMap::new();
     for grid in ["fields", "contact"] {
-        read_grid(&out.join(format!("{grid}.vtkhdf")), grid, &mut data);
+        let path = out.join(format!("{grid}.vtkhdf"));
+        if path.exists() {
+            read_grid(&path, grid, &mut data);
+        }
     }
     for table in ["history", "probes"] {
         let path = out.join(format!("{table}.h5"));

@@ -205,14 +205,17 @@ section! {
             => needed(Number(within(-0.5, 0.5)), "-",
                 "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille")
                 .only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
-        /// Lateral velocity of the disk over V (dimensionless), positive in +y. Other than 0 only with
-        /// `model = "half-space"`. Default 0.
+        /// Lateral velocity of the disk over V (dimensionless), positive in +y; it rises over `ramp`. With finite elements
+        /// the hub drifts so, and the rim follows as the disk bends, which takes longer than a roll of 60 mm unless
+        /// `disk.hub_radius` leaves a shallow rim. Refused with half a model, plane strain, or a fine zone that follows the
+        /// contact. Default 0.
         #[serde(default, skip_serializing_if = "is_zero")]
         lateral_creepage: f64
             => key(Number(within(-0.5, 0.5)), "-",
                 "give the ratio of the velocities: `lateral_creepage = 1e-3` for 1 per mille");
-        /// Angular velocity of the disk about the vertical over V (rad/m), positive about +z. Other than 0 only with
-        /// `model = "half-space"`. Default 0.
+        /// Angular velocity of the disk about the vertical over V (rad/m), positive about +z; it rises over `ramp`. With
+        /// finite elements the hub turns so and follows its heading, on an arc of this curvature; the rim follows as with
+        /// `lateral_creepage`, against its inertia. Refused where that is. Default 0.
         #[serde(default, skip_serializing_if = "is_zero")]
         spin: f64
             => key(Number(within(-100.0, 100.0)), "rad/m",
@@ -612,6 +615,20 @@ impl Case {
             (None, Some(duration)) => duration * self.drive.speed,
             (None, None) => 0.060,
         }
+    }
+
+    /// How far the disk drifts sideways at most (m), by lateral creepage and by the arc of its spin.
+    pub fn drift(&self) -> f64 {
+        let (rolled, Drive { lateral_creepage, spin, .. }) = (self.rolled(), &self.drive);
+        rolled * lateral_creepage.abs() + 0.5 * spin.abs() * rolled * rolled
+    }
+
+    /// How far the patch lies behind the middle of a disk that drifts, over the drift (dimensionless): it stays where both
+    /// surfaces are parallel across, which is on the crest of a bar under a disk that is flat across. 0 where both are.
+    pub fn patch_behind(&self) -> f64 {
+        let [disk, bar] =
+            [self.disk.crown_radius, self.bar.crown_radius].map(|crown| crown.curvature());
+        if bar > 0.0 { bar / (disk + bar) } else { 0.0 }
     }
 
     /// The evaluation window, over which means are taken: from and to (s of rolling).

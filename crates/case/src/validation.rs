@@ -2,6 +2,7 @@
 
 mod geometry;
 mod half_space;
+mod sideways;
 
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
@@ -93,6 +94,9 @@ pub fn check(case: &Case, layers: &Layers) -> Result<(), CaseError> {
     // The path is judged only for a case whose shape makes sense.
     if found.errors.is_empty() {
         check_path(case, &mut found);
+        if !case.is_half_space() {
+            sideways::check_drift(case, &mut found);
+        }
         check_formula(case, &mut found);
         check_length(case, &mut found);
         check_records(case, &mut found);
@@ -109,7 +113,7 @@ fn check_choices(case: &Case, found: &mut Findings) {
     check_rules(case, found);
     check_friction(&case.friction, found);
     match case.model {
-        BodyModel::FiniteElements => check_straight(case, found),
+        BodyModel::FiniteElements => sideways::check(case, found),
         BodyModel::HalfSpace => half_space::check(case, found),
     }
     let friction = &case.friction;
@@ -179,26 +183,6 @@ fn check_choices(case: &Case, found: &mut Findings) {
         || "load.mode = \"height\" holds the height of the preload, but there is none".into(),
         "set preload.method = \"static\", or load.mode = \"load\"",
     );
-}
-
-/// A disk of finite elements rolls straight.
-fn check_straight(case: &Case, found: &mut Findings) {
-    for (key, value, unit) in [
-        ("drive.lateral_creepage", case.drive.lateral_creepage, ""),
-        ("drive.spin", case.drive.spin, " rad/m"),
-    ] {
-        found.require(
-            value == 0.0,
-            &[key],
-            || {
-                format!(
-                    "{key} = {}{unit}: the finite elements roll straight: needs model = \"half-space\"",
-                    number(value)
-                )
-            },
-            "set model = \"half-space\", or leave it out",
-        );
-    }
 }
 
 /// No key is given that another makes useless, and none is missing that another needs.

@@ -39,8 +39,9 @@ impl Simulation {
         let omega_before = system.hub.as_ref().map_or(0.0, |h| h.state.omega);
         let hub = match (&mut system.hub, load) {
             (Some(hub), Some(load)) => {
-                let load = [0, 1, 2].map(|i| load[i] + updated.reaction[i]);
-                hub.step(time, dt, load, &mut nodes.displacement, &mut nodes.velocity)
+                let mut load = load;
+                load.add(&updated.reaction);
+                hub.step(time, dt, &load, &mut nodes.displacement, &mut nodes.velocity)
             }
             _ => HubWork::default(),
         };

@@ -26,27 +26,70 @@ pub(crate) struct Dashpots {
 pub(crate) struct RigidMotion {
     centre: [f64; 3],
     turn: (f64, f64),
-    v: [f64; 2],
+    v: [f64; 3],
     omega: f64,
+    /// Sine and cosine of the angle that the axle has turned about +z, and how fast it turns (rad/s).
+    heading: (f64, f64),
+    turning: f64,
 }
 
 impl RigidMotion {
     pub(crate) fn new(hub: &Hub) -> Self {
         let s = hub.state;
-        Self { centre: hub.centre, turn: libm::sincos(s.angle), v: [s.vx, s.vz], omega: s.omega }
+        Self {
+            centre: hub.centre,
+            turn: libm::sincos(s.angle),
+            v: [s.vx, s.vy, s.vz],
+            omega: s.omega,
+            heading: libm::sincos(s.heading),
+            turning: s.turning,
+        }
     }
 
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.v == [0.0; 2] && self.omega == 0.0
+        self.v == [0.0; 3] && self.omega == 0.0 && self.turning == 0.0
     }
 
-    /// Velocity (m/s) at the undeformed place of a point, padded, and its arm (x, z) from the
-    /// centre (m).
+    /// Whether it leaves the plane of rolling.
+    pub(crate) fn is_sideways(&self) -> bool {
+        self.v[1] != 0.0 || self.heading.0 != 0.0 || self.turning != 0.0
+    }
+
+    /// Velocity (m/s) at the undeformed place of a point, padded, and its arm from the centre (m). Of a motion that is not
+    /// [sideways](Self::is_sideways), the arm in y is zero.
     #[inline(always)]
-    pub(crate) fn at(&self, reference: Padded) -> ([f64; 4], [f64; 2]) {
+    pub(crate) fn at(&self, reference: Padded) -> ([f64; 4], [f64; 3]) {
+        if self.is_sideways() { self.at_sideways(reference) } else { self.at_straight(reference) }
+    }
+
+    /// The same of a motion that is not sideways.
+    #[inline(always)]
+    pub(crate) fn at_straight(&self, reference: Padded) -> ([f64; 4], [f64; 3]) {
+        let [x, z] = self.rolled(reference);
+        ([self.v[0] + self.omega * z, 0.0, self.v[2] - self.omega * x, 0.0], [x, 0.0, z])
+    }
+
+    /// The same of any motion.
+    #[inline(always)]
+    pub(crate) fn at_sideways(&self, reference: Padded) -> ([f64; 4], [f64; 3]) {
+        let (sin, cos) = self.heading;
+        let ([ahead, z], y) = (self.rolled(reference), reference.0[1] - self.centre[1]);
+        let arm = [cos * ahead - sin * y, sin * ahead + cos * y, z];
+        let rolling = self.omega * z;
+        let velocity = [
+            self.v[0] + cos * rolling - self.turning * arm[1],
+            self.v[1] + sin * rolling + self.turning * arm[0],
+            self.v[2] - self.omega * ahead,
+            0.0,
+        ];
+        (velocity, arm)
+    }
+
+    /// Arm of a point in x and z (m), turned about the axle.
+    #[inline(always)]
+    fn rolled(&self, reference: Padded) -> [f64; 2] {
         let (x, z) = (reference.0[0] - self.centre[0], reference.0[2] - self.centre[2]);
         let (sin, cos) = self.turn;
-        let arm = [cos * x + sin * z, cos * z - sin * x];
-        ([self.v[0] + self.omega * arm[1], 0.0, self.v[1] - self.omega * arm[0], 0.0], arm)
+        [cos * x + sin * z, cos * z - sin * x]
     }
 }

@@ -1,5 +1,7 @@
-//! The rigid hub: its nodes follow one rigid body in the plane of rolling.
+//! The rigid hub: its nodes follow one rigid body, which turns about its axle, and with the axle about the vertical.
 
+use crate::second_moments::SecondMoments;
+use crate::sideways::Sideways;
 use exact_sum::ExactSum;
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
@@ -40,16 +42,24 @@ pub enum Vertical {
 pub struct HubState {
     /// Displacement of the centre in x (m).
     pub x: f64,
+    /// Displacement of the centre in y (m).
+    pub y: f64,
     /// Displacement of the centre in z (m).
     pub z: f64,
-    /// Angle turned about +y (rad).
+    /// Angle turned about the axle (rad), which is along +y at the start.
     pub angle: f64,
+    /// Angle that the axle has turned about +z (rad).
+    pub heading: f64,
     /// Velocity in x (m/s), prescribed.
     pub vx: f64,
+    /// Velocity in y (m/s), prescribed.
+    pub vy: f64,
     /// Velocity in z (m/s).
     pub vz: f64,
-    /// Angular velocity about +y (rad/s).
+    /// Angular velocity about the axle (rad/s).
     pub omega: f64,
+    /// Angular velocity about +z (rad/s), prescribed.
+    pub turning: f64,
 }
 
 /// What the drive supplies to the hub.
@@ -57,17 +67,46 @@ pub struct HubState {
 pub struct DriveReaction {
     /// Force in x (N).
     pub force_x: f64,
+    /// Force in y (N); of a hub that moves sideways.
+    pub force_y: f64,
     /// Force in z (N).
     pub force_z: f64,
-    /// Torque about +y (N m).
+    /// Torque about the axle (N m).
     pub torque: f64,
+    /// Moment about +z (N m); of a hub that moves sideways.
+    pub moment_z: f64,
 }
 
 impl DriveReaction {
     /// That of `parts` hubs alike.
     pub(crate) fn times(self, parts: f64) -> Self {
-        let Self { force_x, force_z, torque } = self;
-        Self { force_x: parts * force_x, force_z: parts * force_z, torque: parts * torque }
+        let Self { force_x, force_y, force_z, torque, moment_z } = self;
+        Self {
+            force_x: parts * force_x,
+            force_y: parts * force_y,
+            force_z: parts * force_z,
+            torque: parts * torque,
+            moment_z: parts * moment_z,
+        }
+    }
+}
+
+/// Force (N) and moment about the hub's centre (N m), in x, y and z.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Resultant {
+    /// Force (N).
+    pub force: [f64; 3],
+    /// Moment (N m).
+    pub moment: [f64; 3],
+}
+
+impl Resultant {
+    /// Adds another.
+    pub(crate) fn add(&mut self, other: &Self) {
+        for i in 0..3 {
+            self.force[i] += other.force[i];
+            self.moment[i] += other.moment[i];
+        }
     }
 }
 
@@ -87,12 +126,18 @@ pub struct Hub {
     /// First moment of its mass in the reference configuration, mass times the arm of the centre of mass in x and z
     /// (kg m): not zero where the nodes do not lie evenly about the centre.
     pub(crate) moment: [f64; 2],
-    /// The part of it that a counterweight adds (kg m).
+    /// First moment of its mass in y (kg m).
+    moment_across: f64,
+    /// Second moments of its mass about the centre in the reference configuration.
+    second: SecondMoments,
+    /// The part of the first moment that a counterweight adds (kg m).
     pub counterweight: [f64; 2],
     /// What turns it.
     pub spin: Spin,
     /// What presses it.
     pub vertical: Vertical,
+    /// What moves it sideways; nothing where it rolls straight.
+    pub sideways: Option<Sideways>,
     /// Its motion.
     pub state: HubState,
     /// What the drive had to supply in the last step.
@@ -140,6 +185,11 @@ impl Hub {
             radius_squared = radius_squared.max(r2);
         }
         inertia.add(0.5 * extra_mass * radius_squared);
+        let masses = || nodes.iter().zip(&arms).map(|(&n, arm)| (nodal_mass[n as usize], *arm));
+        let mut second = SecondMoments::of(masses());
+        let reach = arms.iter().map(|arm| arm[1].abs()).fold(0.0, f64::max);
+        second.add_cylinder(extra_mass, radius_squared.sqrt(), 2.0 * reach);
+        let moment_across = exact_sum::sum(masses().map(|(m, arm)| m * arm[1]));
         Self {
             centre,
             nodes: nodes.to_vec(),
@@ -147,9 +197,12 @@ impl Hub {
             mass: mass.value(),
             inertia: inertia.value(),
             moment: [along.value(), down.value()],
+            moment_across,
+            second,
             counterweight: [0.0; 2],
             spin,
             vertical,
+            sideways: None,
             state: HubState::default(),
             reaction: DriveReaction::default(),
         }
@@ -208,9 +261,10 @@ impl Hub {
         }
     }
 
-    /// Resultant force (x, z) and torque about y of `force` on the hub's nodes (N, N m).
-    pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> [f64; 3] {
+    /// Resultant of `force` on the hub's nodes (N); where the hub rolls straight, force in x and z and moment about y alone.
+    pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> Resultant {
         let mut sum = [ExactSum::ZERO; 3];
+        let mut across = [ExactSum::ZERO; 3];
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (f, u) = (force[n as usize], displacement[n as usize]);
             let rx = arm[0] + u.0[0] - self.state.x;
@@ -218,8 +272,16 @@ impl Hub {
             sum[0].add(f.0[0]);
             sum[1].add(f.0[2]);
             sum[2].add(rz * f.0[0] - rx * f.0[2]);
+            if self.sideways.is_some() {
+                let ry = arm[1] + u.0[1] - self.state.y;
+                across[0].add(f.0[1]);
+                across[1].add(ry * f.0[2] - rz * f.0[1]);
+                across[2].add(rx * f.0[1] - ry * f.0[0]);
+            }
         }
-        sum.map(|s| s.value())
+        let [fx, fz, my] = sum.map(|s| s.value());
+        let [fy, mx, mz] = across.map(|s| s.value());
+        Resultant { force: [fx, fy, fz], moment: [mx, my, mz] }
     }
 
     /// The displacement (m) of any reference position (m) that moves with the hub as one rigid body.
@@ -259,25 +321,38 @@ impl Hub {
         }
     }
 
-    /// Moves the hub from t^n to t^{n+1} under `load` (force in x and z, torque about y: N, N,
-    /// N m) and takes its nodes along.
+    /// Moves the hub from t^n to t^{n+1} under `load` and takes its nodes along.
     ///
     /// A rigid body whose centre of mass lies off its centre, with the first moment of mass S (kg m), the acceleration a
     /// of the centre and the angular acceleration alpha:
     /// M a_x + alpha S_z - omega^2 S_x = F_x, M a_z - alpha S_x - omega^2 S_z = F_z and
-    /// I alpha + S_z a_x - S_x a_z = T, where a_x = 0.
+    /// I alpha + S_z a_x - S_x a_z = T, where a_x = 0 on a straight path. x is along the heading here.
+    ///
+    /// Where the axle turns about z at psi' besides, a mass at the arm r has the further acceleration
+    /// psi'' (-r_y, r_x) - psi'^2 (r_x, r_y) + 2 psi' omega (0, r_z) in x and y; [`Self::sideways_load`] has its sums.
     pub(crate) fn step(
         &mut self,
         time: f64,
         dt: f64,
-        load: [f64; 3],
+        load: &Resultant,
         displacement: &mut [Padded],
         velocity: &mut [Padded],
     ) -> HubWork {
-        let [fx, fz, torque] = load;
         let old = self.state;
-        let [sx, sz] = Placement::new(old).turned(self.moment);
+        let placement = Placement::new(old);
+        let [sx, sz] = placement.turned(self.moment);
         let half = time + 0.5 * dt;
+        let [vx, vy, turning] = match &self.sideways {
+            Some(sideways) => sideways.velocities(old, half, dt),
+            None => [old.vx, old.vy, old.turning],
+        };
+        let [ax, ay] = placement.along_and_across([(vx - old.vx) / dt, (vy - old.vy) / dt]);
+        let turn = Turn { rate: 0.5 * (old.turning + turning), rise: (turning - old.turning) / dt };
+        let second = placement.turned_about_the_axle(&self.second);
+        let [fx, fy] = placement.along_and_across([load.force[0], load.force[1]]);
+        let [_, torque] = placement.along_and_across([load.moment[0], load.moment[1]]);
+        let fz = load.force[2];
+        let torque = torque - (sz * ax - turn.rise * second.yz - turn.rate * turn.rate * second.xz);
         let given = match self.spin {
             Spin::Creepage { free, creepage, ramp } => {
                 let omega = free * (1.0 + creepage * smoothstep(half, ramp));
@@ -290,7 +365,10 @@ impl Hub {
         let omega = old.omega + 0.5 * dt * about;
         let (az, alpha) = self.accelerations([sx, sz], omega, [fz, torque], given, dt);
         let [pull_x, pull_z] = [sx, sz].map(|s| omega * omega * s);
-        let drive_x = alpha * sz - pull_x - fx;
+        let [more_x, more_y, moment_z] =
+            self.sideways_load([sx, sz], &second, [ax, ay], turn, [omega, alpha]);
+        let drive_x = alpha * sz - pull_x - fx + more_x;
+        let drive_y = more_y - fy;
         let drive_z = match self.vertical {
             Vertical::Load(load) => -load,
             Vertical::Held => self.mass * az - alpha * sx - pull_z - fz,
@@ -299,26 +377,83 @@ impl Hub {
             Given::Acceleration(_) => self.inertia * alpha - sx * az - torque,
             Given::Torque(applied) => applied,
         };
+        let drive_turn = moment_z - load.moment[2];
         let new = &mut self.state;
+        (new.vx, new.vy, new.turning) = (vx, vy, turning);
         new.vz += dt * az;
         new.omega += dt * alpha;
         new.x += dt * new.vx;
+        new.y += dt * new.vy;
         new.z += dt * new.vz;
         new.angle += dt * new.omega;
+        new.heading += dt * new.turning;
         let new = *new;
-        self.reaction = DriveReaction { force_x: drive_x, force_z: drive_z, torque: drive_torque };
+        let [force_x, force_y] = placement.in_x_and_y([drive_x, drive_y]);
+        self.reaction = DriveReaction {
+            force_x,
+            force_y,
+            force_z: drive_z,
+            torque: drive_torque,
+            moment_z: drive_turn,
+        };
         self.place([old, new], dt, displacement, velocity);
-        let power = |s: HubState| drive_x * s.vx + drive_z * s.vz + drive_torque * s.omega;
-        let coupled = |v: HubState, w: HubState| 0.5 * w.omega * (v.vx * sz - v.vz * sx);
+        let drive = self.reaction;
+        let power = |s: HubState| {
+            drive.force_x * s.vx
+                + drive.force_z * s.vz
+                + drive.torque * s.omega
+                + drive.force_y * s.vy
+                + drive.moment_z * s.turning
+        };
+        let across = self.moment_across;
+        let coupled = |v: HubState, w: HubState| {
+            let [vx, vy] = placement.along_and_across([v.vx, v.vy]);
+            0.5 * w.omega * (vx * sz - v.vz * sx)
+                + 0.5 * w.turning * (vy * sx - vx * across - v.omega * second.yz)
+        };
         HubWork {
             before: 0.5 * dt * power(old),
             after: 0.5 * dt * power(new),
-            kinetic: 0.5 * self.mass * (old.vx * new.vx + old.vz * new.vz)
+            kinetic: 0.5 * self.mass * (old.vx * new.vx + old.vz * new.vz + old.vy * new.vy)
                 + 0.5 * self.inertia * old.omega * new.omega
+                + 0.5 * (second.xx + second.yy) * old.turning * new.turning
                 + coupled(old, new)
                 + coupled(new, old),
         }
     }
+
+    /// Forces along and across the heading (N) and moment about z (N m) that accelerate the hub sideways, besides those in
+    /// the plane of rolling: with its first moment `s` and `second` moments now, the acceleration along and across the
+    /// heading (m/s^2), and omega and alpha (rad/s, rad/s^2). Zero on a straight path.
+    fn sideways_load(
+        &self,
+        [sx, sz]: [f64; 2],
+        second: &SecondMoments,
+        [ax, ay]: [f64; 2],
+        Turn { rate, rise }: Turn,
+        [omega, alpha]: [f64; 2],
+    ) -> [f64; 3] {
+        if self.sideways.is_none() {
+            return [0.0; 3];
+        }
+        let sy = self.moment_across;
+        [
+            self.mass * ax - rise * sy - rate * rate * sx,
+            self.mass * ay + rise * sx - rate * rate * sy + 2.0 * rate * omega * sz,
+            sx * ay - sy * ax + rise * (second.xx + second.yy) + 2.0 * rate * omega * second.xz
+                - alpha * second.yz
+                + omega * omega * second.xy,
+        ]
+    }
+}
+
+/// A turn about z.
+#[derive(Clone, Copy)]
+struct Turn {
+    /// Angular velocity (rad/s).
+    rate: f64,
+    /// Angular acceleration (rad/s^2).
+    rise: f64,
 }
 
 /// What the drive gives the rotation of the hub in a step.
@@ -330,30 +465,59 @@ enum Given {
     Torque(f64),
 }
 
-/// The rigid displacement in a state of the hub.
+/// The rigid displacement in a state of the hub: it turns about +y, then with the axle about +z, and moves.
 struct Placement {
     state: HubState,
     sin: f64,
     cos_minus_one: f64,
+    /// Sine, and cosine minus one, of the heading.
+    heading: [f64; 2],
 }
 
 impl Placement {
     fn new(state: HubState) -> Self {
         // cos - 1 = -2 sin^2(angle/2), without cancellation
-        let half = libm::sin(0.5 * state.angle);
-        Self { state, sin: libm::sin(state.angle), cos_minus_one: -2.0 * half * half }
+        let turn = |angle: f64| {
+            let half = libm::sin(0.5 * angle);
+            [libm::sin(angle), -2.0 * half * half]
+        };
+        let [sin, cos_minus_one] = turn(state.angle);
+        Self { state, sin, cos_minus_one, heading: turn(state.heading) }
     }
 
-    /// A vector in x and z of the reference configuration, turned with the hub.
+    /// A vector in x and z of the reference configuration, turned about the axle: in x along the heading, and z.
     fn turned(&self, [x, z]: [f64; 2]) -> [f64; 2] {
         [x + self.cos_minus_one * x + self.sin * z, z + self.cos_minus_one * z - self.sin * x]
     }
 
-    /// Displacement (m) of the point at `arm` from the centre: turned about +y and moved.
-    fn displacement(&self, [x, _, z]: [f64; 3]) -> [f64; 3] {
+    /// Second moments of the reference configuration, turned about the axle.
+    fn turned_about_the_axle(&self, second: &SecondMoments) -> SecondMoments {
+        second.turned(self.sin, 1.0 + self.cos_minus_one)
+    }
+
+    /// Components along and across the heading of a vector in x and y.
+    fn along_and_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [sin, cos_minus_one] = self.heading;
+        [x + (cos_minus_one * x + sin * y), y + (cos_minus_one * y - sin * x)]
+    }
+
+    /// The vector in x and y of components along and across the heading.
+    fn in_x_and_y(&self, [along, across]: [f64; 2]) -> [f64; 2] {
+        let [sin, cos_minus_one] = self.heading;
         [
-            self.cos_minus_one * x + self.sin * z + self.state.x,
-            0.0,
+            along + (cos_minus_one * along - sin * across),
+            across + (cos_minus_one * across + sin * along),
+        ]
+    }
+
+    /// Displacement (m) of the point at `arm` from the centre.
+    fn displacement(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let [sin, cos_minus_one] = self.heading;
+        let rolled = self.cos_minus_one * x + self.sin * z;
+        let ahead = x + rolled;
+        [
+            rolled + (cos_minus_one * ahead - sin * y) + self.state.x,
+            cos_minus_one * y + sin * ahead + self.state.y,
             self.cos_minus_one * z - self.sin * x + self.state.z,
         ]
     }

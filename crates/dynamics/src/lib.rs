@@ -20,6 +20,8 @@ mod paired;
 mod quiet;
 mod relax;
 mod rolling;
+mod second_moments;
+mod sideways;
 mod simulation;
 mod state;
 mod system;
@@ -28,13 +30,14 @@ mod window;
 pub use guard::{
     Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
 };
-pub use hub::{DriveReaction, Hub, HubState, Spin, Vertical, smoothstep};
+pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical, smoothstep};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use mesh_move::Moved;
 pub use quiet::QuietEnd;
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
 pub use rolling::{RollingField, rolling_field};
+pub use sideways::Sideways;
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};
 pub use system::System;

@@ -1,6 +1,7 @@
 //! The nodal update of central difference: velocity, position, and the force cleared for the next step, in one pass.
 
 use crate::dashpots::{Dashpots, RigidMotion};
+use crate::hub::Resultant;
 use crate::nodal_state::{Chunk, NodalState, TraceNode};
 use mesh::Padded;
 use rayon::prelude::*;
@@ -14,17 +15,15 @@ pub(crate) struct NodeSums {
     pub(crate) kinetic: f64,
     /// Power that the dashpots dissipate (W).
     pub(crate) dashpot_power: f64,
-    /// Reaction of the disk's dashpots on the hub: force in x and z (N), torque about y (N m).
-    pub(crate) reaction: [f64; 3],
+    /// Reaction of the disk's dashpots on the hub; on a straight path force in x and z and moment about y alone.
+    pub(crate) reaction: Resultant,
 }
 
 impl NodeSums {
     fn add(&mut self, other: &Self) {
         self.kinetic += other.kinetic;
         self.dashpot_power += other.dashpot_power;
-        for i in 0..3 {
-            self.reaction[i] += other.reaction[i];
-        }
+        self.reaction.add(&other.reaction);
     }
 }
 
@@ -56,7 +55,10 @@ impl NodalState {
         NodeSums {
             kinetic: self.sum(|c| c.kinetic),
             dashpot_power: self.sum(|c| c.dashpot_power),
-            reaction: [0, 1, 2].map(|i| self.sum(|c| c.reaction[i])),
+            reaction: Resultant {
+                force: [0, 1, 2].map(|i: usize| self.sum(|c| c.reaction.force[i])),
+                moment: [0, 1, 2].map(|i: usize| self.sum(|c| c.reaction.moment[i])),
+            },
         }
     }
 }
@@ -162,7 +164,12 @@ fn damped<const KINETIC: bool>(
             inverse_mass: &inverse_mass[local],
         };
         let reference = &update.reference[run];
-        let run = damped_run::<KINETIC>(nodes, reference, update.dt, dashpots.alpha, &motion);
+        let (dt, alpha) = (update.dt, dashpots.alpha);
+        let run = if motion.is_sideways() {
+            damped_run::<KINETIC, true>(nodes, reference, dt, alpha, &motion)
+        } else {
+            damped_run::<KINETIC, false>(nodes, reference, dt, alpha, &motion)
+        };
         sums.add(&run);
     }
     sums
@@ -173,7 +180,7 @@ fn damped<const KINETIC: bool>(
 /// All sums run over the four entries of the padded vectors side by side, which the compiler turns
 /// into vector instructions; the padding of every operand is zero.
 #[inline(always)]
-fn damped_run<const KINETIC: bool>(
+fn damped_run<const KINETIC: bool, const SIDEWAYS: bool>(
     nodes: Nodes<'_>,
     reference: &[Padded],
     dt: f64,
@@ -181,11 +188,14 @@ fn damped_run<const KINETIC: bool>(
     motion: &RigidMotion,
 ) -> NodeSums {
     let Nodes { u, v, f, inverse_mass } = nodes;
-    let [mut power, mut kinetic, mut resultant, mut about_z, mut about_x] = [[0.0; 4]; 5];
+    let [mut power, mut kinetic, mut resultant] = [[0.0; 4]; 3];
+    // dashpots times the arms in x, y and z
+    let [mut by_x, mut by_y, mut by_z] = [[0.0; 4]; 3];
     for ((((u, v), f), &w), x) in u.iter_mut().zip(v).zip(f).zip(inverse_mass).zip(reference) {
         // nodes that are held or carried move as they are told: no force, no dashpot
         let (mass, rate) = if w > 0.0 { (1.0 / w, alpha) } else { (0.0, 0.0) };
-        let (rigid, [ax, az]) = motion.at(*x);
+        let (rigid, [ax, ay, az]) =
+            if SIDEWAYS { motion.at_sideways(*x) } else { motion.at_straight(*x) };
         let (c, scale, decay) = (rate * mass, dt * w, dt * rate);
         for i in 0..4 {
             let before = v.0[i];
@@ -193,8 +203,11 @@ fn damped_run<const KINETIC: bool>(
             let dashpot = c * relative;
             power[i] += dashpot * relative;
             resultant[i] += dashpot;
-            about_z[i] += az * dashpot;
-            about_x[i] += ax * dashpot;
+            by_z[i] += az * dashpot;
+            by_x[i] += ax * dashpot;
+            if SIDEWAYS {
+                by_y[i] += ay * dashpot;
+            }
             let after = before + (scale * f.0[i] - decay * relative);
             if KINETIC {
                 kinetic[i] += mass * before * after;
@@ -204,11 +217,18 @@ fn damped_run<const KINETIC: bool>(
             f.0[i] = 0.0;
         }
     }
-    let reaction = [resultant[0], resultant[2], about_z[0] - about_x[2]];
+    let about_y = by_z[0] - by_x[2];
+    let reaction = if SIDEWAYS {
+        let [fx, fy, fz, _] = resultant;
+        let moment = [by_y[2] - by_z[1], about_y, by_x[1] - by_y[0]];
+        Resultant { force: [fx, fy, fz], moment }
+    } else {
+        Resultant { force: [resultant[0], 0.0, resultant[2]], moment: [0.0, about_y, 0.0] }
+    };
     NodeSums {
         kinetic: 0.5 * kinetic.iter().sum::<f64>(),
         dashpot_power: power.iter().sum(),
-        reaction: if motion.is_at_rest() { [0.0; 3] } else { reaction },
+        reaction: if motion.is_at_rest() { Resultant::default() } else { reaction },
     }
 }
 

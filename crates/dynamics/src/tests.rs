@@ -1,4 +1,6 @@
 #![allow(clippy::unwrap_used)]
+mod sideways;
+
 use super::*;
 use mesh::{Mesh, Padded};
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric, lumped_mass};

@@ -129,16 +129,31 @@ fn a_step_is_by_default_half_the_time_of_waves_from_point_to_point() {
 }
 
 #[test]
-fn finite_elements_roll_straight() {
+fn both_models_move_sideways() {
     for key in ["drive.lateral_creepage", "drive.spin"] {
-        refused(
-            set(&[&format!("{key}=1e-3")]),
-            &[key, "the finite elements roll straight: needs model = \"half-space\""],
-        );
+        set(&[&format!("{key}=1e-3")]).unwrap();
         assert_eq!(set(&[&format!("{key}=0")]).unwrap().hash(), set(&[]).unwrap().hash());
         half_space(&[&format!("{key}=1e-3")]).unwrap();
     }
     refused(half_space(&["drive.spin=101"]), &["drive.spin = 101", "rad/m"]);
+}
+
+#[test]
+fn finite_elements_move_sideways_only_as_a_whole_and_within_the_fine_zone() {
+    for key in ["drive.lateral_creepage", "drive.spin"] {
+        let with = |sets: &[&str]| set(&[&[format!("{key}=1e-3").as_str()], sets].concat());
+        refused(with(&["mesh.symmetry=half"]), &[key, "no plane of symmetry", "whole"]);
+        refused(with(&["mesh.window=0.04"]), &[key, "mesh.window", "mesh.zone.length"]);
+        refused(with(&["bar.crown_radius=flat"]), &[key, "both \"flat\"", "crown_radius"]);
+        let slice = ["mesh.plane_strain=true", "bar.crown_radius=flat", "disk.width=0.02"];
+        let slice = [&slice[..], &["bar.width=0.02", "mesh.zone.width=0.02"]].concat();
+        refused(with(&slice), &[key, "a slice stays in its plane"]);
+    }
+    refused(set(&["drive.spin=-5"]), &["drifts by up to 9.00 mm", "mesh.zone.width", "time.roll"]);
+    refused(
+        set(&["drive.lateral_creepage=0.2"]),
+        &["drive.lateral_creepage", "drifts by up to 12.00 mm"],
+    );
 }
 
 #[test]

@@ -19,6 +19,8 @@ pub(super) struct Patch {
     whole_pressure: Vec<f64>,
     /// Rows of the bar's table on the centre line, by x.
     centreline: Vec<usize>,
+    /// Element size (m) where the patch may drift sideways, and its centre line with it.
+    drifts: Option<f64>,
     /// Buffer: x (m) of the nodes of the centre line in contact, and whether they stick.
     line: Vec<(f64, bool)>,
     /// How many parts alike make up the bodies, of which one is modelled.
@@ -38,7 +40,9 @@ impl Patch {
         let bar = &surfaces.points[BAR];
         let mut whole_bar = Vec::with_capacity(images.counts()[BAR]);
         images.of_side(BAR, bar, mirrored, &mut whole_bar);
-        let centreline = centreline(bar, case.mesh.zone.size);
+        let size = case.mesh.zone.size;
+        let centreline = centreline(bar, 0.0, size);
+        let drifts = (!case.is_half_space() && case.drift() > 0.0).then_some(size);
         Self {
             shape: patch_shape(case),
             bar: bar.clone(),
@@ -46,6 +50,7 @@ impl Patch {
             whole_bar,
             line: Vec::with_capacity(centreline.len()),
             centreline,
+            drifts,
             parts: if surfaces.half { 2.0 } else { 1.0 },
             enforced_on: surfaces.enforced_on,
             hertz_pressure,
@@ -63,6 +68,9 @@ impl Patch {
         self.whole_pressure.clear();
         images.of_side(BAR, &bar.pressure, |p| p, &mut self.whole_pressure);
         let fit = patch::fit(self.shape, &self.whole_bar, &self.whole_pressure);
+        if let (Some(size), Some(fit)) = (self.drifts, &fit) {
+            self.centreline = centreline(&self.bar, fit.yc, size);
+        }
         let fit = fit.map_or([f64::NAN; 4], |f| [f.a, f.b, f.p0, f.xc - hub_x]);
         let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
         PatchMeasures {
@@ -114,14 +122,14 @@ impl Patch {
     }
 }
 
-/// Nodes of the line along x that lies nearest to y = 0, in ascending x. Of two lines at the same distance, as on a
-/// slice or with an odd number of elements across, the one at y > 0.
-fn centreline(points: &[[f64; 3]], size: f64) -> Vec<usize> {
-    let least = points.iter().map(|x| x[1].abs()).fold(f64::INFINITY, f64::min);
+/// Nodes of the line along x that lies nearest to `y` (m), in ascending x. Of two lines at the same distance, as on a
+/// slice or with an odd number of elements across, the one further along +y.
+fn centreline(points: &[[f64; 3]], y: f64, size: f64) -> Vec<usize> {
+    let least = points.iter().map(|x| (x[1] - y).abs()).fold(f64::INFINITY, f64::min);
     let slack = 0.1 * size;
     let near = |i: usize, y: f64| (points[i][1] - y).abs() <= slack;
-    let y = if (0..points.len()).any(|i| near(i, least)) { least } else { -least };
-    let on_it = |&i: &usize| near(i, y);
+    let line = if (0..points.len()).any(|i| near(i, y + least)) { y + least } else { y - least };
+    let on_it = |&i: &usize| near(i, line);
     let mut line: Vec<usize> = (0..points.len()).filter(on_it).collect();
     line.sort_by(|&i, &j| points[i][0].total_cmp(&points[j][0]));
     line

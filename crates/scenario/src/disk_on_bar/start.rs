@@ -11,10 +11,11 @@ use crate::model::{BAR, DISK, Model};
 use crate::numbers::numbers;
 use crate::progress::Progress;
 use crate::start::{Facts, Found, RollingRadius, Stability, Start};
-use case::schema::{Case, DriveMode, Enforcement, LoadMode, Step};
+use case::schema::{Case, Drive, DriveMode, Enforcement, LoadMode, Step};
 use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{
-    Fixed, Hub, QuietEnd, RollingField, Setup, Simulation, SimulationState, Spin, System, Vertical,
+    Fixed, Hub, QuietEnd, RollingField, Setup, Sideways, Simulation, SimulationState, Spin, System,
+    Vertical,
 };
 use mesh::Padded;
 use output::NotWritten;
@@ -258,6 +259,7 @@ fn assemble(
         LoadMode::Load => Vertical::Load(case.load.normal / model.parts),
         LoadMode::Height => Vertical::Held,
     };
+    hub.sideways = sideways(case);
     let system = System {
         contact: Some(contact),
         hub: Some(hub),
@@ -320,6 +322,14 @@ fn spin(case: &Case, model: &Model, free: f64) -> Spin {
             Spin::Torque { torque: case.drive.torque.unwrap_or(0.0) / model.parts, ramp }
         }
     }
+}
+
+/// What moves the hub sideways, if anything does.
+fn sideways(case: &Case) -> Option<Sideways> {
+    let &Drive { speed, lateral_creepage, spin, ramp, .. } = &case.drive;
+    let behind = case.patch_behind();
+    let sideways = Sideways { speed, lateral_creepage, spin, ramp, behind };
+    (lateral_creepage != 0.0 || spin != 0.0).then_some(sideways)
 }
 
 /// Effective rolling radius of the preloaded state: with the disk turning at `field.omega`, the

@@ -175,6 +175,7 @@ impl HalfSpaceRecorder {
                 force_x: -tx,
                 force_z: -normal,
                 torque: tx * case.disk.radius,
+                ..DriveReaction::default()
             },
             omega: (1.0 + sums.creepage) * case.drive.speed / case.disk.radius,
         }

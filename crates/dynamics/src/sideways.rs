@@ -1,0 +1,39 @@
+//! What moves the hub sideways: it drifts, or turns about the vertical and rolls along a curve.
+
+use crate::hub::{HubState, smoothstep};
+
+/// Lateral creepage and spin of the hub, both rising by a smoothstep.
+///
+/// A disk that turned about the vertical on a straight path would creep laterally the more, the further it has turned. So the
+/// hub follows its heading: its path is an arc, and the turn is spin alone.
+///
+/// The patch stays where the surfaces are parallel across. On a crowned bar that is behind a disk that drifts, by the share
+/// `behind` of the drift. The speed is prescribed there, so that the disk turns about the vertical through the patch, and the
+/// creepage does not change as it drifts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sideways {
+    /// Speed V along the heading, where the patch is (m/s).
+    pub speed: f64,
+    /// Lateral velocity over V (dimensionless), positive to the left of the heading: towards +y at the start.
+    pub lateral_creepage: f64,
+    /// Angular velocity about +z over V (rad/m): the curvature of the path.
+    pub spin: f64,
+    /// Duration of the ramp of both (s).
+    pub ramp: f64,
+    /// How far the patch lies behind the middle of the disk, over the drift: curvature of the bar across over that of both
+    /// bodies; 1 for a disk that is flat across, 0 for such a bar.
+    pub behind: f64,
+}
+
+impl Sideways {
+    /// Velocity in x and y (m/s) and angular velocity about +z (rad/s) at the time `half` (s), half a step `dt` (s) after
+    /// the state `from`.
+    pub(crate) fn velocities(&self, from: HubState, half: f64, dt: f64) -> [f64; 3] {
+        let share = smoothstep(half, self.ramp);
+        let turning = share * self.spin * self.speed;
+        let (sin, cos) = libm::sincos(from.heading + 0.5 * dt * turning);
+        let along = self.speed - turning * self.behind * from.y;
+        let across = share * self.lateral_creepage * self.speed;
+        [along * cos - across * sin, along * sin + across * cos, turning]
+    }
+}
