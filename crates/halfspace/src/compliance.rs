@@ -105,11 +105,7 @@ impl HalfSpaces {
         let (mut low, mut high) = (0.5, 1.0);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if rayleigh(middle) > 0.0 {
-                low = middle
-            } else {
-                high = middle
-            }
+            if rayleigh(middle) > 0.0 { low = middle } else { high = middle }
         }
         low * self.shear_speed
     }

@@ -124,10 +124,14 @@ impl Kernel {
                         let (x, y) = (i as f64, j as f64);
                         let square = (x * x + y * y).max(f64::MIN_POSITIVE);
                         // uniform: both modes are alike
-                        let (xx, xy) = if i + j == 0 { (1.0, 0.0) } else { (x * x / square, x * y / square) };
+                        let (xx, xy) =
+                            if i + j == 0 { (1.0, 0.0) } else { (x * x / square, x * y / square) };
                         of(xx, xy, [two[m], three[m]])
                     };
-                    (0..across).flat_map(|j| (0..half).map(move |i| (i, j))).map(|(i, j)| value(i, j)).collect()
+                    (0..across)
+                        .flat_map(|j| (0..half).map(move |i| (i, j)))
+                        .map(|(i, j)| value(i, j))
+                        .collect()
                 };
                 let xx = tensor(|xx, _, [two, three]| xx * two + (1.0 - xx) * three);
                 let yy = tensor(|xx, _, [two, three]| (1.0 - xx) * two + xx * three);
@@ -139,7 +143,8 @@ impl Kernel {
                 }
             })
             .collect();
-        let static_tail = if plane { 0.0 } else { fade(bodies, extent, grid[0], step, &mut weights) };
+        let static_tail =
+            if plane { 0.0 } else { fade(bodies, extent, grid[0], step, &mut weights) };
         let highest = PI / h * if plane { std::f64::consts::SQRT_2 } else { 1.0 };
         let bounds = bounds(bodies, &weights[0], highest, Complex64::from(1.5 / step));
         Ok(Self { grid, lags: weights, step, bounds, static_tail })

@@ -39,5 +39,6 @@ pub use compliance::{Compliance, HalfSpaces};
 pub use kernel::{Extent, Kernel, KernelError};
 pub use quadrature::Quadrature;
 pub use rolling::{
-    Along, Ellipse, Inertia, PatchPoint, Rigid, Rolling, RollingError, RollingState, Setup, StepSums,
+    Along, Ellipse, Inertia, PatchPoint, Rigid, Rolling, RollingError, RollingState, Setup,
+    StepSums,
 };

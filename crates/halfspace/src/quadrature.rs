@@ -72,7 +72,8 @@ mod tests {
     fn the_weights_of_an_integral_are_those_of_the_backward_difference_formula() {
         let (lags, dt) = (50, 0.1);
         let quadrature = Quadrature::new(lags, dt);
-        let weights = quadrature.weights(quadrature.frequencies().iter().map(|s| 1.0 / s).collect());
+        let weights =
+            quadrature.weights(quadrature.frequencies().iter().map(|s| 1.0 / s).collect());
         // 3/2 u_n - 2 u_(n-1) + 1/2 u_(n-2) = dt f_n with f an impulse: u_n = dt (1 - 3^-(n+1))
         for (n, w) in weights.iter().enumerate() {
             let exact = dt * (1.0 - libm::pow(3.0, -(n as f64 + 1.0)));

@@ -33,7 +33,7 @@ pub(crate) fn return_mapping(point: &Point<'_>, free: [f64; 2], compliance: f64)
         slip_speed::solve(speed, bound, point.slipped, &curve)
     } else {
         let mu = point.law.mu(point.state, 0.0, &point.at);
-        (bound * mu < speed).then(|| (speed - bound * mu, mu))
+        (bound * mu < speed).then_some((speed - bound * mu, mu))
     };
     match slip {
         Some((s, mu)) => {

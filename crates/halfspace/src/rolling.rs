@@ -28,7 +28,7 @@ impl Ellipse {
     /// Mean pressure (Pa) over a square of the side `h` (m; in plane strain over the length h) about a point relative to the
     /// centre (m): so that a patch that moves over the points bears the same load at any place.
     ///
-    /// Exact along x; across by the midpoint rule on [`LINES`] lines.
+    /// Exact along x; across by the midpoint rule on four lines.
     pub fn mean_pressure(&self, [x, y]: [f64; 2], h: f64) -> f64 {
         let a = self.half_length;
         // of the integral of sqrt(c^2 - x^2)
@@ -249,7 +249,7 @@ impl Rolling {
     pub fn new(setup: Setup) -> Result<Self, RollingError> {
         let h = setup.spacing;
         let long = 2.0 * setup.patch.half_length / h;
-        if !(long >= 4.0) {
+        if long.is_nan() || long < 4.0 {
             return Err(RollingError::Coarse { points: long });
         }
         // squares that the patch touches bear pressure, too
@@ -260,14 +260,19 @@ impl Rolling {
         let carried = (1.6 * crossing * setup.speed / h).ceil() as usize;
         let extent = Extent {
             spacing: h,
-            reach: (reach(setup.patch.half_length) + SLACK + carried, setup.patch.half_width.map(reach)),
+            reach: (
+                reach(setup.patch.half_length) + SLACK + carried,
+                setup.patch.half_width.map(reach),
+            ),
             diameter,
         };
         let kernel = match setup.inertia {
             Inertia::Dynamic => Kernel::new(&setup.bodies, &extent, setup.step)?,
             // the weights of any step have the same sum
-            Inertia::Static => Kernel::new(&setup.bodies, &extent, 0.5 * h / setup.bodies.pressure_speed)?
-                .without_inertia(&setup.bodies, h),
+            Inertia::Static => {
+                Kernel::new(&setup.bodies, &extent, 0.5 * h / setup.bodies.pressure_speed)?
+                    .without_inertia(&setup.bodies, h)
+            }
         };
         let plane = Plane::new(kernel.grid[0], kernel.grid[1]);
         let (points, modes) = (plane.points(), plane.modes());
@@ -341,7 +346,8 @@ impl Rolling {
         self.points.clear();
         // squares that the patch touches: those of points up to half a spacing beyond it
         let a = a + 0.5 * h;
-        let columns = ((self.centre - a) / h).ceil() as i64..=((self.centre + a) / h).floor() as i64;
+        let columns =
+            ((self.centre - a) / h).ceil() as i64..=((self.centre + a) / h).floor() as i64;
         let offset = self.setup.offset;
         let lines = match ellipse.half_width {
             Some(b) => {
@@ -433,9 +439,8 @@ impl Rolling {
         let [_, one, two] = &self.fields.moved;
         self.work.free.clear();
         for &(i, at) in &self.points {
-            let elastic = |c: usize| {
-                (1.5 * self.work.left[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step
-            };
+            let elastic =
+                |c: usize| (1.5 * self.work.left[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step;
             let carried = rigid.carried(v, at);
             self.work.free.push([0, 1].map(|c| elastic(c) + carried[c]));
         }
@@ -670,7 +675,8 @@ mod tests {
                         let size = |v: [f64; 2]| libm::hypot(v[0], v[1]);
                         let (tau, bound) = (size(p.shear), p.mu * p.pressure);
                         assert!(tau <= bound * (1.0 + 1e-14), "{p:?}");
-                        let power = p.shear[0] * p.slip_velocity[0] + p.shear[1] * p.slip_velocity[1];
+                        let power =
+                            p.shear[0] * p.slip_velocity[0] + p.shear[1] * p.slip_velocity[1];
                         let full = -tau * size(p.slip_velocity);
                         assert!((power - full).abs() <= 1e-13 * full.abs(), "{p:?}");
                         assert!(p.slips || p.slip_velocity == [0.0; 2]);
@@ -685,11 +691,13 @@ mod tests {
 
     #[test]
     fn a_patch_goes_on_from_its_state_with_the_same_bits() {
-        let law = Arc::new(Remembering { steady: LAW, memory: Memory { distance: 1e-6, floor: 1e-2 } });
+        let law =
+            Arc::new(Remembering { steady: LAW, memory: Memory { distance: 1e-6, floor: 1e-2 } });
         let mut whole = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
         let mut parted = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
         for _ in 0..700 {
-            (whole.step(driven(0.01)), parted.step(driven(0.01)));
+            whole.step(driven(0.01));
+            parted.step(driven(0.01));
         }
         let state = parted.snapshot();
         let mut parted = Rolling::new(setup(Some(4e-3), law)).unwrap();

@@ -131,7 +131,7 @@ impl Rolling {
         // regula falsi, with the Illinois rule (Dowell and Jarratt 1971)
         let mut side = 0;
         for _ in 0..60 {
-            if !(at_high > at_low) {
+            if at_high.is_nan() || at_low.is_nan() || at_high <= at_low {
                 break;
             }
             let middle = (low * at_high - high * at_low) / (at_high - at_low);

@@ -1,11 +1,13 @@
 //! The whole state of a run, and when it is written as a checkpoint.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::record::RecorderState;
+use crate::text_file::remove;
 use case::schema;
 use dynamics::{Energies, SimulationState};
-use output::{Checkpoint, OutputError, Provenance, Results};
+use output::{CHECKPOINTS, Checkpoint, NotWritten, OutputError, Provenance, Results};
 use scenario::Found;
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +66,11 @@ impl Clock {
         }
         due
     }
+}
+
+/// Removes the checkpoints of a run.
+pub(crate) fn remove_checkpoints(folder: &Path) -> Result<(), NotWritten> {
+    CHECKPOINTS.iter().try_for_each(|name| remove(&folder.join(name)))
 }
 
 impl<S: Serialize, R: Serialize, F: Serialize> RunState<S, R, F> {

@@ -72,10 +72,7 @@ impl RunError {
             Self::Folder(crate::folder::FolderError::Lost { .. }) => 3,
             Self::Scenario(error) => error.exit_code(),
             Self::Folder(_) | Self::Resume(_) | Self::NoContact => 2,
-            Self::NoLaw
-            | Self::UnusedLaw { .. }
-            | Self::Case(_)
-            | Self::Threads(_) => 2,
+            Self::NoLaw | Self::UnusedLaw { .. } | Self::Case(_) | Self::Threads(_) => 2,
             Self::Output(error) if error.damaged().is_some() => 2,
             Self::Output(_) | Self::Text(_) => 3,
         }

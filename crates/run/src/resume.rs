@@ -5,15 +5,16 @@ pub(crate) mod error;
 use std::path::Path;
 
 use crate::checkpoint::KERNELS;
+use crate::folder::{Content, content, has_no_results, is_run};
 use crate::log::Log;
 use crate::text_file::remove;
-use crate::folder::{Content, content, has_no_results, is_run};
 use case::schema::Case;
 use error::ResumeError;
 use output::layout::file;
 use output::summary::Status;
 use output::{
-    CHECKPOINTS, Checkpoint, NotWritten, OutputError, Results, as_long_as_written, prove, read_summary,
+    CHECKPOINTS, Checkpoint, NotWritten, OutputError, Results, as_long_as_written, prove,
+    read_summary,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;

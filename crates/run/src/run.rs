@@ -10,6 +10,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::{Instant, SystemTime};
 
+use crate::checkpoint::remove_checkpoints;
 use crate::disk::Disk;
 use crate::error::RunError;
 use crate::held::FolderLock;
@@ -29,7 +30,7 @@ pub use options::RunOptions;
 use output::NotWritten;
 use output::layout::{FOLLOWS, HALF, attribute, file};
 use output::summary::Status;
-use output::{CHECKPOINTS, LOG_END, Provenance};
+use output::{LOG_END, Provenance};
 use rolling::{Rolled, Rolling, Stopped};
 use scenario::progress::{Progress, Stage};
 use scenario::{Facts, Start};
@@ -235,10 +236,6 @@ fn complete(folder: &Path, summary: serde_json::Value) -> serde_json::Value {
     // It may have been killed just before it removed them itself.
     let _ = remove_checkpoints(folder);
     summary
-}
-
-fn remove_checkpoints(folder: &Path) -> Result<(), NotWritten> {
-    CHECKPOINTS.iter().try_for_each(|name| remove(&folder.join(name)))
 }
 
 fn stage(case: &Case, stage: Stage) -> Progress {

@@ -58,7 +58,7 @@ fn what_a_kill_leaves_before_the_case_is_written_is_free_for_the_next_run() {
         let out = dir.path();
         left[..count].iter().for_each(|name| fs::write(out.join(name), "x").unwrap());
         let case = Case::from_text(SHORT, Path::new("short.toml"), &[]).unwrap();
-        let origin = crate::resume::resume_from(&case, out);
+        let origin = crate::resume::resume_from::<crate::checkpoint::State>(&case, out);
         assert!(matches!(origin, Ok(crate::resume::ResumeFrom::Beginning(_))), "{count}");
         folder::prepare(out, false, None).unwrap();
         let there = fs::read_dir(out).unwrap().map(|entry| entry.unwrap().file_name());

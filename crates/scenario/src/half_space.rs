@@ -82,11 +82,7 @@ pub fn drive(case: &Case, time: f64, width: f64) -> Rigid {
             Along::Force(ramp * torque / case.disk.radius / width)
         }
     };
-    Rigid {
-        along,
-        lateral: ramp * case.drive.lateral_creepage,
-        spin: ramp * case.drive.spin,
-    }
+    Rigid { along, lateral: ramp * case.drive.lateral_creepage, spin: ramp * case.drive.spin }
 }
 
 /// The points of the fine zone.

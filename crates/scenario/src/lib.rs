@@ -22,8 +22,8 @@ mod tests;
 
 // there is one scenario of finite elements; with a second one, these functions choose by the case
 pub use disk_on_bar::{model, restart, start};
-pub use half_space::{HalfSpaceModel, SurfacePoints, drive, half_space};
 pub use error::{MeshFileError, ScenarioError};
+pub use half_space::{HalfSpaceModel, SurfacePoints, drive, half_space};
 pub use model::{BAR, DISK, Model};
 pub use preload::{PreloadError, PreloadReport};
 pub use progress::{Progress, Stage};

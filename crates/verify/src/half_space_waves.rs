@@ -35,8 +35,8 @@ fn mode(size: Size) -> Vec<Row> {
             let lag = (t * n as f64).round() as usize;
             let quadrature = Quadrature::new(lag + 1, dt);
             let transform = quadrature.frequencies().iter();
-            let weights =
-                quadrature.weights(transform.map(|&s| steel.compliance(1.0, s).antiplane).collect());
+            let weights = quadrature
+                .weights(transform.map(|&s| steel.compliance(1.0, s).antiplane).collect());
             let scale = 2.0 * steel.shear_speed / steel.shear_modulus;
             (dt, weights[lag] / dt / scale)
         });
@@ -99,7 +99,9 @@ fn line(size: Size) -> Outcome {
             let values = kernels.iter().map(|(h, kernel)| {
                 let dt = step(*h);
                 let place = (x / h).round() as usize;
-                let at = |lag: usize| smoothed(|i, _| kernel.response(lag, [i, 0])[2 * c], [place, 1]) / (h * dt);
+                let at = |lag: usize| {
+                    smoothed(|i, _| kernel.response(lag, [i, 0])[2 * c], [place, 1]) / (h * dt)
+                };
                 let lag = arrival / dt;
                 let (low, part) = (lag.floor() as usize, lag.fract());
                 (*h, ((1.0 - part) * at(low) + part * at(low + 1)) / exact)
@@ -129,8 +131,11 @@ fn point(size: Size) -> Outcome {
     for [x, y] in [[0.012, 0.0], [0.0, 0.012], [0.008, 0.008]] {
         let r = libm::hypot(x, y);
         let scale = 1.0 / (std::f64::consts::PI * steel.shear_modulus * r);
-        let exact =
-            [1.0 - nu + nu * (x / r).powi(2), nu * x * y / (r * r), 1.0 - nu + nu * (y / r).powi(2)];
+        let exact = [
+            1.0 - nu + nu * (x / r).powi(2),
+            nu * x * y / (r * r),
+            1.0 - nu + nu * (y / r).powi(2),
+        ];
         for (c, name) in ["x by x", "x by y", "y by y"].into_iter().enumerate() {
             if exact[c] == 0.0 {
                 continue;
@@ -144,8 +149,11 @@ fn point(size: Size) -> Outcome {
                 (*h, sum / (h * h) / scale)
             });
             let study = Convergence::with_known_order(values, 2.0);
-            let quantity =
-                format!("displacement {name} at ({:.0}, {:.0}) mm, over 1/(pi G r)", 1e3 * x, 1e3 * y);
+            let quantity = format!(
+                "displacement {name} at ({:.0}, {:.0}) mm, over 1/(pi G r)",
+                1e3 * x,
+                1e3 * y
+            );
             let source = "Cerruti (1882); Johnson (1985), Sec. 3.6";
             rows.push(Row::extrapolated(&quantity, exact[c], &study, (0.0, ""), source));
         }

@@ -2,9 +2,9 @@
 
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
-    grading_reflection, half_space_rolling, half_space_waves, hertz, interface_patch, kalker, lamb, lysmer, patch, perturbation_growth,
-    rolling_dynamic, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
-    steady_rolling, waves,
+    grading_reflection, half_space_rolling, half_space_waves, hertz, interface_patch, kalker, lamb,
+    lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
+    shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.

@@ -196,8 +196,7 @@ impl UnderWay<'_> {
             wall: [0, 1].map(|i: usize| self.before[i] + self.since[i].elapsed()),
         };
         let (step, provenance) = (self.model.rolling.steps() as u64, basis.provenance.clone());
-        let make =
-            move |results| state.checkpoint(step, provenance, KERNELS.name(), results);
+        let make = move |results| state.checkpoint(step, provenance, KERNELS.name(), results);
         self.recorder.keep(make, basis.folder)?;
         self.keeping += begun.elapsed();
         Ok(())

@@ -1,20 +1,20 @@
 //! Before a run begins: its folder is locked, its model is made, and it is found where the run goes on.
 
 use super::options::RunOptions;
+use crate::checkpoint::State;
 use crate::error::RunError;
 use crate::folder::{self, Content};
 use crate::held::FolderLock;
 use crate::log::Log;
 use crate::resume::{self, Point, ResumeFrom};
 use crate::text_file::write_text;
-use crate::checkpoint::State;
 use case::load::inputs;
 use case::schema::Case;
 use output::NotWritten;
 use output::layout::file;
 use scenario::Model;
-use serde::de::DeserializeOwned;
 use scenario::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
+use serde::de::DeserializeOwned;
 
 /// A run of the model `M` about to begin, or to go on from a state `T`.
 pub(crate) struct Opened<M, T> {

@@ -1,12 +1,12 @@
 //! The summary of a run of half-spaces.
 
 use super::recorder::SolverFacts;
+use crate::checkpoint::remove_checkpoints;
 use crate::error::RunError;
 use crate::held::FolderLock;
 use crate::log::Log;
 use crate::means::Means;
 use crate::run::options::RunOptions;
-use crate::run::remove_checkpoints;
 use crate::summary::{contact_means, window, write as write_summary};
 use case::hertz::hertz;
 use case::schema::Case;
@@ -83,8 +83,11 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         ("half_space", half_space),
         ("spectral", spectral),
         ("window", window(case, means)),
-        ("checks", json!({ "cone_excess": means.worst_cone,
-            "resultant_mismatch": means.worst_mismatch, "contact_damping": 0.0 })),
+        (
+            "checks",
+            json!({ "cone_excess": means.worst_cone,
+            "resultant_mismatch": means.worst_mismatch, "contact_damping": 0.0 }),
+        ),
     ]
     .map(|(key, value)| (key.to_owned(), value))
     .into();
