@@ -11,7 +11,8 @@ use std::f64::consts::PI;
 pub struct Extent {
     /// Spacing of the grid (m).
     pub spacing: f64,
-    /// The farthest that two points of the patch lie apart, along x and y, in spacings; `None` along y: plane strain.
+    /// The farthest that a point of the patch and one that bore traction within the memory lie apart, along x and y, in
+    /// spacings; `None` along y: plane strain.
     pub reach: (usize, Option<usize>),
     /// The farthest that two points of the patch lie apart (m).
     pub diameter: f64,
@@ -80,8 +81,7 @@ impl Kernel {
     /// More weights than fit into memory.
     pub fn new(bodies: &HalfSpaces, extent: &Extent, step: f64) -> Result<Self, KernelError> {
         let plane = extent.reach.1.is_some();
-        let crossing = extent.diameter / bodies.rayleigh_speed() / step;
-        let lags = (MARGIN[usize::from(plane)] * crossing).ceil() as usize + MARGIN_LAGS;
+        let lags = Self::lags(bodies, extent, step);
         let h = extent.spacing;
         let grid = [even_length(extent.reach.0), extent.reach.1.map_or(1, even_length)];
         let far = extent.reach.0.max(extent.reach.1.unwrap_or(0));
@@ -89,9 +89,11 @@ impl Kernel {
         let big = 2 * (far as f64 + 1.05 * waves).div_euclid(2.0) as usize + 8;
         let half = big / 2 + 1;
         let across = if plane { half } else { 1 };
-        let bytes = 16.0 * (half * across * lags) as f64;
+        // the weights of the box, then those of the grid, with its tractions and their copy in a checkpoint
+        let modes = (grid[0] / 2 + 1) * grid[1];
+        let bytes = lags as f64 * (16 * half * across).max(150 * modes) as f64;
         if bytes > MOST_BYTES {
-            let (points, gigabytes) = (half * across, 1e-9 * bytes);
+            let (points, gigabytes) = (modes, 1e-9 * bytes);
             return Err(KernelError::TooMany { lags, points, gigabytes });
         }
         let quadrature = Quadrature::new(lags, step);
@@ -148,6 +150,16 @@ impl Kernel {
         let highest = PI / h * if plane { std::f64::consts::SQRT_2 } else { 1.0 };
         let bounds = bounds(bodies, &weights[0], highest, Complex64::from(1.5 / step));
         Ok(Self { grid, lags: weights, step, bounds, static_tail })
+    }
+
+    /// Time steps of memory that an extent needs: what the slowest wave takes across it, with a margin.
+    pub fn lags(bodies: &HalfSpaces, extent: &Extent, step: f64) -> usize {
+        let plane = extent.reach.1.is_some();
+        // in plane strain what is felt late must be late at all points that are felt
+        let reach = extent.reach.0 as f64 * extent.spacing;
+        let longest = if plane { extent.diameter } else { extent.diameter.max(reach) };
+        let crossing = longest / bodies.rayleigh_speed() / step;
+        (MARGIN[usize::from(plane)] * crossing).ceil() as usize + MARGIN_LAGS
     }
 
     /// The weight of the quasi-static limit: the sum of all, as one lag.

@@ -20,6 +20,15 @@ pub(crate) struct Friction {
     pub(crate) slips: bool,
 }
 
+/// Whether adhesion and slip both are solutions at a point; arguments as of [`return_mapping`].
+pub(crate) fn is_non_unique(point: &Point<'_>, free: [f64; 2], compliance: f64) -> bool {
+    let (speed, bound) = (libm::hypot(free[0], free[1]), compliance * point.at.pressure);
+    let curve = |s: f64| {
+        (point.law.mu(point.state, s, &point.at), point.law.slope(point.state, s, &point.at))
+    };
+    point.law.is_implicit() && slip_speed::is_non_unique(speed, bound, &curve)
+}
+
 /// Friction at a point whose slip velocity is `free + compliance * shear` (m/s, m/s per Pa): the traction that holds it, or
 /// where that is beyond the bound the traction of the bound against the slip.
 pub(crate) fn return_mapping(point: &Point<'_>, free: [f64; 2], compliance: f64) -> Friction {

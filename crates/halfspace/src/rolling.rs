@@ -4,14 +4,20 @@ use crate::compliance::HalfSpaces;
 use crate::history::History;
 use crate::kernel::{Extent, Kernel, KernelError};
 use crate::plane::Plane;
-use crate::return_mapping::{Friction, Point};
+use crate::return_mapping::{Friction, Point, is_non_unique};
 use friction::{NodeFriction, Place, Slid};
 use realfft::num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Columns of points that the patch may gain beyond its length while the memory of a step lasts.
-const SLACK: usize = 2;
+/// A force is met within this part of it.
+const MISSED: f64 = 1e-6;
+/// Columns of points beyond those that the patch needs.
+const SLACK: usize = 1;
+/// The columns by which the patch moves on lengthen its memory in turn, in plane strain, by less than this factor.
+const CARRIED: f64 = 1.1;
+/// Speeds above this part of that of Rayleigh waves are refused: the pressure would no longer be Hertz's.
+const FASTEST: f64 = 0.3;
 
 /// The pressure of Hertz's contact: an ellipse, or in plane strain a strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,6 +129,22 @@ pub enum RollingError {
     Coarse {
         /// Its length over the spacing.
         points: f64,
+    },
+    /// A step in which the patch passes more than a spacing.
+    #[error("the patch moves by {stride:.2} spacings in a time step")]
+    LongStep {
+        /// By so many spacings.
+        stride: f64,
+    },
+    /// A patch that is not slow beside waves.
+    #[error(
+        "the speed is {speed:.1} m/s, and Rayleigh waves run at {rayleigh:.1} m/s: the pressure would not be Hertz's"
+    )]
+    Fast {
+        /// Rolling speed (m/s).
+        speed: f64,
+        /// Speed of Rayleigh waves (m/s).
+        rayleigh: f64,
     },
     /// A state of another model.
     #[error("the state is that of another grid or memory")]
@@ -248,24 +270,35 @@ impl Rolling {
     /// A patch of too few points, more weights than fit into memory.
     pub fn new(setup: Setup) -> Result<Self, RollingError> {
         let h = setup.spacing;
-        let long = 2.0 * setup.patch.half_length / h;
-        if long.is_nan() || long < 4.0 {
-            return Err(RollingError::Coarse { points: long });
+        let Ellipse { half_length, half_width, .. } = setup.patch;
+        let narrow = 2.0 * half_width.map_or(half_length, |b| b.min(half_length)) / h;
+        if narrow.is_nan() || narrow < 4.0 {
+            return Err(RollingError::Coarse { points: narrow });
+        }
+        let stride = setup.speed * setup.step / h;
+        if stride.is_nan() || stride > 1.0 {
+            return Err(RollingError::LongStep { stride });
+        }
+        let slowest = setup.bodies.rayleigh_speed();
+        if setup.speed > FASTEST * slowest {
+            return Err(RollingError::Fast { speed: setup.speed, rayleigh: slowest });
         }
         // squares that the patch touches bear pressure, too
         let reach = |half: f64| (2.0 * half / h).floor() as usize + 2;
-        let longest = setup.patch.half_width.map_or(0.0, |b| b.max(setup.patch.half_length));
-        let diameter = 2.0 * longest.max(setup.patch.half_length);
-        let crossing = diameter / setup.bodies.rayleigh_speed();
-        let carried = (1.6 * crossing * setup.speed / h).ceil() as usize;
-        let extent = Extent {
+        // the Rayleigh wave of the rear reaches a front that goes on
+        let diameter = 2.0 * half_width.map_or(half_length, |b| b.max(half_length))
+            / (1.0 - setup.speed / slowest);
+        let extent = |columns: usize| Extent {
             spacing: h,
-            reach: (
-                reach(setup.patch.half_length) + SLACK + carried,
-                setup.patch.half_width.map(reach),
-            ),
+            reach: (reach(half_length) + SLACK + columns, half_width.map(reach)),
             diameter,
         };
+        // columns by which the patch moves on within its memory, and that of the two steps before
+        let lags = match setup.inertia {
+            Inertia::Dynamic => Kernel::lags(&setup.bodies, &extent(0), setup.step),
+            Inertia::Static => 0,
+        };
+        let extent = extent((stride * (lags + 2) as f64 * CARRIED).ceil() as usize);
         let kernel = match setup.inertia {
             Inertia::Dynamic => Kernel::new(&setup.bodies, &extent, setup.step)?,
             // the weights of any step have the same sum
@@ -336,6 +369,12 @@ impl Rolling {
         let (backward, iterations, unconverged) = self.solve(rigid);
         self.backward = backward;
         let sums = self.take_over(rigid);
+        // a force that no creepage gives, as where the law lets go of more at once
+        let missed = match rigid.along {
+            Along::Force(force) if force != 0.0 => (sums.shear[0] / force - 1.0).abs(),
+            _ => 0.0,
+        };
+        let unconverged = if missed > MISSED { missed.max(unconverged) } else { unconverged };
         StepSums { iterations, unconverged, ..sums }
     }
 
@@ -482,6 +521,10 @@ impl Rolling {
             let found = self.work.found[k];
             let mut carried = rigid.carried(self.setup.speed, at);
             carried[0] -= self.backward;
+            let compliance = self.local_compliance();
+            let free = [0, 1].map(|c| found.slip_velocity[c] - compliance * found.shear[c]);
+            let many = is_non_unique(&self.point(i, at), free, compliance);
+            sums.non_unique += usize::from(many);
             let fields = &mut self.fields;
             fields.mu[i] = found.mu;
             fields.contact[i] = if found.slips { 2 } else { 1 };
@@ -560,7 +603,13 @@ impl Rolling {
     /// # Errors
     /// A state of another grid or memory.
     pub fn restore(&mut self, state: &RollingState) -> Result<(), RollingError> {
-        let fits = state.fields.pressure.len() == self.plane.points();
+        let n = self.plane.points();
+        let Fields { shear, moved, slip_velocity, slip, pressure, mu, state: law, contact } =
+            &state.fields;
+        let pairs = [shear, slip_velocity, slip].into_iter().chain(moved);
+        let fits = pairs.flatten().chain([pressure, mu]).all(|values| values.len() == n)
+            && law.len() == n
+            && contact.len() == n;
         if !fits || !self.history.restore(&state.past, state.done) {
             return Err(RollingError::State);
         }
@@ -655,7 +704,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_holds_at_every_point_and_energy_is_kept() {
+    fn friction_holds_at_every_point_and_spends_what_the_drive_gives() {
         let memory = Memory { distance: 3e-6, floor: 1e-2 };
         let laws: [Arc<dyn NodeFriction>; 3] = [
             Arc::new(Coulomb { mu: 0.4 }),

@@ -3,8 +3,8 @@
 use crate::return_mapping::{Friction, return_mapping};
 use crate::rolling::{Along, Rigid, Rolling, Work};
 
-/// Iterations of a step at most, and the change of the slip velocity, over the largest velocity of the step, at which they
-/// end.
+/// Iterations of a step at most, and the change of the slip velocity, over the largest trial velocity of the step, at which they
+/// end. In stick the trial velocity is what the traction holds back, some hundred times a slip velocity.
 const MOST_ITERATIONS: usize = 2000;
 const CONVERGED: f64 = 1e-9;
 /// A compliance whose bounds differ by less than this factor is nearly local.
@@ -26,21 +26,30 @@ impl Rolling {
         }
     }
 
+    /// Whether the bounds of the compliance of a step are near each other, as with inertia.
+    fn is_nearly_local(&self) -> bool {
+        let [least, most] = self.kernel.bounds;
+        most < LOCAL * least
+    }
+
+    /// The slip velocity over the traction of a point (m/s per Pa) in the iteration. Where the compliance of a step is nearly
+    /// local, its mean takes each point to its own solution; else the method of gradients needs its upper bound, and momentum.
+    pub(crate) fn local_compliance(&self) -> f64 {
+        let [least, most] = self.kernel.bounds;
+        let rate = 1.5 / self.setup.step;
+        if self.is_nearly_local() { 0.5 * rate * (least + most) } else { rate * most }
+    }
+
     /// Finds tractions that obey friction at every point, by the proximal gradient method, with Nesterov's momentum where
     /// the compliance couples far points (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a
     /// convex function.
     /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
     pub(crate) fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
         let rate = 1.5 / self.setup.step;
+        let compliance = self.local_compliance();
         let [least, most] = self.kernel.bounds;
-        // With inertia the compliance of a step is nearly local, and its mean takes each point to its own solution; without, the
-        // method of gradients needs its upper bound, and momentum.
-        let (compliance, momentum) = if most < LOCAL * least {
-            (0.5 * rate * (least + most), 0.0)
-        } else {
-            let root = (least / most).sqrt();
-            (rate * most, (1.0 - root) / (1.0 + root))
-        };
+        let root = (least / most).sqrt();
+        let momentum = if self.is_nearly_local() { 0.0 } else { (1.0 - root) / (1.0 + root) };
         let mut backward = match rigid.along {
             Along::Creepage(creepage) => creepage * self.setup.speed,
             Along::Force(_) => self.backward,

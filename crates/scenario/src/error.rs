@@ -26,10 +26,23 @@ pub enum ScenarioError {
     #[error("model = \"half-space\": the bodies have no mesh")]
     #[diagnostic(help("set model = \"finite-elements\""))]
     NoMesh,
+    /// A torque that friction cannot bear.
+    #[error(
+        "drive.torque over disk.radius is {force:.4e} N, and friction bears less than {bound:.4e} N"
+    )]
+    #[diagnostic(help("make drive.torque smaller, or give drive.creepage"))]
+    Torque {
+        /// The force that is asked for (N).
+        force: f64,
+        /// The coefficient at rest times the load (N).
+        bound: f64,
+    },
     /// The half-spaces cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("{}", match .0 {
         halfspace::RollingError::Coarse { .. } => "make mesh.zone.size smaller: the patch must have at least 4",
+        halfspace::RollingError::LongStep { .. } => "make time.step shorter, or leave it out",
+        halfspace::RollingError::Fast { .. } => "make drive.speed smaller, or the material stiffer",
         halfspace::RollingError::Kernel(_) => "make mesh.zone.size larger, or the patch smaller",
         halfspace::RollingError::State => "begin the run anew with --force",
     }))]
@@ -111,6 +124,7 @@ impl ScenarioError {
             Self::Mesh(error) => key_of_mesh(error),
             Self::Memory { .. } => Some(key!("mesh.zone.size")),
             Self::NoMesh => Some("model"),
+            Self::Torque { .. } => Some(key!("drive.torque")),
             Self::Slice(_) => Some(key!("mesh.plane_strain")),
             Self::Symmetry(_) => Some(key!("mesh.symmetry")),
             Self::Pattern { .. } => Some(key!("mesh.window")),

@@ -62,6 +62,12 @@ pub fn half_space(
         inertia: if case.has_inertia() { Inertia::Dynamic } else { Inertia::Static },
         law: friction_law::law(case, law)?.into(),
     };
+    if let Along::Force(force) = drive(case, f64::INFINITY, 1.0).along {
+        let bound = setup.law.mu_static() * case.load.normal;
+        if force.abs() >= bound {
+            return Err(ScenarioError::Torque { force: force.abs(), bound });
+        }
+    }
     Ok(HalfSpaceModel {
         warnings: warnings(case, &setup),
         rolling: Rolling::new(setup)?,
@@ -89,9 +95,10 @@ pub fn drive(case: &Case, time: f64, width: f64) -> Rigid {
 fn points(case: &Case) -> SurfacePoints {
     let h = case.mesh.zone.size;
     let [rear, front] = case.mesh.zone_along();
-    let first = (rear / h - 1e-6).ceil() as i64;
-    let last = (front / h + 1e-6).floor() as i64;
-    let across = (0.5 * case.mesh.zone.width / h + 1e-6).floor() as usize;
+    // squares that the patch touches bear pressure: points beyond the zone by less than a spacing belong to it
+    let first = (rear / h + 1e-6).floor() as i64;
+    let last = (front / h - 1e-6).ceil() as i64;
+    let across = (0.5 * case.mesh.zone.width / h - 1e-6).ceil() as usize;
     SurfacePoints {
         columns: (first, (last - first + 1) as usize),
         lines: (!case.mesh.plane_strain).then_some(across),
@@ -115,6 +122,10 @@ fn warnings(case: &Case, setup: &Setup) -> Vec<String> {
     };
     let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
     let Some(law) = falls else { return Vec::new() };
+    if setup.inertia == Inertia::Static && case.friction.memory.is_none() {
+        // R compares with the impedance of waves
+        return Vec::new();
+    }
     let h = setup.spacing;
     match case.friction.memory {
         Some(memory) => {

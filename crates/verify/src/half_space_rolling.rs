@@ -307,12 +307,15 @@ pub(crate) fn transient(size: Size) -> Outcome {
         }
         rolling.set_speed(SPEED);
         let steps = (problem.distance / (STRIDE * h)).ceil() as usize;
-        let history = (0..steps).map(|_| {
+        let history = (0..steps).map(|n| {
             let sums = rolling.step(force);
+            if sums.unconverged > 0.0 {
+                return Err(format!("step {n}: friction did not converge").into());
+            }
             // the creepage of a step is that of its middle
-            [sums.centre - 0.5 * STRIDE * h, sums.creepage]
+            Ok([sums.centre - 0.5 * STRIDE * h, sums.creepage])
         });
-        Ok(history.collect())
+        history.collect()
     };
     let histories: Vec<(f64, Vec<[f64; 2]>)> = spacings(size)
         .par_iter()

@@ -31,8 +31,9 @@ use std::time::{Duration, Instant, SystemTime};
 /// Steps between two calls of the observer.
 const OBSERVED: u64 = 64;
 
-/// A step whose friction converged no better than this (of the largest velocity) ends the run.
-const UNCONVERGED: f64 = 1e-3;
+/// A step whose friction converged no better than this (of the largest trial velocity, which is some hundred times the
+/// largest slip velocity) ends the run.
+const UNCONVERGED: f64 = 1e-6;
 
 /// The arithmetic of half-spaces is that of every machine.
 const KERNELS: solid::Level = solid::Level::Portable;
@@ -241,7 +242,7 @@ fn unsound(sums: &StepSums) -> Option<String> {
     (sums.unconverged > UNCONVERGED).then(|| {
         format!(
             "{at}: tractions that obey friction were not found; the last of {} iterations still changed the slip velocity by \
-             {:.1e} of the largest; remedy: a shorter time.step, or friction with memory",
+             {:.1e} of the largest trial velocity; remedy: a shorter time.step, or friction with memory",
             sums.iterations, sums.unconverged
         )
     })

@@ -186,7 +186,9 @@ impl HalfSpaceRecorder {
         let rows = Rows::of(&self.points);
         if let Some(columns) = self.points.move_on {
             let centre = (model.rolling.centre() / self.spacing).floor() as i64;
-            self.travel = centre.div_euclid(columns as i64) * columns as i64;
+            // at half a move, as a mesh does: the patch lies behind the middle as far as ahead of it
+            let columns = columns as i64;
+            self.travel = (centre + columns / 2).div_euclid(columns) * columns;
         }
         // in linear theory points that are opposite stay so: none is displaced but by the moves of the grid
         let travel = [self.travel as f64 * self.spacing, 0.0, 0.0];
