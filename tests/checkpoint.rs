@@ -107,7 +107,8 @@ fn a_zone_that_follows_the_contact_goes_on_where_it_was() {
 
 #[test]
 fn half_spaces_go_on_where_they_were() {
-    let memory = ["friction.law=exponential", "friction.memory.distance=2e-6"];
+    let memory =
+        ["friction.law=exponential", "friction.static=0.5", "friction.memory.distance=2e-6"];
     for zone in ["mesh.zone.length=0.014", "mesh.window=0.006"] {
         let sets = [&["model=half-space", "mesh.zone.size=0.4e-3", zone][..], &memory].concat();
         interrupted_is_uninterrupted(&sets, &["contact/slip/0001", "history/sweeps"]);
