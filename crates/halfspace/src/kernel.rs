@@ -55,8 +55,8 @@ pub struct Kernel {
     pub step: f64,
     /// Bounds of the compliance at lag 0 over all tractions on the patch (m/Pa).
     pub(crate) bounds: [f64; 2],
-    /// What the tail that is taken as static has of the static compliance, in the mean over the wavenumbers: zero
-    /// in three dimensions.
+    /// What is felt at its static value as the memory fades, over the difference of the static compliance across the patch
+    /// (plane strain, along x); zero in three dimensions.
     pub static_tail: f64,
 }
 

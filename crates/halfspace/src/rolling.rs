@@ -67,7 +67,7 @@ pub enum Inertia {
     Static,
 }
 
-/// What rolls.
+/// The bodies, the patch, its motion and its friction.
 #[derive(Clone)]
 pub struct Setup {
     /// The bodies.
@@ -97,7 +97,7 @@ pub struct Rigid {
     pub along: Along,
     /// Lateral velocity of the upper body over V, positive along +y.
     pub lateral: f64,
-    /// Turn about +z over V (rad/m).
+    /// Angular velocity about +z over V (rad/m).
     pub spin: f64,
 }
 
@@ -118,7 +118,7 @@ pub enum Along {
     Force(f64),
 }
 
-/// Why nothing rolls.
+/// Why a patch cannot be set up, or cannot go on from a state.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RollingError {
     /// There are no weights.
