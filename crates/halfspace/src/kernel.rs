@@ -51,8 +51,6 @@ pub struct Kernel {
     pub grid: [usize; 2],
     /// Per lag, then per wavenumber: those from 0 to nx/2 along x, fastest, and from 0 to ny/2 along y.
     pub(crate) lags: Vec<Weights>,
-    /// The time step (s).
-    pub step: f64,
     /// Bounds of the compliance at lag 0 over all tractions on the patch (m/Pa).
     pub(crate) bounds: [f64; 2],
     /// What is felt at its static value as the memory fades, over the difference of the static compliance across the patch
@@ -149,7 +147,7 @@ impl Kernel {
             if plane { 0.0 } else { fade(bodies, extent, grid[0], step, &mut weights) };
         let highest = PI / h * if plane { std::f64::consts::SQRT_2 } else { 1.0 };
         let bounds = bounds(bodies, &weights[0], highest, Complex64::from(1.5 / step));
-        Ok(Self { grid, lags: weights, step, bounds, static_tail })
+        Ok(Self { grid, lags: weights, bounds, static_tail })
     }
 
     /// Time steps of memory that an extent needs: what the slowest wave takes across it, with a margin.

@@ -27,6 +27,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod compliance;
+mod ellipse;
 mod history;
 mod kernel;
 mod plane;
@@ -36,9 +37,9 @@ mod rolling;
 mod tangential;
 
 pub use compliance::{Compliance, HalfSpaces};
+pub use ellipse::Ellipse;
 pub use kernel::{Extent, Kernel, KernelError};
 pub use quadrature::Quadrature;
 pub use rolling::{
-    Along, Ellipse, Inertia, PatchPoint, Rigid, Rolling, RollingError, RollingState, Setup,
-    StepSums,
+    Along, Inertia, PatchPoint, Rigid, Rolling, RollingError, RollingState, Setup, StepSums,
 };

@@ -1,6 +1,10 @@
 //! A patch that travels over two half-spaces, with friction.
 
+#[cfg(test)]
+mod tests;
+
 use crate::compliance::HalfSpaces;
+use crate::ellipse::Ellipse;
 use crate::history::History;
 use crate::kernel::{Extent, Kernel, KernelError};
 use crate::plane::Plane;
@@ -18,45 +22,6 @@ const SLACK: usize = 1;
 const CARRIED: f64 = 1.1;
 /// Speeds above this part of that of Rayleigh waves are refused: the pressure would no longer be Hertz's.
 const FASTEST: f64 = 0.3;
-
-/// The pressure of Hertz's contact: an ellipse, or in plane strain a strip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ellipse {
-    /// Half axis along x (m).
-    pub half_length: f64,
-    /// Half axis along y (m); `None` in plane strain.
-    pub half_width: Option<f64>,
-    /// Largest pressure (Pa).
-    pub peak_pressure: f64,
-}
-
-impl Ellipse {
-    /// Mean pressure (Pa) over a square of the side `h` (m; in plane strain over the length h) about a point relative to the
-    /// centre (m): so that a patch that moves over the points bears the same load at any place.
-    ///
-    /// Exact along x; across by the midpoint rule on four lines.
-    pub fn mean_pressure(&self, [x, y]: [f64; 2], h: f64) -> f64 {
-        let a = self.half_length;
-        // of the integral of sqrt(c^2 - x^2)
-        let area = |x: f64, c: f64| {
-            let x = x.clamp(-c, c);
-            0.5 * (x * (c * c - x * x).max(0.0).sqrt() + c * c * libm::asin(x / c))
-        };
-        let line = |inside: f64| {
-            if inside <= 0.0 {
-                return 0.0;
-            }
-            let c = a * inside.sqrt();
-            self.peak_pressure / a * (area(x + 0.5 * h, c) - area(x - 0.5 * h, c)) / h
-        };
-        let Some(b) = self.half_width else { return line(1.0) };
-        let across = (0..LINES).map(|i| y + ((f64::from(i) + 0.5) / f64::from(LINES) - 0.5) * h);
-        across.map(|y| line(1.0 - (y / b).powi(2))).sum::<f64>() / f64::from(LINES)
-    }
-}
-
-/// Lines across a square over which the pressure is taken.
-const LINES: u32 = 4;
 
 /// Whether the half-spaces have inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,8 +137,8 @@ pub struct StepSums {
     pub slipping: usize,
     /// Points where adhesion and slip both were solutions.
     pub non_unique: usize,
-    /// Iterations, and the change of slip velocity in the last one over the largest velocity, where that is above the
-    /// tolerance.
+    /// Iterations, and the change of slip velocity in the last one over the largest trial velocity where that is above the
+    /// tolerance, or the part of a prescribed force that is missed.
     pub iterations: usize,
     /// See `iterations`.
     pub unconverged: f64,
@@ -437,38 +402,24 @@ impl Rolling {
         }
     }
 
-    /// Brings the states of the friction law to this step.
+    /// Brings the states of the friction law to this step; those of points that come into contact begin.
     fn advance_friction(&mut self) {
         let mut slid = std::mem::take(&mut self.work.slid);
         slid.clear();
         for &(i, at) in &self.points {
+            let at = self.place(i, at);
+            if self.fields.contact[i] == 0 {
+                self.fields.state[i] = self.setup.law.begin(&at);
+                continue;
+            }
             let s = [0, 1].map(|c| self.fields.slip_velocity[c][i]);
-            slid.push(Slid {
-                state: self.fields.state[i],
-                slip_speed: libm::hypot(s[0], s[1]),
-                at: self.place(i, at),
-            });
+            let slip_speed = libm::hypot(s[0], s[1]);
+            slid.push(Slid { state: self.fields.state[i], slip_speed, at });
         }
-        // a law that is expensive to call is called once
-        let old = |i: &(usize, [f64; 2])| self.fields.contact[i.0] != 0;
-        if self.points.iter().all(old) {
-            self.setup.law.advance_all(&mut slid, self.setup.step);
-            for (&(i, _), s) in self.points.iter().zip(&slid) {
-                self.fields.state[i] = s.state;
-            }
-        } else {
-            let mut some: Vec<Slid> =
-                self.points.iter().zip(&slid).filter(|(p, _)| old(p)).map(|(_, s)| *s).collect();
-            self.setup.law.advance_all(&mut some, self.setup.step);
-            let mut next = some.into_iter();
-            for (&(i, _), s) in self.points.iter().zip(&slid) {
-                self.fields.state[i] = if self.fields.contact[i] == 0 {
-                    self.setup.law.begin(&s.at)
-                } else {
-                    next.next().map_or(s.state, |s| s.state)
-                };
-            }
-        }
+        self.setup.law.advance_all(&mut slid, self.setup.step);
+        let Fields { contact, state, .. } = &mut self.fields;
+        let touched = self.points.iter().filter(|(i, _)| contact[*i] != 0);
+        touched.zip(&slid).for_each(|(&(i, _), s)| state[i] = s.state);
         self.work.slid = slid;
     }
 
@@ -516,12 +467,11 @@ impl Rolling {
                 *to = left + now;
             }
         }
-        let step = self.setup.step;
+        let (step, compliance) = (self.setup.step, self.local_compliance());
         for (k, &(i, at)) in self.points.iter().enumerate() {
             let found = self.work.found[k];
             let mut carried = rigid.carried(self.setup.speed, at);
             carried[0] -= self.backward;
-            let compliance = self.local_compliance();
             let free = [0, 1].map(|c| found.slip_velocity[c] - compliance * found.shear[c]);
             let many = is_non_unique(&self.point(i, at), free, compliance);
             sums.non_unique += usize::from(many);
@@ -674,118 +624,4 @@ pub struct PatchPoint {
     pub mu: f64,
     /// Whether it slips.
     pub slips: bool,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use friction::{Coulomb, Exponential, Implicit, Memory, Remembering};
-
-    const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
-
-    fn setup(width: Option<f64>, law: Arc<dyn NodeFriction>) -> Setup {
-        let bodies = HalfSpaces::new(210e9, 0.3, 7850.0);
-        let spacing = 1e-3;
-        Setup {
-            bodies,
-            spacing,
-            patch: Ellipse { half_length: 6e-3, half_width: width, peak_pressure: 1e9 },
-            offset: 0.0,
-            speed: 40.0,
-            start: 0.0,
-            step: 0.5 * spacing / bodies.pressure_speed,
-            inertia: Inertia::Dynamic,
-            law,
-        }
-    }
-
-    fn driven(creepage: f64) -> Rigid {
-        Rigid { along: Along::Creepage(creepage), lateral: 0.5 * creepage, spin: 0.0 }
-    }
-
-    #[test]
-    fn friction_holds_at_every_point_and_spends_what_the_drive_gives() {
-        let memory = Memory { distance: 3e-6, floor: 1e-2 };
-        let laws: [Arc<dyn NodeFriction>; 3] = [
-            Arc::new(Coulomb { mu: 0.4 }),
-            Arc::new(Implicit(LAW)),
-            Arc::new(Remembering { steady: LAW, memory }),
-        ];
-        for law in laws {
-            for width in [Some(4e-3), None] {
-                let mut rolling = Rolling::new(setup(width, Arc::clone(&law))).unwrap();
-                let (mut slipped, mut balance, mut driven_by) = (false, 0.0, 0.0);
-                for _ in 0..3000 {
-                    let sums = rolling.step(driven(0.01));
-                    assert_eq!(sums.unconverged, 0.0);
-                    balance += sums.driven - sums.stored - sums.dissipated;
-                    driven_by += sums.driven;
-                    for p in rolling.patch() {
-                        let size = |v: [f64; 2]| libm::hypot(v[0], v[1]);
-                        let (tau, bound) = (size(p.shear), p.mu * p.pressure);
-                        assert!(tau <= bound * (1.0 + 1e-14), "{p:?}");
-                        let power =
-                            p.shear[0] * p.slip_velocity[0] + p.shear[1] * p.slip_velocity[1];
-                        let full = -tau * size(p.slip_velocity);
-                        assert!((power - full).abs() <= 1e-13 * full.abs(), "{p:?}");
-                        assert!(p.slips || p.slip_velocity == [0.0; 2]);
-                        slipped |= p.slips;
-                    }
-                }
-                assert!(slipped && driven_by > 0.0);
-                assert!(balance.abs() < 1e-7 * driven_by, "{balance} {driven_by}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_patch_goes_on_from_its_state_with_the_same_bits() {
-        let law =
-            Arc::new(Remembering { steady: LAW, memory: Memory { distance: 1e-6, floor: 1e-2 } });
-        let mut whole = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
-        let mut parted = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
-        for _ in 0..700 {
-            whole.step(driven(0.01));
-            parted.step(driven(0.01));
-        }
-        let state = parted.snapshot();
-        let mut parted = Rolling::new(setup(Some(4e-3), law)).unwrap();
-        parted.restore(&state).unwrap();
-        for _ in 0..700 {
-            assert_eq!(whole.step(driven(0.01)), parted.step(driven(0.01)));
-        }
-        assert!(whole.patch().eq(parted.patch()));
-        let mut other = Rolling::new(setup(None, Arc::new(Coulomb { mu: 0.4 }))).unwrap();
-        assert_eq!(other.restore(&state), Err(RollingError::State));
-    }
-
-    #[test]
-    fn the_number_of_threads_changes_no_bit() {
-        let sums = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| {
-                let mut rolling =
-                    Rolling::new(setup(Some(4e-3), Arc::new(Coulomb { mu: 0.4 }))).unwrap();
-                (0..400).map(|_| rolling.step(driven(0.01))).next_back().unwrap()
-            })
-        };
-        assert_eq!(sums(1), sums(3));
-    }
-
-    #[test]
-    fn a_force_is_met_at_every_step() {
-        let mut rolling = Rolling::new(setup(Some(4e-3), Arc::new(Coulomb { mu: 0.4 }))).unwrap();
-        for n in 1..=500 {
-            let force = 2.0 * f64::from(n);
-            let rigid = Rigid { along: Along::Force(force), lateral: 0.0, spin: 0.0 };
-            let sums = rolling.step(rigid);
-            assert!((sums.shear[0] / force - 1.0).abs() < 1e-7, "{sums:?}");
-        }
-    }
-
-    #[test]
-    fn a_patch_of_few_points_is_refused() {
-        let coarse = Setup { spacing: 4e-3, ..setup(Some(4e-3), Arc::new(Coulomb { mu: 0.4 })) };
-        assert!(matches!(Rolling::new(coarse), Err(RollingError::Coarse { .. })));
-    }
 }

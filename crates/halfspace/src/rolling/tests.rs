@@ -1,0 +1,108 @@
+use super::*;
+use friction::{Coulomb, Exponential, Implicit, Memory, Remembering};
+
+const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+
+fn setup(width: Option<f64>, law: Arc<dyn NodeFriction>) -> Setup {
+    let bodies = HalfSpaces::new(210e9, 0.3, 7850.0);
+    let spacing = 1e-3;
+    Setup {
+        bodies,
+        spacing,
+        patch: Ellipse { half_length: 6e-3, half_width: width, peak_pressure: 1e9 },
+        offset: 0.0,
+        speed: 40.0,
+        start: 0.0,
+        step: 0.5 * spacing / bodies.pressure_speed,
+        inertia: Inertia::Dynamic,
+        law,
+    }
+}
+
+fn driven(creepage: f64) -> Rigid {
+    Rigid { along: Along::Creepage(creepage), lateral: 0.5 * creepage, spin: 0.0 }
+}
+
+#[test]
+fn friction_holds_at_every_point_and_spends_what_the_drive_gives() {
+    let memory = Memory { distance: 3e-6, floor: 1e-2 };
+    let laws: [Arc<dyn NodeFriction>; 3] = [
+        Arc::new(Coulomb { mu: 0.4 }),
+        Arc::new(Implicit(LAW)),
+        Arc::new(Remembering { steady: LAW, memory }),
+    ];
+    for law in laws {
+        for width in [Some(4e-3), None] {
+            let mut rolling = Rolling::new(setup(width, Arc::clone(&law))).unwrap();
+            let (mut slipped, mut balance, mut driven_by) = (false, 0.0, 0.0);
+            for _ in 0..3000 {
+                let sums = rolling.step(driven(0.01));
+                assert_eq!(sums.unconverged, 0.0);
+                balance += sums.driven - sums.stored - sums.dissipated;
+                driven_by += sums.driven;
+                for p in rolling.patch() {
+                    let size = |v: [f64; 2]| libm::hypot(v[0], v[1]);
+                    let (tau, bound) = (size(p.shear), p.mu * p.pressure);
+                    assert!(tau <= bound * (1.0 + 1e-14), "{p:?}");
+                    let power = p.shear[0] * p.slip_velocity[0] + p.shear[1] * p.slip_velocity[1];
+                    let full = -tau * size(p.slip_velocity);
+                    assert!((power - full).abs() <= 1e-13 * full.abs(), "{p:?}");
+                    assert!(p.slips || p.slip_velocity == [0.0; 2]);
+                    slipped |= p.slips;
+                }
+            }
+            assert!(slipped && driven_by > 0.0);
+            assert!(balance.abs() < 1e-7 * driven_by, "{balance} {driven_by}");
+        }
+    }
+}
+
+#[test]
+fn a_patch_goes_on_from_its_state_with_the_same_bits() {
+    let law = Arc::new(Remembering { steady: LAW, memory: Memory { distance: 1e-6, floor: 1e-2 } });
+    let mut whole = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
+    let mut parted = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
+    for _ in 0..700 {
+        whole.step(driven(0.01));
+        parted.step(driven(0.01));
+    }
+    let state = parted.snapshot();
+    let mut parted = Rolling::new(setup(Some(4e-3), law)).unwrap();
+    parted.restore(&state).unwrap();
+    for _ in 0..700 {
+        assert_eq!(whole.step(driven(0.01)), parted.step(driven(0.01)));
+    }
+    assert!(whole.patch().eq(parted.patch()));
+    let mut other = Rolling::new(setup(None, Arc::new(Coulomb { mu: 0.4 }))).unwrap();
+    assert_eq!(other.restore(&state), Err(RollingError::State));
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let sums = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut rolling =
+                Rolling::new(setup(Some(4e-3), Arc::new(Coulomb { mu: 0.4 }))).unwrap();
+            (0..400).map(|_| rolling.step(driven(0.01))).next_back().unwrap()
+        })
+    };
+    assert_eq!(sums(1), sums(3));
+}
+
+#[test]
+fn a_force_is_met_at_every_step() {
+    let mut rolling = Rolling::new(setup(Some(4e-3), Arc::new(Coulomb { mu: 0.4 }))).unwrap();
+    for n in 1..=500 {
+        let force = 2.0 * f64::from(n);
+        let rigid = Rigid { along: Along::Force(force), lateral: 0.0, spin: 0.0 };
+        let sums = rolling.step(rigid);
+        assert!((sums.shear[0] / force - 1.0).abs() < 1e-7, "{sums:?}");
+    }
+}
+
+#[test]
+fn a_patch_of_few_points_is_refused() {
+    let coarse = Setup { spacing: 4e-3, ..setup(Some(4e-3), Arc::new(Coulomb { mu: 0.4 })) };
+    assert!(matches!(Rolling::new(coarse), Err(RollingError::Coarse { .. })));
+}
