@@ -1,37 +1,66 @@
 //! What past tractions leave of displacement: the convolution in time, wavenumber by wavenumber.
+//!
+//! Steps come in blocks of B. Within a block the tractions of its own steps are summed one by one. Those of earlier blocks
+//! are summed once for all steps of the block, by Fourier transforms over time: between two blocks the weights are a Toeplitz
+//! matrix, which is part of a circulant one of twice the size (Hairer, Lubich and Schlichte 1985).
 
 use crate::kernel::{Kernel, Weights};
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
+use rustfft::{Fft, FftPlanner};
+use std::sync::Arc;
 
 /// Wavenumbers that are summed side by side.
 const LANES: usize = 8;
-/// Steps whose old part is summed at once, so that each weight is read once for all of them.
-const BATCH: usize = 8;
+/// Which component of displacement comes from which of traction, by which weight: in three dimensions, and in plane
+/// strain, where nothing couples them.
+const COUPLED: [Product; 4] = [[0, 0, XX], [0, 1, XY], [1, 0, XY], [1, 1, YY]];
+const UNCOUPLED: [Product; 2] = [[0, 0, XX], [1, 1, YY]];
+const XX: usize = 0;
+const XY: usize = 1;
+const YY: usize = 2;
 
-/// Real and imaginary parts of a vector along x and y at some wavenumbers.
-type Spectra = [[f64; LANES]; 4];
-/// Weights `xx`, `xy`, `yy` at some wavenumbers.
-type Tensor = [[f64; LANES]; 3];
+/// Displacement, traction, weight.
+type Product = [usize; 3];
 
-/// The memory of some wavenumbers.
-struct Block {
-    /// Of lag 1 and on.
-    weights: Vec<Tensor>,
-    /// The spectra of the tractions of the last steps, oldest first: those before the batch, then those within it.
-    past: Vec<Spectra>,
-    /// What those before the batch leave at each of its steps.
-    old: [Spectra; BATCH],
+/// Complex numbers at some wavenumbers.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    re: [f64; LANES],
+    im: [f64; LANES],
+}
+
+/// Some wavenumbers, side by side.
+struct Group {
+    /// Weights `xx`, `xy`, `yy` of the lags 1 to B - 1.
+    near: Vec<[[f64; LANES]; 3]>,
+    /// Their transforms between a block and the q-th before it, q from one: by weight, `[q, frequency 0 to B]`.
+    far: [Vec<Row>; 3],
+    /// Transforms of the tractions of the blocks before this one: by component, `[block in turn, frequency 0 to 2B - 1]`.
+    past: [Vec<Row>; 2],
+    /// Tractions of the steps of this block, by component.
+    present: [Vec<Row>; 2],
+    /// What the blocks before leave at each step of this one, by component: the first B of 2B.
+    old: [Vec<Row>; 2],
+    /// A transform, and what it needs.
+    buffer: Vec<Complex64>,
+    scratch: Vec<Complex64>,
 }
 
 /// The spectra of past tractions, and what they leave.
 pub(crate) struct History {
-    blocks: Vec<Block>,
+    groups: Vec<Group>,
     modes: usize,
-    /// Weights beyond lag 0.
-    lags: usize,
-    /// Steps of the batch that are done.
-    done: usize,
+    products: &'static [Product],
+    /// Steps of a block, and blocks in memory.
+    block: usize,
+    blocks: usize,
+    /// Steps done.
+    steps: usize,
+    /// Whether tractions along x, along y were ever other than zero.
+    moved: [bool; 2],
+    /// Over time, forward and back.
+    transforms: [Arc<dyn Fft<f64>>; 2],
     now: Weights,
 }
 
@@ -51,23 +80,21 @@ impl History {
             let xy = weights.xy.get(i).map_or(0.0, |xy| sign * xy);
             [weights.xx[i], xy, weights.yy[i]]
         };
-        let lags = kernel.lags.len() - 1;
-        let block = |b: usize| {
-            let tensor = |weights: &Weights| {
-                let mut tensor = [[0.0; LANES]; 3];
-                for lane in (0..LANES).filter(|lane| b * LANES + lane < modes) {
-                    let values = at(weights, b * LANES + lane);
-                    (0..3).for_each(|c| tensor[c][lane] = values[c]);
-                }
-                tensor
-            };
-            Block {
-                weights: kernel.lags[1..].iter().map(tensor).collect(),
-                past: vec![[[0.0; LANES]; 4]; lags + BATCH],
-                old: [[[0.0; LANES]; 4]; BATCH],
-            }
+        let last = kernel.lags.len() - 1;
+        // sums within a block cost as its length does, those over blocks as their number
+        let block = (2.0 * (last as f64).sqrt()) as usize;
+        let block = block.max(1).next_power_of_two();
+        let blocks = last.div_ceil(block);
+        let mut planner = FftPlanner::new();
+        let transforms = [planner.plan_fft_forward(2 * block), planner.plan_fft_inverse(2 * block)];
+        let products: &[Product] = if kernel.grid[1] > 1 { &COUPLED } else { &UNCOUPLED };
+        let weight = |lag: usize, mode: usize| {
+            let none = lag > last || mode >= modes;
+            if none { [0.0; 3] } else { at(&kernel.lags[lag], mode) }
         };
-        let blocks = (0..modes.div_ceil(LANES)).into_par_iter().map(block).collect();
+        let group = |g: usize| Group::new(g, &transforms, [block, blocks], products, &weight);
+        let groups = if last == 0 { 0 } else { modes.div_ceil(LANES) };
+        let groups = (0..groups).into_par_iter().map(group).collect();
         let mut now = Weights::default();
         for mode in 0..modes {
             let [xx, xy, yy] = at(&kernel.lags[0], mode);
@@ -75,54 +102,52 @@ impl History {
             now.xy.push(xy);
             now.yy.push(yy);
         }
-        Self { blocks, modes, lags, done: 0, now }
+        let moved = [false; 2];
+        Self { groups, modes, products, block, blocks, steps: 0, moved, transforms, now }
     }
 
     /// The spectra (x and y) of the displacement (m) that past tractions leave now.
     pub(crate) fn left(&mut self, out: &mut [Vec<Complex64>; 2]) {
-        let (lags, done) = (self.lags, self.done);
-        if lags == 0 {
-            out.iter_mut().for_each(|o| o.fill(Complex64::ZERO));
-            return;
-        }
-        self.blocks.par_iter_mut().with_min_len(4).for_each(|block| {
-            if done == 0 {
-                sum_old(block, lags);
+        let Self { groups, products, block, blocks, steps, moved, transforms, .. } = self;
+        let (inside, turn) = (*steps % *block, *steps / *block);
+        let products = products.iter().filter(|[_, by, _]| moved[*by]).copied();
+        groups.par_iter_mut().with_min_len(4).for_each(|group| {
+            if inside == 0 && turn > 0 {
+                for by in (0..2).filter(|&by| moved[by]) {
+                    group.end_block(by, &*transforms[0], (turn - 1) % *blocks);
+                }
+                group.old.iter_mut().for_each(|old| old.fill(Row::default()));
+                for product in products.clone() {
+                    group.sum_blocks(product, turn, [*block, *blocks]);
+                }
+                for of in (0..2).filter(|&of| products.clone().any(|p| p[0] == of)) {
+                    group.transform_back(of, &*transforms[1]);
+                }
             }
-            // the steps of this batch
-            let mut sum = block.old[done];
-            for i in 0..done.min(lags) {
-                let (w, t) = (&block.weights[i], &block.past[lags + done - 1 - i]);
-                add(&mut sum, w, t);
+            for product in products.clone() {
+                group.sum_within(product, inside);
             }
-            block.old[done] = sum;
         });
-        for mode in 0..self.modes {
-            let (sum, lane) = (&self.blocks[mode / LANES].old[done], mode % LANES);
-            out[0][mode] = Complex64::new(sum[0][lane], sum[1][lane]);
-            out[1][mode] = Complex64::new(sum[2][lane], sum[3][lane]);
+        for (c, out) in out.iter_mut().enumerate() {
+            out.fill(Complex64::ZERO);
+            for (group, out) in self.groups.iter().zip(out.chunks_mut(LANES)) {
+                let row = &group.old[c][inside];
+                out.iter_mut().enumerate().for_each(|(i, o)| *o = row.at(i));
+            }
         }
     }
 
     /// Takes the spectra of the tractions of this step (Pa).
-    pub(crate) fn push(&mut self, [x, y]: &[Vec<Complex64>; 2]) {
-        if self.lags == 0 {
-            return;
+    pub(crate) fn push(&mut self, tractions: &[Vec<Complex64>; 2]) {
+        let inside = self.steps % self.block;
+        for (c, spectrum) in tractions.iter().enumerate() {
+            self.moved[c] |= spectrum.iter().any(|t| *t != Complex64::ZERO);
+            for (group, spectrum) in self.groups.iter_mut().zip(spectrum.chunks(LANES)) {
+                let row = &mut group.present[c][inside];
+                spectrum.iter().enumerate().for_each(|(i, t)| row.set(i, *t));
+            }
         }
-        let (row, modes) = (self.lags + self.done, self.modes);
-        for mode in 0..modes {
-            let (block, lane) = (&mut self.blocks[mode / LANES], mode % LANES);
-            let past = &mut block.past[row];
-            past[0][lane] = x[mode].re;
-            past[1][lane] = x[mode].im;
-            past[2][lane] = y[mode].re;
-            past[3][lane] = y[mode].im;
-        }
-        self.done += 1;
-        if self.done == BATCH {
-            self.blocks.par_iter_mut().with_min_len(4).for_each(|b| b.past.copy_within(BATCH.., 0));
-            self.done = 0;
-        }
+        self.steps += 1;
     }
 
     /// What tractions of this instant add to the displacement.
@@ -137,75 +162,208 @@ impl History {
 
     /// Bytes of spectra and weights.
     pub(crate) fn bytes(&self) -> usize {
-        let per_lag = size_of::<Tensor>() + size_of::<Spectra>();
-        self.blocks.len() * self.lags * per_lag
+        let rows =
+            |rows: &[Vec<Row>]| rows.iter().map(|r| r.len() * size_of::<Row>()).sum::<usize>();
+        let of = |g: &Group| {
+            let fields = rows(&g.far) + rows(&g.past) + rows(&g.present) + rows(&g.old);
+            fields + size_of_val(&g.near[..])
+        };
+        self.groups.iter().map(of).sum()
     }
 
-    /// The spectra of past tractions, oldest first and lane by lane, with the steps of the batch that are done.
+    /// The spectra of past tractions and what those before the block leave, group by group, with the steps done.
     pub(crate) fn snapshot(&self) -> (Vec<f64>, usize) {
-        let past = self.blocks.iter().flat_map(|b| b.past.iter().flatten().flatten().copied());
-        let old = self.blocks.iter().flat_map(|b| b.old.iter().flatten().flatten().copied());
-        (past.chain(old).collect(), self.done)
+        let rows = self.groups.iter().flat_map(Group::state).flatten();
+        (rows.flat_map(|row| row.re.iter().chain(&row.im).copied()).collect(), self.steps)
     }
 
     /// Takes over a [`snapshot`](Self::snapshot); whether it fits.
-    pub(crate) fn restore(&mut self, numbers: &[f64], done: usize) -> bool {
-        let per_block = 4 * LANES * (self.lags + BATCH);
-        if numbers.len() != self.blocks.len() * (per_block + 4 * LANES * BATCH) || done >= BATCH {
+    pub(crate) fn restore(&mut self, numbers: &[f64], steps: usize) -> bool {
+        let rows: usize = self.groups.iter().flat_map(Group::state).map(Vec::len).sum();
+        if numbers.len() != rows * 2 * LANES {
             return false;
         }
         let mut from = numbers.iter().copied();
-        let mut fill = |to: &mut [Spectra]| {
-            to.iter_mut().flatten().flatten().zip(&mut from).for_each(|(to, x)| *to = x);
-        };
-        self.blocks.iter_mut().for_each(|b| fill(&mut b.past));
-        self.blocks.iter_mut().for_each(|b| fill(&mut b.old));
-        self.done = done;
+        for group in &mut self.groups {
+            let Group { past: [px, py], present: [tx, ty], old: [ox, oy], .. } = group;
+            for (c, rows) in [(0, px), (1, py), (0, tx), (1, ty), (0, ox), (1, oy)] {
+                for to in rows.iter_mut().flat_map(|row| row.re.iter_mut().chain(&mut row.im)) {
+                    *to = from.next().unwrap_or(0.0);
+                    self.moved[c] |= *to != 0.0;
+                }
+            }
+        }
+        self.steps = steps;
         true
     }
 }
 
-/// Sums what the steps before the batch leave at each of its steps, with the widest vectors of the machine: products and
-/// sums are rounded alike with any.
-fn sum_old(block: &mut Block, lags: usize) {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") {
-        // SAFETY: the machine has AVX2
-        unsafe { sum_old_avx2(block, lags) };
-        return;
+impl Row {
+    fn at(&self, lane: usize) -> Complex64 {
+        Complex64::new(self.re[lane], self.im[lane])
     }
-    block.sum_old(lags);
+
+    fn set(&mut self, lane: usize, value: Complex64) {
+        (self.re[lane], self.im[lane]) = (value.re, value.im);
+    }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sum_old_avx2(block: &mut Block, lags: usize) {
-    block.sum_old(lags);
-}
-
-impl Block {
-    #[inline(always)]
-    fn sum_old(&mut self, lags: usize) {
-        self.old = [[[0.0; LANES]; 4]; BATCH];
-        for (row, past) in self.past[..lags].iter().enumerate() {
-            // at step j of the batch this row is lags - row + j steps old
-            let reach = BATCH.min(row + 1);
-            let weights = &self.weights[lags - row - 1..][..reach];
-            for (old, w) in self.old.iter_mut().zip(weights) {
-                add(old, w, past);
+impl Group {
+    /// The group `g`, with the weights (`xx`, `xy`, `yy`) of a lag and a wavenumber.
+    fn new(
+        g: usize,
+        transforms: &[Arc<dyn Fft<f64>>; 2],
+        [block, blocks]: [usize; 2],
+        products: &[Product],
+        weight: &impl Fn(usize, usize) -> [f64; 3],
+    ) -> Self {
+        let lanes = |lag: usize| {
+            let mut near = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                let values = weight(lag, g * LANES + lane);
+                near.iter_mut().zip(values).for_each(|(n, v)| n[lane] = v);
             }
+            near
+        };
+        let longest = transforms.iter().map(|t| t.get_inplace_scratch_len()).max().unwrap_or(0);
+        let mut scratch = vec![Complex64::ZERO; longest];
+        let mut buffer = vec![Complex64::ZERO; 2 * block];
+        let mut far = [Vec::new(), Vec::new(), Vec::new()];
+        for (c, far) in far.iter_mut().enumerate() {
+            if !products.iter().any(|p| p[2] == c) {
+                continue;
+            }
+            far.resize(blocks * (block + 1), Row::default());
+            for (q, far) in far.chunks_exact_mut(block + 1).enumerate() {
+                for lane in 0..LANES {
+                    // from step k of the block q + 1 before to step i of this one the lag is (q + 1) B + i - k
+                    for (d, b) in buffer.iter_mut().enumerate() {
+                        let lag =
+                            if d < block { (q + 1) * block + d } else { q * block + d - block };
+                        let known = d != block;
+                        let w = if known { weight(lag, g * LANES + lane)[c] } else { 0.0 };
+                        *b = Complex64::from(w);
+                    }
+                    transforms[0].process_with_scratch(&mut buffer, &mut scratch);
+                    far.iter_mut().zip(&buffer).for_each(|(row, b)| row.set(lane, *b));
+                }
+            }
+        }
+        let rows = |n: usize| [0, 1].map(|_| vec![Row::default(); n]);
+        Self {
+            near: (1..block).map(lanes).collect(),
+            far,
+            past: rows(2 * block * blocks),
+            present: rows(block),
+            old: rows(2 * block),
+            buffer,
+            scratch,
+        }
+    }
+
+    /// What a checkpoint must hold.
+    fn state(&self) -> impl Iterator<Item = &Vec<Row>> {
+        self.past.iter().chain(&self.present).chain(&self.old)
+    }
+
+    /// Transforms the tractions `by` of the block that ends, as the block `slot` of the past.
+    fn end_block(&mut self, by: usize, transform: &dyn Fft<f64>, slot: usize) {
+        let Self { past, present, buffer, scratch, .. } = self;
+        let length = buffer.len();
+        let past = &mut past[by][slot * length..][..length];
+        for lane in 0..LANES {
+            buffer.fill(Complex64::ZERO);
+            buffer.iter_mut().zip(&present[by]).for_each(|(b, row)| *b = row.at(lane));
+            transform.process_with_scratch(buffer, scratch);
+            past.iter_mut().zip(&*buffer).for_each(|(row, b)| row.set(lane, *b));
+        }
+    }
+
+    /// Adds the transforms of what all blocks before the block `turn` leave.
+    fn sum_blocks(&mut self, [of, by, weight]: Product, turn: usize, [block, blocks]: [usize; 2]) {
+        for q in 0..blocks.min(turn) {
+            let slot = (turn - 1 - q) % blocks;
+            let past = &self.past[by][slot * 2 * block..][..2 * block];
+            let far = &self.far[weight][q * (block + 1)..][..=block];
+            widest(|| add_transforms(&mut self.old[of], far, past));
+        }
+    }
+
+    /// Brings the sums of all blocks back to steps.
+    fn transform_back(&mut self, of: usize, transform: &dyn Fft<f64>) {
+        let Self { old, buffer, scratch, .. } = self;
+        let scale = 1.0 / buffer.len() as f64;
+        for lane in 0..LANES {
+            buffer.iter_mut().zip(&old[of]).for_each(|(b, row)| *b = row.at(lane));
+            transform.process_with_scratch(buffer, scratch);
+            old[of].iter_mut().zip(&*buffer).for_each(|(row, b)| row.set(lane, b * scale));
+        }
+    }
+
+    /// Adds what the earlier steps of the block leave at its step `inside`.
+    fn sum_within(&mut self, [of, by, weight]: Product, inside: usize) {
+        let Self { near, present, old, .. } = self;
+        let past = present[by][..inside].iter().rev();
+        widest(|| add_steps(&mut old[of][inside], near, past, weight));
+    }
+}
+
+/// Adds to the transforms `sum` (frequencies 0 to 2B - 1) those of a block convolved with real weights, whose
+/// transform `far` (0 to B) is conjugate at opposite frequencies.
+#[inline(always)]
+fn add_transforms(sum: &mut [Row], far: &[Row], past: &[Row]) {
+    let block = far.len() - 1;
+    add(&mut sum[0], &far[0], &past[0], 1.0);
+    add(&mut sum[block], &far[block], &past[block], 1.0);
+    for f in 1..block {
+        let opposite = 2 * block - f;
+        add(&mut sum[f], &far[f], &past[f], 1.0);
+        add(&mut sum[opposite], &far[f], &past[opposite], -1.0);
+    }
+}
+
+/// Adds the product of `weight`, or its conjugate where `sign` is -1, and `value`.
+#[inline(always)]
+fn add(sum: &mut Row, weight: &Row, value: &Row, sign: f64) {
+    for l in 0..LANES {
+        let (re, im) = (weight.re[l], sign * weight.im[l]);
+        sum.re[l] += re * value.re[l] - im * value.im[l];
+        sum.im[l] += re * value.im[l] + im * value.re[l];
+    }
+}
+
+/// Adds the steps of the block so far, latest first, times the weights `c` of their lags.
+#[inline(always)]
+fn add_steps<'a>(
+    sum: &mut Row,
+    near: &[[[f64; LANES]; 3]],
+    past: impl Iterator<Item = &'a Row>,
+    c: usize,
+) {
+    for (weights, value) in near.iter().zip(past) {
+        for l in 0..LANES {
+            sum.re[l] += weights[c][l] * value.re[l];
+            sum.im[l] += weights[c][l] * value.im[l];
         }
     }
 }
 
+/// Computes with the widest vectors of the machine: products and sums are rounded alike with any.
 #[inline(always)]
-fn add(sum: &mut Spectra, [xx, xy, yy]: &Tensor, [xr, xi, yr, yi]: &Spectra) {
-    for l in 0..LANES {
-        sum[0][l] += xx[l] * xr[l] + xy[l] * yr[l];
-        sum[1][l] += xx[l] * xi[l] + xy[l] * yi[l];
-        sum[2][l] += xy[l] * xr[l] + yy[l] * yr[l];
-        sum[3][l] += xy[l] * xi[l] + yy[l] * yi[l];
+fn widest(sum: impl FnOnce()) {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        // SAFETY: the machine has AVX2
+        unsafe { with_avx2(sum) };
+        return;
     }
+    sum();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn with_avx2(sum: impl FnOnce()) {
+    sum();
 }
 
 #[cfg(test)]
@@ -272,6 +430,61 @@ mod tests {
             for (reach, patch) in [((10, Some(8)), [8, 6]), ((40, None), [38, 1])] {
                 let [total, least, sizes] = work(reach, patch, longest);
                 assert!(total > 0.0 && least > -1e-9 * sizes, "{patch:?}: {total} {least} {sizes}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_past_leaves_is_the_sum_of_its_responses() {
+        let steel = HalfSpaces::new(210e9, 0.3, 7850.0);
+        let h = 1e-3;
+        for (reach, patch) in [((6, Some(5)), [5, 4]), ((12, None), [11, 1])] {
+            let dt = 0.5 * h / steel.pressure_speed;
+            let extent = Extent { spacing: h, reach, diameter: h * patch[0] as f64 };
+            let kernel = Kernel::new(&steel, &extent, dt).unwrap();
+            let mut plane = Plane::new(kernel.grid[0], kernel.grid[1]);
+            let mut history = History::new(&kernel);
+            let spectra = || [0, 1].map(|_| vec![Complex64::ZERO; plane.modes()]);
+            let (mut taus, mut left) = (spectra(), spectra());
+            let points = plane.points();
+            let zeros = || [0, 1].map(|_| vec![0.0; points]);
+            let mut past: Vec<[Vec<f64>; 2]> = Vec::new();
+            let mut found = zeros();
+            let mut seed = 3;
+            let at = [patch[0] - 1, patch[1] / 2];
+            for n in 0..3 * kernel.memory() {
+                history.left(&mut left);
+                (0..2).for_each(|c| plane.inverse(&mut left[c], &mut found[c]));
+                // a point of the patch, now and then
+                if n % 17 == 0 {
+                    let (mut sum, mut sizes) = ([0.0; 2], 0.0);
+                    for (lag, [x, y]) in (1..).zip(past.iter().rev().take(kernel.memory() - 1)) {
+                        for (i, j) in (0..patch[0]).flat_map(|i| (0..patch[1]).map(move |j| (i, j)))
+                        {
+                            let point = i + plane.nx * j;
+                            let [dx, dy] = [at[0].abs_diff(i), at[1].abs_diff(j)];
+                            let [xx, xy, yy] = kernel.response(lag, [dx, dy]);
+                            // odd along both axes
+                            let sign = if (at[0] < i) == (at[1] < j) { 1.0 } else { -1.0 };
+                            let [tx, ty]: [f64; 2] = [x, y].map(|t: &Vec<f64>| t[point]);
+                            sum[0] += xx * tx + sign * xy * ty;
+                            sum[1] += sign * xy * tx + yy * ty;
+                            sizes += (xx * tx).abs() + (yy * ty).abs();
+                        }
+                    }
+                    let point = at[0] + plane.nx * at[1];
+                    for c in 0..2 {
+                        let error = (sum[c] - found[c][point]).abs();
+                        assert!(error <= 1e-13 * sizes, "{n} {c}: {sum:?} {}", found[c][point]);
+                    }
+                }
+                let mut tau = zeros();
+                for (i, j) in (0..patch[0]).flat_map(|i| (0..patch[1]).map(move |j| (i, j))) {
+                    (0..2).for_each(|c| tau[c][i + plane.nx * j] = noise(&mut seed));
+                }
+                (0..2).for_each(|c| plane.forward(&tau[c], &mut taus[c]));
+                history.push(&taus);
+                past.push(tau);
             }
         }
     }

@@ -89,7 +89,7 @@ impl Kernel {
         let across = if plane { half } else { 1 };
         // the weights of the box, then those of the grid, with its tractions and their copy in a checkpoint
         let modes = (grid[0] / 2 + 1) * grid[1];
-        let bytes = lags as f64 * (16 * half * across).max(150 * modes) as f64;
+        let bytes = lags as f64 * (16 * half * across).max(200 * modes) as f64;
         if bytes > MOST_BYTES {
             let (points, gigabytes) = (modes, 1e-9 * bytes);
             return Err(KernelError::TooMany { lags, points, gigabytes });

@@ -56,19 +56,32 @@ impl Plane {
 
     /// The spectrum of a field.
     pub(crate) fn forward(&mut self, field: &[f64], spectrum: &mut [Complex64]) {
+        // rows without traction, and in a slice the component that nothing moves, need no transform
         let width = self.nx / 2 + 1;
+        let mut nothing = true;
         for (from, to) in field.chunks_exact(self.nx).zip(spectrum.chunks_exact_mut(width)) {
+            if from.iter().all(|f| *f == 0.0) {
+                to.fill(Complex64::ZERO);
+                continue;
+            }
+            nothing = false;
             self.row.copy_from_slice(from);
             let length = self.forward.get_scratch_len();
             let scratch = &mut self.scratch[..length];
             let done = self.forward.process_with_scratch(&mut self.row, to, scratch);
             debug_assert!(done.is_ok());
         }
-        self.columns(spectrum, 0);
+        if !nothing {
+            self.columns(spectrum, 0);
+        }
     }
 
     /// The field of a spectrum, which is overwritten; scaled so that it undoes [`forward`](Self::forward).
     pub(crate) fn inverse(&mut self, spectrum: &mut [Complex64], field: &mut [f64]) {
+        if spectrum.iter().all(|u| *u == Complex64::ZERO) {
+            field.fill(0.0);
+            return;
+        }
         self.columns(spectrum, 1);
         let (width, scale) = (self.nx / 2 + 1, 1.0 / self.points() as f64);
         for (from, to) in spectrum.chunks_exact(width).zip(field.chunks_exact_mut(self.nx)) {
