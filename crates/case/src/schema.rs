@@ -352,15 +352,15 @@ section! {
             => key(Count(1, 100_000_000), "-", "give a whole number: 100 (static), 40000 (relaxation)")
                 .finite_elements_only();
         /// Disturbance of the preload's displacement (dimensionless): that of every free node is multiplied by
-        /// 1 + r disturbance in each direction, r drawn from -1 to 1. Two runs that differ in it alone show how
+        /// 1 + r disturbance in each direction, r drawn from -1 to 1; of half-spaces the pressure of every point of the
+        /// material is. Two runs that differ in it alone show how
         /// fast small differences grow; of half a model only those that its plane mirrors. Default: none.
         disturbance: Option<f64>
             => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9")
-                .only_with("preload.method", &["static", "relaxation"]).finite_elements_only();
+                .only_with("preload.method", &["static", "relaxation"]);
         /// What the draws of `disturbance` begin with (dimensionless). Default 1 with it, refused without.
         seed: Option<u64>
-            => key(Count(0, 1_000_000), "-", "give a whole number").only_with("preload.disturbance", &[])
-                .finite_elements_only();
+            => key(Count(0, 1_000_000), "-", "give a whole number").only_with("preload.disturbance", &[]);
     }
 }
 

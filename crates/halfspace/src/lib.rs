@@ -41,5 +41,6 @@ pub use ellipse::Ellipse;
 pub use kernel::{Extent, Kernel, KernelError};
 pub use quadrature::Quadrature;
 pub use rolling::{
-    Along, Inertia, PatchPoint, Rigid, Rolling, RollingError, RollingState, Setup, StepSums,
+    Along, Inertia, PatchPoint, PressureFactor, Rigid, Rolling, RollingError, RollingState, Setup,
+    StepSums,
 };

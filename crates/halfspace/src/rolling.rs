@@ -32,6 +32,9 @@ pub enum Inertia {
     Static,
 }
 
+/// Factor of the pressure at a column and a line of the material.
+pub type PressureFactor = Arc<dyn Fn([i64; 2]) -> f64 + Send + Sync>;
+
 /// The bodies, the patch, its motion and its friction.
 #[derive(Clone)]
 pub struct Setup {
@@ -53,6 +56,8 @@ pub struct Setup {
     pub inertia: Inertia,
     /// The law of friction.
     pub law: Arc<dyn NodeFriction>,
+    /// A pressure other than the patch's at some points of the material.
+    pub pressure_factor: Option<PressureFactor>,
 }
 
 /// What is prescribed of the rigid motion of the upper body against the lower one.
@@ -364,7 +369,8 @@ impl Rolling {
         for j in lines {
             for i in columns.clone() {
                 let at = [i as f64 * h - self.centre, (j as f64 + offset) * h];
-                let pressure = ellipse.mean_pressure(at, h);
+                let factor = self.setup.pressure_factor.as_ref().map_or(1.0, |of| of([i, j]));
+                let pressure = factor * ellipse.mean_pressure(at, h);
                 if pressure > 0.0 {
                     let index = self.index(i, j);
                     self.work.field[index] = pressure;

@@ -1,12 +1,13 @@
 //! Two half-spaces in place of disk and bar: what rolls, what drives it, and the points that a run records.
 
+use crate::draw::{draw, seed};
 use crate::error::ScenarioError;
 use case::friction_law;
 use case::hertz::hertz;
 use case::schema::{Case, DriveMode};
 use dynamics::smoothstep;
 use friction::OwnLaw;
-use halfspace::{Along, Ellipse, HalfSpaces, Inertia, Rigid, Rolling, Setup};
+use halfspace::{Along, Ellipse, HalfSpaces, Inertia, PressureFactor, Rigid, Rolling, Setup};
 use std::sync::Arc;
 
 /// Two half-spaces at rest under the pressure of Hertz, and what a run needs of them.
@@ -61,6 +62,7 @@ pub fn half_space(
         step: case.duration() / steps,
         inertia: if case.has_inertia() { Inertia::Dynamic } else { Inertia::Static },
         law: friction_law::law(case, law)?.into(),
+        pressure_factor: pressure_factor(case),
     };
     if let Along::Force(force) = drive(case, f64::INFINITY, 1.0).along {
         let bound = setup.law.mu_static() * case.load.normal;
@@ -75,6 +77,14 @@ pub fn half_space(
         points: points(case),
         width: if line { case.mesh.zone.width } else { 1.0 },
     })
+}
+
+/// The factor of the pressure at a point of the material by which the members of an ensemble differ.
+fn pressure_factor(case: &Case) -> Option<PressureFactor> {
+    let (size, seed) = (case.preload.disturbance?, seed(case));
+    let place =
+        |[column, line]: [i64; 2]| (column as u64).wrapping_mul(1 << 32).wrapping_add(line as u64);
+    Some(Arc::new(move |at| 1.0 + size * draw(seed, place(at))))
 }
 
 /// What drives the upper body at the time `time` (s); torque over the radius is the force of half-spaces, which have no

@@ -7,6 +7,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod disk_on_bar;
+mod draw;
 pub mod error;
 mod half_space;
 pub mod memory;

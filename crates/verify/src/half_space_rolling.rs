@@ -72,6 +72,7 @@ impl Problem<'_> {
             step: STRIDE * h / SPEED,
             inertia: Inertia::Static,
             law: Arc::clone(&self.law),
+            pressure_factor: None,
         };
         Ok(Rolling::new(setup)?)
     }

@@ -16,6 +16,7 @@ fn setup(width: Option<f64>, law: Arc<dyn NodeFriction>) -> Setup {
         step: 0.5 * spacing / bodies.pressure_speed,
         inertia: Inertia::Dynamic,
         law,
+        pressure_factor: None,
     }
 }
 
