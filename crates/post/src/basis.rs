@@ -31,12 +31,20 @@ pub const SCALES: [(&str, &str, &str); 11] = [
     ("half_width", "m", "b, half axis of the patch along y"),
     ("speed", "m/s", "V, rolling speed"),
     ("creepage", "1", "longitudinal creepage"),
-    ("slip_speed", "m/s", "s_c = |creepage| V, at least 1e-5 V"),
+    (
+        "slip_speed",
+        "m/s",
+        "s_c, the rigid slip: V times creepage, lateral creepage and spin times a",
+    ),
     ("slip_threshold", "m/s", "eps_s = 1e-3 s_c, above which a node slips"),
     ("dt", "s", "time step"),
     ("size", "m", "h, edge of a surface element"),
     ("shear_wave", "m/s", "c_s, speed of shear waves"),
 ];
+
+/// The scale of slip in words.
+const SLIP_SCALE: &str =
+    "V times the root of the squares of creepage, lateral creepage and spin a, at least 1e-5 V";
 
 /// Which coefficient of friction `mu` bounds the shear, |p_tau| <= mu p_n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,9 +186,16 @@ impl Basis {
     /// Derives `slip_speed` from speed and creepage and `slip_threshold` from `slip_speed`, where they are not
     /// known.
     pub fn complete(&mut self) {
-        if let (Some(speed), Some(creepage)) = (self.scale("speed"), self.scale("creepage")) {
-            let slip = creepage.abs().max(1e-5) * speed.abs();
-            self.offer("slip_speed", slip, "|creepage| V, at least 1e-5 V");
+        let spin = self.number("drive.spin").zip(self.scale("half_length"));
+        let parts = [
+            self.scale("creepage"),
+            self.number("drive.lateral_creepage"),
+            spin.map(|(spin, a)| spin * a),
+        ];
+        let slips = parts.iter().flatten().any(|part| *part != 0.0);
+        if let Some(speed) = self.scale("speed").filter(|_| slips) {
+            let part = parts.iter().flatten().fold(0.0, |sum, part| libm::hypot(sum, *part));
+            self.offer("slip_speed", part.max(1e-5) * speed.abs(), SLIP_SCALE);
         }
         if let Some(slip) = self.scale("slip_speed") {
             self.offer("slip_threshold", 1e-3 * slip, "1e-3 s_c");
