@@ -70,3 +70,20 @@ fn the_number_of_threads_changes_no_bit_of_half_spaces() {
     let (one, three) = (run(&case, 1), run(&case, 3));
     assert_eq!(one.differing(&three), Vec::<&str>::new());
 }
+
+#[test]
+fn a_disturbance_of_the_pressure_changes_the_force_by_as_little_and_by_its_seed() {
+    let force = |sets: &[&str]| rolled(sets).history("tangential_force").to_vec();
+    let as_it_is = force(&[]);
+    let disturbed = |seed: &str| force(&["preload.disturbance=1e-6", seed]);
+    let (one, two) = (disturbed("preload.seed=1"), disturbed("preload.seed=2"));
+    let apart = |a: &[f64], b: &[f64]| {
+        let top = a.iter().fold(0.0_f64, |top, x| top.max(x.abs()));
+        a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / top
+    };
+    for pair in [[&as_it_is, &one], [&as_it_is, &two], [&one, &two]] {
+        let apart = apart(pair[0], pair[1]);
+        assert!(apart > 1e-10 && apart < 1e-6, "{apart}");
+    }
+    assert_eq!(one, disturbed("preload.seed=1"));
+}

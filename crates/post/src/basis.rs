@@ -334,3 +334,29 @@ fn read_toml(path: &Path) -> Result<Option<toml::Table>, PostError> {
     };
     read_text(path, input::CASE)?.map(|text| text.parse().map_err(failed)).transpose()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_of_slip_counts_creepage_lateral_creepage_and_spin() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join(file::CONTACT);
+        std::fs::write(&file, "").unwrap();
+        let slip = |drive: &str| {
+            let case = format!("[drive]\nspeed = 40.0\n{drive}\n[scales]\nhalf_length = 5e-3\n");
+            std::fs::write(folder.path().join("case.toml"), case).unwrap();
+            let mut basis = Basis::read(&RunPaths::of(&file).unwrap()).unwrap();
+            basis.complete();
+            basis.scale("slip_speed")
+        };
+        let near = |found: Option<f64>, asked: f64| (found.unwrap() / asked - 1.0).abs() < 1e-12;
+        assert!(near(slip("creepage = -3e-3"), 0.12));
+        assert!(near(slip("creepage = 0.0\nlateral_creepage = 4e-3"), 0.16));
+        assert!(near(slip("creepage = 3e-3\nlateral_creepage = -4e-3"), 0.2));
+        assert!(near(slip("creepage = 0.0\nspin = 0.5"), 0.1));
+        assert!(near(slip("creepage = 1e-9"), 4e-4));
+        assert_eq!(slip("creepage = 0.0"), None);
+    }
+}

@@ -27,7 +27,7 @@ pub(super) fn verdict(name: &str, metric: &Value) -> String {
         "cone" => format!("Shear exceeds the static bound by up to {}{place}.", percent(value)),
         "adhesion_slip" => format!(
             "Nodes whose shear is below the bound, and which should stick, slip at up to {} times \
-             the mean slip speed |creepage| V{place}.",
+             the rigid slip s_c{place}.",
             digits(value, 3)
         ),
         "mu_error" => format!(
@@ -90,7 +90,7 @@ pub(super) fn verdict(name: &str, metric: &Value) -> String {
         }
         "law_scatter" => {
             "Root mean square distance of (|s|, p_f/p) from the law's graph, speeds in units of \
-             |creepage| V."
+             the rigid slip s_c."
                 .into()
         }
         "switching_rate" => {
