@@ -352,9 +352,8 @@ section! {
             => key(Count(1, 100_000_000), "-", "give a whole number: 100 (static), 40000 (relaxation)")
                 .finite_elements_only();
         /// Disturbance of the preload's displacement (dimensionless): that of every free node is multiplied by
-        /// 1 + r disturbance in each direction, r drawn from -1 to 1; of half-spaces the pressure of every point of the
-        /// material is. Two runs that differ in it alone show how
-        /// fast small differences grow; of half a model only those that its plane mirrors. Default: none.
+        /// 1 + r disturbance in each direction, r drawn from -1 to 1. In half-spaces it multiplies the pressure of every
+        /// point of the material instead. Two runs that differ in it alone show how fast small differences grow; of half a model only those that its plane mirrors. Default: none.
         disturbance: Option<f64>
             => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9")
                 .only_with("preload.method", &["static", "relaxation"]);

@@ -58,7 +58,7 @@ pub(crate) struct History {
     /// Steps done.
     steps: usize,
     /// Whether tractions along x, along y were ever other than zero.
-    moved: [bool; 2],
+    loaded: [bool; 2],
     /// Over time, forward and back.
     transforms: [Arc<dyn Fft<f64>>; 2],
     now: Weights,
@@ -102,18 +102,18 @@ impl History {
             now.xy.push(xy);
             now.yy.push(yy);
         }
-        let moved = [false; 2];
-        Self { groups, modes, products, block, blocks, steps: 0, moved, transforms, now }
+        let loaded = [false; 2];
+        Self { groups, modes, products, block, blocks, steps: 0, loaded, transforms, now }
     }
 
     /// The spectra (x and y) of the displacement (m) that past tractions leave now.
     pub(crate) fn left(&mut self, out: &mut [Vec<Complex64>; 2]) {
-        let Self { groups, products, block, blocks, steps, moved, transforms, .. } = self;
+        let Self { groups, products, block, blocks, steps, loaded, transforms, .. } = self;
         let (inside, turn) = (*steps % *block, *steps / *block);
-        let products = products.iter().filter(|[_, by, _]| moved[*by]).copied();
+        let products = products.iter().filter(|[_, by, _]| loaded[*by]).copied();
         groups.par_iter_mut().with_min_len(4).for_each(|group| {
             if inside == 0 && turn > 0 {
-                for by in (0..2).filter(|&by| moved[by]) {
+                for by in (0..2).filter(|&by| loaded[by]) {
                     group.end_block(by, &*transforms[0], (turn - 1) % *blocks);
                 }
                 group.old.iter_mut().for_each(|old| old.fill(Row::default()));
@@ -141,7 +141,7 @@ impl History {
     pub(crate) fn push(&mut self, tractions: &[Vec<Complex64>; 2]) {
         let inside = self.steps % self.block;
         for (c, spectrum) in tractions.iter().enumerate() {
-            self.moved[c] |= spectrum.iter().any(|t| *t != Complex64::ZERO);
+            self.loaded[c] |= spectrum.iter().any(|t| *t != Complex64::ZERO);
             for (group, spectrum) in self.groups.iter_mut().zip(spectrum.chunks(LANES)) {
                 let row = &mut group.present[c][inside];
                 spectrum.iter().enumerate().for_each(|(i, t)| row.set(i, *t));
@@ -171,25 +171,26 @@ impl History {
         self.groups.iter().map(of).sum()
     }
 
-    /// The spectra of past tractions and what those before the block leave, group by group, with the steps done.
-    pub(crate) fn snapshot(&self) -> (Vec<f64>, usize) {
+    /// The spectra of past tractions and what those before the block leave, group by group.
+    pub(crate) fn snapshot(&self) -> Vec<f64> {
         let rows = self.groups.iter().flat_map(Group::state).flatten();
-        (rows.flat_map(|row| row.re.iter().chain(&row.im).copied()).collect(), self.steps)
+        rows.flat_map(|row| row.re.iter().chain(&row.im).copied()).collect()
     }
 
-    /// Takes over a [`snapshot`](Self::snapshot); whether it fits.
+    /// Takes over a [`snapshot`](Self::snapshot) after `steps` steps; whether it fits.
     pub(crate) fn restore(&mut self, numbers: &[f64], steps: usize) -> bool {
         let rows: usize = self.groups.iter().flat_map(Group::state).map(Vec::len).sum();
         if numbers.len() != rows * 2 * LANES {
             return false;
         }
+        self.loaded = [false; 2];
         let mut from = numbers.iter().copied();
         for group in &mut self.groups {
             let Group { past: [px, py], present: [tx, ty], old: [ox, oy], .. } = group;
             for (c, rows) in [(0, px), (1, py), (0, tx), (1, ty), (0, ox), (1, oy)] {
                 for to in rows.iter_mut().flat_map(|row| row.re.iter_mut().chain(&mut row.im)) {
                     *to = from.next().unwrap_or(0.0);
-                    self.moved[c] |= *to != 0.0;
+                    self.loaded[c] |= *to != 0.0;
                 }
             }
         }

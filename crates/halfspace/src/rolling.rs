@@ -56,7 +56,7 @@ pub struct Setup {
     pub inertia: Inertia,
     /// The law of friction.
     pub law: Arc<dyn NodeFriction>,
-    /// A pressure other than the patch's at some points of the material.
+    /// Disturbs the pressure of each point of the material; none leaves it as the patch's.
     pub pressure_factor: Option<PressureFactor>,
 }
 
@@ -189,7 +189,6 @@ pub struct RollingState {
     backward: f64,
     fields: Fields,
     past: Vec<f64>,
-    done: usize,
 }
 
 /// A patch that travels over two half-spaces.
@@ -542,15 +541,13 @@ impl Rolling {
 
     /// The state, to roll on from with the same bits.
     pub fn snapshot(&self) -> RollingState {
-        let (past, done) = self.history.snapshot();
         let Self { steps, centre, backward, fields, .. } = self;
         RollingState {
             steps: *steps,
             centre: *centre,
             backward: *backward,
             fields: fields.clone(),
-            past,
-            done,
+            past: self.history.snapshot(),
         }
     }
 
@@ -566,7 +563,7 @@ impl Rolling {
         let fits = pairs.flatten().chain([pressure, mu]).all(|values| values.len() == n)
             && law.len() == n
             && contact.len() == n;
-        if !fits || !self.history.restore(&state.past, state.done) {
+        if !fits || !self.history.restore(&state.past, state.steps) {
             return Err(RollingError::State);
         }
         (self.steps, self.centre, self.backward) = (state.steps, state.centre, state.backward);

@@ -22,6 +22,10 @@ pub struct Scale {
     pub from: String,
 }
 
+/// The scale of slip.
+const SLIP_SCALE: &str =
+    "s_c = V sqrt(creepage^2 + lateral creepage^2 + (spin a)^2), at least 1e-5 V";
+
 /// Names of the scales, with their unit and meaning; `[scales]` of a case file and
 /// `creepage check --scale NAME=VALUE` set them.
 pub const SCALES: [(&str, &str, &str); 11] = [
@@ -31,20 +35,12 @@ pub const SCALES: [(&str, &str, &str); 11] = [
     ("half_width", "m", "b, half axis of the patch along y"),
     ("speed", "m/s", "V, rolling speed"),
     ("creepage", "1", "longitudinal creepage"),
-    (
-        "slip_speed",
-        "m/s",
-        "s_c, the rigid slip: V times creepage, lateral creepage and spin times a",
-    ),
+    ("slip_speed", "m/s", SLIP_SCALE),
     ("slip_threshold", "m/s", "eps_s = 1e-3 s_c, above which a node slips"),
     ("dt", "s", "time step"),
     ("size", "m", "h, edge of a surface element"),
     ("shear_wave", "m/s", "c_s, speed of shear waves"),
 ];
-
-/// The scale of slip in words.
-const SLIP_SCALE: &str =
-    "V times the root of the squares of creepage, lateral creepage and spin a, at least 1e-5 V";
 
 /// Which coefficient of friction `mu` bounds the shear, |p_tau| <= mu p_n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -194,8 +190,8 @@ impl Basis {
         ];
         let slips = parts.iter().flatten().any(|part| *part != 0.0);
         if let Some(speed) = self.scale("speed").filter(|_| slips) {
-            let part = parts.iter().flatten().fold(0.0, |sum, part| libm::hypot(sum, *part));
-            self.offer("slip_speed", part.max(1e-5) * speed.abs(), SLIP_SCALE);
+            let rigid = parts.iter().flatten().fold(0.0, |sum, part| libm::hypot(sum, *part));
+            self.offer("slip_speed", rigid.max(1e-5) * speed.abs(), SLIP_SCALE);
         }
         if let Some(slip) = self.scale("slip_speed") {
             self.offer("slip_threshold", 1e-3 * slip, "1e-3 s_c");

@@ -57,7 +57,7 @@ impl Scales {
         })?;
         let slip_speed = basis.scale("slip_speed").ok_or_else(|| {
             unknown(
-                "the slip scale s_c, V times the creepages",
+                "the scale of slip s_c",
                 "give --scale slip_speed=M/S, or --case CASE.toml with drive.speed and \
                  drive.creepage",
             )
