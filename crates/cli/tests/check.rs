@@ -215,7 +215,7 @@ fn data_of_other_codes_need_pressure_shear_slip_and_scales_only() {
     assert_eq!(output.status.code(), Some(1));
     // no case: the law's bound is the field mu, scales come by options
     fs::remove_file(folder.path().join("case.toml")).unwrap();
-    refused(&["check", text(&file)], &["slip scale", "--scale slip_speed"]);
+    refused(&["check", text(&file)], &["scale of slip", "--scale slip_speed"]);
     let scales = ["--scale", "slip_speed=0.1", "--scale", "speed=40"];
     let output = creepage(&[&["check", text(&file), "--json"], &scales[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", document(&output));
