@@ -2,9 +2,9 @@
 
 use clap::{Parser, Subcommand};
 use creepage::{
-    BenchOptions, CheckOptions, CompareOptions, Error, FAILED, ImportContactOptions,
-    ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions, SliderOptions,
-    SweepOptions, VerifyOptions,
+    BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
+    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
+    SliderOptions, SweepOptions, VerifyOptions,
 };
 use serde_json::Value;
 
@@ -97,6 +97,13 @@ pub enum Command {
         docs/ls-dyna.md. All others are refused by their line."
     )]
     ImportK(ImportKOptions),
+    /// Write a case as an LS-DYNA keyword file: the same mesh, contact and drive for another program
+    #[command(
+        after_help = "Example:\n  creepage export-k cases/zhao-li/b-as-published.toml --out b.k\n\nThe keys, and the \
+        cards that they become: docs/ls-dyna.md. A case that keyword files cannot say is refused with a list of the \
+        reasons."
+    )]
+    ExportK(ExportKOptions),
     /// Print the JSON Schema of a case file: every key with unit, default and range
     #[command(after_help = "Example:\n  creepage schema > case.schema.json")]
     Schema,
@@ -149,6 +156,9 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         Command::Sweep(options) => sweep(args, options),
         Command::ImportContact(options) => {
             done(&creepage::import_contact(options)?, files::contact_history)
+        }
+        Command::ExportK(options) => {
+            done(&creepage::export_k(options, &mut Remarks(args))?, files::deck)
         }
         Command::ImportK(options) => done(&creepage::import_k(options)?, files::case),
         Command::Schema => {

@@ -77,6 +77,14 @@ pub const SLIDER: Made = Made {
 };
 /// The first line of the slider's table: each column's name and unit.
 pub const SLIDER_HEADING: &[u8] = b"t_s,x_m,v_m_s,s_m_s,mu,friction_N,spring_N\n";
+/// An LS-DYNA keyword file.
+pub const KEYWORDS: Made = Made {
+    what: "keyword file",
+    endings: &["k", "key", "dyn"],
+    start: b"$ ",
+    marks: &["a deck by creepage export-k"],
+    proof: None,
+};
 /// The runs of a sweep as shell commands, one per line.
 pub const PLAN: Made =
     Made { what: "plan of a sweep", endings: &[], start: PLAN_START, marks: &[], proof: None };

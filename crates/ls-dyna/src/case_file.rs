@@ -2,7 +2,10 @@
 
 use crate::cards::unsupported;
 use crate::deck::{Contact, Deck, Material};
-use crate::model::{Model, lacks};
+use crate::drive::{Drive, Turn};
+use crate::export::NONE;
+use crate::model::{Model, Symmetry, lacks};
+use crate::motion::Damping;
 use crate::shape::Shape;
 use crate::units::Units;
 use mesh::import::{Fault, ImportError};
@@ -18,20 +21,29 @@ pub(crate) struct Settings {
     penalty: f64,
     /// `TSSFAC`.
     tssfac: f64,
-    /// Rolling speed (m/s).
-    speed: f64,
-    /// Creepage (dimensionless).
-    creepage: f64,
+    drive: Drive,
     /// Normal force (N).
     normal: f64,
-    /// `ENDTIM`.
-    end: f64,
+    /// Whether the height of the hub is held while the disk rolls.
+    held: bool,
+    /// Mass added to the hub (kg).
+    hub_mass: f64,
+    /// `ENDTIM` less the time at which the disk begins to roll.
+    duration: f64,
+    damping: Damping,
+    /// Intervals of the records of fields and of interface forces; 0 where the file gives none.
+    intervals: [f64; 2],
+    /// Whether the bar's ends are quiet.
+    quiet: bool,
+    symmetry: Symmetry,
+    layers: Option<u64>,
     /// Of disk and bar.
     materials: [Material; 2],
     elements: Elements,
 }
 
 /// What holds for the elements of both parts.
+#[derive(Clone, Copy, Debug)]
 struct Elements {
     /// Fully integrated, `ELFORM` 2.
     full: bool,
@@ -54,21 +66,13 @@ impl Settings {
         notes: &mut Vec<String>,
     ) -> Result<Self, ImportError> {
         let contact = deck.contact.ok_or_else(|| lacks("contact"))?;
-        let initial = deck.initial.filter(|initial| initial.speed > 0.0).ok_or_else(|| {
-            lacks(
-                "*INITIAL_VELOCITY or *INITIAL_VELOCITY_GENERATION with VX above 0: the rolling speed",
-            )
-        })?;
-        let speed = initial.speed * units.velocity();
-        let creepage = match initial.spin {
-            Some(spin) => spin / units.time() * shape.radius / speed - 1.0,
-            None => {
-                notes.push("no angular velocity is given: drive.creepage = 0, change it".into());
-                0.0
-            }
-        };
+        let drive = Drive::of(deck, model, shape, units, notes)?;
         let normal = load(deck, model, units)?;
         let end = deck.endtim.filter(|t| *t > 0.0).ok_or_else(|| lacks("*CONTROL_TERMINATION"))?;
+        if deck.begins >= end {
+            return Err(lacks("*CONTROL_TERMINATION after the start of the initial velocities"));
+        }
+        damps_the_preload_alone(deck)?;
         let (materials, elements) = parts(deck, model)?;
         if elements.hourglass.is_none() {
             notes.push(
@@ -84,39 +88,84 @@ impl Settings {
                     .into(),
             );
         }
-        let penalty = deck.slsfac * contact.sf;
-        let tssfac = deck.tssfac;
+        // a displacement that ends with the preload hands over to the load
+        let depth = deck.motions.iter().find(|motion| motion.dof == 3);
+        let held = depth.is_some_and(|motion| !motion.ends);
         Ok(Self {
             units,
             contact,
-            penalty,
-            tssfac,
-            speed,
-            creepage,
+            penalty: deck.slsfac * contact.sf,
+            tssfac: deck.tssfac,
+            drive,
             normal,
-            end,
+            held,
+            hub_mass: alike(model) * deck.added_mass * units.mass(),
+            duration: end - deck.begins,
+            damping: deck.damping,
+            intervals: deck.intervals,
+            quiet: deck.quiet,
+            symmetry: model.symmetry,
+            layers: model.layers,
             materials,
             elements,
         })
     }
 }
 
+/// How many parts alike make up the bodies of which the file has one.
+fn alike(model: &Model) -> f64 {
+    if model.symmetry == Symmetry::Half { 2.0 } else { 1.0 }
+}
+
+/// Refuses damping of all motion that does not end before the disk rolls.
+fn damps_the_preload_alone(deck: &Deck) -> Result<(), ImportError> {
+    let Some((curve, line)) = deck.damping.global else { return Ok(()) };
+    let points = deck.curves.get(&curve);
+    let late = |[t, value]: &[f64; 2]| *t >= deck.begins && *value != 0.0;
+    if points.is_some_and(|points| !points.iter().any(late)) {
+        return Ok(());
+    }
+    let what = "*DAMPING_GLOBAL while the disk rolls, which holds it back";
+    Err(unsupported(line, what, "let its curve end with the preload, or use *DAMPING_RELATIVE"))
+}
+
 /// Materials and elements of the two parts; their elements must be alike.
 fn parts(deck: &Deck, model: &Model) -> Result<([Material; 2], Elements), ImportError> {
-    let (first, a) = part(deck, model.parts[0])?;
-    let (second, b) = part(deck, model.parts[1])?;
+    let [(first, a), (second, b)] = [body(deck, &model.parts[0])?, body(deck, &model.parts[1])?];
     for (what, alike) in [
         ("the formulation of their elements", a.full == b.full),
         ("their hourglass control", a.hourglass == b.hourglass),
         ("their bulk viscosity", a.bulk == b.bulk),
     ] {
         if !alike {
-            let line = deck.parts[&model.parts[1]].line;
+            let line = deck.parts[&model.parts[1][0]].line;
             let what = format!("a disk and a bar that differ in {what}");
             return Err(unsupported(line, what, "give both parts the same"));
         }
     }
     Ok(([first, second], a))
+}
+
+/// Material and elements of a body, whose parts may differ in their formulation alone.
+fn body(deck: &Deck, parts: &[u64]) -> Result<(Material, Elements), ImportError> {
+    let found = parts.iter().map(|id| part(deck, *id)).collect::<Result<Vec<_>, _>>()?;
+    let (material, first) = found[0];
+    for ((other, elements), id) in found[1..].iter().zip(&parts[1..]) {
+        if *other != material
+            || elements.hourglass != first.hourglass
+            || elements.bulk != first.bulk
+        {
+            let line = deck.parts[id].line;
+            let what = "parts of one body that differ in more than ELFORM";
+            return Err(unsupported(
+                line,
+                what,
+                "give them one material and one hourglass control",
+            ));
+        }
+    }
+    let full = found.iter().all(|(_, elements)| elements.full);
+    Ok((material, Elements { full, ..first }))
 }
 
 /// Material and elements of a part.
@@ -153,7 +202,7 @@ pub(crate) fn text(settings: &Settings, shape: &Shape, names: [&str; 2]) -> Stri
          title = {}",
         Value::String(format!("from {title}"))
     );
-    write_shape(&mut t, shape, mesh_file);
+    write_shape(&mut t, settings, shape, mesh_file);
     write_materials(&mut t, settings);
     write_drive(&mut t, settings);
     write_contact(&mut t, settings);
@@ -161,9 +210,15 @@ pub(crate) fn text(settings: &Settings, shape: &Shape, names: [&str; 2]) -> Stri
     t
 }
 
-fn write_shape(t: &mut String, shape: &Shape, mesh_file: &str) {
+fn write_shape(t: &mut String, settings: &Settings, shape: &Shape, mesh_file: &str) {
+    let ends = if settings.quiet { "quiet" } else { "free" };
     let crown = |crown: Option<f64>| crown.map_or("\"flat\"".into(), six);
     let Shape { zone, .. } = shape;
+    let symmetry = match settings.symmetry {
+        Symmetry::Whole => "",
+        Symmetry::Half => "symmetry = \"half\"         # the file's mesh, with its mirror image\n",
+        Symmetry::Slice => "plane_strain = true       # no node moves in y\n",
+    };
     let _ = write!(
         t,
         r#"
@@ -179,11 +234,11 @@ width = {}
 height = {}
 crown_radius = {}
 start = {}
-ends = "free"             # LS-DYNA's are, without *BOUNDARY_NON_REFLECTING
+ends = "{ends}"             # free without *BOUNDARY_NON_REFLECTING
 
 [mesh]
 file = {mesh_file:?}
-
+{symmetry}
 [mesh.zone]               # the fine part of the bar's top
 size = {}
 start = {}
@@ -220,20 +275,37 @@ fn write_materials(t: &mut String, settings: &Settings) {
 }
 
 fn write_drive(t: &mut String, settings: &Settings) {
-    let _ = write!(
+    let Settings { drive, normal, .. } = settings;
+    let _ = writeln!(
         t,
-        "
-[load]
-normal = {}              # *LOAD_NODE times its curve at the end
-
-[drive]
-speed = {}              # VX
-creepage = {}           # OMEGA R/VX - 1
-",
-        six(settings.normal),
-        six(settings.speed),
-        six(settings.creepage)
+        "\n[load]\nnormal = {}              # the load in z times its curve at the end",
+        six(*normal)
     );
+    if settings.held {
+        t.push_str("mode = \"height\"           # the displacement in z stays\n");
+    }
+    if settings.hub_mass != 0.0 {
+        let _ = writeln!(t, "hub_mass = {}            # *ELEMENT_MASS", six(settings.hub_mass));
+    }
+    let _ = writeln!(t, "\n[drive]\nspeed = {}              # VX", six(drive.speed));
+    let _ = match drive.turn {
+        Turn::Creepage(creepage) => {
+            writeln!(
+                t,
+                "creepage = {}           # of the angular velocity at the end",
+                six(creepage)
+            )
+        }
+        Turn::Torque(torque) => {
+            writeln!(t, "torque = {}             # about the axle", six(torque))
+        }
+    };
+    if drive.lateral_creepage != 0.0 {
+        let _ = writeln!(t, "lateral_creepage = {}   # VY/VX", six(drive.lateral_creepage));
+    }
+    if let Some(ramp) = drive.ramp {
+        let _ = writeln!(t, "ramp = {}               # of the curve", six(ramp));
+    }
 }
 
 fn write_contact(t: &mut String, settings: &Settings) {
@@ -268,30 +340,48 @@ damping = {}              # VDC/100
 fn write_elements(t: &mut String, settings: &Settings) {
     let Elements { full, hourglass, bulk } = &settings.elements;
     t.push_str("\n[element]\n");
-    if let Some(coefficient) = hourglass {
-        let _ = writeln!(t, "hourglass = {}          # QM", six(*coefficient));
+    if let Some(coefficient) = hourglass.map(|q| if q <= NONE { 0.0 } else { q }) {
+        let _ = writeln!(t, "hourglass = {}          # QM", six(coefficient));
     }
-    t.push_str(if *full {
+    t.push_str(if *full || settings.layers.is_some() {
         "contact_layers = \"full\"   # ELFORM 2\n"
     } else {
         "contact_layers = \"one-point\"   # ELFORM 1\n"
     });
+    if let Some(layers) = settings.layers {
+        let _ = writeln!(t, "layers = {layers}                # of ELFORM 2");
+    }
+    let time = settings.units.time();
+    // what stands for none where 0 stands for a default
+    let [quadratic, linear] = bulk.map(|q| if q <= NONE { 0.0 } else { q });
     let _ = write!(
         t,
-        "
-[damping]                 # Q2 and Q1
-bulk_linear = {}
-bulk_quadratic = {}
-
-[time]
-factor = {}             # TSSFAC
-duration = {}          # ENDTIM
-",
-        six(bulk[1]),
-        six(bulk[0]),
-        six(settings.tssfac),
-        six(settings.end * settings.units.time())
+        "\n[damping]                 # Q2 and Q1\nbulk_linear = {}\nbulk_quadratic = {}\n",
+        six(linear),
+        six(quadratic),
     );
+    if let Some(relative) = settings.damping.relative {
+        let _ = writeln!(t, "mass = {}               # *DAMPING_RELATIVE", six(relative / time));
+    }
+    if let Some(stiffness) = settings.damping.stiffness {
+        let _ =
+            writeln!(t, "kelvin_voigt = {}       # *DAMPING_PART_STIFFNESS", six(stiffness * time));
+    }
+    let _ = write!(
+        t,
+        "\n[time]\nfactor = {}             # TSSFAC\nduration = {}          # ENDTIM, from the start of rolling\n",
+        six(settings.tssfac),
+        six(settings.duration * time)
+    );
+    let intervals = settings.intervals.map(|dt| dt * time);
+    if intervals.iter().any(|dt| *dt > 0.0) {
+        t.push_str("\n[output]                  # *DATABASE_BINARY_D3PLOT, _INTFOR\n");
+        for (key, dt) in ["fields_interval", "contact_interval"].iter().zip(intervals) {
+            if dt > 0.0 {
+                let _ = writeln!(t, "{key} = {}", six(dt));
+            }
+        }
+    }
 }
 
 /// A number of six significant digits at most.
@@ -299,7 +389,7 @@ fn six(x: f64) -> String {
     case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
-/// The force that presses the disk down (N): the sum over the loaded nodes, by their curves' last
+/// The force that presses the disk down (N): the sum over the loaded nodes and that on the hub, by their curves' last
 /// values.
 fn load(deck: &Deck, model: &Model, units: Units) -> Result<f64, ImportError> {
     let mut sum = 0.0;
@@ -320,12 +410,13 @@ fn load(deck: &Deck, model: &Model, units: Units) -> Result<f64, ImportError> {
         if let Some(id) = nodes.iter().find(|id| !on_disk(id)) {
             return Err(unknown(format!("node {id}, which is none of the disk's")));
         }
-        let curve = deck.curves.get(&load.curve).and_then(|points| points.last());
-        let [_, last] = *curve.ok_or_else(|| unknown(format!("curve {}", load.curve)))?;
-        sum += load.factor * last * nodes.len() as f64;
+        sum += load.factor * deck.last(load.curve, load.on.line)? * nodes.len() as f64;
+    }
+    for load in deck.rigid_loads.iter().filter(|load| load.dof == 3) {
+        sum += load.factor * deck.last(load.curve, load.line)?;
     }
     if sum >= 0.0 {
-        return Err(lacks("*LOAD_NODE_SET that presses the disk down, in -z"));
+        return Err(lacks("*LOAD_NODE_SET or *LOAD_RIGID_BODY that presses the disk down, in -z"));
     }
-    Ok(-sum * units.force())
+    Ok(-alike(model) * sum * units.force())
 }

@@ -1,6 +1,7 @@
 //! What a keyword file says, card by card.
 
 use crate::cards::{Card, Fields, Line, TENS, cards, syntax, unsupported};
+use crate::motion::{Damping, Motion, RigidLoad};
 use mesh::import::ImportError;
 use std::collections::BTreeMap;
 
@@ -30,7 +31,20 @@ pub(super) struct Deck {
     pub(super) clamped: Vec<Target>,
     /// Nodes of the rigid hub.
     pub(super) hub: Option<Target>,
+    /// Nodes that are held in y alone.
+    pub(super) sliding: Vec<Target>,
+    /// Whether there are segments that do not reflect waves.
+    pub(super) quiet: bool,
     pub(super) loads: Vec<Load>,
+    pub(super) rigid_loads: Vec<RigidLoad>,
+    pub(super) motions: Vec<Motion>,
+    /// When the initial velocities are given.
+    pub(super) begins: f64,
+    pub(super) damping: Damping,
+    /// Mass that is added to nodes.
+    pub(super) added_mass: f64,
+    /// Intervals of the records of fields and of interface forces; 0 where there are none.
+    pub(super) intervals: [f64; 2],
     pub(super) initial: Option<Initial>,
     /// Points of the curves, scaled and shifted as their cards say, by their number.
     pub(super) curves: BTreeMap<u64, Vec<[f64; 2]>>,
@@ -65,7 +79,7 @@ pub(super) struct Part {
 }
 
 /// RO, E and PR of an elastic material.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Material {
     pub(super) density: f64,
     pub(super) young: f64,
@@ -136,6 +150,9 @@ const IGNORED: &[(&str, &str)] = &[
     ("DATABASE_", "output is the case's"),
 ];
 
+/// Those of them that are read all the same.
+const READ: &[&str] = &["DATABASE_BINARY_D3PLOT", "DATABASE_BINARY_INTFOR"];
+
 impl Deck {
     /// Reads a keyword file.
     ///
@@ -159,7 +176,15 @@ impl Deck {
             segment_sets: BTreeMap::new(),
             clamped: Vec::new(),
             hub: None,
+            sliding: Vec::new(),
+            quiet: false,
             loads: Vec::new(),
+            rigid_loads: Vec::new(),
+            motions: Vec::new(),
+            begins: 0.0,
+            damping: Damping::default(),
+            added_mass: 0.0,
+            intervals: [0.0; 2],
             initial: None,
             curves: BTreeMap::new(),
             notes: Vec::new(),
@@ -173,8 +198,12 @@ impl Deck {
     /// Takes a card into the model, ignores it or refuses it.
     fn card(&mut self, card: &Card) -> Result<(), ImportError> {
         let name = card.name.as_str();
+        if self.motion_card(card)? {
+            return Ok(());
+        }
         if let Some((_, why)) = IGNORED.iter().find(|(word, _)| {
-            if word.ends_with('_') { name.starts_with(word) } else { name == *word }
+            let named = if word.ends_with('_') { name.starts_with(word) } else { name == *word };
+            named && !READ.contains(&name)
         }) {
             if !why.is_empty() {
                 self.notes.push(format!("line {}: *{name} is passed over: {why}", card.line));
@@ -246,6 +275,14 @@ impl Deck {
                 self.initial(card, fields.real(3, 0.0)?, Some(spin))
             }
             "DEFINE_CURVE" => self.curve(card),
+            "DATABASE_BINARY_D3PLOT" => self.interval(card, 0),
+            "DATABASE_BINARY_INTFOR" => self.interval(card, 1),
+            "ELEMENT_MASS" => {
+                for line in lines(card) {
+                    self.added_mass += line.fields(&[8, 8, 16]).real(2, 0.0)?;
+                }
+                Ok(())
+            }
             _ if name.starts_with("INCLUDE") => {
                 let remedy = "put the included lines into the file itself: without them the model \
                               lacks what they hold";
@@ -257,6 +294,11 @@ impl Deck {
                 Err(unsupported(card.line, format!("*{name}"), remedy))
             }
         }
+    }
+
+    fn interval(&mut self, card: &Card, which: usize) -> Result<(), ImportError> {
+        self.intervals[which] = line(card, 0)?.fields(&TENS).real(0, 0.0)?;
+        Ok(())
     }
 
     fn nodes(&mut self, card: &Card) -> Result<(), ImportError> {
@@ -446,12 +488,17 @@ impl Deck {
         for line in lines(card) {
             let fields = line.fields(&TENS);
             let fixed = [fields.whole(2)?, fields.whole(3)?, fields.whole(4)?];
+            let target = Target { set, id: fields.id(0)?, line: line.at };
+            if fields.whole(1)? == 0 && fixed == [0, 1, 0] {
+                self.sliding.push(target);
+                continue;
+            }
             if fields.whole(1)? != 0 || fixed != [1; 3] {
                 let what = format!("*{} with DOFX, DOFY, DOFZ = {fixed:?}", card.name);
-                let remedy = "clamp the bar in x, y and z, in the global system";
+                let remedy = "clamp the bar in x, y and z, and hold a plane of symmetry in y alone, in the global system";
                 return Err(unsupported(line.at, what, remedy));
             }
-            self.clamped.push(Target { set, id: fields.id(0)?, line: line.at });
+            self.clamped.push(target);
         }
         Ok(())
     }
@@ -488,7 +535,7 @@ impl Deck {
 }
 
 /// The default for a field of 0, as LS-DYNA takes it.
-fn nonzero(x: f64, default: f64) -> f64 {
+pub(super) fn nonzero(x: f64, default: f64) -> f64 {
     if x == 0.0 { default } else { x }
 }
 
@@ -504,12 +551,12 @@ fn stiffness_form(fields: &Fields, card: &Card, ihq: usize, qm: usize) -> Result
 }
 
 /// The data lines of a card that are not blank.
-fn lines<'a>(card: &Card<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
+pub(super) fn lines<'a>(card: &Card<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
     card.data.clone().into_iter().filter(|line| !line.text.trim().is_empty())
 }
 
 /// Data line `i` of a card, counted from 0.
-fn line<'a>(card: &Card<'a>, i: usize) -> Result<Line<'a>, ImportError> {
+pub(super) fn line<'a>(card: &Card<'a>, i: usize) -> Result<Line<'a>, ImportError> {
     let missing = || syntax(card.line, format!("data line {} of *{} is missing", i + 1, card.name));
     card.data.get(i).copied().ok_or_else(missing)
 }

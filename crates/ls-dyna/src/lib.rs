@@ -1,19 +1,24 @@
-//! LS-DYNA keyword files of a disk on a bar, as a case and a mesh file.
+//! LS-DYNA keyword files of a disk on a bar: read as a case and a mesh file ([`translate`]), and written of a case
+//! ([`export()`]).
 //!
-//! Which cards are read, and what becomes of each: docs/ls-dyna.md. Any other card is refused with its
-//! line, so that no part of a model is lost without notice.
+//! Which cards are read and written, and the keys of each: docs/ls-dyna.md. Any other card is refused with its
+//! line, and what cards cannot say of a case is listed, so that no part of a model is lost without notice.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod cards;
 mod case_file;
 mod deck;
+mod drive;
+mod export;
 mod model;
+mod motion;
 mod shape;
 #[cfg(test)]
 mod tests;
 mod translate;
 mod units;
 
+pub use export::{Exported, Rolling, export, unsayable};
 pub use translate::{Translation, translate};
 pub use units::Units;

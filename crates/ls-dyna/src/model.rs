@@ -4,16 +4,31 @@ use crate::cards::{syntax, unsupported};
 use crate::deck::{Deck, Target};
 use crate::units::Units;
 use mesh::import::{Fault, Foreign, ImportError, Labels, Set};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// The mesh of the disk and the bar with its sets.
 pub(crate) struct Model {
     /// Nodes in metres, elements and sets.
     pub(crate) foreign: Foreign,
     /// Numbers of the parts of disk and bar.
-    pub(crate) parts: [u64; 2],
+    pub(crate) parts: [Vec<u64>; 2],
+    /// What holds nodes in y.
+    pub(crate) symmetry: Symmetry,
+    /// Layers of fully integrated elements below the surfaces of bodies that have others as well.
+    pub(crate) layers: Option<u64>,
     /// Nodes of disk and bar, as indices into the mesh.
     pub(crate) nodes: [BTreeSet<u32>; 2],
+}
+
+/// What the nodes are that do not move along y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Symmetry {
+    /// None.
+    Whole,
+    /// Those of a plane of symmetry at the edge of both bodies.
+    Half,
+    /// All: plane strain.
+    Slice,
 }
 
 /// The error of a file that lacks what a disk on a bar needs.
@@ -37,12 +52,15 @@ impl Model {
         let parts = parts(deck, &foreign, &hub)?;
         let mut nodes = [BTreeSet::new(), BTreeSet::new()];
         for (e, solid) in deck.solids.iter().enumerate() {
-            let body = usize::from(solid.part == parts[1]);
+            let body = usize::from(parts[1].contains(&solid.part));
             nodes[body].extend(foreign.hexes[e]);
             let set = foreign.sets.entry(["disk", "bar"][body].to_owned()).or_default();
             set.hexes.push(e as u32);
         }
-        foreign.sets.entry("hub".into()).or_default().nodes = hub;
+        // a node of the axle that bears mass is none of the mesh
+        let meshed = |n: &u32| nodes.iter().any(|body| body.contains(n));
+        foreign.sets.entry("hub".into()).or_default().nodes =
+            hub.into_iter().filter(meshed).collect();
         for target in &deck.clamped {
             let held = indices.of_target(deck, target)?;
             foreign.sets.entry("clamp".into()).or_default().nodes.extend(held);
@@ -51,7 +69,13 @@ impl Model {
             return Err(lacks("*BOUNDARY_SPC_SET that clamps the bar"));
         }
         take_surfaces(deck, &indices, &nodes[0], &mut foreign)?;
-        Ok(Self { foreign, parts, nodes })
+        let layers = full_layers(deck, &foreign, &parts);
+        let symmetry = symmetry(deck, &indices, &nodes, &foreign)?;
+        drop_loose(&mut foreign, &mut nodes);
+        if symmetry == Symmetry::Half {
+            mirror(&mut foreign, &mut nodes);
+        }
+        Ok(Self { foreign, parts, nodes, symmetry, layers })
     }
 
     /// Least and largest x, y, z (m) of nodes.
@@ -123,20 +147,158 @@ fn take_solids(deck: &Deck, indices: &Indices, foreign: &mut Foreign) -> Result<
     Ok(())
 }
 
-/// The parts of disk and bar: the disk's is the one that has nodes of the hub.
-fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[u64; 2], ImportError> {
+/// The parts of disk and bar: parts that share nodes make a body, and the disk is the one that has nodes of the hub.
+fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[Vec<u64>; 2], ImportError> {
+    let mut of_part: BTreeMap<u64, BTreeSet<u32>> = BTreeMap::new();
+    for (e, solid) in deck.solids.iter().enumerate() {
+        of_part.entry(solid.part).or_default().extend(foreign.hexes[e]);
+    }
+    let mut bodies: Vec<(Vec<u64>, BTreeSet<u32>)> = Vec::new();
+    for (part, nodes) in of_part {
+        let (joined, apart): (Vec<_>, Vec<_>) =
+            bodies.into_iter().partition(|(_, there)| !there.is_disjoint(&nodes));
+        bodies = apart;
+        let mut body = (vec![part], nodes);
+        for (parts, nodes) in joined {
+            body.0.extend(parts);
+            body.1.extend(nodes);
+        }
+        bodies.push(body);
+    }
     let held: BTreeSet<u32> = hub.iter().copied().collect();
-    let on_hub = |e: &usize| foreign.hexes[*e].iter().any(|n| held.contains(n));
-    let disk = (0..foreign.hexes.len()).find(on_hub).map(|e| deck.solids[e].part);
-    let disk = disk.ok_or_else(|| lacks("solid elements on the nodes of the rigid hub"))?;
-    let parts: BTreeSet<u64> = deck.solids.iter().map(|s| s.part).collect();
-    let others: Vec<u64> = parts.into_iter().filter(|p| *p != disk).collect();
-    let [bar] = others[..] else {
-        let what = format!("a model of {} parts of solids", others.len() + 1);
-        let remedy = "keep one part for the disk and one for the bar";
+    let (disk, others): (Vec<_>, Vec<_>) =
+        bodies.into_iter().partition(|(_, nodes)| !nodes.is_disjoint(&held));
+    if disk.is_empty() {
+        return Err(lacks("solid elements on the nodes of the rigid hub"));
+    }
+    let count = disk.len() + others.len();
+    let (Ok([disk]), Ok([bar])) = (<[_; 1]>::try_from(disk), <[_; 1]>::try_from(others)) else {
+        let what = format!("a model of {count} bodies of solids");
+        let remedy = "keep the disk and the bar alone; parts that share nodes make one body";
         return Err(unsupported(deck.solids[0].line, what, remedy));
     };
-    Ok([disk, bar])
+    Ok([disk.0, bar.0])
+}
+
+/// How many layers of fully integrated elements lie below the surfaces, where bodies have one-point elements as well.
+fn full_layers(deck: &Deck, foreign: &Foreign, parts: &[Vec<u64>; 2]) -> Option<u64> {
+    let full = |part: u64| {
+        deck.parts.get(&part).and_then(|part| deck.sections.get(&part.section)) == Some(&2)
+    };
+    if !parts.iter().all(|parts| parts.iter().any(|p| full(*p)) && !parts.iter().all(|p| full(*p)))
+    {
+        return None;
+    }
+    let mut left: Vec<usize> =
+        (0..deck.solids.len()).filter(|e| full(deck.solids[*e].part)).collect();
+    let surfaces = ["tread", "top"].into_iter().filter_map(|name| foreign.sets.get(name));
+    let mut reached: HashSet<u32> =
+        surfaces.flat_map(|set| &set.faces).flatten().copied().collect();
+    let mut layers = 0;
+    while !left.is_empty() {
+        let (layer, below): (Vec<_>, Vec<_>) =
+            left.into_iter().partition(|e| foreign.hexes[*e].iter().any(|n| reached.contains(n)));
+        if layer.is_empty() {
+            return None;
+        }
+        reached.extend(layer.iter().flat_map(|e| foreign.hexes[*e]));
+        (left, layers) = (below, layers + 1);
+    }
+    Some(layers)
+}
+
+/// What the nodes are that the file holds in y.
+fn symmetry(
+    deck: &Deck,
+    indices: &Indices,
+    nodes: &[BTreeSet<u32>; 2],
+    foreign: &Foreign,
+) -> Result<Symmetry, ImportError> {
+    let Some(first) = deck.sliding.first() else { return Ok(Symmetry::Whole) };
+    let mut sliding = BTreeSet::new();
+    for target in &deck.sliding {
+        sliding.extend(indices.of_target(deck, target)?);
+    }
+    let held: BTreeSet<u32> =
+        ["hub", "clamp"].iter().flat_map(|name| &foreign.sets[*name].nodes).copied().collect();
+    let free = || nodes.iter().flatten().filter(|n| !held.contains(n));
+    if free().all(|n| sliding.contains(n)) {
+        return Ok(Symmetry::Slice);
+    }
+    let y = |n: u32| foreign.points[n as usize][1];
+    let edge = free().map(|n| y(*n)).fold(f64::INFINITY, f64::min);
+    let on_edge = |n: &u32| (y(*n) - edge).abs() < SAME;
+    let plane: BTreeSet<u32> = free().filter(|n| on_edge(n)).copied().collect();
+    let sliding: BTreeSet<u32> = sliding.difference(&held).copied().collect();
+    if sliding == plane && edge.abs() < SAME {
+        return Ok(Symmetry::Half);
+    }
+    let what = "*BOUNDARY_SPC with DOFY = 1 of nodes that are neither all nodes nor those of a plane y = 0 that ends both bodies";
+    Err(unsupported(first.line, what, "hold all of them (plane strain) or the plane of symmetry"))
+}
+
+/// Distance (m) below which places are the same: less than a file prints.
+const SAME: f64 = 1e-9;
+
+/// Takes out the nodes that no element has.
+fn drop_loose(foreign: &mut Foreign, nodes: &mut [BTreeSet<u32>; 2]) {
+    let count = foreign.points.len();
+    let kept: Vec<usize> =
+        (0..count).filter(|n| nodes.iter().any(|body| body.contains(&(*n as u32)))).collect();
+    if kept.len() == count {
+        return;
+    }
+    let mut place = vec![0; count];
+    kept.iter().zip(0..).for_each(|(&n, new)| place[n] = new);
+    let moved = |n: &mut u32| *n = place[*n as usize];
+    foreign.points = kept.iter().map(|&n| foreign.points[n]).collect();
+    foreign.nodes.ids = kept.iter().map(|&n| foreign.nodes.ids[n]).collect();
+    foreign.nodes.lines = kept.iter().map(|&n| foreign.nodes.lines[n]).collect();
+    foreign.hexes.iter_mut().flatten().for_each(moved);
+    for set in foreign.sets.values_mut() {
+        set.nodes.iter_mut().for_each(moved);
+        set.faces.iter_mut().flatten().for_each(moved);
+    }
+    for body in nodes {
+        *body = body.iter().map(|n| place[*n as usize]).collect();
+    }
+}
+
+/// Adds the mirror image in y = 0 of half a model: a case reads whole bodies, and cuts them itself.
+fn mirror(foreign: &mut Foreign, nodes: &mut [BTreeSet<u32>; 2]) {
+    let count = foreign.points.len();
+    let last = foreign.nodes.ids.iter().copied().max().unwrap_or(0);
+    let mut image: Vec<u32> = (0..count as u32).collect();
+    for n in 0..count {
+        let [x, y, z] = foreign.points[n];
+        if y.abs() < SAME {
+            foreign.points[n][1] = 0.0;
+            continue;
+        }
+        image[n] = foreign.points.len() as u32;
+        foreign.points.push([x, -y, z]);
+        let line = foreign.nodes.lines[n];
+        label(&mut foreign.nodes, last + foreign.points.len() as u64, line);
+    }
+    let of = |n: u32| image[n as usize];
+    let elements = foreign.hexes.len();
+    let last = foreign.elements.ids.iter().copied().max().unwrap_or(0);
+    for e in 0..elements {
+        // the other way round, so that it is not inverted
+        let [a, b, c, d, e1, f, g, h] = foreign.hexes[e].map(of);
+        foreign.hexes.push([d, c, b, a, h, g, f, e1]);
+        let line = foreign.elements.lines[e];
+        label(&mut foreign.elements, last + 1 + e as u64, line);
+    }
+    for set in foreign.sets.values_mut() {
+        let there: BTreeSet<u32> = set.nodes.iter().copied().collect();
+        set.nodes.extend(there.iter().map(|n| of(*n)).filter(|n| !there.contains(n)));
+        set.faces.extend(set.faces.clone().into_iter().map(|[a, b, c, d]| [d, c, b, a].map(of)));
+        set.hexes.extend(set.hexes.clone().into_iter().map(|e| e + elements as u32));
+    }
+    for body in nodes {
+        body.extend(body.clone().into_iter().map(of));
+    }
 }
 
 /// The two surfaces of the contact, as the sets `tread` of the disk and `top` of the bar.

@@ -3,6 +3,9 @@
 use crate::model::Model;
 use std::collections::BTreeSet;
 
+/// Bodies that are nearer to their places than this (m) stay: a file prints no more digits.
+const IN_PLACE: f64 = 1e-9;
+
 /// Shapes that the case gives, measured on the mesh (m).
 pub(crate) struct Shape {
     pub(crate) radius: f64,
@@ -36,7 +39,9 @@ impl Model {
         let ([axis, height], radius) = self.running_circle(across);
         let lowest = height - radius;
         let drop = lowest - top[2][1];
+        let needed = |by: f64| if by.abs() < IN_PLACE { 0.0 } else { by };
         let moves = [[-axis, -across, -lowest], [-axis, -middle(bodies[1][1]), -top[2][1]]];
+        let moves = moves.map(|by| by.map(needed));
         for (body, by) in moves.iter().enumerate() {
             for &n in &self.nodes[body] {
                 let point = &mut self.foreign.points[n as usize];

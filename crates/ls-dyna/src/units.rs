@@ -6,26 +6,44 @@ pub struct Units {
     length: f64,
     mass: f64,
     time: f64,
+    /// Their names in that order.
+    names: [&'static str; 3],
 }
 
 impl Units {
     /// Units named as `mm-ton-s`: length (`m`, `cm`, `mm`, `in`), mass (`kg`, `ton`, `g`) and time
     /// (`s`, `ms`, `us`). None for any other text.
     pub fn parse(text: &str) -> Option<Self> {
-        let find = |name: &str, units: &[(&str, f64)]| {
-            units.iter().find(|(unit, _)| *unit == name).map(|(_, size)| *size)
+        let find = |name: &str, units: &[(&'static str, f64)]| {
+            units.iter().find(|(unit, _)| *unit == name).copied()
         };
         let mut names = text.split('-');
         let length =
             find(names.next()?, &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("in", 0.0254)])?;
         let mass = find(names.next()?, &[("kg", 1.0), ("ton", 1e3), ("g", 1e-3)])?;
         let time = find(names.next()?, &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6)])?;
-        names.next().is_none().then_some(Self { length, mass, time })
+        let found = Self {
+            length: length.1,
+            mass: mass.1,
+            time: time.1,
+            names: [length.0, mass.0, time.0],
+        };
+        names.next().is_none().then_some(found)
+    }
+
+    /// Their names, as [`Units::parse`] reads them.
+    pub fn name(&self) -> String {
+        self.names.join("-")
     }
 
     /// The unit of length (m).
     pub(super) fn length(self) -> f64 {
         self.length
+    }
+
+    /// The unit of mass (kg).
+    pub(super) fn mass(self) -> f64 {
+        self.mass
     }
 
     /// The unit of time (s).

@@ -37,3 +37,14 @@ pub fn case(document: &Value) -> String {
     let (case, elements) = (word(document, "/case"), &document["elements"]);
     page + &format!("{case}: {elements} elements; creepage run {case}\n")
 }
+
+/// The keyword file of `export-k`, and what it says in another way than the case.
+pub fn deck(document: &Value) -> String {
+    let mut page = String::new();
+    for note in document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        let _ = writeln!(page, "  nearly: {note}");
+    }
+    let [nodes, elements] = ["nodes", "elements"].map(|key| &document[key]);
+    let [file, unit] = ["/file", "/unit"].map(|key| word(document, key));
+    page + &format!("{file}: {nodes} nodes, {elements} elements, in {unit}\n")
+}

@@ -1,0 +1,52 @@
+//! The contact of disk and bar.
+
+use super::columns::Cards;
+use super::{Rolling, number};
+use case::schema::Stiffness;
+use scenario::{BAR, DISK};
+
+/// Contact of tread and top, with its friction.
+pub(super) fn contact(cards: &mut Cards, rolling: &Rolling<'_>) {
+    let case = rolling.case;
+    cards.card("CONTROL_CONTACT", &[("SLSFAC", scale_factor(rolling))]);
+    cards.keyword("CONTACT_SURFACE_TO_SURFACE");
+    let [tread, top] = number::SURFACES.map(|id| id as f64);
+    // segment sets on both sides, and a record of the forces on both
+    cards.fields(&[
+        ("SSID", tread),
+        ("MSID", top),
+        ("SSTYP", 0.0),
+        ("MSTYP", 0.0),
+        ("SBOXID", 0.0),
+        ("MBOXID", 0.0),
+        ("SPR", 1.0),
+        ("MPR", 1.0),
+    ]);
+    let mu = case.friction.static_.unwrap_or(0.0);
+    let (dynamic, decay) = match case.friction.exponential() {
+        Some(law) => (law.mu_dynamic, law.decay),
+        None => (mu, 0.0),
+    };
+    cards.fields(&[
+        ("FS", mu),
+        ("FD", dynamic),
+        ("DC", decay * cards.units().velocity()),
+        ("VC", 0.0),
+        ("VDC", 100.0 * case.contact.penalty.damping),
+    ]);
+    cards.fields(&[("SFS", 1.0), ("SFM", 1.0)]);
+}
+
+/// The scale factor of the normal springs; of springs that are given in N/m^3 that which gives them between cubes of the
+/// fine zone.
+fn scale_factor(rolling: &Rolling<'_>) -> f64 {
+    let size = rolling.case.mesh.zone.size;
+    let unit =
+        || [DISK, BAR].iter().map(|&b| rolling.model.materials[b].bulk() / size).sum::<f64>();
+    match rolling.case.contact.penalty.normal {
+        Stiffness::Factor(factor) => factor,
+        Stiffness::Areal(both) => both / unit(),
+        // refused before
+        Stiffness::Stability(_) => f64::NAN,
+    }
+}

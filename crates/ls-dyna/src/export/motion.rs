@@ -1,0 +1,215 @@
+//! What moves the hub, and damping.
+
+use super::columns::Cards;
+use super::{Rolling, by_load, by_torque, number};
+
+/// Curves of the motion.
+mod curve {
+    pub(super) const SPEED: u64 = 1;
+    pub(super) const TURN: u64 = 2;
+    pub(super) const DEPTH: u64 = 3;
+    pub(super) const LOAD: u64 = 4;
+    pub(super) const ACROSS: u64 = 5;
+    pub(super) const TORQUE: u64 = 6;
+    pub(super) const PRELOAD_DAMPING: u64 = 7;
+    pub(super) const REST: u64 = 8;
+}
+
+/// Degrees of freedom of a rigid body, and what is prescribed of them.
+mod degree {
+    pub(super) const X: f64 = 1.0;
+    pub(super) const Y: f64 = 2.0;
+    pub(super) const Z: f64 = 3.0;
+    pub(super) const ABOUT: [f64; 3] = [5.0, 6.0, 7.0];
+    pub(super) const VELOCITY: f64 = 0.0;
+    pub(super) const DISPLACEMENT: f64 = 2.0;
+}
+
+/// Pieces of a smoothstep in a curve, which is linear in between.
+const PIECES: usize = 64;
+/// A jump takes this share of a time step.
+const JUMP: f64 = 1e-3;
+/// The hub goes down in this share of the preload's time; in the rest the bodies come to rest.
+const PRESSING: f64 = 0.5;
+/// Mass damping of the preload times its duration: about critical for the disk's lowest vibrations.
+const DAMPING: f64 = 12.0;
+
+/// When the preload ends and the disk rolls, how long a jump takes, and when the run ends (s).
+#[derive(Clone, Copy)]
+struct Times {
+    preload: f64,
+    jump: f64,
+    end: f64,
+}
+
+impl Times {
+    /// A value that is nothing before the disk rolls.
+    fn once_rolling(&self, value: f64) -> Vec<[f64; 2]> {
+        vec![[0.0, 0.0], [self.preload, 0.0], [self.preload + self.jump, value], [self.end, value]]
+    }
+
+    /// A value that from then on goes from `first` to `last` by a smoothstep of the duration `ramp`.
+    fn ramp(&self, ramp: f64, first: f64, last: f64) -> Vec<[f64; 2]> {
+        let mut points = vec![[0.0, 0.0], [self.preload, 0.0]];
+        points.extend(
+            rise(ramp).map(|[t, share]| {
+                [self.preload + self.jump.max(t), first + share * (last - first)]
+            }),
+        );
+        points.push([self.end.max(self.preload + 2.0 * ramp), last]);
+        points
+    }
+}
+
+/// Times (s) and shares of a smoothstep of the duration `ramp`.
+fn rise(ramp: f64) -> impl Iterator<Item = [f64; 2]> {
+    let pieces = if ramp > 0.0 { PIECES } else { 0 };
+    (0..=pieces).map(move |i| {
+        let s = if pieces == 0 { 1.0 } else { i as f64 / pieces as f64 };
+        [ramp * s, s * s * (3.0 - 2.0 * s)]
+    })
+}
+
+/// The hub: a rigid body that is pressed down, then rolls.
+pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
+    let (case, units) = (rolling.case, cards.units());
+    let preload = rolling.preload_time();
+    let jump = JUMP * case.duration() / rolling.facts.steps as f64;
+    // curves go on beyond the run, which may end a step late
+    let times = Times { preload, jump, end: 2.0 * (preload + case.duration()) };
+    let hub = [("PID", number::HUB as f64), ("CID", 0.0), ("NSID", number::HUB_NODES as f64)];
+    cards.card("CONSTRAINED_NODAL_RIGID_BODY", &hub);
+
+    let speed = case.drive.speed;
+    let free = speed / rolling.facts.radius.effective;
+    prescribe(cards, degree::X, degree::VELOCITY, curve::SPEED, 0.0);
+    cards.curve(curve::SPEED, &times.once_rolling(speed / units.velocity()));
+    let across = case.drive.lateral_creepage * speed / units.velocity();
+    prescribe(cards, degree::Y, degree::VELOCITY, curve::ACROSS, 0.0);
+    cards.curve(curve::ACROSS, &times.ramp(case.drive.ramp, 0.0, across));
+    let [about_x, about_y, about_z] = degree::ABOUT;
+    for about in [about_x, about_z] {
+        prescribe(cards, about, degree::VELOCITY, curve::REST, 0.0);
+    }
+    cards.curve(curve::REST, &[[0.0, 0.0], [times.end, 0.0]]);
+
+    turn(cards, rolling, &times, free, about_y);
+    press(cards, rolling, &times);
+
+    // part sets are for the disk alone: the bar does not move
+    cards.card("INITIAL_VELOCITY_GENERATION_START_TIME", &[("STIME", preload / units.time())]);
+    cards.keyword("INITIAL_VELOCITY_GENERATION");
+    cards.fields(&[
+        ("ID", number::DISK_PARTS as f64),
+        ("STYP", 1.0),
+        ("OMEGA", free * units.time()),
+        ("VX", speed / units.velocity()),
+    ]);
+    let height = case.disk.radius + depth(rolling);
+    cards.fields(&[
+        ("XC", 0.0),
+        ("YC", 0.0),
+        ("ZC", height / units.length()),
+        ("NX", 0.0),
+        ("NY", 1.0),
+        ("NZ", 0.0),
+    ]);
+    cards.card("SET_PART_LIST", &[("SID", number::DISK_PARTS as f64)]);
+    let full = rolling.model.fully_integrated() > 0;
+    let parts = [(true, number::PARTS[0]), (full, number::FULL[0])];
+    cards.numbers(parts.into_iter().filter(|(there, _)| *there).map(|(_, part)| part as f64));
+}
+
+/// What turns the hub about its axle once the disk rolls: its angular velocity, or a torque.
+fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, about: f64) {
+    let (drive, units) = (&rolling.case.drive, cards.units());
+    if by_torque(rolling.case) {
+        prescribe(cards, about, degree::VELOCITY, curve::TURN, times.preload / units.time());
+        cards.curve(curve::TURN, &[[0.0, 0.0], [times.end, 0.0]]);
+        let torque = rolling.share() * drive.torque.unwrap_or(0.0);
+        let unit = units.force() * units.length();
+        cards.card("LOAD_RIGID_BODY", &loaded(about, curve::TORQUE, 1.0));
+        cards.curve(curve::TORQUE, &times.ramp(drive.ramp, 0.0, torque / unit));
+    } else {
+        let creepage = drive.creepage.unwrap_or(0.0);
+        prescribe(cards, about, degree::VELOCITY, curve::TURN, 0.0);
+        let [first, last] = [free, free * (1.0 + creepage)].map(|omega| omega * units.time());
+        cards.curve(curve::TURN, &times.ramp(drive.ramp, first, last));
+    }
+}
+
+/// What presses the hub down: a displacement, and the load in its place once the disk rolls.
+fn press(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times) {
+    let (case, units) = (rolling.case, cards.units());
+    let death = if by_load(case) { times.preload / units.time() } else { 0.0 };
+    prescribe(cards, degree::Z, degree::DISPLACEMENT, curve::DEPTH, death);
+    let down = depth(rolling) / units.length();
+    let mut points: Vec<[f64; 2]> =
+        rise(PRESSING * times.preload).map(|[t, share]| [t, share * down]).collect();
+    points.push([times.end, down]);
+    cards.curve(curve::DEPTH, &points);
+    // while the height is prescribed, a force on the rigid body does nothing
+    let force = -rolling.share() * case.load.normal / units.force();
+    cards.card("LOAD_RIGID_BODY", &loaded(degree::Z, curve::LOAD, force));
+    cards.curve(curve::LOAD, &times.once_rolling(1.0));
+}
+
+/// Displacement of the hub in z by the static preload (m).
+fn depth(rolling: &Rolling<'_>) -> f64 {
+    rolling.facts.preload.map_or(0.0, |preload| preload.hub())
+}
+
+/// Prescribes a degree of freedom of the hub by a curve, until the time `death` in units of the deck, or to the end
+/// where that is 0.
+fn prescribe(cards: &mut Cards, dof: f64, what: f64, curve: u64, death: f64) {
+    cards.card(
+        "BOUNDARY_PRESCRIBED_MOTION_RIGID",
+        &[
+            ("PID", number::HUB as f64),
+            ("DOF", dof),
+            ("VAD", what),
+            ("LCID", curve as f64),
+            ("SF", 1.0),
+            ("VID", 0.0),
+            ("DEATH", death),
+        ],
+    );
+}
+
+fn loaded(dof: f64, curve: u64, factor: f64) -> [(&'static str, f64); 4] {
+    [("PID", number::HUB as f64), ("DOF", dof), ("LCID", curve as f64), ("SF", factor)]
+}
+
+/// Mass damping of all motion until the disk rolls, then relative to the hub as the case says; Kelvin–Voigt damping.
+pub(super) fn damping(cards: &mut Cards, rolling: &Rolling<'_>) {
+    let (case, units) = (rolling.case, cards.units());
+    let preload = rolling.preload_time();
+    cards.card("DAMPING_GLOBAL", &[("LCID", curve::PRELOAD_DAMPING as f64)]);
+    let value = DAMPING / preload * units.time();
+    let end = 2.0 * (preload + case.duration());
+    let still = preload * (1.0 - 1e-6);
+    cards
+        .curve(curve::PRELOAD_DAMPING, &[[0.0, value], [still, value], [preload, 0.0], [end, 0.0]]);
+    if case.damping.mass != 0.0 {
+        // a share of critical at a frequency: 2 CDAMP 2 pi FREQ is the damping over the mass
+        let frequency = case.damping.mass * units.time() / (4.0 * std::f64::consts::PI);
+        cards.card(
+            "DAMPING_RELATIVE",
+            &[
+                ("CDAMP", 1.0),
+                ("FREQ", frequency),
+                ("PIDRB", number::HUB as f64),
+                ("PSID", number::DISK_PARTS as f64),
+            ],
+        );
+    }
+    if case.damping.kelvin_voigt != 0.0 {
+        let full = rolling.model.fully_integrated() > 0;
+        let parts = number::PARTS.into_iter().chain(number::FULL.into_iter().filter(|_| full));
+        for part in parts {
+            // below zero: the coefficient of the stiffness in units of time
+            let coefficient = -case.damping.kelvin_voigt / units.time();
+            cards.card("DAMPING_PART_STIFFNESS", &[("PID", part as f64), ("COEF", coefficient)]);
+        }
+    }
+}
