@@ -107,7 +107,7 @@ fn head(cards: &mut Cards, rolling: &Rolling<'_>, notes: &[String]) {
     );
     let begins = rolling.preload_time();
     cards.comment(&format!(
-        "preload: until {begins:e} s the hub is pressed down; then the disk rolls"
+        "preload: until {begins:.6e} s the hub is pressed down; then the disk rolls"
     ));
     for note in notes {
         cards.comment(&format!("nearly: {note}"));

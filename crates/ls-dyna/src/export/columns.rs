@@ -107,9 +107,11 @@ pub(super) fn label(index: u32) -> u64 {
     u64::from(index) + 1
 }
 
-/// A number of ten characters at most, with as many digits as they hold.
+/// A number for a column of ten: of nine characters, so that a blank parts it from the one before, where these hold six digits.
 fn ten(x: f64) -> String {
-    in_width(x, 10)
+    let parted = in_width(x, 9);
+    let same = parted.parse().is_ok_and(|y: f64| (y - x).abs() <= 1e-6 * x.abs());
+    if same { parted } else { in_width(x, 10) }
 }
 
 /// A number for a column of twenty.
@@ -144,9 +146,11 @@ mod tests {
             (2.1e5, "210000"),
             (7.8e-9, "7.8e-9"),
             (0.002542812806, ".002542813"),
-            (-100_000.0 / 3.0, "-33333.333"),
+            (0.6693448, "0.6693448"),
+            (-100_000.0 / 3.0, "-33333.33"),
             (1e-20, "1e-20"),
             (-1.234567e-7, "-1.2346e-7"),
+            (123_456_789.0, "123456789"),
         ] {
             assert_eq!(ten(x), text);
         }

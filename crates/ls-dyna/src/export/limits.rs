@@ -49,7 +49,7 @@ pub(super) fn nearly(rolling: &Rolling<'_>) -> Vec<String> {
         penalty.normal
     );
     let step = format!(
-        "the time step, {:e} s here, is TSSFAC times what the other program takes for stable",
+        "the time step, {:.4e} s here, is TSSFAC times what the other program takes for stable",
         case.duration() / rolling.facts.steps as f64
     );
     let radius = format!(

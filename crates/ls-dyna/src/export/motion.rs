@@ -85,11 +85,16 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     prescribe(cards, degree::X, degree::VELOCITY, curve::SPEED, 0.0);
     cards.curve(curve::SPEED, &times.once_rolling(speed / units.velocity()));
     let across = case.drive.lateral_creepage * speed / units.velocity();
-    prescribe(cards, degree::Y, degree::VELOCITY, curve::ACROSS, 0.0);
-    cards.curve(curve::ACROSS, &times.ramp(case.drive.ramp, 0.0, across));
     let [about_x, about_y, about_z] = degree::ABOUT;
-    for about in [about_x, about_z] {
-        prescribe(cards, about, degree::VELOCITY, curve::REST, 0.0);
+    let mut at_rest = vec![about_x, about_z];
+    if across == 0.0 {
+        at_rest.push(degree::Y);
+    } else {
+        prescribe(cards, degree::Y, degree::VELOCITY, curve::ACROSS, 0.0);
+        cards.curve(curve::ACROSS, &times.ramp(case.drive.ramp, 0.0, across));
+    }
+    for dof in at_rest {
+        prescribe(cards, dof, degree::VELOCITY, curve::REST, 0.0);
     }
     cards.curve(curve::REST, &[[0.0, 0.0], [times.end, 0.0]]);
 
