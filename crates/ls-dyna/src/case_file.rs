@@ -99,7 +99,7 @@ impl Settings {
             drive,
             normal,
             held,
-            hub_mass: alike(model) * deck.added_mass * units.mass(),
+            hub_mass: hub_mass(deck, model, units, materials[0].density * units.density()),
             duration: end - deck.begins,
             damping: deck.damping,
             intervals: deck.intervals,
@@ -115,6 +115,16 @@ impl Settings {
 /// How many parts alike make up the bodies of which the file has one.
 fn alike(model: &Model) -> f64 {
     if model.symmetry == Symmetry::Half { 2.0 } else { 1.0 }
+}
+
+/// The mass of the rigid hub (kg) beyond that of its nodes, of elements of this `density` (kg/m^3).
+fn hub_mass(deck: &Deck, model: &Model, units: Units, density: f64) -> f64 {
+    let Some(all) = deck.hub_mass.map(|mass| alike(model) * mass * units.mass()) else {
+        return 0.0;
+    };
+    let own = all - model.lumped_mass("hub", density);
+    // the rest is what the file's digits leave
+    if own > 1e-5 * all { own } else { 0.0 }
 }
 
 /// Refuses damping of all motion that does not end before the disk rolls.

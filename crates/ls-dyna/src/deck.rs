@@ -31,6 +31,8 @@ pub(super) struct Deck {
     pub(super) clamped: Vec<Target>,
     /// Nodes of the rigid hub.
     pub(super) hub: Option<Target>,
+    /// The node of the rigid hub by which it is loaded, `PNODE`.
+    pub(super) axle: Option<u64>,
     /// Nodes that are held in y alone.
     pub(super) sliding: Vec<Target>,
     /// Whether there are segments that do not reflect waves.
@@ -41,8 +43,8 @@ pub(super) struct Deck {
     /// When the initial velocities are given.
     pub(super) begins: f64,
     pub(super) damping: Damping,
-    /// Mass that is added to nodes.
-    pub(super) added_mass: f64,
+    /// Mass of the rigid hub with its nodes, where the file gives it.
+    pub(super) hub_mass: Option<f64>,
     /// Intervals of the records of fields and of interface forces; 0 where there are none.
     pub(super) intervals: [f64; 2],
     pub(super) initial: Option<Initial>,
@@ -176,6 +178,7 @@ impl Deck {
             segment_sets: BTreeMap::new(),
             clamped: Vec::new(),
             hub: None,
+            axle: None,
             sliding: Vec::new(),
             quiet: false,
             loads: Vec::new(),
@@ -183,15 +186,17 @@ impl Deck {
             motions: Vec::new(),
             begins: 0.0,
             damping: Damping::default(),
-            added_mass: 0.0,
+            hub_mass: None,
             intervals: [0.0; 2],
             initial: None,
             curves: BTreeMap::new(),
             notes: Vec::new(),
         };
-        for card in cards(bytes)? {
-            deck.card(&card)?;
-        }
+        // loads refer to a node of the rigid hub
+        let (hub, others): (Vec<_>, Vec<_>) = cards(bytes)?
+            .into_iter()
+            .partition(|card| card.name.starts_with("CONSTRAINED_NODAL_RIGID_BODY"));
+        hub.iter().chain(&others).try_for_each(|card| deck.card(card))?;
         Ok(deck)
     }
 
@@ -249,15 +254,8 @@ impl Deck {
             "SET_NODE" | "SET_NODE_LIST" => self.node_set(card),
             "SET_SEGMENT" => self.segment_set(card),
             "BOUNDARY_SPC_SET" | "BOUNDARY_SPC_NODE" => self.clamp(card, name.ends_with("SET")),
-            "CONSTRAINED_NODAL_RIGID_BODY" => {
-                let fields = line(card, 0)?.fields(&TENS);
-                fields.unused(name, &[(1, "CID"), (3, "PNODE")])?;
-                if let Some(before) = &self.hub {
-                    let what = format!("a second *{name} after that of line {}", before.line);
-                    return Err(unsupported(card.line, what, "keep the hub of the disk alone"));
-                }
-                self.hub = Some(Target { set: true, id: fields.id(2)?, line: card.line });
-                Ok(())
+            "CONSTRAINED_NODAL_RIGID_BODY" | "CONSTRAINED_NODAL_RIGID_BODY_INERTIA" => {
+                self.rigid_hub(card)
             }
             "LOAD_NODE_SET" | "LOAD_NODE_POINT" => self.load(card, name.ends_with("SET")),
             "INITIAL_VELOCITY" => {
@@ -277,12 +275,6 @@ impl Deck {
             "DEFINE_CURVE" => self.curve(card),
             "DATABASE_BINARY_D3PLOT" => self.interval(card, 0),
             "DATABASE_BINARY_INTFOR" => self.interval(card, 1),
-            "ELEMENT_MASS" => {
-                for line in lines(card) {
-                    self.added_mass += line.fields(&[8, 8, 16]).real(2, 0.0)?;
-                }
-                Ok(())
-            }
             _ if name.starts_with("INCLUDE") => {
                 let remedy = "put the included lines into the file itself: without them the model \
                               lacks what they hold";
@@ -294,6 +286,23 @@ impl Deck {
                 Err(unsupported(card.line, format!("*{name}"), remedy))
             }
         }
+    }
+
+    fn rigid_hub(&mut self, card: &Card) -> Result<(), ImportError> {
+        let fields = line(card, 0)?.fields(&TENS);
+        fields.unused(&card.name, &[(1, "CID")])?;
+        self.axle = Some(fields.id(3)?).filter(|node| *node > 0);
+        if card.name.ends_with("INERTIA") {
+            let inertia = line(card, 1)?.fields(&TENS);
+            inertia.unused(&card.name, &[(4, "IRCS")])?;
+            self.hub_mass = Some(inertia.real(3, 0.0)?);
+        }
+        if let Some(before) = &self.hub {
+            let what = format!("a second *{} after that of line {}", card.name, before.line);
+            return Err(unsupported(card.line, what, "keep the hub of the disk alone"));
+        }
+        self.hub = Some(Target { set: true, id: fields.id(2)?, line: card.line });
+        Ok(())
     }
 
     fn interval(&mut self, card: &Card, which: usize) -> Result<(), ImportError> {
@@ -508,13 +517,20 @@ impl Deck {
             let fields = line.fields(&TENS);
             fields.unused(&card.name, &[(4, "CID")])?;
             let dof = fields.whole(1)?;
-            if dof != 3 {
-                let what = format!("*{} with DOF = {dof}", card.name);
-                return Err(unsupported(line.at, what, "load the hub in z alone (DOF = 3)"));
-            }
             let on = Target { set, id: fields.id(0)?, line: line.at };
-            let factor = nonzero(fields.real(3, 1.0)?, 1.0);
-            self.loads.push(Load { on, curve: fields.id(2)?, factor });
+            let (curve, factor) = (fields.id(2)?, nonzero(fields.real(3, 1.0)?, 1.0));
+            let axle = !set && self.axle == Some(on.id);
+            if !(dof == 3 || axle && dof == 6) {
+                let what = format!("*{} with DOF = {dof}", card.name);
+                let remedy =
+                    "load the hub in z (DOF = 3), and turn it about y (DOF = 6) at its PNODE";
+                return Err(unsupported(line.at, what, remedy));
+            }
+            if axle {
+                self.rigid_loads.push(RigidLoad { line: line.at, dof, curve, factor });
+            } else {
+                self.loads.push(Load { on, curve, factor });
+            }
         }
         Ok(())
     }

@@ -54,11 +54,11 @@ mod number {
     pub(super) const CLAMPED: u64 = 2;
     pub(super) const SLIDING: u64 = 3;
     pub(super) const RECORDED: u64 = 4;
-    /// Segment sets: tread and top, and the quiet ends.
-    pub(super) const SURFACES: [u64; 2] = [1, 2];
-    pub(super) const ENDS: u64 = 3;
+    /// Segment sets: tread and top, and the quiet ends. Some programs have one kind of set: no number stands twice.
+    pub(super) const SURFACES: [u64; 2] = [11, 12];
+    pub(super) const ENDS: u64 = 13;
     /// The part set of the disk.
-    pub(super) const DISK_PARTS: u64 = 1;
+    pub(super) const DISK_PARTS: u64 = 21;
 }
 
 /// Shear waves cross eight radii of the disk in the time of the preload: it is slow beside the lowest vibrations.
@@ -68,6 +68,11 @@ impl Rolling<'_> {
     /// Duration of the preload in the deck (s).
     pub fn preload_time(&self) -> f64 {
         RADII * self.case.disk.radius / self.model.materials[DISK].c_s()
+    }
+
+    /// The node on the axle, which the elements lack: the one after those of the mesh.
+    fn axle(&self) -> u32 {
+        self.model.mesh.nodes.len() as u32
     }
 
     /// The share of the loads that the modelled bodies bear.

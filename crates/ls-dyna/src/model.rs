@@ -4,6 +4,7 @@ use crate::cards::{syntax, unsupported};
 use crate::deck::{Deck, Target};
 use crate::units::Units;
 use mesh::import::{Fault, Foreign, ImportError, Labels, Set};
+use mesh::{Body, Mesh};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// The mesh of the disk and the bar with its sets.
@@ -88,6 +89,26 @@ impl Model {
             }
         }
         extent
+    }
+
+    /// Lumped mass of the nodes of a set (kg), of elements of this `density` (kg/m^3).
+    pub(crate) fn lumped_mass(&self, set: &str, density: f64) -> f64 {
+        let Foreign { points, hexes, sets, .. } = &self.foreign;
+        let whole = Body {
+            name: String::new(),
+            nodes: 0..points.len(),
+            hexes: 0..hexes.len(),
+            node_sets: BTreeMap::new(),
+            surfaces: BTreeMap::new(),
+        };
+        let mesh = Mesh {
+            nodes: points.clone(),
+            hexes: hexes.clone(),
+            bodies: vec![whole],
+            symmetric: false,
+        };
+        let mass = solid::lumped_mass(&mesh, &[density]);
+        sets.get(set).map_or(0.0, |set| set.nodes.iter().map(|&n| mass[n as usize]).sum())
     }
 
     /// The faces of a set; empty where there is no such set.

@@ -8,8 +8,9 @@ use scenario::{BAR, DISK};
 /// Contact of tread and top, with its friction.
 pub(super) fn contact(cards: &mut Cards, rolling: &Rolling<'_>) {
     let case = rolling.case;
-    cards.card("CONTROL_CONTACT", &[("SLSFAC", scale_factor(rolling))]);
-    cards.keyword("CONTACT_SURFACE_TO_SURFACE");
+    // the product counts, and some programs read the second factor alone
+    cards.card("CONTROL_CONTACT", &[("SLSFAC", 1.0)]);
+    cards.keyword("CONTACT_AUTOMATIC_SURFACE_TO_SURFACE");
     let [tread, top] = number::SURFACES.map(|id| id as f64);
     // segment sets on both sides, and a record of the forces on both
     cards.fields(&[
@@ -34,7 +35,8 @@ pub(super) fn contact(cards: &mut Cards, rolling: &Rolling<'_>) {
         ("VC", 0.0),
         ("VDC", 100.0 * case.contact.penalty.damping),
     ]);
-    cards.fields(&[("SFS", 1.0), ("SFM", 1.0)]);
+    let factor = scale_factor(rolling);
+    cards.fields(&[("SFS", factor), ("SFM", factor)]);
 }
 
 /// The scale factor of the normal springs; of springs that are given in N/m^3 that which gives them between cubes of the

@@ -59,6 +59,10 @@ pub(super) fn nearly(rolling: &Rolling<'_>) -> Vec<String> {
     [
         (true, "the preload: the disk stands while it is pressed down, with damping that ends with it".to_owned()),
         (true, step),
+        (
+            true,
+            "the hub: its inertia is that of its nodes about the axle; the counterweight is left out".to_owned(),
+        ),
         (!by_torque(case), radius),
         (case.contact.curvature, "contact.curvature: contact meets the facets".to_owned()),
         (
@@ -82,10 +86,6 @@ pub(super) fn nearly(rolling: &Rolling<'_>) -> Vec<String> {
             "element.contact_layers: fully integrated elements are parts 3 and 4, ELFORM 2".to_owned(),
         ),
         (full && whole_law, "element.volumetric: ELFORM 2 takes its own".to_owned()),
-        (
-            case.load.hub_mass != 0.0,
-            "load.hub_mass: a mass at a node on the axle, without a moment of inertia of its own".to_owned(),
-        ),
         (!model.paired.is_empty(), "mesh.plane_strain: the two sides of the slice are not tied".to_owned()),
         (
             by_torque(case),

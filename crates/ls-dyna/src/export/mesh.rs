@@ -1,6 +1,6 @@
 //! Nodes, elements, parts and sets, and what holds the nodes.
 
-use super::columns::{Cards, label};
+use super::columns::Cards;
 use super::{Rolling, number};
 use scenario::{BAR, DISK};
 use std::collections::BTreeSet;
@@ -53,13 +53,12 @@ pub(super) fn mesh(cards: &mut Cards, rolling: &Rolling<'_>) {
         cards.segment_set(number::SURFACES[side], faces);
     }
     let mut hub = model.hub.clone();
-    let axle = axle(rolling);
-    hub.extend(axle);
+    hub.push(rolling.axle());
     cards.node_set(number::HUB_NODES, &hub);
     let recorded: BTreeSet<u32> =
         model.zones.iter().flatten().flat_map(|face| face.nodes).collect();
     cards.node_set(number::RECORDED, &recorded.into_iter().collect::<Vec<_>>());
-    nodes(cards, rolling, axle);
+    nodes(cards, rolling);
     let full = model.elements();
     cards.keyword("ELEMENT_SOLID");
     for (body, range) in model.mesh.bodies.iter().map(|body| body.hexes.clone()).enumerate() {
@@ -70,24 +69,13 @@ pub(super) fn mesh(cards: &mut Cards, rolling: &Rolling<'_>) {
     }
 }
 
-/// The nodes, and the mass of the hub at one on its axle.
-fn nodes(cards: &mut Cards, rolling: &Rolling<'_>, axle: Option<u32>) {
+/// The nodes, and that on the axle.
+fn nodes(cards: &mut Cards, rolling: &Rolling<'_>) {
     let unit = cards.units().length();
     cards.keyword("NODE");
     let places = (0..).zip(&rolling.model.mesh.nodes);
     places.for_each(|(n, at)| cards.node(n, at.map(|x| x / unit)));
-    let Some(axle) = axle else { return };
-    let case = rolling.case;
-    cards.node(axle, [0.0, 0.0, case.disk.radius / unit]);
-    cards.keyword("ELEMENT_MASS");
-    let mass = rolling.share() * case.load.hub_mass / cards.units().mass();
-    // columns of 8, 8 and 16
-    cards.line(&format!("{:>8}{:>8}{mass:>16.9e}", label(axle), label(axle)));
-}
-
-/// The node on the axle that bears the mass of the hub, where there is one: the one after those of the mesh.
-fn axle(rolling: &Rolling<'_>) -> Option<u32> {
-    (rolling.case.load.hub_mass != 0.0).then_some(rolling.model.mesh.nodes.len() as u32)
+    cards.node(rolling.axle(), [0.0, 0.0, rolling.case.disk.radius / unit]);
 }
 
 /// The nodes that do not move along y, but for those that are held anyway.

@@ -1,6 +1,6 @@
 //! What moves the hub, and damping.
 
-use super::columns::Cards;
+use super::columns::{Cards, label};
 use super::{Rolling, by_load, by_torque, number};
 
 /// Curves of the motion.
@@ -77,8 +77,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     let jump = JUMP * case.duration() / rolling.facts.steps as f64;
     // curves go on beyond the run, which may end a step late
     let times = Times { preload, jump, end: 2.0 * (preload + case.duration()) };
-    let hub = [("PID", number::HUB as f64), ("CID", 0.0), ("NSID", number::HUB_NODES as f64)];
-    cards.card("CONSTRAINED_NODAL_RIGID_BODY", &hub);
+    rigid_hub(cards, rolling);
 
     let speed = case.drive.speed;
     let free = speed / rolling.facts.radius.effective;
@@ -125,6 +124,51 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     cards.numbers(parts.into_iter().filter(|(there, _)| *there).map(|(_, part)| part as f64));
 }
 
+/// The hub as a rigid body about its axle: its motion is that of its centre of mass, and its nodes do not lie evenly about
+/// the axle.
+fn rigid_hub(cards: &mut Cards, rolling: &Rolling<'_>) {
+    let (case, model, units) = (rolling.case, rolling.model, cards.units());
+    let axle = label(rolling.axle()) as f64;
+    cards.keyword("CONSTRAINED_NODAL_RIGID_BODY_INERTIA");
+    cards.fields(&[
+        ("PID", number::HUB as f64),
+        ("CID", 0.0),
+        ("NSID", number::HUB_NODES as f64),
+        ("PNODE", axle),
+    ]);
+    let height = case.disk.radius;
+    // the hub's own mass is a cylinder, whose moment about y counts alone
+    let own = rolling.share() * case.load.hub_mass;
+    let radius = case.disk.hub_radius;
+    let (mut mass, mut moments) = (own, [0.25, 0.5, 0.25].map(|part| part * own * radius * radius));
+    for &n in &model.hub {
+        let [x, y, z] = model.mesh.nodes[n as usize];
+        let (m, z) = (model.mass[n as usize], z - height);
+        mass += m;
+        let about = [y * y + z * z, x * x + z * z, x * x + y * y];
+        (0..3).for_each(|i| moments[i] += m * about[i]);
+    }
+    cards.fields(&[
+        ("XC", 0.0),
+        ("YC", 0.0),
+        ("ZC", height / units.length()),
+        ("TM", mass / units.mass()),
+        ("IRCS", 0.0),
+        ("NODEID", axle),
+    ]);
+    let [ixx, iyy, izz] = moments.map(|i| i / (units.mass() * units.length() * units.length()));
+    cards.fields(&[
+        ("IXX", ixx),
+        ("IXY", 0.0),
+        ("IXZ", 0.0),
+        ("IYY", iyy),
+        ("IYZ", 0.0),
+        ("IZZ", izz),
+    ]);
+    // velocities at the start
+    cards.fields(&["VTX", "VTY", "VTZ", "VRX", "VRY", "VRZ"].map(|field| (field, 0.0)));
+}
+
 /// What turns the hub about its axle once the disk rolls: its angular velocity, or a torque.
 fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, about: f64) {
     let (drive, units) = (&rolling.case.drive, cards.units());
@@ -133,7 +177,7 @@ fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, abou
         cards.curve(curve::TURN, &[[0.0, 0.0], [times.end, 0.0]]);
         let torque = rolling.share() * drive.torque.unwrap_or(0.0);
         let unit = units.force() * units.length();
-        cards.card("LOAD_RIGID_BODY", &loaded(about, curve::TORQUE, 1.0));
+        cards.card("LOAD_NODE_POINT", &loaded(rolling, about, curve::TORQUE, 1.0));
         cards.curve(curve::TORQUE, &times.ramp(drive.ramp, 0.0, torque / unit));
     } else {
         let creepage = drive.creepage.unwrap_or(0.0);
@@ -153,9 +197,8 @@ fn press(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times) {
         rise(PRESSING * times.preload).map(|[t, share]| [t, share * down]).collect();
     points.push([times.end, down]);
     cards.curve(curve::DEPTH, &points);
-    // while the height is prescribed, a force on the rigid body does nothing
     let force = -rolling.share() * case.load.normal / units.force();
-    cards.card("LOAD_RIGID_BODY", &loaded(degree::Z, curve::LOAD, force));
+    cards.card("LOAD_NODE_POINT", &loaded(rolling, degree::Z, curve::LOAD, force));
     cards.curve(curve::LOAD, &times.once_rolling(1.0));
 }
 
@@ -181,8 +224,10 @@ fn prescribe(cards: &mut Cards, dof: f64, what: f64, curve: u64, death: f64) {
     );
 }
 
-fn loaded(dof: f64, curve: u64, factor: f64) -> [(&'static str, f64); 4] {
-    [("PID", number::HUB as f64), ("DOF", dof), ("LCID", curve as f64), ("SF", factor)]
+/// A force or a torque on the hub, at its axle.
+fn loaded(rolling: &Rolling<'_>, dof: f64, curve: u64, factor: f64) -> [(&'static str, f64); 4] {
+    let node = label(rolling.axle()) as f64;
+    [("NID", node), ("DOF", dof), ("LCID", curve as f64), ("SF", factor)]
 }
 
 /// Mass damping of all motion until the disk rolls, then relative to the hub as the case says; Kelvin–Voigt damping.
