@@ -1,8 +1,9 @@
 //! A case as an LS-DYNA keyword file.
 //!
 //! The mesh is that of the run before the preload. The hub, a nodal rigid body, presses it down by a prescribed displacement
-//! to the depth that the static preload finds, while the disk stands. Then the disk takes up the velocity of free rolling, as a run
-//! does at t = 0, and the load takes the place of the displacement. Which key becomes which card: docs/ls-dyna.md.
+//! to the depth that the static preload finds, while the disk stands; then the load takes the place of the displacement, since
+//! another program's contact is not as stiff, and damping brings all to rest. Then the disk takes up the velocity of free rolling, as a run
+//! does at t = 0. Which key becomes which card: docs/ls-dyna.md.
 
 mod columns;
 mod contact;
@@ -61,13 +62,33 @@ mod number {
     pub(super) const DISK_PARTS: u64 = 21;
 }
 
-/// Shear waves cross eight radii of the disk in the time of the preload: it is slow beside the lowest vibrations.
-const RADII: f64 = 8.0;
+/// Radii of the disk that a shear wave crosses while the hub goes down: slow beside the vibrations of the disk.
+const RADII: f64 = 12.0;
+/// Time in which the disk comes to rest under the load, times the angular frequency of its bounce: with critical damping 2 % of what
+/// is left then remain.
+const REST: f64 = 6.0;
 
 impl Rolling<'_> {
-    /// Duration of the preload in the deck (s).
+    /// Duration of the preload in the deck (s): whole microseconds, all of whose digits its columns hold.
     pub fn preload_time(&self) -> f64 {
+        (1e6 * (self.pressing_time() + REST / self.bounce())).ceil() / 1e6
+    }
+
+    /// Time in which the hub goes down (s).
+    fn pressing_time(&self) -> f64 {
         RADII * self.case.disk.radius / self.model.materials[DISK].c_s()
+    }
+
+    /// Angular frequency (rad/s) at which the disk bounces on the contact, whose stiffness is by Hertz 3/2 of force over approach.
+    fn bounce(&self) -> f64 {
+        let disk = &self.model.mesh.bodies[DISK].nodes;
+        let mass = self.model.parts * self.model.mass[disk.clone()].iter().sum::<f64>();
+        (1.5 * self.case.load.normal / (self.depth() * (mass + self.case.load.hub_mass))).sqrt()
+    }
+
+    /// How far the static preload presses the hub down (m).
+    fn depth(&self) -> f64 {
+        -self.facts.preload.map_or(0.0, |preload| preload.hub())
     }
 
     /// The node on the axle, which the elements lack: the one after those of the mesh.

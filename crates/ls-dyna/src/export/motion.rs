@@ -29,11 +29,6 @@ mod degree {
 const PIECES: usize = 64;
 /// A jump takes this share of a time step.
 const JUMP: f64 = 1e-3;
-/// The hub goes down in this share of the preload's time; in the rest the bodies come to rest.
-const PRESSING: f64 = 0.5;
-/// Mass damping of the preload times its duration: about critical for the disk's lowest vibrations.
-const DAMPING: f64 = 12.0;
-
 /// When the preload ends and the disk rolls, how long a jump takes, and when the run ends (s).
 #[derive(Clone, Copy)]
 struct Times {
@@ -43,12 +38,12 @@ struct Times {
 }
 
 impl Times {
-    /// A value that is nothing before the disk rolls.
-    fn once_rolling(&self, value: f64) -> Vec<[f64; 2]> {
+    /// A value that is nothing before the preload is over.
+    fn once_over(&self, value: f64) -> Vec<[f64; 2]> {
         vec![[0.0, 0.0], [self.preload, 0.0], [self.preload + self.jump, value], [self.end, value]]
     }
 
-    /// A value that from then on goes from `first` to `last` by a smoothstep of the duration `ramp`.
+    /// A value that then goes from `first` to `last` by a smoothstep of the duration `ramp`.
     fn ramp(&self, ramp: f64, first: f64, last: f64) -> Vec<[f64; 2]> {
         let mut points = vec![[0.0, 0.0], [self.preload, 0.0]];
         points.extend(
@@ -82,7 +77,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     let speed = case.drive.speed;
     let free = speed / rolling.facts.radius.effective;
     prescribe(cards, degree::X, degree::VELOCITY, curve::SPEED, 0.0);
-    cards.curve(curve::SPEED, &times.once_rolling(speed / units.velocity()));
+    cards.curve(curve::SPEED, &times.once_over(speed / units.velocity()));
     let across = case.drive.lateral_creepage * speed / units.velocity();
     let [about_x, about_y, about_z] = degree::ABOUT;
     let mut at_rest = vec![about_x, about_z];
@@ -109,7 +104,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
         ("OMEGA", free * units.time()),
         ("VX", speed / units.velocity()),
     ]);
-    let height = case.disk.radius + depth(rolling);
+    let height = case.disk.radius - rolling.depth();
     cards.fields(&[
         ("XC", 0.0),
         ("YC", 0.0),
@@ -187,24 +182,20 @@ fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, abou
     }
 }
 
-/// What presses the hub down: a displacement, and the load in its place once the disk rolls.
+/// What presses the hub down: a displacement, and the load in its place once the depth is reached.
 fn press(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times) {
     let (case, units) = (rolling.case, cards.units());
-    let death = if by_load(case) { times.preload / units.time() } else { 0.0 };
+    let pressed = rolling.pressing_time();
+    let death = if by_load(case) { pressed / units.time() } else { 0.0 };
     prescribe(cards, degree::Z, degree::DISPLACEMENT, curve::DEPTH, death);
-    let down = depth(rolling) / units.length();
-    let mut points: Vec<[f64; 2]> =
-        rise(PRESSING * times.preload).map(|[t, share]| [t, share * down]).collect();
+    let down = -rolling.depth() / units.length();
+    let mut points: Vec<[f64; 2]> = rise(pressed).map(|[t, share]| [t, share * down]).collect();
     points.push([times.end, down]);
     cards.curve(curve::DEPTH, &points);
     let force = -rolling.share() * case.load.normal / units.force();
     cards.card("LOAD_NODE_POINT", &loaded(rolling, degree::Z, curve::LOAD, force));
-    cards.curve(curve::LOAD, &times.once_rolling(1.0));
-}
-
-/// Displacement of the hub in z by the static preload (m).
-fn depth(rolling: &Rolling<'_>) -> f64 {
-    rolling.facts.preload.map_or(0.0, |preload| preload.hub())
+    let pressing = Times { preload: pressed, ..*times };
+    cards.curve(curve::LOAD, &pressing.once_over(1.0));
 }
 
 /// Prescribes a degree of freedom of the hub by a curve, until the time `death` in units of the deck, or to the end
@@ -235,7 +226,8 @@ pub(super) fn damping(cards: &mut Cards, rolling: &Rolling<'_>) {
     let (case, units) = (rolling.case, cards.units());
     let preload = rolling.preload_time();
     cards.card("DAMPING_GLOBAL", &[("LCID", curve::PRELOAD_DAMPING as f64)]);
-    let value = DAMPING / preload * units.time();
+    // critical for the bounce of the disk
+    let value = 2.0 * rolling.bounce() * units.time();
     let end = 2.0 * (preload + case.duration());
     let still = preload * (1.0 - 1e-6);
     cards
