@@ -45,7 +45,7 @@ pub(super) fn nearly(rolling: &Rolling<'_>) -> Vec<String> {
     let full = case.element.contact_layers == ContactLayers::Full;
     let whole_law = case.element.volumetric == Some(Volumetric::Full);
     let stiffness = format!(
-        "contact.penalty.normal = {:?}: SLSFAC makes springs as stiff between cubes of the fine zone",
+        "contact.penalty.normal = {:?}: SFS makes springs as stiff between cubes of the fine zone",
         penalty.normal
     );
     let step = format!(

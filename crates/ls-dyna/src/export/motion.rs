@@ -29,6 +29,7 @@ mod degree {
 const PIECES: usize = 64;
 /// A jump takes this share of a time step.
 const JUMP: f64 = 1e-3;
+
 /// When the preload ends and the disk rolls, how long a jump takes, and when the run ends (s).
 #[derive(Clone, Copy)]
 struct Times {
@@ -39,7 +40,7 @@ struct Times {
 
 impl Times {
     /// A value that is nothing before the preload is over.
-    fn once_over(&self, value: f64) -> Vec<[f64; 2]> {
+    fn afterwards(&self, value: f64) -> Vec<[f64; 2]> {
         vec![[0.0, 0.0], [self.preload, 0.0], [self.preload + self.jump, value], [self.end, value]]
     }
 
@@ -77,7 +78,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     let speed = case.drive.speed;
     let free = speed / rolling.facts.radius.effective;
     prescribe(cards, degree::X, degree::VELOCITY, curve::SPEED, 0.0);
-    cards.curve(curve::SPEED, &times.once_over(speed / units.velocity()));
+    cards.curve(curve::SPEED, &times.afterwards(speed / units.velocity()));
     let across = case.drive.lateral_creepage * speed / units.velocity();
     let [about_x, about_y, about_z] = degree::ABOUT;
     let mut at_rest = vec![about_x, about_z];
@@ -195,7 +196,7 @@ fn press(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times) {
     let force = -rolling.share() * case.load.normal / units.force();
     cards.card("LOAD_NODE_POINT", &loaded(rolling, degree::Z, curve::LOAD, force));
     let pressing = Times { preload: pressed, ..*times };
-    cards.curve(curve::LOAD, &pressing.once_over(1.0));
+    cards.curve(curve::LOAD, &pressing.afterwards(1.0));
 }
 
 /// Prescribes a degree of freedom of the hub by a curve, until the time `death` in units of the deck, or to the end

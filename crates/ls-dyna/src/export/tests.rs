@@ -195,6 +195,35 @@ fn what_keyword_files_cannot_say_is_listed_by_key() {
 }
 
 #[test]
+fn cards_of_the_motion_that_a_case_cannot_say_are_refused_by_their_line() {
+    let deck = There::new(small(&["mesh.symmetry=half"]), "mm-ton-s").deck;
+    let units = Units::parse("mm-ton-s").unwrap();
+    let lines: Vec<&str> = deck.lines().collect();
+    let after = |card: &str, n: usize| n + lines.iter().position(|line| *line == card).unwrap();
+    let depth = lines.iter().position(|line| line.starts_with("         5         3         2"));
+    let held = lines.iter().rposition(|line| *line == "*BOUNDARY_SPC_SET").unwrap() + 2;
+    let curve = lines.iter().position(|line| *line == "         7").unwrap() + 4;
+    let load = after("*LOAD_NODE_POINT", 2);
+    for (at, new, words) in [
+        // an acceleration
+        (depth.unwrap(), "         5         3         1         3", "VAD = 1"),
+        // damping of all motion that goes on
+        (curve, "           1.0                1000.0", "while the disk rolls"),
+        // the nodes of the bar's bottom do not move along y, and others that lie anywhere do
+        (held, "         4         0         0         1         0", "neither all nodes"),
+        (load, "         9         1         4     -5000", "DOF = 1"),
+    ] {
+        let mut changed = lines.clone();
+        assert_ne!(changed[at], new);
+        changed[at] = new;
+        let error = translate(changed.join("\n").as_bytes(), units, "deck.k", "mesh.inp");
+        let error = error.unwrap_err();
+        assert!(error.to_string().contains(words), "{words}: {error}");
+        assert!(error.line.is_some(), "{words}");
+    }
+}
+
+#[test]
 fn a_deck_names_its_units_and_what_it_says_nearly() {
     let there = There::new(small(&["contact.curvature=true"]), "mm-ton-s");
     let head: Vec<&str> = there.deck.lines().take_while(|line| line.starts_with('$')).collect();
