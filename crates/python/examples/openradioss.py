@@ -18,7 +18,9 @@ from pathlib import Path
 
 import numpy as np
 
-TREAD, TOP, RECORDED = 11, 12, 4
+TREAD, TOP, RECORDED, SLIDING = 11, 12, 4, 3
+# the parts of the disk
+DISK = (1, 3)
 
 
 class Deck:
@@ -46,7 +48,7 @@ class Deck:
         for head, *lines in self.lines(keyword):
             if int(head[:10]) == number:
                 return [[int(line[i : i + 10]) for i in range(0, len(line), 10)] for line in lines]
-        sys.exit(f"the deck has no *{keyword} {number}")
+        return []
 
     def nodes(self):
         """Position of each node (mm) by its number."""
@@ -57,8 +59,9 @@ class Deck:
         """First and last number of the disk's nodes."""
         (lines,) = self.lines("ELEMENT_SOLID")
         rows = (tuple(int(e[i : i + 8]) for i in range(0, 80, 8)) for e in lines)
-        nodes = {n for _, part, *corners in rows if part in (1, 3) for n in corners}
-        assert len(nodes) == max(nodes) - min(nodes) + 1
+        nodes = {n for _, part, *corners in rows if part in DISK for n in corners}
+        if len(nodes) != max(nodes) - min(nodes) + 1:
+            sys.exit("the numbers of the disk's nodes have gaps")
         return min(nodes), max(nodes)
 
 
@@ -154,12 +157,16 @@ def tables(path, folder, files):
     begins = deck.field("INITIAL_VELOCITY_GENERATION_START_TIME", 0, 0)
     at = deck.nodes()
     recorded = {n for row in deck.set("SET_NODE_LIST", RECORDED) for n in row}
+    if not recorded:
+        sys.exit(f"the deck has no *SET_NODE_LIST {RECORDED}")
+    sliding = {n for row in deck.set("SET_NODE_LIST", SLIDING) for n in row}
     faces = [deck.set("SET_SEGMENT", number) for number in (TREAD, TOP)]
     shown = [[face for face in side if recorded.issuperset(face)] for side in faces]
     numbers = sorted(recorded)
     row = {n: i for i, n in enumerate(numbers)}
     everything = np.array([at[n] for n in sorted(at)])
     index = {n: i for i, n in enumerate(sorted(at))}
+    held = np.array([index[n] for n in sorted(sliding) if abs(at[n][1]) < 1e-6], int)
     whole = [np.array([[index[n] for n in face] for face in side]) for side in faces]
     area = sum(surface(everything, side)[1] for side in whole)
     with open(folder / "nodes.csv", "w", newline="") as file:
@@ -178,16 +185,18 @@ def tables(path, folder, files):
     with open(folder / "values.csv", "w", newline="") as file:
         out = csv.writer(file)
         out.writerow(columns)
-        for path in files:
-            out.writerows(record(read_vtk(path), begins, everything, index, whole, shown, row, area))
+        for vtk in files:
+            out.writerows(record(read_vtk(vtk), begins, everything, index, whole, shown, row, area, held))
 
 
-def record(vtk, begins, reference, index, whole, shown, row, area):
+def record(vtk, begins, reference, index, whole, shown, row, area, held):
     """The rows of one time: the nodes in contact, in SI units."""
     of = {n: i for i, n in enumerate(vtk["id"])}
     take = [of[n] for n in sorted(index)]
     points, velocity, force = (vtk[name][take] for name in ("points", "Velocity", "Contact_Forces"))
     velocity = velocity * 1e-3
+    # the neighbours' share of a force across the plane of symmetry, which the missing half cancels
+    force[held, 1] = 0.0
     for body, side in enumerate(shown):
         normal, _ = surface(points, whole[body])
         nodes = np.array(sorted({n for face in side for n in face}))
@@ -203,8 +212,8 @@ def record(vtk, begins, reference, index, whole, shown, row, area):
         slip -= (slip * normal[k]).sum(axis=1)[:, None] * normal[k]
         moved = 1e-3 * (points[k] - reference[k])
         for j, n in enumerate(nodes):
-            # a node that pulls by the other program's damping bears no pressure
-            values = (max(pressure[j], 0.0), *shear[j], *slip[j], *velocity[k[j]], *moved[j])
+            # the other program's damping makes a few nodes pull: they are written as they are
+            values = (pressure[j], *shear[j], *slip[j], *velocity[k[j]], *moved[j])
             yield [repr(vtk["time"] - begins), row[n], *(repr(float(x)) for x in values)]
 
 
