@@ -44,7 +44,7 @@ class Deck:
         return float(next(self.lines(keyword))[line][10 * i : 10 * i + 10])
 
     def set(self, keyword, number):
-        """The numbers in a set of nodes or segments, a row per line."""
+        """The numbers in a set of nodes or segments, a row per line; empty without such a set."""
         for head, *lines in self.lines(keyword):
             if int(head[:10]) == number:
                 return [[int(line[i : i + 10]) for i in range(0, len(line), 10)] for line in lines]
@@ -157,16 +157,16 @@ def tables(path, folder, files):
     begins = deck.field("INITIAL_VELOCITY_GENERATION_START_TIME", 0, 0)
     at = deck.nodes()
     recorded = {n for row in deck.set("SET_NODE_LIST", RECORDED) for n in row}
-    if not recorded:
-        sys.exit(f"the deck has no *SET_NODE_LIST {RECORDED}")
     sliding = {n for row in deck.set("SET_NODE_LIST", SLIDING) for n in row}
     faces = [deck.set("SET_SEGMENT", number) for number in (TREAD, TOP)]
+    if not recorded or not all(faces):
+        sys.exit("the deck lacks the nodes that are recorded, or the faces of a surface")
     shown = [[face for face in side if recorded.issuperset(face)] for side in faces]
     numbers = sorted(recorded)
     row = {n: i for i, n in enumerate(numbers)}
     everything = np.array([at[n] for n in sorted(at)])
     index = {n: i for i, n in enumerate(sorted(at))}
-    held = np.array([index[n] for n in sorted(sliding) if abs(at[n][1]) < 1e-6], int)
+    held = np.array([index[n] for n in sorted(sliding)], int)
     whole = [np.array([[index[n] for n in face] for face in side]) for side in faces]
     area = sum(surface(everything, side)[1] for side in whole)
     with open(folder / "nodes.csv", "w", newline="") as file:
