@@ -394,11 +394,19 @@ section! {
         factor: Option<f64>
             => key(Number(over(0.0, 2.0)), "-",
                 "up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
-        /// Longest time step (s), whatever the stability limit; refused above that limit. Runs whose
+        /// Longest time step (s), whatever the stability limit; refused above that limit with explicit steps. Runs whose
         /// stability limits differ then have the same step. Give this or `factor`, not both.
         /// Default: none.
         step: Option<f64>
             => key(Number(over(0.0, 1e-3)), "s", "give the step in seconds: 1.5e-7").instead_of("time.factor");
+        /// `"explicit"`: central difference, or `"implicit"`: the theta method on velocities, with exact contact and
+        /// friction at the end of each step of `time.step`. Default `"explicit"`.
+        integrator: Option<Integrator> => word(Integrator::WORDS).finite_elements_only();
+        /// The parameter of the implicit integrator (dimensionless): 0.5 keeps the energy of elastic waves and is of second order, 1 damps
+        /// those that the step does not resolve most. Default 0.6 with `integrator = "implicit"`, refused without.
+        theta: Option<f64>
+            => key(Number(within(0.5, 1.0)), "-", "give a number from 0.5 to 1")
+                .only_with("time.integrator", &["implicit"]).finite_elements_only();
         /// Rolled distance (m). Give this or `duration`, not both. Default 0.060.
         roll: Option<f64>
             => key(Number(over(0.0, 10.0)), "m",
@@ -408,6 +416,20 @@ section! {
             => key(Number(over(0.0, 10.0)), "s", "give the time in seconds: 1.5e-3").instead_of("time.roll");
     }
 }
+
+words! {
+    /// How finite elements step in time.
+    Integrator {
+        /// Central difference.
+        #[default]
+        Explicit = "explicit",
+        /// The theta method on velocities.
+        Implicit = "implicit",
+    }
+}
+
+/// `time.theta` where it is not given (dimensionless).
+const THETA: f64 = 0.6;
 
 /// `time.factor` of half-spaces with and without inertia where neither it nor `time.step` is given (dimensionless). Without
 /// inertia tractions at 1 mm then differ by a thousandth from those of shorter steps.
@@ -568,6 +590,12 @@ impl Case {
             Some(step) => Step::Absolute(step),
             None => Step::Fraction(self.factor()),
         }
+    }
+
+    /// The parameter of implicit steps (dimensionless); none of explicit ones.
+    pub fn theta(&self) -> Option<f64> {
+        let implicit = self.time.integrator == Some(Integrator::Implicit);
+        implicit.then(|| self.time.theta.unwrap_or(THETA))
     }
 
     /// The time step as a fraction of the stability limit (dimensionless), where `time.step` does not give it.

@@ -118,6 +118,27 @@ fn check_choices(case: &Case, found: &mut Findings) {
     }
     let friction = &case.friction;
     let exact = case.contact.enforcement == Enforcement::Exact;
+    let implicit = case.theta().is_some();
+    found.require(
+        exact || !implicit,
+        &["time.integrator", "contact.enforcement"],
+        || {
+            "time.integrator = \"implicit\" does not go with contact.enforcement = \"penalty\": it solves the conditions of exact \
+             contact"
+                .into()
+        },
+        "set contact.enforcement = \"exact\", or leave time.integrator out",
+    );
+    found.require(
+        case.time.step.is_some() || !implicit,
+        &["time.integrator", "time.factor", "time.step"],
+        || {
+            "time.integrator = \"implicit\" needs time.step: it has no stability limit that a step could be a fraction of"
+                .into()
+        },
+        "give time.step in seconds, such as 2.5e-6; while a node passes an element of the fine zone there should be \
+         several steps",
+    );
     if friction.mode == Some(Mode::Exact) {
         found.require(
             exact || case.is_half_space(),

@@ -208,6 +208,28 @@ impl Constraint {
     }
 }
 
+impl Constraint {
+    /// The matrix `-weight + lever n^T` that takes the velocity of the node of a leg to its part of the relative velocity; its transpose takes
+    /// a force on the slave to that on the node.
+    pub fn on_leg(&self, leg: &Leg) -> [[f64; 3]; 3] {
+        let [n, lever] = [self.normal, leg.lever];
+        [0, 1, 2].map(|i| {
+            [0, 1, 2].map(|j: usize| lever[i] * n[j] - if i == j { leg.weight } else { 0.0 })
+        })
+    }
+
+    /// A block between the forces of `on` and the relative velocity of this one, without what planes of symmetry hold.
+    pub fn within_plane(&self, on: &Self, mut block: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        if self.enforcement.on_plane {
+            block[1] = [0.0; 3];
+        }
+        if on.enforcement.on_plane {
+            block.iter_mut().for_each(|row| row[1] = 0.0);
+        }
+        block
+    }
+}
+
 /// Where a projection on a face may be placed: not beyond its edges.
 pub(crate) fn within(projection: &Projection) -> [f64; 2] {
     [projection.xi.clamp(-1.0, 1.0), projection.eta.clamp(-1.0, 1.0)]

@@ -4,7 +4,7 @@ use crate::face::Positions;
 use crate::point::follow_first;
 use crate::renumber::{Renumbered, Renumbering};
 use crate::snapshot::{Points, check_points};
-use crate::{ContactState, ContactSums, Motion, NodalContact, PenaltyContact, StateError, Trace};
+use crate::{ContactState, ContactSums, ExactContact, Motion, NodalContact, PenaltyContact, StateError, Trace};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
 
@@ -15,7 +15,7 @@ pub struct FreeMotion<'a> {
     pub velocity: &'a (dyn Fn(u32, [f64; 3]) -> [f64; 3] + Sync),
 }
 
-/// Enforcement of contact and friction in explicit dynamics.
+/// Enforcement of contact and friction in dynamics.
 ///
 /// A step works on the [trace](Self::trace): motion and forces have one entry per node of it. Tables, pairs and the
 /// product with the stiffness have the numbers of the mesh.
@@ -45,6 +45,11 @@ pub trait Contact: Send + Debug {
         free_motion: &FreeMotion<'_>,
         force: &mut [Padded],
     ) -> ContactSums;
+
+    /// The contact as one that implicit steps can solve for; none for a method that they cannot.
+    fn exact_mut(&mut self) -> Option<&mut ExactContact> {
+        None
+    }
 
     /// Gives the second slave of each pair of nodes of the mesh the state of the first, of nodes that move as one:
     /// no round-off then sets them apart. The pairs ascend by the first.

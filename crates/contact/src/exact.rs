@@ -14,6 +14,10 @@
 //! fixed, hence the bits are. Over nodes on a plane of symmetry, which answer in x and z alone, the true block is smaller
 //! across the plane; the sweeps go on with the isotropic one, which bounds it, to the same solution where that is unique.
 
+mod implicit;
+
+pub use implicit::{Corrected, Matrix3};
+
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
 use crate::face::Positions;
@@ -100,6 +104,8 @@ pub struct ExactContact {
     dt_by_mass: [Vec<Vec3>; 2],
     stamp: [Vec<u64>; 2],
     now: u64,
+    /// What an implicit step works with.
+    implicit: implicit::ImplicitStep,
 }
 
 impl ExactContact {
@@ -139,6 +145,7 @@ impl ExactContact {
             dt_by_mass: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
             now: 0,
+            implicit: implicit::ImplicitStep::default(),
             loaded: Vec::new(),
             trace,
             sides,
@@ -466,7 +473,6 @@ impl ExactContact {
         force: &mut [Padded],
         sums: &mut Accumulator,
     ) {
-        let own = self.slave;
         let (opening, slip) = self.rates(constraint);
         let before = self.rates_of(constraint, motion);
         // the trapezoidal work of the force, in halves around t^n
@@ -480,17 +486,23 @@ impl ExactContact {
         sums.damping_work.add(-work(before));
         sums.damping_ahead.add(-(work((opening, slip)) + heat));
 
-        let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
-        let node = self.sides[own].node(constraint.slave);
-        add_to(&mut force[node as usize], on_slave);
+        self.finish(constraint, slip, positions, motion, force, sums);
+    }
+
+    /// Leaves a closed constraint as the step with this slip velocity (m/s) leaves it; adds its forces to `force`, and what is
+    /// counted to `sums`.
+    fn finish(
+        &self,
+        constraint: &mut Constraint,
+        slip: Vec3,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+        force: &mut [Padded],
+        sums: &mut Accumulator,
+    ) {
+        let own = self.slave;
+        let [on_slave, on_masters] = self.add_force(constraint, force);
         sums.push(own, on_slave);
-        let mut on_masters = [0.0; 3];
-        for leg in &self.legs[constraint.legs()] {
-            let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
-            let node = self.sides[1 - own].node(leg.node);
-            add_to(&mut force[node as usize], on_leg);
-            on_masters = add(on_masters, on_leg);
-        }
         sums.push(1 - own, on_masters);
         constraint.keep_in(constraint.enforcement.frame);
         constraint.slip_velocity = slip;
@@ -498,17 +510,33 @@ impl ExactContact {
         sums.normal_force.add(constraint.normal_force);
         sums.meet(constraint.mu);
         let other = &mut sums.other;
+        let node = self.sides[own].node(constraint.slave);
         let nodes = self.sides[own].nodes_of_whole(positions.at(node));
         other.closed += nodes;
         other.slipping += nodes * usize::from(constraint.state == State::Slip);
         other.max_penetration = other.max_penetration.max(-constraint.gap);
-        other.non_unique += nodes * usize::from(self.is_non_unique(constraint, positions, motion));
+        other.non_unique += nodes * usize::from(self.is_non_unique(constraint, slip, positions, motion));
     }
 
-    /// Whether friction at a constraint has more than one solution.
+    /// Adds the forces of a constraint to `force`; returns those on the slave and on the master.
+    fn add_force(&self, constraint: &Constraint, force: &mut [Padded]) -> [Vec3; 2] {
+        let own = self.slave;
+        let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
+        add_to(&mut force[self.sides[own].node(constraint.slave) as usize], on_slave);
+        let mut on_masters = [0.0; 3];
+        for leg in &self.legs[constraint.legs()] {
+            let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
+            add_to(&mut force[self.sides[1 - own].node(leg.node) as usize], on_leg);
+            on_masters = add(on_masters, on_leg);
+        }
+        [on_slave, on_masters]
+    }
+
+    /// Whether friction at a constraint that slips at `slip` (m/s) has more than one solution.
     fn is_non_unique(
         &self,
         constraint: &Constraint,
+        slip: Vec3,
         positions: &Positions<'_>,
         motion: &Motion<'_>,
     ) -> bool {
@@ -516,7 +544,6 @@ impl ExactContact {
             return false;
         }
         let at = self.at(constraint, positions, motion);
-        let (_, slip) = self.rates(constraint);
         let free = norm(axpy(slip, -constraint.enforcement.delassus, constraint.friction));
         let curve = |s: f64| {
             (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
@@ -629,6 +656,10 @@ impl Contact for ExactContact {
         let means = mortar.as_mut().map(|(_, means)| means.as_mut_slice());
         let renumbered = Renumbered { sides, in_mesh, search };
         renumbered.rows(*slave, &mut constraints[*slave], means, renumbering)
+    }
+
+    fn exact_mut(&mut self) -> Option<&mut ExactContact> {
+        Some(self)
     }
 
     fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}

@@ -41,7 +41,7 @@ mod vector;
 pub use constraint::Rows;
 pub use enforcement::{Contact, FreeMotion};
 pub use error::ContactError;
-pub use exact::{ExactContact, ExactSettings};
+pub use exact::{Corrected, ExactContact, ExactSettings, Matrix3};
 pub use gap::Gap;
 pub use gap_function::GapFunction;
 pub use motion::Motion;

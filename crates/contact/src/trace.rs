@@ -112,6 +112,16 @@ impl TraceFields {
         0..self.trace.nodes.len() as u32
     }
 
+    /// The nodes.
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    /// Sets all forces to zero.
+    pub fn clear_forces(&mut self) {
+        self.force.fill(Padded::ZERO);
+    }
+
     /// Takes positions `X + u` from displacements of the nodes of the mesh (m).
     ///
     /// # Panics

@@ -8,8 +8,13 @@ use crate::simulation::{Simulation, StepReport};
 use std::time::Instant;
 
 impl Simulation {
-    /// One step from t^n to t^{n+1}. With `read` the energies at t^n enter the ledger.
+    /// One step from t^n to t^{n+1}, explicit unless [set](Self::set_implicit) otherwise. With `read` the energies at t^n enter the
+    /// ledger.
     pub fn step(&mut self, read: bool) -> StepReport {
+        if self.implicit.is_some() {
+            return self.implicit_step(read);
+        }
+
         let (n, dt) = (self.step, self.dt);
         let time = n as f64 * dt;
         let start = Instant::now();
@@ -88,6 +93,7 @@ impl Simulation {
             Some(h) => (h.reaction.times(parts), 0.5 * (omega_before + h.state.omega)),
             None => Default::default(),
         };
-        StepReport { step: n, time, contact: contact.of_parts(parts), energies, drive, omega }
+        let contact = contact.of_parts(parts);
+        StepReport { step: n, time, contact, energies, drive, omega, unsolved: None }
     }
 }

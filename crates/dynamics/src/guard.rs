@@ -7,6 +7,7 @@
 //! asks for its cause, as far as a cause can be told from the state.
 
 use crate::dashpots::RigidMotion;
+use crate::implicit::Unsolved;
 use crate::ledger::{Energies, Ledger};
 use crate::load::Fixed;
 use crate::simulation::{Simulation, StepReport};
@@ -84,6 +85,8 @@ pub enum Cause {
     EnergyGrowth,
     /// Positions or energies are not numbers.
     NotFinite,
+    /// An implicit step was not solved.
+    Unsolved(Unsolved),
     /// The friction law gives no coefficient, or one beyond the limit.
     Friction {
         /// What it gives.
@@ -205,6 +208,11 @@ impl fmt::Display for Diagnosis {
                  time step was within its limit; contact springs are the likely source"
             )?,
             Cause::NotFinite => write!(f, "positions are no longer numbers")?,
+            Cause::Unsolved(Unsolved { step, iterations, residual, change }) => write!(
+                f,
+                "an implicit step was not solved, not even in parts of {step:.3e} s: after {iterations} iterations \
+                 the residual is {residual:.1e} of the forces, and contact forces still change by {change:.1e}"
+            )?,
             Cause::Friction { mu, limit, slip_speed, pressure } => {
                 if mu.is_finite() {
                     write!(f, "the friction law gives mu = {mu:.4}, beyond {limit}")?;
@@ -365,6 +373,9 @@ impl Simulation {
     /// To be called after every step; all guards but that of the coefficient of friction need
     /// `report.energies`.
     pub fn check(&mut self, report: &StepReport) -> Option<Diagnosis> {
+        if let Some(unsolved) = report.unsolved {
+            return Some(self.diagnosis(report, Cause::Unsolved(unsolved)));
+        }
         if report.contact.largest_mu > self.limits.friction || report.contact.largest_mu.is_nan() {
             return Some(self.diagnosis(report, self.friction_cause()));
         }
@@ -405,10 +416,10 @@ impl Simulation {
     /// Where energy comes from that nothing supplied.
     fn energy_cause(&mut self, now: &Energies) -> Cause {
         let ratio = self.dt * self.omega_max / 2.0;
-        if ratio > 1.0 {
+        if ratio > 1.0 && self.implicit.is_none() {
             return Cause::UnstableStep { ratio };
         }
-        if self.system.contact.is_some() {
+        if self.system.contact.is_some() && self.implicit.is_none() {
             let system = &mut self.system;
             let mut free = vec![Padded::ZERO; self.nodes.inverse_mass.len()];
             let product = |x: &[Padded], y: &mut [Padded]| {
@@ -498,7 +509,7 @@ impl Simulation {
     /// The cause that an element is inside out: the step, where that is too long.
     fn inverted(&self, element: usize) -> Cause {
         let ratio = self.dt * self.omega_max / 2.0;
-        if ratio > 1.0 {
+        if ratio > 1.0 && self.implicit.is_none() {
             return Cause::UnstableStep { ratio };
         }
         let volume_ratio =

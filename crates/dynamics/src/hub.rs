@@ -246,7 +246,7 @@ impl Hub {
     }
 
     /// Places the nodes in the second of two states, `dt` (s) after the first.
-    fn place(
+    pub(crate) fn place(
         &self,
         states: [HubState; 2],
         dt: f64,
@@ -321,15 +321,119 @@ impl Hub {
         }
     }
 
+    /// The state at t^{n+1} under `load`, of a hub that stays where it is. Velocities along z and about the axle that forces decide on
+    /// are those of `unknown` (m/s, rad/s), where it is given.
+    pub(crate) fn foretold(
+        &mut self,
+        [time, dt]: [f64; 2],
+        load: &Resultant,
+        unknown: Option<[f64; 2]>,
+    ) -> HubState {
+        let (old, reaction) = (self.state, self.reaction);
+        self.advance(time, dt, load);
+        let mut new = self.state;
+        (self.state, self.reaction) = (old, reaction);
+        let [z, turn] = self.free();
+        if let Some([vz, omega]) = unknown {
+            if z {
+                (new.vz, new.z) = (vz, old.z + dt * vz);
+            }
+            if turn {
+                (new.omega, new.angle) = (omega, old.angle + dt * omega);
+            }
+        }
+        new
+    }
+
+    /// Whether forces decide on the velocities along z and about the axle.
+    pub(crate) fn free(&self) -> [bool; 2] {
+        [matches!(self.vertical, Vertical::Load(_)), matches!(self.spin, Spin::Torque { .. })]
+    }
+
+    /// The mass that goes with these velocities (kg, kg m, kg m^2).
+    pub(crate) fn mass_matrix(&self) -> [[f64; 2]; 2] {
+        let [sx, _] = Placement::new(self.state).turned(self.moment);
+        [[self.mass, -sx], [-sx, self.inertia]]
+    }
+
+    /// The sum over its nodes of a stiffness (N/m) of each, and of that about the axle (N m).
+    pub(crate) fn stiffness(&self, of: impl Fn(usize) -> f64) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+            let k = of(n as usize);
+            sum[0] += k;
+            sum[1] += k * (arm[0] * arm[0] + arm[2] * arm[2]);
+        }
+        sum
+    }
+
+    /// Gives its nodes the velocities along z and about its axle (m/s, rad/s).
+    pub(crate) fn add_motion(
+        &self,
+        [vz, omega]: [f64; 2],
+        displacement: &[Padded],
+        velocity: &mut [Padded],
+    ) {
+        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+            let u = displacement[n as usize];
+            let rx = arm[0] + u.0[0] - self.state.x;
+            let rz = arm[2] + u.0[2] - self.state.z;
+            velocity[n as usize] = Padded::new([omega * rz, 0.0, vz - omega * rx]);
+        }
+    }
+
+    /// Gives its nodes the mean velocities (m/s) between two states, `dt` (s) apart.
+    pub(crate) fn place_velocities(
+        &self,
+        states: [HubState; 2],
+        dt: f64,
+        velocity: &mut [Padded],
+    ) {
+        let [from, to] = states.map(Placement::new);
+        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+            let (u, before) = (to.displacement(*arm), from.displacement(*arm));
+            velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
+        }
+    }
+
+    /// Kinetic energy (J).
+    pub(crate) fn kinetic(&self) -> f64 {
+        self.kinetic_between(self.state, self.state)
+    }
+
+    /// Kinetic energy (J) of the change of velocity since another state.
+    pub(crate) fn kinetic_of_change(&self, old: HubState) -> f64 {
+        let new = self.state;
+        let change = HubState {
+            vx: new.vx - old.vx,
+            vy: new.vy - old.vy,
+            vz: new.vz - old.vz,
+            omega: new.omega - old.omega,
+            turning: new.turning - old.turning,
+            ..new
+        };
+        self.kinetic_between(change, change)
+    }
+
+    /// 1/2 v M w of the velocities of two states (J), the mass as it is placed in the first.
+    fn kinetic_between(&self, v: HubState, w: HubState) -> f64 {
+        let placement = Placement::new(v);
+        let [sx, sz] = placement.turned(self.moment);
+        let second = placement.turned_about_the_axle(&self.second);
+        let across = self.moment_across;
+        let coupled = |v: HubState, w: HubState| {
+            let [vx, vy] = placement.along_and_across([v.vx, v.vy]);
+            0.5 * w.omega * (vx * sz - v.vz * sx)
+                + 0.5 * w.turning * (vy * sx - vx * across - v.omega * second.yz)
+        };
+        0.5 * self.mass * (v.vx * w.vx + v.vz * w.vz + v.vy * w.vy)
+            + 0.5 * self.inertia * v.omega * w.omega
+            + 0.5 * (second.xx + second.yy) * v.turning * w.turning
+            + coupled(v, w)
+            + coupled(w, v)
+    }
+
     /// Moves the hub from t^n to t^{n+1} under `load` and takes its nodes along.
-    ///
-    /// A rigid body whose centre of mass lies off its centre, with the first moment of mass S (kg m), the acceleration a
-    /// of the centre and the angular acceleration alpha:
-    /// M a_x + alpha S_z - omega^2 S_x = F_x, M a_z - alpha S_x - omega^2 S_z = F_z and
-    /// I alpha + S_z a_x - S_x a_z = T, where a_x = 0 on a straight path. x is along the heading here.
-    ///
-    /// Where the axle turns about z at psi' besides, a mass at the arm r has the further acceleration
-    /// psi'' (-r_y, r_x) - psi'^2 (r_x, r_y) + 2 psi' omega (0, r_z) in x and y; [`Self::sideways_load`] has its sums.
     pub(crate) fn step(
         &mut self,
         time: f64,
@@ -338,6 +442,22 @@ impl Hub {
         displacement: &mut [Padded],
         velocity: &mut [Padded],
     ) -> HubWork {
+        let old = self.state;
+        let work = self.advance(time, dt, load);
+        self.place([old, self.state], dt, displacement, velocity);
+        work
+    }
+
+    /// Takes the motion of the hub from t^n to t^{n+1} under `load`.
+    ///
+    /// A rigid body whose centre of mass lies off its centre, with the first moment of mass S (kg m), the acceleration a
+    /// of the centre and the angular acceleration alpha:
+    /// M a_x + alpha S_z - omega^2 S_x = F_x, M a_z - alpha S_x - omega^2 S_z = F_z and
+    /// I alpha + S_z a_x - S_x a_z = T, where a_x = 0 on a straight path. x is along the heading here.
+    ///
+    /// Where the axle turns about z at psi' besides, a mass at the arm r has the further acceleration
+    /// psi'' (-r_y, r_x) - psi'^2 (r_x, r_y) + 2 psi' omega (0, r_z) in x and y; [`Self::sideways_load`] has its sums.
+    pub(crate) fn advance(&mut self, time: f64, dt: f64, load: &Resultant) -> HubWork {
         let old = self.state;
         let placement = Placement::new(old);
         let [sx, sz] = placement.turned(self.moment);
@@ -396,7 +516,6 @@ impl Hub {
             torque: drive_torque,
             moment_z: drive_turn,
         };
-        self.place([old, new], dt, displacement, velocity);
         let drive = self.reaction;
         let power = |s: HubState| {
             drive.force_x * s.vx
@@ -405,20 +524,10 @@ impl Hub {
                 + drive.force_y * s.vy
                 + drive.moment_z * s.turning
         };
-        let across = self.moment_across;
-        let coupled = |v: HubState, w: HubState| {
-            let [vx, vy] = placement.along_and_across([v.vx, v.vy]);
-            0.5 * w.omega * (vx * sz - v.vz * sx)
-                + 0.5 * w.turning * (vy * sx - vx * across - v.omega * second.yz)
-        };
         HubWork {
             before: 0.5 * dt * power(old),
             after: 0.5 * dt * power(new),
-            kinetic: 0.5 * self.mass * (old.vx * new.vx + old.vz * new.vz + old.vy * new.vy)
-                + 0.5 * self.inertia * old.omega * new.omega
-                + 0.5 * (second.xx + second.yy) * old.turning * new.turning
-                + coupled(old, new)
-                + coupled(new, old),
+            kinetic: self.kinetic_between(old, new),
         }
     }
 

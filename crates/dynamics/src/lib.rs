@@ -11,6 +11,7 @@ mod central_difference;
 mod dashpots;
 mod guard;
 mod hub;
+mod implicit;
 mod ledger;
 mod load;
 mod mesh_move;
@@ -31,6 +32,7 @@ pub use guard::{
     Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
 };
 pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical, smoothstep};
+pub use implicit::{Effort, Unsolved};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use mesh_move::Moved;

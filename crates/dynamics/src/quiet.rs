@@ -90,6 +90,24 @@ impl QuietEnd {
         }
     }
 
+    /// The coefficients of the dashpots (N s/m), node after node.
+    pub(crate) fn dashpots(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+        self.nodes.iter().map(|n| (n.node, n.dashpot))
+    }
+
+    /// Adds the reactions alone to `force`; returns their power (W) at `velocity`.
+    pub(crate) fn add_reactions(&self, velocity: &[Padded], force: &mut [Padded]) -> f64 {
+        let mut power = ExactSum::ZERO;
+        for n in &self.nodes {
+            let (f, v) = (&mut force[n.node as usize], velocity[n.node as usize]);
+            for i in 0..3 {
+                f.0[i] += n.reaction[i];
+                power.add(n.reaction[i] * v.0[i]);
+            }
+        }
+        power.value()
+    }
+
     /// Adds reaction and dashpot to `force`, the dashpot acting on the mean of the velocities
     /// before and after the step, so that it is stable at any step.
     pub(crate) fn apply(

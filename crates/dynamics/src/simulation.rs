@@ -2,6 +2,7 @@
 
 use crate::guard::{GuardLimits, LostContact};
 use crate::hub::{DriveReaction, Hub};
+use crate::implicit::{Implicit, Unsolved};
 use crate::ledger::{Energies, Ledger};
 use crate::nodal_state::NodalState;
 use crate::system::System;
@@ -53,6 +54,8 @@ pub struct StepReport {
     pub drive: DriveReaction,
     /// Angular velocity of the hub at t^n (rad/s), the mean of the half steps around it.
     pub omega: f64,
+    /// Of an implicit step that was not solved: the state is then that of its beginning, or of one of its parts.
+    pub unsolved: Option<Unsolved>,
 }
 
 /// A system in motion: its state at a full step, with velocities at the half step before.
@@ -70,6 +73,8 @@ pub struct Simulation {
     /// The moves of a mesh that follows the patch, and how far it has moved.
     pub(crate) window: Option<Window>,
     pub(crate) travel: Travel,
+    /// The integrator of implicit steps; explicit ones have none.
+    pub(crate) implicit: Option<Box<Implicit>>,
 }
 
 impl Simulation {
@@ -93,6 +98,7 @@ impl Simulation {
             timers: Timers::default(),
             window: None,
             travel: Travel::default(),
+            implicit: None,
         }
     }
 

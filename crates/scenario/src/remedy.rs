@@ -293,6 +293,10 @@ impl Remedy for Cause {
                 "lower the contact stiffness (contact.penalty.normal, contact.penalty.tangential) or \
                  time.factor; with preload.method = \"static\" the step respects the springs"
             ),
+            Self::Unsolved(_) => remedy!(
+                "shorten time.step, raise time.theta towards 1, or give the friction law a memory \
+                 (friction.memory): without one, steep falling friction may leave no single solution"
+            ),
             Self::EnergyGrowth => remedy!(
                 "lower time.factor or the contact stiffness (contact.penalty.normal, \
                  contact.penalty.tangential)"

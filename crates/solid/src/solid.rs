@@ -186,6 +186,11 @@ impl Solid {
         self.one_point.hourglass
     }
 
+    /// Kelvin–Voigt time of all elements (s).
+    pub fn kelvin_voigt(&self) -> f64 {
+        self.constants.first().map_or(0.0, |body| body[0].kelvin_voigt)
+    }
+
     /// Reference coordinates of the nodes (m).
     pub fn reference(&self) -> &[Padded] {
         &self.reference

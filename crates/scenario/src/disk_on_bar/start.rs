@@ -156,6 +156,7 @@ pub fn start(
         solid::element_frequency_bound(&model.mesh, &model.materials, model.elements());
     if let Step::Absolute(step) = case.step()
         && step > limit
+        && case.theta().is_none()
     {
         return Err(ScenarioError::Step { step, limit });
     }
@@ -174,7 +175,8 @@ pub fn start(
         centre: hub.centre,
         speed: case.drive.speed,
         omega: case.drive.speed / nominal,
-        dt,
+        // implicit steps begin with the velocities of t = 0
+        dt: if case.theta().is_some() { 0.0 } else { dt },
     };
     let effective = match preload {
         Some(_) => {
@@ -278,6 +280,9 @@ fn assemble(
     };
     let omega_max = 2.0 / stability.dt_limit;
     let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
+    if let Some(theta) = case.theta() {
+        simulation.set_implicit(theta);
+    }
     simulation.set_limits(limits(case, model));
     if let Some(window) = window {
         simulation.set_window(window);

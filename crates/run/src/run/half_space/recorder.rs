@@ -178,6 +178,7 @@ impl HalfSpaceRecorder {
                 ..DriveReaction::default()
             },
             omega: (1.0 + sums.creepage) * case.drive.speed / case.disk.radius,
+            unsolved: None,
         }
     }
 

@@ -1,0 +1,267 @@
+//! The solution of an implicit step: Newton's method on velocities, contact corrected after each iteration.
+
+use super::columns::side_of;
+use super::operator::{Frame, inner};
+use super::{Implicit, Solved, Span, Unsolved};
+use crate::dashpots::RigidMotion;
+use crate::hub::{HubState, Resultant};
+use crate::nodal_state::{CHUNK, NodalState};
+use crate::paired;
+use crate::system::System;
+use contact::{ContactSums, Corrected};
+use mesh::Padded;
+
+/// A step is solved where the residual over the forces, and the change of contact forces over the largest, are below this.
+const TOLERANCE: f64 = 1e-9;
+/// Part to which the residual falls in a linear solution: contact changes it again.
+const LINEAR: f64 = 1e-2;
+const MOST_ITERATIONS: usize = 80;
+const MOST_PRODUCTS: usize = 4000;
+
+/// Side 0 of contact is the disk, which turns.
+const DISK: usize = 0;
+
+impl Implicit {
+    /// Solves a span as one step. Changes neither displacements nor velocities; where it fails, contact is as it was.
+    pub(super) fn solve(
+        &mut self,
+        system: &mut System,
+        nodes: &mut NodalState,
+        span: Span,
+    ) -> Result<Solved, Unsolved> {
+        let Span { time, dt, .. } = span;
+        let angle = system.hub.as_ref().map_or(0.0, |hub| hub.state.angle);
+        let frame = Frame { lead: self.theta * dt, dt, angle, with_hub: true };
+        self.begin_contact(system, nodes, span, frame);
+        self.operator.set(system, nodes, frame);
+        self.w.copy_from_slice(&nodes.velocity);
+        let old = system.hub.as_ref().map(|hub| hub.state).unwrap_or_default();
+        let (mut hub, mut unknown) = (old, [old.vz, old.omega]);
+        let mut load = Resultant::default();
+        let mut corrected = Corrected::default();
+        let mut at = Unsolved { step: dt, iterations: 0, residual: f64::INFINITY, change: 0.0 };
+        for iteration in 1..=MOST_ITERATIONS {
+            at.iterations = iteration;
+            self.effort.iterations += 1;
+            if let Some(body) = &mut system.hub {
+                hub = body.foretold([time, dt], &load, Some(unknown));
+                body.place_velocities([old, hub], dt, &mut self.w);
+            }
+            let (mut solved, scale) = self.residual(system, nodes, span, &mut load);
+            self.force_on_hub(system, span, &load, hub);
+            at.residual = self.norm() / scale.max(f64::MIN_POSITIVE);
+            at.change = corrected.change;
+            let settled = at.change <= TOLERANCE && corrected.unconverged <= TOLERANCE;
+            if at.residual <= TOLERANCE && settled && iteration > 1 {
+                (solved.load, solved.hub) = (load, hub);
+                solved.contact = self.end_contact(system, nodes, span);
+                return Ok(solved);
+            }
+            if !at.residual.is_finite() || at.change.is_nan() {
+                break;
+            }
+            let Self { operator, gradients, residual, correction, .. } = self;
+            let accuracy = LINEAR.max((0.1 * TOLERANCE / at.residual).min(0.3));
+            let work = (&mut *system, &*nodes);
+            self.effort.products +=
+                gradients.solve(operator, work, residual, correction, (accuracy, MOST_PRODUCTS));
+            for (w, by) in self.w.iter_mut().zip(&self.correction.nodes) {
+                (0..3).for_each(|i| w[i] += by[i]);
+            }
+            (0..2).for_each(|i| unknown[i] += self.correction.hub[i]);
+            corrected = self.correct_contact(system, nodes, span);
+        }
+        if let Some(contact) = system.contact.as_mut().and_then(|contact| contact.exact_mut()) {
+            contact.reject_implicit();
+        }
+        Err(at)
+    }
+
+    /// Follows the surfaces to the beginning of the span, and sets the Delassus operator up.
+    fn begin_contact(
+        &mut self,
+        system: &mut System,
+        nodes: &mut NodalState,
+        Span { time, dt, cuts }: Span,
+        frame: Frame,
+    ) {
+        let (Some(mut contact), Some(mut fields)) = (system.contact.take(), nodes.trace.take())
+        else {
+            return;
+        };
+        fields.gather_positions(&nodes.displacement);
+        fields.gather_velocities(&nodes.velocity);
+        let motion = fields.motion(time, dt);
+        contact.follow(&motion);
+        if let Some(exact) = contact.exact_mut() {
+            exact.begin_implicit(&motion, &system.paired);
+            let columns = &mut self.columns[cuts];
+            let mut borne: Vec<u32> = exact.borne_by().collect();
+            borne.sort_unstable();
+            borne.dedup();
+            for node in borne {
+                let matrix = (&mut self.operator, &mut self.gradients);
+                let room = [&mut self.residual, &mut self.correction];
+                self.effort.products +=
+                    columns.find(node, fields.trace(), matrix, (system, nodes), room, frame);
+            }
+            let turned = system.hub.is_some();
+            let compliance = |node: u32, loaded: u32| {
+                let on_disk = turned && side_of(fields.trace(), loaded) == DISK;
+                columns.block(fields.trace(), [node, loaded], on_disk.then_some(frame.angle))
+            };
+            exact.set_compliance(&compliance);
+        }
+        (system.contact, nodes.trace) = (Some(contact), Some(fields));
+    }
+
+    /// Corrects the contact forces for the velocities found so far.
+    fn correct_contact(
+        &mut self,
+        system: &mut System,
+        nodes: &mut NodalState,
+        Span { time, dt, .. }: Span,
+    ) -> Corrected {
+        let exact = system.contact.as_mut().and_then(|contact| contact.exact_mut());
+        let (Some(exact), Some(fields)) = (exact, &mut nodes.trace) else {
+            return Corrected::default();
+        };
+        fields.gather_velocities(&self.w);
+        exact.solve_implicit(&fields.motion(time, dt))
+    }
+
+    /// Ends the step for contact.
+    fn end_contact(
+        &mut self,
+        system: &mut System,
+        nodes: &mut NodalState,
+        Span { time, dt, .. }: Span,
+    ) -> ContactSums {
+        let Some(contact) = &mut system.contact else { return ContactSums::default() };
+        let Some(fields) = &mut nodes.trace else { return ContactSums::default() };
+        fields.gather_velocities(&self.w);
+        fields.clear_forces();
+        let step = fields.step(time, dt);
+        let Some(exact) = contact.exact_mut() else { return ContactSums::default() };
+        exact.end_implicit(&step.motion, &system.paired, step.force)
+    }
+
+    /// Sets the residual of the nodes at `w` with the forces of contact found so far, and the load on the hub; returns the powers of the step and the norm of the
+    /// forces.
+    fn residual(
+        &mut self,
+        system: &mut System,
+        nodes: &mut NodalState,
+        Span { time, dt, .. }: Span,
+        load: &mut Resultant,
+    ) -> (Solved, f64) {
+        let lead = self.theta * dt;
+        for ((to, u), w) in self.moved.iter_mut().zip(&nodes.displacement).zip(&self.w) {
+            *to = Padded([u[0] + lead * w[0], u[1] + lead * w[1], u[2] + lead * w[2], 0.0]);
+        }
+        let mut solved = Solved::default();
+        let force = &mut self.residual.nodes;
+        force.fill(Padded::ZERO);
+        let sums = system.solid.subtract_internal_force(&self.moved, &self.w, force, false);
+        solved.dissipated = sums.viscous_power;
+        let mut partial = vec![0.0; force.len().div_ceil(CHUNK)];
+        let scale = inner(&mut partial, force, force);
+        let at = time + lead;
+        system.load.apply(at, force);
+        solved.given = system.load.power(at, &self.w);
+        solved.given += system.quiet.add_reactions(&self.w, force);
+        if let Some(fields) = &mut nodes.trace
+            && let Some(exact) = system.contact.as_mut().and_then(|contact| contact.exact_mut())
+        {
+            // contact loads the first nodes of pairs
+            paired::share(&system.paired, force);
+            fields.gather_forces(fields.all(), force);
+            exact.add_forces(fields.step(time, dt).force);
+            fields.scatter_forces(fields.all(), force);
+            paired::follow(&system.paired, force);
+        }
+        if let Some(hub) = &system.hub {
+            // only elements load nodes that it carries
+            *load = hub.resultant(&self.moved, force);
+        }
+        let inertia = self.add_dashpots_and_inertia(system, nodes, lead, &mut solved, load);
+        self.operator.reduce(system, nodes, &mut self.residual.nodes);
+        (solved, scale.max(inertia).sqrt())
+    }
+
+    /// Adds the forces of the dashpots and of inertia to the residual; returns the square of the norm of the latter.
+    fn add_dashpots_and_inertia(
+        &mut self,
+        system: &System,
+        nodes: &NodalState,
+        lead: f64,
+        solved: &mut Solved,
+        load: &mut Resultant,
+    ) -> f64 {
+        let motion = system.hub.as_ref().map(RigidMotion::new).unwrap_or_default();
+        let reference = system.solid.reference();
+        let (mut square, mut power) = (exact_sum::ExactSum::ZERO, exact_sum::ExactSum::ZERO);
+        let mut reaction = [exact_sum::ExactSum::ZERO; 6];
+        let dashpots = self.operator.dashpots();
+        let alpha = system.mass_damping;
+        for (n, f) in self.residual.nodes.iter_mut().enumerate() {
+            let inverse = nodes.inverse_mass[n];
+            if inverse == 0.0 {
+                continue;
+            }
+            let (w, v) = (self.w[n], nodes.velocity[n]);
+            let on_disk = alpha > 0.0 && system.disk.contains(&n);
+            let (rigid, arm) =
+                if on_disk { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
+            let mut pull = [0.0; 3];
+            for i in 0..3 {
+                // the dashpot of mass damping is relative to the rigid motion, that of a quiet end to the ground
+                let c = dashpots[n][i];
+                let dashpot = c * w[i] - alpha / inverse * rigid[i];
+                let inertia = (w[i] - v[i]) / (inverse * lead);
+                f[i] -= dashpot + inertia;
+                square.add(inertia * inertia);
+                power.add(dashpot * (w[i] - rigid[i]));
+                pull[i] = dashpot;
+            }
+            if on_disk {
+                let moment = [
+                    arm[1] * pull[2] - arm[2] * pull[1],
+                    arm[2] * pull[0] - arm[0] * pull[2],
+                    arm[0] * pull[1] - arm[1] * pull[0],
+                ];
+                let all = pull.into_iter().chain(moment);
+                reaction.iter_mut().zip(all).for_each(|(sum, of)| sum.add(of));
+            }
+        }
+        solved.dissipated += power.value();
+        let [fx, fy, fz, mx, my, mz] = reaction.map(|sum| sum.value());
+        load.add(&Resultant { force: [fx, fy, fz], moment: [mx, my, mz] });
+        square.value()
+    }
+
+    /// Sets the residual of the hub: what its velocity misses of that which `load` gives it.
+    fn force_on_hub(
+        &mut self,
+        system: &mut System,
+        Span { time, dt, .. }: Span,
+        load: &Resultant,
+        now: HubState,
+    ) {
+        self.residual.hub = [0.0; 2];
+        let Some(hub) = &mut system.hub else { return };
+        let then = hub.foretold([time, dt], load, None);
+        let missed = [then.vz - now.vz, then.omega - now.omega];
+        let mass = self.operator.hub_mass();
+        for i in (0..2).filter(|&i| self.operator.free()[i]) {
+            self.residual.hub[i] = (mass[i][0] * missed[0] + mass[i][1] * missed[1]) / dt;
+        }
+    }
+
+    /// Norm of the residual (N), the hub's force included.
+    fn norm(&self) -> f64 {
+        let [force, _] = self.residual.hub;
+        let square = |f: &Padded| f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        (exact_sum::sum(self.residual.nodes.iter().map(square)) + force * force).sqrt()
+    }
+}
