@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// The nodes of both contact surfaces, numbered from zero: those of side 0, then those of side 1, each ascending
 /// by their numbers in the mesh.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Trace {
     /// Numbers in the mesh.
     nodes: Vec<u32>,

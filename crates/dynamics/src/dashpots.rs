@@ -6,7 +6,7 @@
 //! motion at the node's *undeformed* place: the preload pattern, which stays in space while the
 //! disk turns through it, then meets no mean drag.
 
-use crate::hub::Hub;
+use crate::hub::{Hub, HubState};
 use mesh::Padded;
 use std::ops::Range;
 
@@ -35,7 +35,11 @@ pub(crate) struct RigidMotion {
 
 impl RigidMotion {
     pub(crate) fn new(hub: &Hub) -> Self {
-        let s = hub.state;
+        Self::of(hub, hub.state)
+    }
+
+    /// In another state of the hub.
+    pub(crate) fn of(hub: &Hub, s: HubState) -> Self {
         Self {
             centre: hub.centre,
             turn: libm::sincos(s.angle),

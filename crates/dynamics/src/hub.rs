@@ -263,17 +263,28 @@ impl Hub {
 
     /// Resultant of `force` on the hub's nodes (N); where the hub rolls straight, force in x and z and moment about y alone.
     pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> Resultant {
+        let HubState { x, y, z, .. } = self.state;
+        self.resultant_about([x, y, z], displacement, force)
+    }
+
+    /// The same, the moment about the centre displaced by `centre` (m).
+    pub(crate) fn resultant_about(
+        &self,
+        centre: [f64; 3],
+        displacement: &[Padded],
+        force: &[Padded],
+    ) -> Resultant {
         let mut sum = [ExactSum::ZERO; 3];
         let mut across = [ExactSum::ZERO; 3];
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (f, u) = (force[n as usize], displacement[n as usize]);
-            let rx = arm[0] + u.0[0] - self.state.x;
-            let rz = arm[2] + u.0[2] - self.state.z;
+            let rx = arm[0] + u.0[0] - centre[0];
+            let rz = arm[2] + u.0[2] - centre[2];
             sum[0].add(f.0[0]);
             sum[1].add(f.0[2]);
             sum[2].add(rz * f.0[0] - rx * f.0[2]);
             if self.sideways.is_some() {
-                let ry = arm[1] + u.0[1] - self.state.y;
+                let ry = arm[1] + u.0[1] - centre[1];
                 across[0].add(f.0[1]);
                 across[1].add(ry * f.0[2] - rz * f.0[1]);
                 across[2].add(rx * f.0[1] - ry * f.0[0]);

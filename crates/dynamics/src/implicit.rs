@@ -17,10 +17,11 @@ mod columns;
 mod operator;
 mod solve;
 
+use crate::dashpots::RigidMotion;
 use crate::hub::{HubState, HubWork, Resultant};
 use crate::ledger::{Energies, Works};
 use crate::simulation::{Simulation, StepReport};
-use columns::Columns;
+use columns::{Columns, Rows};
 use contact::ContactSums;
 use mesh::Padded;
 use operator::{ConjugateGradients, Operator, Vectors};
@@ -68,6 +69,7 @@ pub(crate) struct Implicit {
     correction: Vectors,
     /// Compliance of the surfaces over the whole step, half of it, ...
     columns: Vec<Columns>,
+    rows: Rows,
     pub(crate) effort: Effort,
 }
 
@@ -116,9 +118,17 @@ impl Simulation {
             moved: vec![Padded::ZERO; n],
             residual: Vectors::new(n),
             correction: Vectors::new(n),
+            rows: self.rows(),
             columns: (0..=CUTS).map(|_| Columns::default()).collect(),
             effort: Effort::default(),
         }));
+    }
+
+    /// The rows of the contact surfaces.
+    fn rows(&self) -> Rows {
+        let trace = self.system.contact.as_ref().map(|contact| contact.trace().clone());
+        let centre = self.system.hub.as_ref().map(|hub| hub.centre);
+        Rows::new(&trace.unwrap_or_default(), self.system.solid.reference(), centre)
     }
 
     /// What implicit steps took so far; none of explicit ones.
@@ -210,13 +220,23 @@ impl Simulation {
         let (system, nodes) = (&mut self.system, &mut self.nodes);
         // the mean velocity of the step is all that the stiffness product needs
         let stiffness = implicit.operator.stiffness_energy(system, &implicit.w);
+        // what a rigid turn changes in the velocities, elements give back: their forces turn on within the step
+        let turns = |hub: HubState| system.hub.as_ref().map(|body| RigidMotion::of(body, hub));
+        let before = system.hub.as_ref().and_then(|hub| turns(hub.state)).unwrap_or_default();
+        let after = turns(solved.hub).unwrap_or_default();
+        let (disk, reference) = (&system.disk, system.solid.reference());
         let mut inertia = exact_sum::ExactSum::ZERO;
         let arrays = nodes.displacement.iter_mut().zip(&mut nodes.velocity).zip(&implicit.w);
-        for (((u, v), w), inverse) in arrays.zip(&nodes.inverse_mass) {
+        for (n, (((u, v), w), inverse)) in arrays.zip(&nodes.inverse_mass).enumerate() {
+            let mut rigid = [0.0; 4];
+            if disk.contains(&n) {
+                let [old, new] = [before, after].map(|motion| motion.at(reference[n]).0);
+                (0..3).for_each(|i| rigid[i] = new[i] - old[i]);
+            }
             let mut square = 0.0;
             for i in 0..3 {
                 let change = (w[i] - v[i]) / theta;
-                square += change * change;
+                square += (change - rigid[i]) * (change - rigid[i]);
                 v[i] = if *inverse > 0.0 { v[i] + change } else { w[i] };
                 u[i] += dt * w[i];
             }

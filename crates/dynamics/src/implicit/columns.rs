@@ -1,13 +1,15 @@
 //! The compliance of the contact surfaces over an implicit step: columns of A^-1, found as contact comes to nodes.
 //!
-//! A column depends on its node, the step and the undeformed bodies alone, so that it does not matter to the result when it was found.
+//! A column depends on its node, the step and the undeformed bodies alone, so that it does not matter to the result when it was found. Along
+//! a surface whose nodes lie in rows at one pitch, a column is that of another node of its row, moved along ([`Rows`]).
 
 use super::operator::{ConjugateGradients, Frame, Operator, Vectors};
 use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
 use contact::{Matrix3, Trace};
-use std::collections::HashMap;
+use mesh::Padded;
+use std::collections::{BTreeMap, HashMap};
 
 /// Part to which the residual of a column falls: contact works with columns that are nearly right, and corrects what they miss.
 const TOLERANCE: f64 = 0.03;
@@ -18,6 +20,86 @@ const MOST_PRODUCTS: usize = 200;
 pub(crate) struct Columns {
     /// By the node of the trace: the velocities (m/s) of all nodes of its side of the trace under unit forces on it, along x, y and z.
     of: HashMap<u32, Vec<Matrix3>>,
+}
+
+/// The nodes of the trace in rows along the surface: of the bar along x, of a disk around its axle.
+#[derive(Debug)]
+pub(crate) struct Rows {
+    /// Of each node: its row, its place in it.
+    of: Vec<[u32; 2]>,
+    /// Of each node: how far along it is (m, or rad about the axle, positive about +y).
+    along: Vec<f64>,
+    /// The nodes of each row, ascending along it.
+    rows: Vec<Vec<u32>>,
+}
+
+/// Coordinates that differ by less than this part of the extent of a surface across its rows are those of one row.
+const SAME: f64 = 1e-6;
+/// Part of the distance to the neighbour by which two nodes may differ in their place along two rows of equal pitch.
+const ALIKE: f64 = 0.02;
+
+impl Rows {
+    /// Of the `trace` of a mesh with reference positions `reference` (m); with the centre of a disk, if side 0 is one (m).
+    pub(crate) fn new(trace: &Trace, reference: &[Padded], centre: Option<[f64; 3]>) -> Self {
+        let positions = trace.gather(reference);
+        let around = |node: usize| centre.filter(|_| node < trace.side(0).len());
+        // along the row, and what all of a row have alike
+        let place = |node: usize, x: &Padded| match around(node) {
+            Some(c) => {
+                let [ahead, down] = [x[0] - c[0], x[2] - c[2]];
+                (libm::atan2(-ahead, -down), [x[1], libm::hypot(ahead, down)])
+            }
+            None => (x[0], [x[1], x[2]]),
+        };
+        let size = positions.iter().flat_map(|x| x.xyz()).fold(0.0, |m: f64, c| m.max(c.abs()));
+        let key = |c: f64| (c / (SAME * size)).round() as i64;
+        let mut found: BTreeMap<(usize, [i64; 2]), Vec<u32>> = BTreeMap::new();
+        let mut along = vec![0.0; positions.len()];
+        for (node, x) in positions.iter().enumerate() {
+            let (s, across) = place(node, x);
+            along[node] = s;
+            let row = (side_of(trace, node as u32), across.map(key));
+            found.entry(row).or_default().push(node as u32);
+        }
+        let mut of = vec![[0; 2]; positions.len()];
+        let mut rows: Vec<Vec<u32>> = found.into_values().collect();
+        for (r, row) in rows.iter_mut().enumerate() {
+            row.sort_by(|&a, &b| along[a as usize].total_cmp(&along[b as usize]));
+            for (place, &node) in row.iter().enumerate() {
+                of[node as usize] = [r as u32, place as u32];
+            }
+        }
+        Self { of, along, rows }
+    }
+
+    /// The node in the middle of the row of a node.
+    fn middle(&self, node: u32) -> u32 {
+        let row = &self.rows[self.of[node as usize][0] as usize];
+        row[row.len() / 2]
+    }
+
+    /// The node that is to `middle`, of the row of `loaded`, what `node` is to `loaded`, if there is one at the same distance along.
+    fn moved(&self, node: u32, loaded: u32, middle: u32) -> Option<u32> {
+        let place = |n: u32| self.of[n as usize].map(i64::from);
+        let [row, at] = place(node);
+        let row = &self.rows[row as usize];
+        let to = usize::try_from(at + place(middle)[1] - place(loaded)[1]).ok()?;
+        let found = *row.get(to)?;
+        let along = |n: u32| self.along[n as usize];
+        let next = row.get(to + 1).or_else(|| row.get(to.checked_sub(1)?))?;
+        let missed = (along(found) - along(middle)) - (along(node) - along(loaded));
+        let pitch = (along(*next) - along(found)).abs();
+        (missed.abs() < ALIKE * pitch).then_some(found)
+    }
+
+    /// The node whose column serves for `loaded`: the middle of its row, where that can be moved to all of `borne` of its side, or itself.
+    pub(crate) fn source(&self, trace: &Trace, loaded: u32, borne: &[u32]) -> u32 {
+        let middle = self.middle(loaded);
+        let side = side_of(trace, loaded);
+        let mut others = borne.iter().filter(|&&node| side_of(trace, node) == side);
+        let alike = others.all(|&node| self.moved(node, loaded, middle).is_some());
+        if alike { middle } else { loaded }
+    }
 }
 
 impl Columns {
@@ -56,13 +138,22 @@ impl Columns {
         products
     }
 
-    /// The velocity of `node` under unit forces on `loaded`, of the same side, which has a column; that of the disk turned by `angle` (rad).
-    pub(crate) fn block(&self, trace: &Trace, [node, loaded]: [u32; 2], angle: Option<f64>) -> Matrix3 {
+    /// The velocity of `node` under unit forces on `loaded`, of the same side, by the column of `source`; that of the disk
+    /// turned by `angle` (rad).
+    pub(crate) fn block(
+        &self,
+        trace: &Trace,
+        rows: &Rows,
+        [node, loaded, source]: [u32; 3],
+        angle: Option<f64>,
+    ) -> Matrix3 {
         let first = if side_of(trace, loaded) == 0 { 0 } else { trace.side(0).len() };
-        let block = self.of.get(&loaded).map_or([[0.0; 3]; 3], |c| c[node as usize - first]);
+        let at = rows.moved(node, loaded, source).unwrap_or(node);
+        let block = self.of.get(&source).map_or([[0.0; 3]; 3], |c| c[at as usize - first]);
+        let beside = rows.along[loaded as usize] - rows.along[source as usize];
         match angle {
-            None | Some(0.0) => block,
-            Some(angle) => turned(block, angle),
+            Some(angle) if angle + beside != 0.0 => turned(block, angle + beside),
+            _ => block,
         }
     }
 }

@@ -47,7 +47,7 @@ impl Implicit {
                 hub = body.foretold([time, dt], &load, Some(unknown));
                 body.place_velocities([old, hub], dt, &mut self.w);
             }
-            let (mut solved, scale) = self.residual(system, nodes, span, &mut load);
+            let (mut solved, scale) = self.residual(system, nodes, span, [old, hub], &mut load);
             self.force_on_hub(system, span, &load, hub);
             at.residual = self.norm() / scale.max(f64::MIN_POSITIVE);
             at.change = corrected.change;
@@ -95,11 +95,13 @@ impl Implicit {
         contact.follow(&motion);
         if let Some(exact) = contact.exact_mut() {
             exact.begin_implicit(&motion, &system.paired);
-            let columns = &mut self.columns[cuts];
+            let (columns, rows) = (&mut self.columns[cuts], &self.rows);
             let mut borne: Vec<u32> = exact.borne_by().collect();
             borne.sort_unstable();
             borne.dedup();
-            for node in borne {
+            let sources: Vec<u32> =
+                borne.iter().map(|&node| rows.source(fields.trace(), node, &borne)).collect();
+            for &node in &sources {
                 let matrix = (&mut self.operator, &mut self.gradients);
                 let room = [&mut self.residual, &mut self.correction];
                 self.effort.products +=
@@ -108,7 +110,9 @@ impl Implicit {
             let turned = system.hub.is_some();
             let compliance = |node: u32, loaded: u32| {
                 let on_disk = turned && side_of(fields.trace(), loaded) == DISK;
-                columns.block(fields.trace(), [node, loaded], on_disk.then_some(frame.angle))
+                let at = borne.binary_search(&loaded).unwrap_or_default();
+                let nodes = [node, loaded, sources[at]];
+                columns.block(fields.trace(), rows, nodes, on_disk.then_some(frame.angle))
             };
             exact.set_compliance(&compliance);
         }
@@ -153,6 +157,7 @@ impl Implicit {
         system: &mut System,
         nodes: &mut NodalState,
         Span { time, dt, .. }: Span,
+        [old, new]: [HubState; 2],
         load: &mut Resultant,
     ) -> (Solved, f64) {
         let lead = self.theta * dt;
@@ -182,7 +187,9 @@ impl Implicit {
         }
         if let Some(hub) = &system.hub {
             // only elements load nodes that it carries
-            *load = hub.resultant(&self.moved, force);
+            let between = |a: f64, b: f64| a + self.theta * (b - a);
+            let centre = [between(old.x, new.x), between(old.y, new.y), between(old.z, new.z)];
+            *load = hub.resultant_about(centre, &self.moved, force);
         }
         let inertia = self.add_dashpots_and_inertia(system, nodes, lead, &mut solved, load);
         self.operator.reduce(system, nodes, &mut self.residual.nodes);
