@@ -206,13 +206,13 @@ pub(crate) fn follow_first<E: Enforced>(
     for i in 0..rows.len() {
         let first = rows[i];
         let node = own[first.slave as usize];
-        let second = pairs
-            .binary_search_by_key(&node, |pair| pair[0])
-            .ok()
-            .and_then(|k| own.binary_search(&pairs[k][1]).ok())
-            .and_then(|local| rows.binary_search_by_key(&(local as u32), |r| r.slave).ok());
-        if let Some(second) = second {
-            rows[second].follow(&first);
+        let from = pairs.partition_point(|pair| pair[0] < node);
+        for pair in pairs[from..].iter().take_while(|pair| pair[0] == node) {
+            let local = own.binary_search(&pair[1]).ok();
+            let row = |local| rows.binary_search_by_key(&(local as u32), |r| r.slave).ok();
+            if let Some(second) = local.and_then(row) {
+                rows[second].follow(&first);
+            }
         }
     }
 }

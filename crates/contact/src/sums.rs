@@ -30,6 +30,9 @@ pub struct ContactSums {
     pub unconverged: f64,
     /// Slave nodes at which the law of friction had more than one solution.
     pub non_unique: usize,
+    /// How steeply friction falls with slip velocity over how much slip velocity a force makes in an implicit step: at a node
+    /// alone, the largest of all, and of all nodes together (dimensionless, `R`). Below 1 the step has one solution.
+    pub steepness: [f64; 2],
     /// Mortar constraints whose integrals were taken in this step.
     pub integrated: usize,
     /// Contact points in contact.

@@ -1,17 +1,20 @@
-//! Pairs of nodes of equal mass that move as one, as those across a slice in plane strain do.
+//! Nodes of equal mass that move as one, as those across a slice in plane strain do: pairs of a first node and another, a group
+//! by as many pairs with one first node, one after the other.
 //!
-//! The constraint forces that give both one acceleration are equal and opposite, so that each bears the
-//! mean of both forces, and do no work.
+//! The constraint forces that give them one acceleration add up to zero, so that each bears the mean of all their forces, and do no
+//! work.
 
 use mesh::Padded;
 
-/// Gives both nodes of each pair the mean of their forces.
+/// Gives the nodes of each group the mean of their forces.
 pub(crate) fn share(pairs: &[[u32; 2]], force: &mut [Padded]) {
-    for pair in pairs {
-        let [a, b] = pair.map(|n| n as usize);
+    for group in pairs.chunk_by(|a, b| a[0] == b[0]) {
+        let first = group[0][0] as usize;
         for i in 0..3 {
-            let mean = 0.5 * (force[a][i] + force[b][i]);
-            (force[a][i], force[b][i]) = (mean, mean);
+            let sum = group.iter().fold(force[first][i], |sum, pair| sum + force[pair[1] as usize][i]);
+            let mean = sum / (group.len() + 1) as f64;
+            force[first][i] = mean;
+            group.iter().for_each(|pair| force[pair[1] as usize][i] = mean);
         }
     }
 }

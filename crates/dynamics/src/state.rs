@@ -2,6 +2,7 @@
 
 use crate::guard::LostContact;
 use crate::hub::{DriveReaction, HubState};
+use crate::implicit::Effort;
 use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
 use crate::window::Travel;
@@ -33,6 +34,8 @@ pub struct SimulationState {
     pub timers: Timers,
     /// How far the meshes have moved.
     pub travel: Travel,
+    /// What implicit steps took so far.
+    pub effort: Effort,
 }
 
 /// Why a simulation cannot go on from a state.
@@ -68,6 +71,7 @@ impl Simulation {
             watch: self.watch,
             timers: self.timers,
             travel: self.travel,
+            effort: self.effort().unwrap_or_default(),
         }
     }
 
@@ -103,6 +107,9 @@ impl Simulation {
         }
         (self.step, self.ledger, self.timers) = (state.step, state.ledger, state.timers);
         (self.watch, self.travel) = (state.watch, state.travel);
+        if let Some(implicit) = &mut self.implicit {
+            implicit.effort = state.effort;
+        }
         Ok(())
     }
 }

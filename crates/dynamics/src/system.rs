@@ -28,7 +28,7 @@ pub struct System {
     /// Nodes that do not move in some directions. With mass-proportional damping such a direction
     /// must be one in which the body's rigid motion has no part.
     pub fixed: Vec<Fixed>,
-    /// Pairs of nodes of equal mass that move as one, ascending by the first: of contact the first decides.
+    /// Pairs of nodes of equal mass that move as one, ascending by the first, which may have several: of contact the first decides.
     pub paired: Vec<[u32; 2]>,
     /// Given forces; empty for none.
     pub load: Load,

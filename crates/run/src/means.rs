@@ -65,6 +65,8 @@ pub(crate) struct Means {
     pub(crate) unconverged: (u64, f64),
     /// Sum over the steps of the nodes whose friction law had more than one solution.
     pub(crate) non_unique: u64,
+    /// Largest steepness of friction in an implicit step, of a node and of all.
+    pub(crate) steepness: [f64; 2],
     /// Integrals of mortar rows in all steps.
     pub(crate) integrated: u64,
     pub(crate) mesh_mode: MeshModeSums,

@@ -38,6 +38,15 @@ pub(crate) struct Ending {
     pub(crate) keeping: Duration,
 }
 
+/// What implicit steps took; null of explicit ones.
+fn implicit(case: &Case, simulation: &Simulation) -> serde_json::Value {
+    let took = case.theta().zip(simulation.effort());
+    json!(took.map(|(theta, effort)| {
+        json!({ "theta": theta, "solved": effort.solved, "cut": effort.cut,
+            "iterations": effort.iterations, "products": effort.products })
+    }))
+}
+
 /// The summary of a run that rolled.
 pub(crate) fn summary(
     case: &Case,
@@ -102,6 +111,7 @@ pub(crate) fn summary(
         json!({ "most_sweeps": means.most_sweeps, "unconverged_steps": steps,
             "unconverged_change": change, "manifold_node_steps": means.non_unique,
             "mortar_integrals": means.integrated,
+            "steepness_node": means.steepness[0], "steepness_patch": means.steepness[1],
             "warnings": means.unconverged_warning().as_slice() })
     });
     let preload = facts.preload.map(|p| p.json());
@@ -115,6 +125,7 @@ pub(crate) fn summary(
         ("mesh_mode", means.mesh_mode.json(case)),
         ("checks", checks),
         ("exact_contact", json!(exact)),
+        ("implicit", implicit(case, simulation)),
         ("time_loop_bytes_per_element", json!(simulation.bytes() as f64 / elements)),
         ("preload", json!(preload)),
         ("numbers", facts.numbers.json()),

@@ -41,6 +41,21 @@ const MATERIAL: Material = Material { poisson: 0.0, ..STEEL };
 const SPEED: f64 = 1e-6;
 const SOURCE: &str = "Saint-Venant's impact of bars, Goldsmith (1960)";
 
+/// How contact is enforced and time is stepped.
+#[derive(Clone, Copy, PartialEq)]
+enum Method {
+    Penalty,
+    Exact,
+    /// Exact contact with implicit steps of this theta, so many times as long as the explicit ones.
+    Implicit {
+        theta: f64,
+        longer: f64,
+    },
+}
+
+/// The tolerance of implicit steps.
+const IMPLICIT: f64 = 1e-8;
+
 /// The results of one mesh.
 struct Collision {
     /// Contact time (s).
@@ -58,23 +73,31 @@ struct Collision {
     /// Limit of `balance`.
     crossing: f64,
     steps: usize,
+    /// Work that contact supplied in a step, the most, over the kinetic energy.
+    supplied: f64,
 }
 
 pub(crate) fn run(size: Size) -> Outcome {
-    study(size, false)
+    study(size, Method::Penalty)
 }
 
 pub(crate) fn run_exact(size: Size) -> Outcome {
-    study(size, true)
+    study(size, Method::Exact)
 }
 
-fn study(size: Size, exact: bool) -> Outcome {
+/// Exact contact and implicit steps four times as long as the longest stable one.
+pub(crate) fn run_implicit(size: Size) -> Outcome {
+    study(size, Method::Implicit { theta: 0.5, longer: 4.0 })
+}
+
+fn study(size: Size, method: Method) -> Outcome {
+    let exact = method != Method::Penalty;
     let cells: &[usize] = match size {
         Size::Quick => &[25, 100, 400],
         Size::Full => &[25, 100, 400, 1600],
     };
     let c = (MATERIAL.young / MATERIAL.density).sqrt();
-    let meshes = cells.iter().map(|&n| Ok((LENGTH / n as f64, collide(n, c, exact)?)));
+    let meshes = cells.iter().map(|&n| Ok((LENGTH / n as f64, collide(n, c, method)?)));
     let meshes: Vec<(f64, Collision)> = meshes.collect::<Result<_, Cause>>()?;
     // the effect of finite strain; only exact contact is accurate enough to show it
     let strain = if exact { SPEED / c } else { 0.0 };
@@ -97,6 +120,15 @@ fn study(size: Size, exact: bool) -> Outcome {
         (finest.steps as f64 * f64::EPSILON, "one rounding of every velocity per step"),
         "conservation of momentum",
     ));
+    if let Method::Implicit { .. } = method {
+        rows.push(Row::new(
+            "work that contact supplied in a step over the energy",
+            [0.0, finest.supplied],
+            1.0,
+            (IMPLICIT, "the tolerance of implicit steps"),
+            "g >= 0 at both ends of a step",
+        ));
+    }
     if exact {
         return Ok(rows);
     }
@@ -110,7 +142,7 @@ fn study(size: Size, exact: bool) -> Outcome {
     Ok(rows)
 }
 
-fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
+fn collide(n: usize, c: f64, method: Method) -> Result<Collision, Cause> {
     let left = slender(n, LENGTH);
     let mut right = left.clone();
     right.nodes.iter_mut().for_each(|x| x[0] += LENGTH);
@@ -135,7 +167,7 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
     let [first, second] = [0, 1].map(|b: usize| mesh.bodies[b].nodes.clone());
     setup.velocity[first.clone()].fill(Padded::new([SPEED, 0.0, 0.0]));
     setup.velocity[second].fill(Padded::new([-SPEED, 0.0, 0.0]));
-    setup.system.contact = Some(if exact {
+    setup.system.contact = Some(if method != Method::Penalty {
         let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let law = Box::new(Coulomb { mu: 0.0 });
         Box::new(ExactContact::new(&mesh, surfaces.map(|s| (s, material)), &settings, law)?)
@@ -144,15 +176,28 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
     });
     let masses = setup.system.mass.clone();
     let bar: f64 = masses[first.clone()].iter().sum();
+    if let Method::Implicit { longer, .. } = method {
+        setup.dt *= longer;
+    }
     let dt = setup.dt;
     let before = momentum(&masses, &setup.velocity, 0..masses.len());
     let time = 2.0 * LENGTH / c;
 
     let mut simulation = Simulation::new(setup);
+    if let Method::Implicit { theta, .. } = method {
+        simulation.set_implicit(theta);
+    }
+    let (mut supplied, mut taken) = (0.0_f64, 0.0);
     let (mut impulse, mut moment, mut weighted, mut weights) = (0.0, 0.0, 0.0, 0.0);
     let mut kinetic = [None, None];
     while simulation.time() < 1.5 * time {
         let report = simulation.step(true);
+        if report.unsolved.is_some() {
+            return Err("a step was not solved".into());
+        }
+        let now = simulation.ledger().contact_damping;
+        supplied = supplied.max(taken - now);
+        taken = now;
         let force = report.contact.force[1][0];
         impulse += force;
         moment += force * report.time;
@@ -180,5 +225,6 @@ fn collide(n: usize, c: f64, exact: bool) -> Result<Collision, Cause> {
         // 2 k (2 v dt)^2/8 with k = 2 K A/h over rho A L v^2
         crossing: 2.0 * MATERIAL.bulk() * dt * dt / (h * MATERIAL.density * LENGTH),
         steps: simulation.steps(),
+        supplied: supplied / start,
     })
 }

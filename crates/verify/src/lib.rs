@@ -26,6 +26,7 @@ mod half_space;
 mod half_space_rolling;
 mod half_space_waves;
 mod hertz;
+mod implicit;
 mod interface_patch;
 mod kalker;
 mod lamb;

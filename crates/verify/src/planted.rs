@@ -84,10 +84,10 @@ fn friction_of_the_step_before_is_caught_by_the_law_of_the_same_step() {
         "shear-column",
         "shear of slip off mu(s) p of the same step",
         shear_column::run(Size::Quick),
-        shear_column::run_with(Size::Quick, || Box::new(Lagged(shear_column::LAW))),
+        shear_column::run_with(Size::Quick, || Box::new(Lagged(shear_column::LAW)), None),
     );
     // the same friction made in another way passes
-    let same = shear_column::run_with(Size::Quick, || Box::new(Implicit(shear_column::LAW)));
+    let same = shear_column::run_with(Size::Quick, || Box::new(Implicit(shear_column::LAW)), None);
     assert!(same.unwrap().iter().all(|row| row.pass));
 }
 

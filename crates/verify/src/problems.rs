@@ -2,7 +2,7 @@
 
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
-    grading_reflection, half_space_rolling, half_space_waves, hertz, interface_patch, kalker, lamb,
+    grading_reflection, half_space_rolling, half_space_waves, hertz, implicit, interface_patch, kalker, lamb,
     lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
     shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
@@ -53,6 +53,26 @@ pub const PROBLEMS: &[Problem] = &[
         name: "block-slide-exact",
         about: "The sliding block with exact contact",
         run: sliding::stop_exact,
+    },
+    Problem {
+        name: "implicit-order",
+        about: "Implicit steps: order in time of a wave and of a sliding block, energy of a wave",
+        run: implicit::order,
+    },
+    Problem {
+        name: "block-slide-implicit",
+        about: "The sliding block with implicit steps ten times as long",
+        run: sliding::stop_implicit,
+    },
+    Problem {
+        name: "colliding-bars-implicit",
+        about: "The colliding bars with implicit steps four times as long",
+        run: collision::run_implicit,
+    },
+    Problem {
+        name: "shear-column-implicit",
+        about: "The shear column under falling friction with implicit steps",
+        run: shear_column::run_implicit,
     },
     Problem {
         name: "incline-exact",

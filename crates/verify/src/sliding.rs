@@ -60,11 +60,19 @@ const SPRING: f64 = 4e13;
 /// Multiple of d in the limit of a sliding block: doubled by a sudden load, at the start and at the stop.
 const SUDDEN: f64 = 4.0;
 
+/// The tolerance of implicit steps.
+const IMPLICIT: f64 = 1e-8;
+
 /// How contact is enforced.
 #[derive(Clone, Copy, PartialEq)]
-enum Method {
+pub(crate) enum Method {
     Penalty,
     Exact(Rows),
+    /// Exact contact with implicit steps of this theta, so many times as long as the explicit ones.
+    Implicit {
+        theta: f64,
+        longer: f64,
+    },
 }
 
 const FROM: &str = "elastic give d of friction springs and block, loaded at once (module text)";
@@ -81,6 +89,28 @@ pub(crate) fn stop_exact(size: Size) -> Outcome {
 #[cfg(test)]
 pub(crate) fn stop_exact_with(size: Size, mu: f64) -> Outcome {
     stops_with(size, Method::Exact(Rows::NodeToFace), mu)
+}
+
+/// Exact contact with implicit steps ten times as long as the explicit ones.
+pub(crate) fn stop_implicit(size: Size) -> Outcome {
+    stops(size, Method::Implicit { theta: 0.5, longer: 10.0 })
+}
+
+/// The displacements along x of the nodes of a block that has slid for `time` (s) at 1.5 m/s at first (m).
+pub(crate) fn slid(size: Size, method: Method, time: f64) -> Result<Vec<f64>, Cause> {
+    let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], 1.5, MU)?;
+    let steps = (time / block.simulation.dt()).round() as usize;
+    for _ in 0..steps {
+        block.simulation.step(false);
+    }
+    let u = &block.simulation.displacement()[..block.masses.len()];
+    Ok(u.iter().map(|u| u[0]).collect())
+}
+
+/// The time step of the explicit block (s).
+pub(crate) fn step(size: Size) -> Result<f64, Cause> {
+    let method = Method::Exact(Rows::NodeToFace);
+    Ok(Block::new(size, method, [0.0, 0.0, -GRAVITY], 1.5, MU)?.simulation.dt())
 }
 
 pub(crate) fn stop_mortar(size: Size) -> Outcome {
@@ -100,7 +130,7 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
             let limit = (SUDDEN * elastic_displacement(method) / distance, FROM);
             (limit, limit)
         }
-        Method::Exact(_) => {
+        Method::Exact(_) | Method::Implicit { .. } => {
             let sag = MATERIAL.density * GRAVITY * BLOCK[2].powi(2) / (3.0 * MATERIAL.young);
             let sliding = (2.0 * MU * sag / distance, SAG);
             (sliding, (2.0 * elastic_displacement(method) / distance, FROM))
@@ -118,6 +148,7 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
     for share in [0.25, 0.5, 0.75] {
         let t = share * time;
         let x = block.slide_until(t);
+        let t = if block.every_step { block.simulation.time() } else { t };
         let exact = v0 * t - 0.5 * MU * GRAVITY * t * t;
         let quantity = format!("x at t = {share} v0/(mu g) (m)");
         rows.push(Row::new(quantity, [exact, x], distance, sliding, source));
@@ -129,6 +160,10 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
     let later = block.slide_until(1.5 * time);
     let (creep, held) = match method {
         Method::Penalty => (later - x, limit),
+        Method::Implicit { .. } => {
+            let part = (IMPLICIT, "the tolerance of implicit steps");
+            (block.base_displacement() - base, part)
+        }
         Method::Exact(_) => {
             let roundings = (block.simulation.steps() - steps) as f64 * f64::EPSILON;
             (
@@ -205,7 +240,7 @@ fn elastic_displacement(method: Method) -> f64 {
     let pressure = MATERIAL.density * GRAVITY * BLOCK[2];
     let spring = match method {
         Method::Penalty => MU * pressure / SPRING,
-        Method::Exact(_) => 0.0,
+        Method::Exact(_) | Method::Implicit { .. } => 0.0,
     };
     spring + MU * pressure * BLOCK[2] / (2.0 * MATERIAL.shear())
 }
@@ -217,6 +252,8 @@ struct Block {
     mass: f64,
     /// Its nodes on the plane.
     base: Vec<u32>,
+    /// Whether [`Block::slide_until`] ends with the step that passes the time.
+    every_step: bool,
 }
 
 impl Block {
@@ -247,6 +284,7 @@ impl Block {
         settling.system.contact = Some(match method {
             Method::Penalty => Box::new(contact),
             Method::Exact(rows) => Box::new(exact(&mesh, rows, mu)?),
+            Method::Implicit { .. } => Box::new(exact(&mesh, Rows::NodeToFace, mu)?),
         });
         let pressure = -down[2] * MATERIAL.density * BLOCK[2];
         let body = mesh.bodies[0].nodes.clone();
@@ -256,7 +294,7 @@ impl Block {
                 settling.displacement[body.clone()].fill(pressed);
             }
             // critical for the column: omega = pi c/(2 H)
-            Method::Exact(_) => {
+            Method::Exact(_) | Method::Implicit { .. } => {
                 let c = (MATERIAL.young / MATERIAL.density).sqrt();
                 settling.system.mass_damping = std::f64::consts::PI * c / BLOCK[2];
             }
@@ -269,7 +307,9 @@ impl Block {
         let (mut setup, mut contact) = setup(&mesh, acceleration, 0.1, mu)?;
         setup.displacement.copy_from_slice(settling.displacement());
         let dt = setup.dt;
-        if speed > 0.0 {
+        if let Method::Implicit { .. } = method {
+            setup.velocity[body.clone()].fill(Padded::new([speed, 0.0, 0.0]));
+        } else if speed > 0.0 {
             // the block slid before t = 0: contact needs the positions of the step before
             setup.velocity[body.clone()].fill(Padded::new([
                 speed + 0.5 * dt * MU * GRAVITY,
@@ -287,15 +327,25 @@ impl Block {
                 setup.system.solid = damped(&mesh, 0.3 * setup.dt)?;
                 Box::new(exact(&mesh, rows, mu)?)
             }
+            Method::Implicit { longer, .. } => {
+                setup.system.solid = damped(&mesh, 0.3 * setup.dt)?;
+                setup.dt *= longer;
+                Box::new(exact(&mesh, Rows::NodeToFace, mu)?)
+            }
         };
         setup.system.contact = Some(contact);
         let masses = setup.system.mass[body].to_vec();
         let mass = masses.iter().sum();
         let base = side_nodes(&mesh, 0, "z-").to_vec();
-        Ok(Self { simulation: Simulation::new(setup), masses, mass, base })
+        let mut simulation = Simulation::new(setup);
+        if let Method::Implicit { theta, .. } = method {
+            simulation.set_implicit(theta);
+        }
+        let every_step = matches!(method, Method::Implicit { .. });
+        Ok(Self { simulation, masses, mass, base, every_step })
     }
 
-    /// Steps to the time `t` (the centre of mass is interpolated within the last step) and returns
+    /// Steps to the time `t` (the centre of mass is interpolated within the last step, which would matter with long ones) and returns
     /// the displacement of the centre of mass along x (m).
     fn slide_until(&mut self, t: f64) -> f64 {
         let mut before = (self.simulation.time(), self.centre());
@@ -304,6 +354,9 @@ impl Block {
             self.simulation.step(false);
             before = now;
             now = (self.simulation.time(), self.centre());
+        }
+        if self.every_step {
+            return now.1;
         }
         let share = if now.0 > before.0 { (t - before.0) / (now.0 - before.0) } else { 1.0 };
         before.1 + share * (now.1 - before.1)

@@ -22,6 +22,9 @@ use mesh::Padded;
 /// Sweeps over the dense operator at most.
 const SWEEPS: usize = 500;
 
+/// Iterations of the power method.
+const POWERS: usize = 12;
+
 /// A matrix by rows.
 pub type Matrix3 = [[f64; 3]; 3];
 
@@ -271,9 +274,58 @@ impl ExactContact {
             sums.damping_ahead.add(-(work + heat));
             self.finish(constraint, slip, &positions, motion, force, &mut sums);
         }
+        sums.other.steepness = self.steepness(&constraints, &positions, motion);
         self.active = active;
         self.constraints[self.slave] = constraints;
         sums.finish()
+    }
+
+    /// `R` of [`ContactSums::steepness`]: the largest of `-mu'(0) r_n W_ii` over the constraints, and the largest eigenvalue of
+    /// `-mu'(0) r_n W` along their friction, by the power method.
+    fn steepness(
+        &self,
+        constraints: &[Constraint],
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> [f64; 2] {
+        let step = &self.implicit;
+        let n = step.solved.len();
+        let mut along = vec![[0.0; 3]; n];
+        let mut alone = 0.0_f64;
+        for (k, &i) in step.solved.iter().enumerate() {
+            let constraint = &constraints[i as usize];
+            let size = norm(constraint.friction);
+            if size == 0.0 {
+                continue;
+            }
+            let at = self.at(constraint, positions, motion);
+            let fall = -self.law.slope(constraint.memory, 0.0, &at) * constraint.normal_force;
+            if fall > 0.0 {
+                let own = step.delassus[k * n + k];
+                alone = alone.max(fall * largest(&own, constraint.enforcement.frame));
+                // the square root of the fall on either side keeps the operator symmetric
+                along[k] = scale(fall.sqrt() / size, constraint.friction);
+            }
+        }
+        let mut x: Vec<f64> = along.iter().map(|direction| norm(*direction)).collect();
+        let mut together = 0.0;
+        for _ in 0..POWERS {
+            let size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if size == 0.0 {
+                return [alone, 0.0];
+            }
+            let y: Vec<f64> = (0..n)
+                .map(|i| {
+                    let answer = (0..n).fold([0.0; 3], |sum, k| {
+                        add(sum, times(&step.delassus[i * n + k], scale(x[k] / size, along[k])))
+                    });
+                    dot(along[i], answer)
+                })
+                .collect();
+            together = y.iter().map(|y| y * y).sum::<f64>().sqrt();
+            x = y;
+        }
+        [alone, together]
     }
 
     /// Whether neither the slave nor a node of the master under it can move.

@@ -12,7 +12,7 @@ use contact::{ContactSums, Corrected};
 use mesh::Padded;
 
 /// A step is solved where the residual over the forces, and the change of contact forces over the largest, are below this.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-8;
 /// Part to which the residual falls in a linear solution: contact changes it again.
 const LINEAR: f64 = 1e-2;
 const MOST_ITERATIONS: usize = 80;

@@ -63,6 +63,9 @@ impl Means {
         self.add_unconverged(contact.unconverged);
         self.integrated += contact.integrated as u64;
         self.non_unique += contact.non_unique as u64;
+        for (most, now) in self.steepness.iter_mut().zip(contact.steepness) {
+            *most = most.max(now);
+        }
         if inside {
             let Resultants { tangential, lateral, normal, .. } = *resultants;
             for (mean, f) in self.force.iter_mut().zip([tangential, lateral, normal]) {

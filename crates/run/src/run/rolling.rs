@@ -184,7 +184,6 @@ impl<'a> Rolling<'a> {
     pub(super) fn end(self) -> Result<Rolled, RunError> {
         let rolling = self.before[1] + self.since[1].elapsed();
         self.held.prove()?;
-        if std::env::var("EFFORT").is_ok() { eprintln!("{:?} elements {}", self.simulation.effort(), self.simulation.solid().elements()); }
         let (means, output) = self.recorder.finish(&self.simulation)?;
         Ok(Rolled {
             simulation: self.simulation,
