@@ -4,7 +4,10 @@ use crate::face::Positions;
 use crate::point::follow_first;
 use crate::renumber::{Renumbered, Renumbering};
 use crate::snapshot::{Points, check_points};
-use crate::{ContactState, ContactSums, ExactContact, Motion, NodalContact, PenaltyContact, StateError, Trace};
+use crate::{
+    ContactState, ContactSums, ExactContact, Motion, NodalContact, PenaltyContact, StateError,
+    Trace,
+};
 use mesh::{Face, Padded};
 use std::fmt::Debug;
 

@@ -515,7 +515,8 @@ impl ExactContact {
         other.closed += nodes;
         other.slipping += nodes * usize::from(constraint.state == State::Slip);
         other.max_penetration = other.max_penetration.max(-constraint.gap);
-        other.non_unique += nodes * usize::from(self.is_non_unique(constraint, slip, positions, motion));
+        other.non_unique +=
+            nodes * usize::from(self.is_non_unique(constraint, slip, positions, motion));
     }
 
     /// Adds the forces of a constraint to `force`; returns those on the slave and on the master.

@@ -394,12 +394,7 @@ impl Hub {
     }
 
     /// Gives its nodes the mean velocities (m/s) between two states, `dt` (s) apart.
-    pub(crate) fn place_velocities(
-        &self,
-        states: [HubState; 2],
-        dt: f64,
-        velocity: &mut [Padded],
-    ) {
+    pub(crate) fn place_velocities(&self, states: [HubState; 2], dt: f64, velocity: &mut [Padded]) {
         let [from, to] = states.map(Placement::new);
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
             let (u, before) = (to.displacement(*arm), from.displacement(*arm));

@@ -73,6 +73,13 @@ pub(crate) struct Implicit {
     pub(crate) effort: Effort,
 }
 
+impl Implicit {
+    /// Mean velocities over the last step (m/s).
+    pub(crate) fn step_velocity(&self) -> &[Padded] {
+        &self.w
+    }
+}
+
 /// A part of the run that is solved as one step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {

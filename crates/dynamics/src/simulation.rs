@@ -122,7 +122,13 @@ impl Simulation {
         &self.nodes.displacement
     }
 
-    /// Velocities at the half step before the present (m/s).
+    /// Mean velocities over the step that led to the present state (m/s), `(u^n - u^{n-1})/dt`: with central difference those at the
+    /// half step. Of the last part of an implicit step that was cut; at rest before the first step of a process, if that is implicit.
+    pub fn step_velocity(&self) -> &[Padded] {
+        self.implicit.as_ref().map_or(&self.nodes.velocity, |implicit| implicit.step_velocity())
+    }
+
+    /// Velocities at the half step before the present (m/s); with implicit steps at the present.
     pub fn velocity(&self) -> &[Padded] {
         &self.nodes.velocity
     }

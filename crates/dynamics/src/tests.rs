@@ -1,4 +1,5 @@
 #![allow(clippy::unwrap_used)]
+mod implicit;
 mod sideways;
 
 use super::*;

@@ -160,7 +160,7 @@ impl Recorder {
 
     fn copy_velocity(&mut self, simulation: &Simulation) {
         for (v, node) in self.velocity.iter_mut().zip(self.contact.nodes()) {
-            *v = simulation.velocity()[node as usize].xyz();
+            *v = simulation.step_velocity()[node as usize].xyz();
         }
     }
 
@@ -247,7 +247,7 @@ impl Recorder {
                 to.vectors(displacement.iter().map(|u| moved(u.xyz(), simulation.travel())));
             }),
             deformation: Some(&|to| to.vectors(displacement.iter().enumerate().map(deformation))),
-            velocity: Some(&|to| to.vectors(simulation.velocity().iter().map(|v| v.xyz()))),
+            velocity: Some(&|to| to.vectors(simulation.step_velocity().iter().map(|v| v.xyz()))),
             stress: stress.then_some(&cauchy),
         };
         self.contact.write_fields(simulation.time(), |snapshot| {

@@ -39,7 +39,13 @@ pub(crate) fn order(size: Size) -> Outcome {
     let (_, change) = wave(0.5, 8.0)?;
     let strain = (1e-6, "the strain of the pulse");
     let kept = "energy is kept with theta = 1/2";
-    rows.push(Row::new("change of the energy of a pulse over it", [0.0, change], 1.0, strain, kept));
+    rows.push(Row::new(
+        "change of the energy of a pulse over it",
+        [0.0, change],
+        1.0,
+        strain,
+        kept,
+    ));
     Ok(rows)
 }
 
@@ -50,9 +56,8 @@ fn runs(of: impl Fn(f64) -> Result<Vec<f64>, Cause>) -> Result<Vec<Vec<f64>>, Ca
 
 /// The order that the three finest runs give.
 fn row(what: String, order: f64, runs: &[Vec<f64>]) -> Row {
-    let distance = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-    };
+    let distance =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
     let [fine, coarse] = [0, 1].map(|k: usize| distance(&runs[k], &runs[k + 1]));
     Row::new(what, [order, libm::log2(coarse / fine)], 1.0, WHOLE, SOURCE)
 }

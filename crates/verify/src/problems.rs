@@ -2,8 +2,8 @@
 
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
-    grading_reflection, half_space_rolling, half_space_waves, hertz, implicit, interface_patch, kalker, lamb,
-    lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
+    grading_reflection, half_space_rolling, half_space_waves, hertz, implicit, interface_patch,
+    kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
     shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
 

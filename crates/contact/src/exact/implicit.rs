@@ -176,7 +176,8 @@ impl ExactContact {
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for k in 0..step.solved.len() {
                 let constraint = &mut constraints[step.solved[k] as usize];
-                let [changed, force] = self.sweep_over(&mut step, k, constraint, &positions, motion);
+                let [changed, force] =
+                    self.sweep_over(&mut step, k, constraint, &positions, motion);
                 if sweep > SETTLED {
                     constraint.enforcement.slipped = constraint.state == State::Slip;
                 }
@@ -273,6 +274,8 @@ impl ExactContact {
             let work = motion.dt * (constraint.normal_force * opening + rubbed);
             sums.damping_ahead.add(-(work + heat));
             self.finish(constraint, slip, &positions, motion, force, &mut sums);
+            // the conditions hold at the end of the step, as the table of the nodes then says
+            constraint.gap += motion.dt * opening;
         }
         sums.other.steepness = self.steepness(&constraints, &positions, motion);
         self.active = active;

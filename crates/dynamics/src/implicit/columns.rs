@@ -122,9 +122,10 @@ impl Columns {
         let mut products = 0;
         for along in 0..3 {
             *r = Vectors::new(r.nodes.len());
-            r.nodes[trace.in_mesh(node) as usize][along] = 1.0;
-            // the force on the first of a pair stands for those on both
-            paired::follow(&system.paired, &mut r.nodes);
+            // a force on a node that moves as one with others stands for those on all of them
+            for node in paired::group(&system.paired, trace.in_mesh(node)) {
+                r.nodes[node as usize][along] = 1.0;
+            }
             operator.reduce(system, nodes, &mut r.nodes);
             let work = (&mut *system, nodes);
             products += gradients.solve(operator, work, r, x, (TOLERANCE, MOST_PRODUCTS));

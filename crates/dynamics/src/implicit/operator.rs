@@ -169,8 +169,7 @@ impl Operator {
             self.free = hub.free();
             self.mass = hub.mass_matrix();
             let stiffness = hub.stiffness(|node| stiff * self.stiffness[node][0]);
-            self.hub_inverse =
-                [0, 1].map(|i| 1.0 / (self.mass[i][i] / frame.dt + stiffness[i]));
+            self.hub_inverse = [0, 1].map(|i| 1.0 / (self.mass[i][i] / frame.dt + stiffness[i]));
         }
     }
 

@@ -38,7 +38,7 @@ impl Implicit {
         let old = system.hub.as_ref().map(|hub| hub.state).unwrap_or_default();
         let (mut hub, mut unknown) = (old, [old.vz, old.omega]);
         let mut load = Resultant::default();
-        let mut corrected = Corrected::default();
+        let (mut corrected, mut first) = (Corrected::default(), 0.0);
         let mut at = Unsolved { step: dt, iterations: 0, residual: f64::INFINITY, change: 0.0 };
         for iteration in 1..=MOST_ITERATIONS {
             at.iterations = iteration;
@@ -49,7 +49,12 @@ impl Implicit {
             }
             let (mut solved, scale) = self.residual(system, nodes, span, [old, hub], &mut load);
             self.force_on_hub(system, span, &load, hub);
-            at.residual = self.norm() / scale.max(f64::MIN_POSITIVE);
+            let norm = self.norm();
+            if iteration == 1 {
+                // forces that nothing balances yet are forces too
+                first = norm;
+            }
+            at.residual = if norm > 0.0 { norm / scale.max(first) } else { norm };
             at.change = corrected.change;
             let settled = at.change <= TOLERANCE && corrected.unconverged <= TOLERANCE;
             if at.residual <= TOLERANCE && settled && iteration > 1 {
@@ -218,8 +223,7 @@ impl Implicit {
             }
             let (w, v) = (self.w[n], nodes.velocity[n]);
             let on_disk = alpha > 0.0 && system.disk.contains(&n);
-            let (rigid, arm) =
-                if on_disk { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
+            let (rigid, arm) = if on_disk { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
             let mut pull = [0.0; 3];
             for i in 0..3 {
                 // the dashpot of mass damping is relative to the rigid motion, that of a quiet end to the ground
