@@ -23,6 +23,16 @@ const YY: usize = 2;
 /// Displacement, traction, weight.
 type Product = [usize; 3];
 
+/// What tractions have in common with their mirror images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Symmetry {
+    /// Nothing.
+    None,
+    /// Along x they are even in x and in y, along y odd in both: all spectra are real, and those of opposite wavenumbers
+    /// alike but for the sign. A quarter of the plane of wavenumbers and, over time, half of the frequencies tell all.
+    Mirrored,
+}
+
 /// Complex numbers at some wavenumbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Row {
@@ -36,7 +46,8 @@ struct Group {
     near: Vec<[[f64; LANES]; 3]>,
     /// Their transforms between a block and the q-th before it, q from one: by weight, `[q, frequency 0 to B]`.
     far: [Vec<Row>; 3],
-    /// Transforms of the tractions of the blocks before this one: by component, `[block in turn, frequency 0 to 2B - 1]`.
+    /// Transforms of the tractions of the blocks before this one: by component, `[index of the ring, frequency 0 to 2B - 1]`,
+    /// to B alone of tractions whose spectra are real.
     past: [Vec<Row>; 2],
     /// Tractions of the steps of this block, by component.
     present: [Vec<Row>; 2],
@@ -50,11 +61,10 @@ struct Group {
 /// The spectra of past tractions, and what they leave.
 pub(crate) struct History {
     groups: Vec<Group>,
-    modes: usize,
+    grid: [usize; 2],
+    symmetry: Symmetry,
     products: &'static [Product],
-    /// Steps of a block, and blocks in memory.
-    block: usize,
-    blocks: usize,
+    lengths: Lengths,
     /// Steps done.
     steps: usize,
     /// Whether tractions along x, along y were ever other than zero.
@@ -72,9 +82,41 @@ fn folded([nx, ny]: [usize; 2], mode: usize) -> (usize, f64) {
     if j <= ny / 2 { (mode, 1.0) } else { (i + width * (ny - j), -1.0) }
 }
 
+/// The wavenumbers beyond ny/2 along y of a spectrum of `[nx/2 + 1, ny]`, from those below: `sign` times them.
+fn unfold([nx, ny]: [usize; 2], sign: f64, spectrum: &mut [Complex64]) {
+    let width = nx / 2 + 1;
+    for j in ny / 2 + 1..ny {
+        let (below, beyond) = spectrum.split_at_mut(width * j);
+        let from = &below[width * (ny - j)..][..width];
+        beyond[..width].iter_mut().zip(from).for_each(|(to, from)| *to = sign * from);
+    }
+}
+
+impl Symmetry {
+    /// Frequencies of a block of `block` steps that tell all.
+    fn frequencies(self, block: usize) -> usize {
+        match self {
+            Self::None => 2 * block,
+            Self::Mirrored => block + 1,
+        }
+    }
+}
+
+/// Steps of a block, blocks in memory, and frequencies that are kept of a block.
+#[derive(Clone, Copy, Debug)]
+struct Lengths {
+    block: usize,
+    blocks: usize,
+    frequencies: usize,
+}
+
 impl History {
-    pub(crate) fn new(kernel: &Kernel) -> Self {
-        let modes = (kernel.grid[0] / 2 + 1) * kernel.grid[1];
+    pub(crate) fn new(kernel: &Kernel, symmetry: Symmetry) -> Self {
+        let [width, ny] = [kernel.grid[0] / 2 + 1, kernel.grid[1]];
+        let modes = match symmetry {
+            Symmetry::None => width * ny,
+            Symmetry::Mirrored => width * (ny / 2 + 1),
+        };
         let at = |weights: &Weights, mode: usize| {
             let (i, sign) = folded(kernel.grid, mode);
             let xy = weights.xy.get(i).map_or(0.0, |xy| sign * xy);
@@ -92,36 +134,40 @@ impl History {
             let none = lag > last || mode >= modes;
             if none { [0.0; 3] } else { at(&kernel.lags[lag], mode) }
         };
-        let group = |g: usize| Group::new(g, &transforms, [block, blocks], products, &weight);
+        let lengths = Lengths { block, blocks, frequencies: symmetry.frequencies(block) };
+        let group = |g: usize| Group::new(g, &transforms, lengths, products, &weight);
         let groups = if last == 0 { 0 } else { modes.div_ceil(LANES) };
         let groups = (0..groups).into_par_iter().map(group).collect();
         let mut now = Weights::default();
-        for mode in 0..modes {
+        for mode in 0..width * ny {
             let [xx, xy, yy] = at(&kernel.lags[0], mode);
             now.xx.push(xx);
             now.xy.push(xy);
             now.yy.push(yy);
         }
         let loaded = [false; 2];
-        Self { groups, modes, products, block, blocks, steps: 0, loaded, transforms, now }
+        let grid = kernel.grid;
+        Self { groups, grid, symmetry, products, lengths, steps: 0, loaded, transforms, now }
     }
 
     /// The spectra (x and y) of the displacement (m) that past tractions leave now.
     pub(crate) fn left(&mut self, out: &mut [Vec<Complex64>; 2]) {
-        let Self { groups, products, block, blocks, steps, loaded, transforms, .. } = self;
-        let (inside, turn) = (*steps % *block, *steps / *block);
+        let Self { groups, products, lengths, steps, loaded, transforms, .. } = self;
+        let Lengths { block, blocks, frequencies } = *lengths;
+        let (inside, ended) = (*steps % block, *steps / block);
         let products = products.iter().filter(|[_, by, _]| loaded[*by]).copied();
         groups.par_iter_mut().with_min_len(4).for_each(|group| {
-            if inside == 0 && turn > 0 {
+            if inside == 0 && ended > 0 {
                 for by in (0..2).filter(|&by| loaded[by]) {
-                    group.end_block(by, &*transforms[0], (turn - 1) % *blocks);
+                    let index = (ended - 1) % blocks;
+                    group.end_block(by, &*transforms[0], index, frequencies);
                 }
                 group.old.iter_mut().for_each(|old| old.fill(Row::default()));
                 for product in products.clone() {
-                    group.sum_blocks(product, turn, [*block, *blocks]);
+                    group.sum_blocks(product, ended, *lengths);
                 }
                 for of in (0..2).filter(|&of| products.clone().any(|p| p[0] == of)) {
-                    group.transform_back(of, &*transforms[1]);
+                    group.transform_back(of, &*transforms[1], frequencies);
                 }
             }
             for product in products.clone() {
@@ -134,17 +180,24 @@ impl History {
                 let row = &group.old[c][inside];
                 out.iter_mut().enumerate().for_each(|(i, o)| *o = row.at(i));
             }
+            if self.symmetry == Symmetry::Mirrored {
+                unfold(self.grid, if c == 0 { 1.0 } else { -1.0 }, out);
+            }
         }
     }
 
     /// Takes the spectra of the tractions of this step (Pa).
     pub(crate) fn push(&mut self, tractions: &[Vec<Complex64>; 2]) {
-        let inside = self.steps % self.block;
+        let inside = self.steps % self.lengths.block;
         for (c, spectrum) in tractions.iter().enumerate() {
             self.loaded[c] |= spectrum.iter().any(|t| *t != Complex64::ZERO);
             for (group, spectrum) in self.groups.iter_mut().zip(spectrum.chunks(LANES)) {
                 let row = &mut group.present[c][inside];
-                spectrum.iter().enumerate().for_each(|(i, t)| row.set(i, *t));
+                for (i, t) in spectrum.iter().enumerate() {
+                    // round-off alone makes spectra of mirrored fields complex
+                    let im = if self.symmetry == Symmetry::None { t.im } else { 0.0 };
+                    row.set(i, Complex64::new(t.re, im));
+                }
             }
         }
         self.steps += 1;
@@ -153,7 +206,7 @@ impl History {
     /// What tractions of this instant add to the displacement.
     pub(crate) fn now(&self, [x, y]: &[Vec<Complex64>; 2], out: &mut [Vec<Complex64>; 2]) {
         let Weights { xx, xy, yy } = &self.now;
-        for mode in 0..self.modes {
+        for mode in 0..xx.len() {
             let (tx, ty) = (x[mode], y[mode]);
             out[0][mode] = tx * xx[mode] + ty * xy[mode];
             out[1][mode] = tx * xy[mode] + ty * yy[mode];
@@ -214,10 +267,11 @@ impl Group {
     fn new(
         g: usize,
         transforms: &[Arc<dyn Fft<f64>>; 2],
-        [block, blocks]: [usize; 2],
+        lengths: Lengths,
         products: &[Product],
         weight: &impl Fn(usize, usize) -> [f64; 3],
     ) -> Self {
+        let Lengths { block, blocks, frequencies } = lengths;
         let lanes = |lag: usize| {
             let mut near = [[0.0; LANES]; 3];
             for lane in 0..LANES {
@@ -254,7 +308,7 @@ impl Group {
         Self {
             near: (1..block).map(lanes).collect(),
             far,
-            past: rows(2 * block * blocks),
+            past: rows(frequencies * blocks),
             present: rows(block),
             old: rows(2 * block),
             buffer,
@@ -267,11 +321,10 @@ impl Group {
         self.past.iter().chain(&self.present).chain(&self.old)
     }
 
-    /// Transforms the tractions `by` of the block that ends, as the block `slot` of the past.
-    fn end_block(&mut self, by: usize, transform: &dyn Fft<f64>, slot: usize) {
+    /// Transforms the tractions `by` of the block that ends, as the block `index` of the ring.
+    fn end_block(&mut self, by: usize, transform: &dyn Fft<f64>, index: usize, frequencies: usize) {
         let Self { past, present, buffer, scratch, .. } = self;
-        let length = buffer.len();
-        let past = &mut past[by][slot * length..][..length];
+        let past = &mut past[by][index * frequencies..][..frequencies];
         for lane in 0..LANES {
             buffer.fill(Complex64::ZERO);
             buffer.iter_mut().zip(&present[by]).for_each(|(b, row)| *b = row.at(lane));
@@ -280,22 +333,28 @@ impl Group {
         }
     }
 
-    /// Adds the transforms of what all blocks before the block `turn` leave.
-    fn sum_blocks(&mut self, [of, by, weight]: Product, turn: usize, [block, blocks]: [usize; 2]) {
-        for q in 0..blocks.min(turn) {
-            let slot = (turn - 1 - q) % blocks;
-            let past = &self.past[by][slot * 2 * block..][..2 * block];
+    /// Adds the transforms of what the `ended` blocks before this one leave.
+    fn sum_blocks(&mut self, [of, by, weight]: Product, ended: usize, lengths: Lengths) {
+        let Lengths { block, blocks, frequencies } = lengths;
+        for q in 0..blocks.min(ended) {
+            let index = (ended - 1 - q) % blocks;
+            let past = &self.past[by][index * frequencies..][..frequencies];
             let far = &self.far[weight][q * (block + 1)..][..=block];
             widest(|| add_transforms(&mut self.old[of], far, past));
         }
     }
 
     /// Brings the sums of all blocks back to steps.
-    fn transform_back(&mut self, of: usize, transform: &dyn Fft<f64>) {
+    fn transform_back(&mut self, of: usize, transform: &dyn Fft<f64>, frequencies: usize) {
         let Self { old, buffer, scratch, .. } = self;
-        let scale = 1.0 / buffer.len() as f64;
+        let length = buffer.len();
+        let scale = 1.0 / length as f64;
         for lane in 0..LANES {
             buffer.iter_mut().zip(&old[of]).for_each(|(b, row)| *b = row.at(lane));
+            // steps of real numbers: conjugate at opposite frequencies
+            for f in frequencies..length {
+                buffer[f] = buffer[length - f].conj();
+            }
             transform.process_with_scratch(buffer, scratch);
             old[of].iter_mut().zip(&*buffer).for_each(|(row, b)| row.set(lane, b * scale));
         }
@@ -309,17 +368,19 @@ impl Group {
     }
 }
 
-/// Adds to the transforms `sum` (frequencies 0 to 2B - 1) those of a block convolved with real weights, whose
-/// transform `far` (0 to B) is conjugate at opposite frequencies.
+/// Adds to the transforms `sum` (frequencies 0 to 2B - 1, or as far as `past` goes) those of a block convolved with real
+/// weights, whose transform `far` (0 to B) is conjugate at opposite frequencies.
 #[inline(always)]
 fn add_transforms(sum: &mut [Row], far: &[Row], past: &[Row]) {
     let block = far.len() - 1;
     add(&mut sum[0], &far[0], &past[0], 1.0);
     add(&mut sum[block], &far[block], &past[block], 1.0);
     for f in 1..block {
-        let opposite = 2 * block - f;
         add(&mut sum[f], &far[f], &past[f], 1.0);
-        add(&mut sum[opposite], &far[f], &past[opposite], -1.0);
+        let opposite = 2 * block - f;
+        if let Some(past) = past.get(opposite) {
+            add(&mut sum[opposite], &far[f], past, -1.0);
+        }
     }
 }
 
@@ -391,7 +452,7 @@ mod tests {
         let diameter = h * libm::hypot(patch[0] as f64, patch[1] as f64);
         let kernel = Kernel::new(&steel, &Extent { spacing: h, reach, diameter }, dt).unwrap();
         let mut plane = Plane::new(kernel.grid[0], kernel.grid[1]);
-        let mut history = History::new(&kernel);
+        let mut history = History::new(&kernel, Symmetry::None);
         let spectra = || [0, 1].map(|_| vec![Complex64::ZERO; plane.modes()]);
         let (mut taus, mut left, mut now) = (spectra(), spectra(), spectra());
         let zeros = || [0, 1].map(|_| vec![0.0; plane.points()]);
@@ -444,7 +505,7 @@ mod tests {
             let extent = Extent { spacing: h, reach, diameter: h * patch[0] as f64 };
             let kernel = Kernel::new(&steel, &extent, dt).unwrap();
             let mut plane = Plane::new(kernel.grid[0], kernel.grid[1]);
-            let mut history = History::new(&kernel);
+            let mut history = History::new(&kernel, Symmetry::None);
             let spectra = || [0, 1].map(|_| vec![Complex64::ZERO; plane.modes()]);
             let (mut taus, mut left) = (spectra(), spectra());
             let points = plane.points();
@@ -487,6 +548,44 @@ mod tests {
                 history.push(&taus);
                 past.push(tau);
             }
+        }
+    }
+
+    #[test]
+    fn mirrored_tractions_leave_the_same_by_a_quarter_of_their_wavenumbers() {
+        let steel = HalfSpaces::new(210e9, 0.3, 7850.0);
+        let h = 1e-3;
+        let dt = 0.5 * h / steel.pressure_speed;
+        let extent = Extent { spacing: h, reach: (8, Some(6)), diameter: 8.0 * h };
+        let kernel = Kernel::new(&steel, &extent, dt).unwrap();
+        let mut plane = Plane::new(kernel.grid[0], kernel.grid[1]);
+        let both = [Symmetry::None, Symmetry::Mirrored];
+        let mut histories = both.map(|symmetry| History::new(&kernel, symmetry));
+        assert!(2 * histories[1].bytes() < histories[0].bytes());
+        let spectra = || [0, 1].map(|_| vec![Complex64::ZERO; plane.modes()]);
+        let (mut taus, mut left) = (spectra(), [spectra(), spectra()]);
+        let mut tau = [0, 1].map(|_| vec![0.0; plane.points()]);
+        let mut seed = 5;
+        for _ in 0..3 * kernel.memory() {
+            for (i, j) in (0..=4).flat_map(|i| (0..=3).map(move |j| (i, j))) {
+                for (c, tau) in tau.iter_mut().enumerate() {
+                    let value = noise(&mut seed);
+                    for (k, sign) in plane.images([i, j], c) {
+                        tau[k] = sign * value;
+                    }
+                }
+            }
+            for (history, left) in histories.iter_mut().zip(&mut left) {
+                history.left(left);
+            }
+            let [all, quarter] = &left;
+            for (all, quarter) in all.iter().zip(quarter) {
+                let largest = all.iter().map(|u| u.norm()).fold(0.0, f64::max);
+                let error = all.iter().zip(quarter).map(|(a, b)| (a - b).norm());
+                assert!(error.fold(0.0, f64::max) <= 1e-13 * largest);
+            }
+            (0..2).for_each(|c| plane.forward(&tau[c], &mut taus[c]));
+            histories.iter_mut().for_each(|history| history.push(&taus));
         }
     }
 }

@@ -28,6 +28,7 @@
 
 mod compliance;
 mod ellipse;
+mod fault;
 mod history;
 mod kernel;
 mod plane;
@@ -38,6 +39,7 @@ mod tangential;
 
 pub use compliance::{Compliance, HalfSpaces};
 pub use ellipse::Ellipse;
+pub use fault::{Fault, FaultSetup};
 pub use kernel::{Extent, Kernel, KernelError};
 pub use quadrature::Quadrature;
 pub use rolling::{

@@ -54,6 +54,18 @@ impl Plane {
         (self.nx / 2 + 1) * self.ny
     }
 
+    /// Grid indices of the point `at`, counted from the origin, and of its mirror images at x = 0, at y = 0 and at both, with the
+    /// signs there of the component `c` of a field that is even in x and y along x (`c` = 0), odd in both along y (1). On
+    /// a line of symmetry the latter is zero.
+    pub(crate) fn images(&self, at: [usize; 2], c: usize) -> [(usize, f64); 4] {
+        let [i, j] = at;
+        let [left, below] = [(self.nx - i) % self.nx, (self.ny - j) % self.ny];
+        let odd = if c == 0 { 1.0 } else { -1.0 };
+        let here = if c == 1 && (i == 0 || j == 0) { 0.0 } else { 1.0 };
+        [(i, j, here), (left, j, odd * here), (i, below, odd * here), (left, below, here)]
+            .map(|(i, j, sign)| (i + self.nx * j, sign))
+    }
+
     /// The spectrum of a field.
     pub(crate) fn forward(&mut self, field: &[f64], spectrum: &mut [Complex64]) {
         // rows without traction, and in a slice the component that nothing moves, need no transform

@@ -5,7 +5,7 @@ mod tests;
 
 use crate::compliance::HalfSpaces;
 use crate::ellipse::Ellipse;
-use crate::history::History;
+use crate::history::{History, Symmetry};
 use crate::kernel::{Extent, Kernel, KernelError};
 use crate::plane::Plane;
 use crate::return_mapping::{Friction, Point, is_non_unique};
@@ -298,7 +298,7 @@ impl Rolling {
         };
         Ok(Self {
             kernel: facts,
-            history: History::new(&kernel),
+            history: History::new(&kernel, Symmetry::None),
             work: Work {
                 spectra: [spectra(), spectra()],
                 field: zeros(),

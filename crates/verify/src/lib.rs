@@ -24,6 +24,7 @@ mod free_block;
 mod grading_reflection;
 mod half_space;
 mod half_space_rolling;
+mod half_space_rupture;
 mod half_space_waves;
 mod hertz;
 mod implicit;

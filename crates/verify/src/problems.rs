@@ -2,9 +2,9 @@
 
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
-    grading_reflection, half_space_rolling, half_space_waves, hertz, implicit, interface_patch,
-    kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture, shear_column,
-    shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
+    grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
+    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture,
+    shear_column, shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -188,6 +188,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "half-space-waves",
         about: "Half-spaces with inertia: single modes, a line impulse (Lamb), a point force (Cerruti)",
         run: half_space_waves::run,
+    },
+    Problem {
+        name: "half-space-rupture",
+        about: "The rupture of TPV3 between half-spaces with inertia",
+        run: half_space_rupture::run,
     },
     Problem {
         name: "half-space-carter",

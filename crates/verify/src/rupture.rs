@@ -50,26 +50,26 @@ use solid::{Elements, Material, Volumetric};
 const C_P: f64 = 6000.0;
 const C_S: f64 = 3464.0;
 const POISSON: f64 = (C_P * C_P - 2.0 * C_S * C_S) / (2.0 * (C_P * C_P - C_S * C_S));
-const ROCK: Material = Material {
+pub(crate) const ROCK: Material = Material {
     young: 2.0 * 2670.0 * C_S * C_S * (1.0 + POISSON),
     poisson: POISSON,
     density: 2670.0,
 };
 
 /// Stress, displacement and velocity of the model over those of the benchmark.
-const SCALE: f64 = 1e-3;
+pub(crate) const SCALE: f64 = 1e-3;
 /// Normal stress, initial shear on the fault and in the square (Pa).
-const PRESSURE: f64 = 120e6;
-const SHEAR: f64 = 70e6;
-const SHEAR_OF_SQUARE: f64 = 81.6e6;
+pub(crate) const PRESSURE: f64 = 120e6;
+pub(crate) const SHEAR: f64 = 70e6;
+pub(crate) const SHEAR_OF_SQUARE: f64 = 81.6e6;
 const LAW: SlipWeakening =
     SlipWeakening { mu_static: 0.677, mu_dynamic: 0.525, distance: 0.4 * SCALE };
 /// Slip speed at which a node counts as ruptured (m/s).
-const RUPTURED: f64 = 1e-3 * SCALE;
+pub(crate) const RUPTURED: f64 = 1e-3 * SCALE;
 
 /// Half the edges of fault and square (m).
-const FAULT: [f64; 2] = [15e3, 7.5e3];
-const SQUARE: f64 = 1.5e3;
+pub(crate) const FAULT: [f64; 2] = [15e3, 7.5e3];
+pub(crate) const SQUARE: f64 = 1.5e3;
 /// Ends of the quarter (m).
 const ENDS: [f64; 3] = [38.5e3, 34.5e3, 30e3];
 /// Uniform elements reach so far beyond the fault's edges and from its plane (m).
@@ -87,7 +87,7 @@ const END: f64 = 10.0;
 /// Rupture times of the boundary integral solution (s) on the quarter, `x` and `y` in km; each is the mean of
 /// the four cells of 100 m around the point. NaN in the square, which ruptures at t = 0.
 #[rustfmt::skip]
-const BOUNDARY_INTEGRAL: [[f64; 15]; 8] = [
+pub(crate) const BOUNDARY_INTEGRAL: [[f64; 15]; 8] = [
     [f64::NAN, f64::NAN, 0.635, 1.068, 1.501, 1.949, 2.386, 2.791, 3.176, 3.546, 3.907, 4.263, 4.609, 4.956, 5.297],
     [f64::NAN, f64::NAN, 0.698, 1.143, 1.581, 2.016, 2.435, 2.829, 3.209, 3.572, 3.931, 4.282, 4.629, 4.970, 5.309],
     [0.741, 0.799, 1.051, 1.424, 1.814, 2.194, 2.569, 2.940, 3.298, 3.652, 3.998, 4.340, 4.681, 5.018, 5.353],
@@ -101,7 +101,10 @@ const BOUNDARY_INTEGRAL: [[f64; 15]; 8] = [
 /// [`SlipWeakening`] on the fault, and a barrier that no stress of the problem overcomes outside and
 /// on its edge.
 #[derive(Clone, Copy, Debug)]
-struct OnFault(SlipWeakening);
+pub(crate) struct OnFault(SlipWeakening);
+
+/// Friction of the model.
+pub(crate) const ON_FAULT: OnFault = OnFault(LAW);
 
 /// Coefficient of friction of the barrier.
 const BARRIER: f64 = 1e4;
@@ -112,9 +115,9 @@ impl OnFault {
     }
 }
 
-/// Whether a point of the quarter lies inside the fault's edges, which themselves do not slip.
+/// Whether a point lies inside the fault's edges, which themselves do not slip.
 fn on_fault(x: [f64; 2]) -> bool {
-    x[0] < FAULT[0] - 1.0 && x[1] < FAULT[1] - 1.0
+    x[0].abs() < FAULT[0] - 1.0 && x[1].abs() < FAULT[1] - 1.0
 }
 
 impl NodeFriction for OnFault {
@@ -417,9 +420,9 @@ pub(crate) fn run(size: Size) -> Outcome {
 /// Order of convergence of elements and time step, assumed where the meshes show none.
 const ORDER: f64 = 2.0;
 /// Time step (s) and cells (m) of the boundary integral solution.
-const STEP: f64 = 0.0096;
+pub(crate) const STEP: f64 = 0.0096;
 const CELL: f64 = 100.0;
-const SOURCE: &str = "boundary integral solution of Day et al. (2005), cells of 100 m";
+pub(crate) const SOURCE: &str = "boundary integral solution of Day et al. (2005), cells of 100 m";
 
 /// Limits the uncertainty of arrivals, in rising distance along a line. A front that is late at one place is late by at
 /// least as much at all places beyond, so that no place is less certain (s) than those beyond it. The mesh study of a
