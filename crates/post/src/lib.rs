@@ -21,6 +21,7 @@ mod centreline;
 mod check;
 mod compare;
 mod conditions;
+mod correlation;
 mod digits;
 mod error;
 mod figures;
@@ -42,6 +43,7 @@ mod statistics;
 mod surface;
 mod sweep;
 mod vector;
+mod welch;
 mod window;
 
 pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};

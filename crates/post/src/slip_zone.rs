@@ -7,6 +7,7 @@
 //! equal weight (Bessel's correction), so that it does not depend on the number of records in the span.
 
 use crate::centreline::{CentreLine, PLACES, Rows, profile};
+use crate::correlation::Correlation;
 use crate::statistics::mean_and_deviation;
 use output::confidence::of_batches;
 use serde_json::{Map, Value, json};
@@ -28,6 +29,8 @@ pub(crate) struct SlipZone {
     pub fluctuating_share: Option<f64>,
     /// The largest value (m/s).
     pub largest: f64,
+    /// Of the fluctuation over the longest row of neighbouring places of the zone.
+    correlation: Correlation,
     /// Half widths of the 95 % confidence intervals of mean, fluctuation and share, or the reason why there is none.
     halves: [Result<f64, &'static str>; 3],
     /// Standard deviations over the records of mean, fluctuation and share of single records.
@@ -114,15 +117,40 @@ impl SlipZone {
             let values = of_records.iter().map(|values| values[i]);
             mean_and_deviation(weights, values).map(|[_, deviation]| deviation)
         });
+        let correlation = correlation(line, &about, &others, &places);
         Some(Self {
             places,
             mean,
             fluctuation: some(fluctuation),
             fluctuating_share: some(share),
             largest,
+            correlation,
             halves,
             deviations,
         })
+    }
+
+    /// Entries of correlation and spectrum.
+    fn correlations(&self) -> [(&'static str, Value); 4] {
+        let Correlation { length, time, wavenumber, frequency } = self.correlation;
+        let entry = |value: Option<f64>, units: &str, about: &str| {
+            let mut entry = json!({ "value": value, "units": units, "about": about });
+            if value.is_none() {
+                entry["note"] = json!("places or records do not resolve it, or are too few");
+            }
+            entry
+        };
+        let length =
+            entry(length, "m", "distance over which the fluctuation correlates to more than 1/e");
+        let time = entry(time, "s", "time over which it does, at places of the patch");
+        let wavenumber = entry(wavenumber, "1/m", "mean wavenumber of its power spectrum");
+        let frequency = entry(frequency, "Hz", "mean frequency of its power spectrum");
+        [
+            ("correlation_length", length),
+            ("correlation_time", time),
+            ("mean_wavenumber", wavenumber),
+            ("mean_frequency", frequency),
+        ]
     }
 
     /// The object `slip_zone` of documents; `line` gave the slip.
@@ -153,12 +181,32 @@ impl SlipZone {
         let largest =
             json!({ "value": self.largest, "units": "m/s", "about": "largest slip speed" });
         found.insert("largest".into(), largest);
+        for (name, entry) in self.correlations() {
+            found.insert(name.into(), entry);
+        }
         let ends = [self.places.first(), self.places.last()];
         let [from, to] = ends.map(|place| place.map(|&place| line.place(place)));
         found.insert("from".into(), json!(from));
         found.insert("to".into(), json!(to));
         Value::Object(found)
     }
+}
+
+/// The longest row of neighbouring places, of ascending `places`.
+fn longest_row(places: &[usize]) -> &[usize] {
+    places.chunk_by(|a, b| b - a == 1).max_by_key(|row| row.len()).unwrap_or_default()
+}
+
+/// Correlation of what differs from the running means `about`, over the records that have `others` in their span.
+fn correlation(line: &CentreLine, about: &Rows, others: &[f64], places: &[usize]) -> Correlation {
+    let row = longest_row(places);
+    let records = || (0..line.times.len()).filter(|&record| others[record] > 0.0);
+    let away = |record: usize| {
+        row.iter().map(|&place| line.slip[record][place] - about[record][place]).collect()
+    };
+    let rows: Rows = records().map(away).collect();
+    let times: Vec<f64> = records().map(|record| line.times[record]).collect();
+    Correlation::of(&rows, &times, line.place(1) - line.place(0))
 }
 
 /// For each record the mean of every place over the records within half of `span` (s) before and after it, and the

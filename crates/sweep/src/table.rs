@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::plan::SweepError;
 
 /// Columns besides the parameters and the measures of the checks: heading, and JSON pointer into the entry of a run.
-const COLUMNS: [(&str, &str); 51] = [
+const COLUMNS: [(&str, &str); 55] = [
     ("dt", "/summary/dt"),
     ("dt_limit", "/summary/stability/dt_limit"),
     ("steps", "/summary/steps"),
@@ -46,6 +46,10 @@ const COLUMNS: [(&str, &str); 51] = [
     ("slip_zone_fluctuation", "/check/slip_zone/fluctuation/value"),
     ("slip_zone_fluctuating_share", "/check/slip_zone/fluctuating_share/value"),
     ("slip_zone_largest", "/check/slip_zone/largest/value"),
+    ("slip_zone_correlation_length", "/check/slip_zone/correlation_length/value"),
+    ("slip_zone_correlation_time", "/check/slip_zone/correlation_time/value"),
+    ("slip_zone_mean_wavenumber", "/check/slip_zone/mean_wavenumber/value"),
+    ("slip_zone_mean_frequency", "/check/slip_zone/mean_frequency/value"),
     ("energy_kinetic", "/summary/energy/kinetic"),
     ("energy_internal", "/summary/energy/internal"),
     ("energy_hourglass", "/summary/energy/hourglass"),
