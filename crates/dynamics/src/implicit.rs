@@ -198,7 +198,12 @@ impl Simulation {
             Ok(solved) => {
                 implicit.effort.solved += 1;
                 self.finish(&mut implicit, span, &solved);
-                Ok(solved.contact)
+                let mut contact = solved.contact;
+                if span.cuts > 0 {
+                    // of whole steps alone
+                    contact.steepness = [0.0; 2];
+                }
+                Ok(contact)
             }
             Err(unsolved) => {
                 self.nodes.force.fill(Padded::ZERO);

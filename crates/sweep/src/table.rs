@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::plan::SweepError;
 
 /// Columns besides the parameters and the measures of the checks: heading, and JSON pointer into the entry of a run.
-const COLUMNS: [(&str, &str); 55] = [
+const COLUMNS: [(&str, &str); 59] = [
     ("dt", "/summary/dt"),
     ("dt_limit", "/summary/stability/dt_limit"),
     ("steps", "/summary/steps"),
@@ -60,6 +60,10 @@ const COLUMNS: [(&str, &str); 55] = [
     ("balance_error", "/summary/energy/balance_error"),
     ("cone_excess", "/summary/checks/cone_excess"),
     ("resultant_mismatch", "/summary/checks/resultant_mismatch"),
+    ("manifold_node_steps", "/summary/exact_contact/manifold_node_steps"),
+    ("steepness_node", "/summary/exact_contact/steepness_node"),
+    ("steepness_patch", "/summary/exact_contact/steepness_patch"),
+    ("implicit_cut", "/summary/implicit/cut"),
     ("check_pass", "/check/pass"),
     ("wall_s", "/summary/wall_s"),
     ("peak_rss_mb", "/summary/peak_rss_mb"),
