@@ -58,6 +58,18 @@ fn exact_and_mortar_contact_with_memory_and_full_elements_give_the_same_bits_on_
 }
 
 #[test]
+fn implicit_steps_with_falling_friction_give_the_same_bits_on_any_threads() {
+    let mut sets = runs::kill::EXACT_WITH_MEMORY.to_vec();
+    sets.extend(["time.integrator=implicit", "time.step=5e-6", "time.roll=0.002"]);
+    let case = load(&project("tests/small.toml"), &sets);
+    let first = run(&case, 1);
+    assert!(first.data["contact/shear/0001"].iter().any(|x| *x != 0.0));
+    for threads in [2, 3] {
+        same_bits(&first, &run(&case, threads));
+    }
+}
+
+#[test]
 fn pinned_kernels_are_written_down_and_are_those_that_every_processor_can_follow() {
     let sets = ["deterministic=true", "time.roll=0.0004"];
     let case = load(&project("tests/small.toml"), &sets);

@@ -390,3 +390,19 @@ fn intervals_and_counts_that_no_run_could_serve_are_refused() {
     }
     set(&[&probes(1000), &windows(1000)]).unwrap();
 }
+
+#[test]
+fn implicit_steps_need_exact_contact_and_a_length() {
+    let implicit = format!("{SHORT}[time]\nintegrator = \"implicit\"\n");
+    refused(read(&implicit), &["short.toml:6:", "contact.enforcement = \"penalty\""]);
+    let exact = format!("{implicit}[contact]\nenforcement = \"exact\"\n");
+    refused(read(&exact), &["short.toml:6:", "needs time.step"]);
+    let theta = format!("{SHORT}[time]\ntheta = 0.5\n");
+    refused(read(&theta), &["time.theta", "time.integrator"]);
+    let stepped = exact.replace("implicit\"\n", "implicit\"\nstep = 2.5e-6\ntheta = 0.4\n");
+    refused(read(&stepped), &["time.theta", "0.5"]);
+    assert!(read(&stepped.replace("0.4", "0.5")).is_ok());
+    let half_space = format!("{implicit}step = 1e-6\n").replace("[time]", "[time]");
+    let half_space = format!("model = \"half-space\"\n{half_space}");
+    refused(read(&half_space), &["time.integrator", "half-space"]);
+}
