@@ -136,7 +136,9 @@ impl SlipZone {
         let entry = |value: Option<f64>, units: &str, about: &str| {
             let mut entry = json!({ "value": value, "units": units, "about": about });
             if value.is_none() {
-                entry["note"] = json!("places or records do not resolve it, or are too few");
+                entry["note"] = json!(
+                    "places or records do not resolve it, are too few, or end before it does"
+                );
             }
             entry
         };
