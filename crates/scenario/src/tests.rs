@@ -90,8 +90,9 @@ fn faults() -> Vec<Fault> {
 
 fn causes() -> Vec<Cause> {
     let weak = Cause::Hourglass { share: 1.0, limit: 0.5, coefficient: 0.0 };
+    let unsolved = dynamics::Unsolved { step: 1e-7, iterations: 80, residual: 1.0, change: 1.0 };
     let others = every!(Cause: UnstableStep { ratio: 2.0 } StiffContact { ratio: 2.0 } EnergyGrowth {}
-        NotFinite {} Friction { mu: 9.0, limit: 5.0, slip_speed: 0.0, pressure: 0.0 }
+        NotFinite {} Unsolved { 0: unsolved } Friction { mu: 9.0, limit: 5.0, slip_speed: 0.0, pressure: 0.0 }
         Inverted { volume_ratio: -1.0 } Hourglass { share: 1.0, limit: 0.5, coefficient: 0.05 }
         Penetration { depth: 1.0, limit: 0.5, force: 1.0 } ContactLost { since: 0.0, limit: 1.0 }
         MeshMoves { energy: 1.0 } EndOfBar { hub: 1.0, end: 0.5 });

@@ -38,7 +38,7 @@ impl Implicit {
         let old = system.hub.as_ref().map(|hub| hub.state).unwrap_or_default();
         let (mut hub, mut unknown) = (old, [old.vz, old.omega]);
         let mut load = Resultant::default();
-        let (mut corrected, mut first) = (Corrected::default(), 0.0);
+        let (mut corrected, mut largest) = (Corrected::default(), 0.0_f64);
         let mut at = Unsolved { step: dt, iterations: 0, residual: f64::INFINITY, change: 0.0 };
         for iteration in 1..=MOST_ITERATIONS {
             at.iterations = iteration;
@@ -50,11 +50,9 @@ impl Implicit {
             let (mut solved, scale) = self.residual(system, nodes, span, [old, hub], &mut load);
             self.force_on_hub(system, span, &load, hub);
             let norm = self.norm();
-            if iteration == 1 {
-                // forces that nothing balances yet are forces too
-                first = norm;
-            }
-            at.residual = if norm > 0.0 { norm / scale.max(first) } else { norm };
+            // forces that nothing balances yet are forces too
+            largest = largest.max(scale).max(norm);
+            at.residual = if norm > 0.0 { norm / largest } else { norm };
             at.change = corrected.change;
             let settled = at.change <= TOLERANCE && corrected.unconverged <= TOLERANCE;
             if at.residual <= TOLERANCE && settled && iteration > 1 {
