@@ -121,7 +121,7 @@ impl Columns {
         let mut column = vec![[[0.0; 3]; 3]; side.len()];
         let mut products = 0;
         for along in 0..3 {
-            *r = Vectors::new(r.nodes.len());
+            r.clear();
             // a force on a node that moves as one with others stands for those on all of them
             for node in paired::group(&system.paired, trace.in_mesh(node)) {
                 r.nodes[node as usize][along] = 1.0;

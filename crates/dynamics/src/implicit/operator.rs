@@ -64,7 +64,7 @@ impl Vectors {
         self.hub = other.hub;
     }
 
-    fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.nodes.fill(Padded::ZERO);
         self.hub = [0.0; 2];
     }
@@ -171,6 +171,11 @@ impl Operator {
             let stiffness = hub.stiffness(|node| stiff * self.stiffness[node][0]);
             self.hub_inverse = [0, 1].map(|i| 1.0 / (self.mass[i][i] / frame.dt + stiffness[i]));
         }
+    }
+
+    /// The square of the norm of a force.
+    pub(crate) fn square(&mut self, force: &[Padded]) -> f64 {
+        inner(&mut self.partial, force, force)
     }
 
     /// Leaves of a force what the unknowns answer: nothing on nodes that are held or carried, the mean on pairs.
@@ -343,7 +348,7 @@ fn largest(v: &[Padded]) -> f64 {
 }
 
 /// a . b, in an order that does not depend on the threads.
-pub(crate) fn inner(partial: &mut [f64], a: &[Padded], b: &[Padded]) -> f64 {
+fn inner(partial: &mut [f64], a: &[Padded], b: &[Padded]) -> f64 {
     partial.par_iter_mut().zip(a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK))).for_each(
         |(sum, (a, b))| {
             let dot = |a: &Padded, b: &Padded| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

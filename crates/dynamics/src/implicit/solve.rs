@@ -1,11 +1,11 @@
 //! The solution of an implicit step: Newton's method on velocities, contact corrected after each iteration.
 
 use super::columns::side_of;
-use super::operator::{Frame, inner};
+use super::operator::Frame;
 use super::{Implicit, Solved, Span, Unsolved};
 use crate::dashpots::RigidMotion;
 use crate::hub::{HubState, Resultant};
-use crate::nodal_state::{CHUNK, NodalState};
+use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
 use contact::{ContactSums, Corrected};
@@ -172,8 +172,7 @@ impl Implicit {
         force.fill(Padded::ZERO);
         let sums = system.solid.subtract_internal_force(&self.moved, &self.w, force, false);
         solved.dissipated = sums.viscous_power;
-        let mut partial = vec![0.0; force.len().div_ceil(CHUNK)];
-        let scale = inner(&mut partial, force, force);
+        let scale = self.operator.square(force);
         let at = time + lead;
         system.load.apply(at, force);
         solved.given = system.load.power(at, &self.w);
