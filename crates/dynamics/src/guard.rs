@@ -7,10 +7,10 @@
 //! asks for its cause, as far as a cause can be told from the state.
 
 use crate::dashpots::RigidMotion;
-use crate::implicit::Unsolved;
 use crate::ledger::{Energies, Ledger};
 use crate::load::Fixed;
 use crate::simulation::{Simulation, StepReport};
+use crate::unsolved::Unsolved;
 use contact::Contact;
 use mesh::Padded;
 use std::fmt;

@@ -26,13 +26,13 @@ mod sideways;
 mod simulation;
 mod state;
 mod system;
+mod unsolved;
 mod window;
 
 pub use guard::{
     Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
 };
 pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical, smoothstep};
-pub use implicit::{Effort, Unsolved};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use mesh_move::Moved;
@@ -43,6 +43,7 @@ pub use sideways::Sideways;
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};
 pub use system::System;
+pub use unsolved::{Effort, Unsolved};
 pub use window::{MeshMove, Missed, Travel, Window};
 
 #[cfg(test)]

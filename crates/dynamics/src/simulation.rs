@@ -2,10 +2,11 @@
 
 use crate::guard::{GuardLimits, LostContact};
 use crate::hub::{DriveReaction, Hub};
-use crate::implicit::{Implicit, Unsolved};
+use crate::implicit::Implicit;
 use crate::ledger::{Energies, Ledger};
 use crate::nodal_state::NodalState;
 use crate::system::System;
+use crate::unsolved::Unsolved;
 use crate::window::{Travel, Window};
 use contact::{Contact, ContactSums};
 use mesh::Padded;

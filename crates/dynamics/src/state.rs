@@ -2,9 +2,9 @@
 
 use crate::guard::LostContact;
 use crate::hub::{DriveReaction, HubState};
-use crate::implicit::Effort;
 use crate::ledger::Ledger;
 use crate::simulation::{Simulation, Timers};
+use crate::unsolved::Effort;
 use crate::window::Travel;
 use contact::{ContactState, StateError};
 use mesh::Padded;

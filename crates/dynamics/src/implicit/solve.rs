@@ -2,12 +2,13 @@
 
 use super::columns::side_of;
 use super::operator::Frame;
-use super::{Implicit, Solved, Span, Unsolved};
+use super::{Implicit, Solved, Span};
 use crate::dashpots::RigidMotion;
 use crate::hub::{HubState, Resultant};
 use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
+use crate::unsolved::Unsolved;
 use contact::{ContactSums, Corrected};
 use mesh::Padded;
 
