@@ -26,7 +26,7 @@ pub(crate) fn order(size: Size) -> Outcome {
     let mut rows = Vec::new();
     for (theta, order) in [(0.5, 2.0), (1.0, 1.0)] {
         // damping of first order needs shorter steps before its error is c dt
-        let longest = if theta > 0.5 { 1.0 / 64.0 } else { 0.25 };
+        let longest = if theta > 0.5 { 1.0 / 64.0 } else { 1.0 / 16.0 };
         let waves = runs(|longer| Ok(wave(theta, longest * longer)?.0))?;
         rows.push(row(format!("order of a pulse, theta = {theta}"), order, &waves));
         let step = sliding::step(size)?;
