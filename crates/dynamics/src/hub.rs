@@ -253,11 +253,8 @@ impl Hub {
         displacement: &mut [Padded],
         velocity: &mut [Padded],
     ) {
-        let [from, to] = states.map(Placement::new);
-        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
-            let (u, before) = (to.displacement(*arm), from.displacement(*arm));
-            displacement[n as usize] = Padded::new(u);
-            velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
+        for (n, u, v) in self.placed(states, dt) {
+            (displacement[n], velocity[n]) = (u, v);
         }
     }
 
@@ -334,7 +331,7 @@ impl Hub {
 
     /// The state at t^{n+1} under `load`, of a hub that stays where it is. Velocities along z and about the axle that forces decide on
     /// are those of `unknown` (m/s, rad/s), where it is given.
-    pub(crate) fn foretold(
+    pub(crate) fn predicted(
         &mut self,
         [time, dt]: [f64; 2],
         load: &Resultant,
@@ -395,11 +392,22 @@ impl Hub {
 
     /// Gives its nodes the mean velocities (m/s) between two states, `dt` (s) apart.
     pub(crate) fn place_velocities(&self, states: [HubState; 2], dt: f64, velocity: &mut [Padded]) {
+        self.placed(states, dt).for_each(|(n, _, v)| velocity[n] = v);
+    }
+
+    /// Its nodes, their displacements (m) in the second of two states, and their mean velocities (m/s) since the first, `dt` (s)
+    /// before.
+    fn placed(
+        &self,
+        states: [HubState; 2],
+        dt: f64,
+    ) -> impl Iterator<Item = (usize, Padded, Padded)> + '_ {
         let [from, to] = states.map(Placement::new);
-        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+        self.nodes.iter().zip(&self.arms).map(move |(&n, arm)| {
             let (u, before) = (to.displacement(*arm), from.displacement(*arm));
-            velocity[n as usize] = Padded::new([0, 1, 2].map(|i| (u[i] - before[i]) / dt));
-        }
+            let v = [0, 1, 2].map(|i| (u[i] - before[i]) / dt);
+            (n as usize, Padded::new(u), Padded::new(v))
+        })
     }
 
     /// Kinetic energy (J).

@@ -124,7 +124,8 @@ impl Simulation {
     }
 
     /// Mean velocities over the step that led to the present state (m/s), `(u^n - u^{n-1})/dt`: with central difference those at the
-    /// half step. Of the last part of an implicit step that was cut; at rest before the first step of a process, if that is implicit.
+    /// half step. Of the last part of an implicit step that was cut. Of implicit steps they are no part of the state: zero until this simulation
+    /// takes one.
     pub fn step_velocity(&self) -> &[Padded] {
         self.implicit.as_ref().map_or(&self.nodes.velocity, |implicit| implicit.step_velocity())
     }

@@ -247,7 +247,7 @@ impl Recorder {
                 to.vectors(displacement.iter().map(|u| moved(u.xyz(), simulation.travel())));
             }),
             deformation: Some(&|to| to.vectors(displacement.iter().enumerate().map(deformation))),
-            velocity: Some(&|to| to.vectors(simulation.step_velocity().iter().map(|v| v.xyz()))),
+            velocity: Some(&|to| to.vectors(simulation.velocity().iter().map(|v| v.xyz()))),
             stress: stress.then_some(&cauchy),
         };
         self.contact.write_fields(simulation.time(), |snapshot| {

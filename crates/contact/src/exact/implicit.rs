@@ -33,8 +33,6 @@ pub type Matrix3 = [[f64; 3]; 3];
 pub struct Corrected {
     /// Largest change of the forces of a constraint over the largest force (dimensionless).
     pub change: f64,
-    /// Sweeps taken.
-    pub sweeps: usize,
     /// Change in the last sweep over the largest force, where the sweeps ended at their limit; else 0.
     pub unconverged: f64,
 }
@@ -50,6 +48,8 @@ pub(crate) struct ImplicitStep {
     rates: Vec<Vec3>,
     /// Normal force and friction (N) before a correction.
     before: Vec<(f64, Vec3)>,
+    /// Most sweeps of a correction in the step.
+    sweeps: usize,
     /// The constraints as they were when the step began.
     kept: Vec<Constraint>,
     /// The nodes of the master that bear these, and the place of each node of the master among them.
@@ -70,6 +70,7 @@ impl ExactContact {
         let mut constraints = std::mem::take(&mut self.constraints[self.slave]);
         let mut active = std::mem::take(&mut self.active);
         step.kept.clone_from(&constraints);
+        step.sweeps = 0;
         self.slid.clear();
         active.retain(|&i| {
             let constraint = &mut constraints[i as usize];
@@ -171,7 +172,7 @@ impl ExactContact {
             step.rates.push(axpy(slip, opening, constraint.normal));
             step.before.push((constraint.normal_force, constraint.friction));
         }
-        let mut corrected = Corrected::default();
+        let (mut corrected, mut sweeps) = (Corrected::default(), 0);
         for sweep in 1..=SWEEPS {
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for k in 0..step.solved.len() {
@@ -184,7 +185,7 @@ impl ExactContact {
                 change = change.max(changed);
                 size = size.max(force);
             }
-            corrected.sweeps = sweep;
+            sweeps = sweep;
             corrected.unconverged = change / size.max(change);
             // NaN ends the sweeps too
             let goes_on = change > TOLERANCE * size;
@@ -193,6 +194,7 @@ impl ExactContact {
                 break;
             }
         }
+        step.sweeps = step.sweeps.max(sweeps);
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
         for (&i, (normal, friction)) in step.solved.iter().zip(&step.before) {
             let constraint = &constraints[i as usize];
@@ -277,6 +279,7 @@ impl ExactContact {
             // the conditions hold at the end of the step, as the table of the nodes then says
             constraint.gap += motion.dt * opening;
         }
+        (sums.other.sweeps, sums.other.integrated) = (self.implicit.sweeps, self.integrated);
         sums.other.steepness = self.steepness(&constraints, &positions, motion);
         self.active = active;
         self.constraints[self.slave] = constraints;

@@ -45,7 +45,7 @@ impl Implicit {
             at.iterations = iteration;
             self.effort.iterations += 1;
             if let Some(body) = &mut system.hub {
-                hub = body.foretold([time, dt], &load, Some(unknown));
+                hub = body.predicted([time, dt], &load, Some(unknown));
                 body.place_velocities([old, hub], dt, &mut self.w);
             }
             let (mut solved, scale) = self.residual(system, nodes, span, [old, hub], &mut load);
@@ -259,7 +259,7 @@ impl Implicit {
     ) {
         self.residual.hub = [0.0; 2];
         let Some(hub) = &mut system.hub else { return };
-        let then = hub.foretold([time, dt], load, None);
+        let then = hub.predicted([time, dt], load, None);
         let missed = [then.vz - now.vz, then.omega - now.omega];
         let mass = self.operator.hub_mass();
         for i in (0..2).filter(|&i| self.operator.free()[i]) {
