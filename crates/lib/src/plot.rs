@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use figure::Format;
-use post::{Depth, PostError};
+use post::{ComparedSweep, Depth, PostError};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -23,6 +23,9 @@ pub struct PlotOptions {
     /// Folder of the figures [default: figures in that folder]
     #[cfg_attr(feature = "clap", arg(long, value_name = "DIR"))]
     pub out: Option<PathBuf>,
+    /// Folder of a sweep by another method, whose creep-force curve is drawn beside; may be repeated
+    #[cfg_attr(feature = "clap", arg(long, value_name = "SWEEP"))]
+    pub with: Vec<PathBuf>,
     /// Kinds of files, with a comma between
     // none are both
     #[serde(deserialize_with = "all_parsed")]
@@ -70,13 +73,24 @@ impl Drawn {
 /// Draws the figures of a run (those of the papers, histories, slip over space and time, spectra) or of a sweep.
 ///
 /// # Errors
-/// Results that cannot be read; a folder that cannot be written to.
+/// Results that cannot be read; a folder that cannot be written to; `with` beside a run, or beside a
+/// sweep without a creep-force curve.
 pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
     let window = options.span.span()?;
     let (name, folder, figures) = if let Some(sweep) = sweep::read(&options.run)? {
-        let figures = post::sweep_figures(&options.run, &sweep)?;
+        let mut figures = post::sweep_figures(&options.run, &sweep)?;
+        if !options.with.is_empty() {
+            let (name, figure) = compared(options, &sweep)?;
+            figures.retain(|(known, _)| *known != name);
+            figures.push((name, figure));
+        }
         let figures = figures.into_iter().map(|(stem, figure)| (stem, String::new(), figure));
         (sweep::name(&options.run), options.run.clone(), figures.collect::<Vec<_>>())
+    } else if !options.with.is_empty() {
+        return Err(Error::option(
+            format!("--with: {} is no sweep", options.run.display()),
+            "only the creep-force curves of sweeps are drawn beside one another",
+        ));
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
         let figures = post::figures(&paths, &mut against, window)?;
@@ -99,4 +113,28 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
         drawn.figures.push(DrawnFigure { name, about, files });
     }
     Ok(drawn)
+}
+
+/// The creep-force curves of the sweep beside those of `with`, with the figure's name.
+fn compared(options: &PlotOptions, document: &Value) -> Result<(String, figure::Figure), Error> {
+    let mut others = Vec::new();
+    for folder in &options.with {
+        let Some(other) = sweep::read(folder)? else {
+            return Err(Error::option(
+                format!("--with: {} is no sweep", folder.display()),
+                "give the folder of a sweep, which holds sweep.json",
+            ));
+        };
+        others.push((folder, other));
+    }
+    let all: Vec<ComparedSweep<'_>> = std::iter::once((&options.run, document))
+        .chain(others.iter().map(|(folder, other)| (*folder, other)))
+        .map(|(folder, document)| ComparedSweep { name: sweep::name(folder), folder, document })
+        .collect();
+    post::creep_force_figure(&all)?.ok_or_else(|| {
+        Error::option(
+            "--with: no sweep has two values of drive.creepage",
+            "only creep-force curves are drawn beside one another: sweep drive.creepage",
+        )
+    })
 }

@@ -61,5 +61,8 @@ pub use output::layout::Pairing;
 pub use page::{run_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use surface::{NO_BODY, Surface, body_name};
-pub use sweep::{Sample, SweepVerdict, Trend, Verdict, sweep_figures, sweep_verdicts, trend};
+pub use sweep::{
+    ComparedSweep, Sample, SweepVerdict, Trend, Verdict, creep_force_figure, sweep_figures,
+    sweep_verdicts, trend,
+};
 pub use window::Span;

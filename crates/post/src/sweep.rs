@@ -3,13 +3,16 @@
 //! All data are in the document `sweep.json`, except the profiles: these are read from the contact histories
 //! of the runs that it names.
 
+mod creep_force;
 mod document;
 mod figures;
+mod lines;
 mod measures;
 mod profiles;
 mod trend;
 mod verdict;
 
+pub use creep_force::{ComparedSweep, creep_force_figure};
 pub use figures::sweep_figures;
 pub(crate) use trend::RULE;
 pub use trend::{Sample, Trend, Verdict, trend};

@@ -5,7 +5,10 @@
 mod planted;
 
 use planted::*;
-use post::{SweepVerdict, Trend, sweep_figures, sweep_page, sweep_verdicts};
+use post::{
+    ComparedSweep, SweepVerdict, Trend, creep_force_figure, sweep_figures, sweep_page,
+    sweep_verdicts,
+};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -154,4 +157,67 @@ fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_re
         assert!(sweep_figures(Path::new("s"), &odd).unwrap().is_empty());
         assert!(sweep_page("s", Path::new("s/sweep.json"), &odd).is_ok());
     }
+}
+
+/// A run of a creep-force curve: T/N = `plateau` (1 - exp(-creepage/2e-3)).
+fn creep(creepage: f64, distance: f64, plateau: f64) -> Value {
+    let ratio = plateau * (1.0 - libm::exp(-creepage / 2e-3));
+    json!({
+        "parameters": { CREEPAGE: creepage, MEMORY: distance }, "status": "completed", "run": "none",
+        "summary": { "contact": { "traction_coefficient": ratio } }, "check": null,
+    })
+}
+
+const CREEPAGE: &str = "drive.creepage";
+const MEMORY: &str = "friction.memory.distance";
+
+fn creep_sweep(plateau: f64) -> Value {
+    let points = [1e-3, 4e-3, 2e-3].iter().flat_map(|c| [(*c, 1e-5), (*c, 3e-6)]);
+    let runs: Vec<Value> = points.map(|(c, d)| creep(c, d, plateau)).collect();
+    json!({ "parameters": [MEMORY, CREEPAGE], "runs": runs })
+}
+
+#[test]
+fn a_sweep_over_creepage_has_its_creep_force_curve_with_a_line_for_each_law() {
+    let sweep = creep_sweep(0.3);
+    let figures = sweep_figures(Path::new("s"), &sweep).unwrap();
+    let (_, curve) = figures.iter().find(|(name, _)| name == "creep-force").unwrap();
+    let [panel] = &curve.panels[..] else { panic!("{} panels", curve.panels.len()) };
+    let named: Vec<&str> =
+        panel.series.iter().map(|s| s.label.as_str()).filter(|l| !l.is_empty()).collect();
+    assert_eq!(named.len(), 2, "{named:?}");
+    let x: Vec<f64> = panel.series[0].points.iter().map(|p| p[0]).collect();
+    assert_eq!(x, [1.0, 2.0, 4.0], "by rising creepage");
+    assert!((panel.series[0].points[1][1] - 0.3 * (1.0 - libm::exp(-1.0))).abs() < 1e-15);
+}
+
+#[test]
+fn curves_of_several_methods_stand_in_one_panel_for_each_law() {
+    let sweeps = [creep_sweep(0.3), creep_sweep(0.28), creep_sweep(0.27)];
+    let names = ["elements", "half-spaces", "quasi-static"];
+    let compared: Vec<ComparedSweep<'_>> = names
+        .iter()
+        .zip(&sweeps)
+        .map(|(name, document)| ComparedSweep {
+            name: (*name).into(),
+            folder: Path::new("s"),
+            document,
+        })
+        .collect();
+    let (_, figure) = creep_force_figure(&compared).unwrap().unwrap();
+    assert_eq!(figure.panels.len(), 2);
+    let labels = |k: usize| -> Vec<String> {
+        let labels = figure.panels[k].series.iter().map(|s| s.label.clone());
+        labels.filter(|label| !label.is_empty()).collect()
+    };
+    assert_eq!(labels(0), names);
+    assert!(labels(1).is_empty(), "a legend once");
+    assert!(figure.panels.iter().all(|panel| panel.series.len() == 9));
+}
+
+#[test]
+fn a_sweep_without_creepage_has_no_creep_force_curve() {
+    let sweep = json!({ "parameters": [SPRING], "runs": [run(1.0, 1e-3), run(10.0, 1e-3)] });
+    let compared = [ComparedSweep { name: "kt".into(), folder: Path::new("s"), document: &sweep }];
+    assert!(creep_force_figure(&compared).unwrap().is_none());
 }

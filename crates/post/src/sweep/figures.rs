@@ -1,22 +1,21 @@
 //! The figures of a sweep.
 
+use super::creep_force::{CREEP_FORCE, creep_force};
 use super::document::{Group, Sweep, value_text};
+use super::lines::{GROUPS, axis_over, label, line, spans_decades};
 use super::measures::{MEASURES, Point};
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
 use crate::PostError;
-use figure::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour, viridis};
+use figure::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, viridis};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Colours of groups of runs.
-const GROUPS: [[u8; 3]; 6] =
-    [colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
-
 /// All figures of a sweep with the names of their files: `measures-AXIS`, each measure over an axis;
-/// `profiles-AXIS`, the centre lines along it; and for two axes `map`, measures over both. Runs that
-/// did not complete are left out, and so are contact histories that cannot be read.
+/// `profiles-AXIS`, the centre lines along it; for two axes `map`, measures over both; and `creep-force`
+/// ([`creep_force_figure`](super::creep_force_figure)). Runs that did not complete are left out, and so
+/// are contact histories that cannot be read.
 ///
 /// `folder` is the folder of the sweep, `sweep` the content of its `sweep.json`.
 ///
@@ -40,33 +39,15 @@ pub fn sweep_figures(folder: &Path, sweep: &Value) -> Result<Vec<(String, Figure
     {
         all.push(("map".into(), figure));
     }
+    if let Some(figure) = creep_force(&[(String::new(), &sweep)]) {
+        all.push((CREEP_FORCE.into(), figure));
+    }
     Ok(all)
 }
 
 /// The key of an axis as part of a file name.
 fn stem(axis: &str) -> String {
     axis.replace(|c: char| !c.is_ascii_alphanumeric(), "-")
-}
-
-/// The label of an axis: its key with the unit.
-fn label(axis: &str) -> String {
-    let unit = match axis {
-        "mesh.zone.size" | "time.roll" | "friction.distance" | "friction.memory.distance" => "m",
-        "time.step" | "drive.ramp" | "time.duration" | "damping.kelvin_voigt" => "s",
-        "friction.decay" => "s/m",
-        "drive.speed" => "m/s",
-        "drive.torque" => "Nm",
-        "load.normal" => "N",
-        "damping.mass" => "1/s",
-        "material.young" => "Pa",
-        _ => "-",
-    };
-    format!("{axis} ({unit})")
-}
-
-fn axis_over(text: &str, values: &[f64]) -> Axis {
-    let log = spans_decades(values.iter().copied());
-    if log { Axis::log(text) } else { Axis::linear(text) }
 }
 
 /// Every measure over an axis, a line for each group, with bars for its uncertainty.
@@ -91,22 +72,8 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
         let first = panels.is_empty();
         let mut series = Vec::new();
         for (k, (group, points)) in lines.iter().enumerate() {
-            let colour = GROUPS[k % GROUPS.len()];
-            series.push(Series {
-                label: if first { group.label.clone() } else { String::new() },
-                points: points.iter().map(|(x, point)| [*x, point.value]).collect(),
-                draw: Draw::Line(colour),
-            });
-            series.push(Series {
-                label: String::new(),
-                points: points.iter().map(|(x, point)| [*x, point.value]).collect(),
-                draw: Draw::Dots(colour, 2.5),
-            });
-            series.push(Series {
-                label: String::new(),
-                points: points.iter().flat_map(|(x, point)| bar(*x, point, log)).collect(),
-                draw: Draw::Line(colour),
-            });
+            let label = if first { group.label.clone() } else { String::new() };
+            series.extend(line(label, GROUPS[k % GROUPS.len()], points, log));
         }
         let (fill, marks) = (None, Vec::new());
         panels.push(Panel { title: String::new(), x: x.clone(), y, fill, series, marks });
@@ -139,17 +106,6 @@ fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>
     let half = (0.52 * (ends[1] - ends[0])).max(0.03 * middle.abs());
     let axis = Axis::linear(heading);
     if half > 0.0 { axis.over(middle - half, middle + half) } else { axis }
-}
-
-/// The bar of a point as a line, then NaN, which ends the line.
-fn bar(x: f64, point: &Point, log: bool) -> Vec<[f64; 2]> {
-    let Some(scatter) = point.bar().filter(|scatter| *scatter > 0.0) else {
-        return Vec::new();
-    };
-    // on a logarithmic axis a bar that reaches below zero ends a decade down
-    let low = point.value - scatter;
-    let low = if log { low.max(0.1 * point.value) } else { low };
-    vec![[x, low], [x, point.value + scatter], [x, f64::NAN]]
 }
 
 /// The centre lines of a group of runs, coloured by the axis.
@@ -286,14 +242,6 @@ fn edges(values: &[f64]) -> Vec<f64> {
     edges.extend((0..n - 1).map(|i| places[i] + half(i)));
     edges.push(places[n - 1] + half(n - 2));
     edges.into_iter().map(from).collect()
-}
-
-/// Whether values span more than a decade, so that a logarithmic axis shows them.
-fn spans_decades(values: impl Iterator<Item = f64>) -> bool {
-    let ends = values
-        .filter(|value| value.is_finite())
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
-    ends[0] > 0.0 && ends[1] > 10.0 * ends[0]
 }
 
 #[cfg(test)]
