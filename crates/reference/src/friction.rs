@@ -1,5 +1,6 @@
 //! Coulomb friction on a contact area with given normal forces, for bodies condensed to their surface.
 
+use crate::slip_law::Step;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 use thiserror::Error;
@@ -65,8 +66,10 @@ pub(crate) struct Solution {
 pub(crate) struct Coulomb<'a> {
     /// Tangential displacement per force among the contact points (m/N), by point, then t1, t2.
     pub compliance: MatRef<'a, f64>,
-    /// mu times the normal force of each point (N), positive.
+    /// mu times the normal force of each point (N), positive; at rest where it depends on the slip of the step.
     pub bound: &'a [f64],
+    /// The bounds as they depend on the slip of the step; `None` where they do not.
+    pub step: Option<&'a Step>,
 }
 
 impl Coulomb<'_> {
@@ -78,6 +81,10 @@ impl Coulomb<'_> {
     /// (Alart and Curnier 1991). For given normal forces and a symmetric W the solution minimises a
     /// convex function and is unique. Semismooth Newton finds it in a few steps;
     /// where it does not converge, sweeps of block Gauss–Seidel, which always descend, give a better start.
+    ///
+    /// A bound g(|s|) that depends on the slip is part of the same equation. Newton's method takes its derivative
+    /// along; the sweeps take the bound of each point at its slip before. Where g falls too steeply there may be several
+    /// solutions or none; the one found is near `start`.
     pub fn solve(
         &self,
         offset: &[f64],
@@ -109,7 +116,8 @@ impl Coulomb<'_> {
         let most: f64 = self.bound.iter().sum();
         let required = rigid.map(|r| if let Rigid::Forced(f) = r { f } else { 0.0 });
         let force = libm::hypot(required[0], required[1]);
-        if force.is_nan() || force >= most {
+        let constant = self.step.is_none();
+        if force.is_nan() || (constant && force >= most) {
             return Err(FrictionError::Slides { force, most });
         }
         let mut state = State {
@@ -134,6 +142,10 @@ impl Coulomb<'_> {
                 }
             }
         }
+        let most = (0..m).map(|i| self.bound(&state, i).1).sum();
+        if force >= most {
+            return Err(FrictionError::Slides { force, most });
+        }
         Err(FrictionError::Stalled { violation: worst.0, point: worst.1 })
     }
 
@@ -157,6 +169,23 @@ impl Coulomb<'_> {
         2.0 / (w[(2 * i, 2 * i)] + w[(2 * i + 1, 2 * i + 1)])
     }
 
+    /// Slip of a point (m), and its friction bound (N).
+    fn bound(&self, state: &State, i: usize) -> (f64, f64) {
+        let slip = libm::hypot(state.slip[2 * i], state.slip[2 * i + 1]);
+        (slip, self.step.map_or(self.bound[i], |step| step.bound(i, slip)))
+    }
+
+    /// Derivative of a point's bound with respect to t1 and t2 of its slip (N/m).
+    fn slope(&self, state: &State, i: usize, slip: f64) -> [f64; 2] {
+        match self.step {
+            Some(step) if slip > 0.0 => {
+                let slope = step.slope(i, slip) / slip;
+                [2 * i, 2 * i + 1].map(|k| slope * state.slip[k])
+            }
+            _ => [0.0; 2],
+        }
+    }
+
     /// p - r s of a point.
     fn trial(&self, state: &State, i: usize) -> [f64; 2] {
         let r = self.weight(i);
@@ -174,7 +203,8 @@ impl Coulomb<'_> {
                 worst.0 = f64::max(worst.0, (sum - force).abs() / most);
             }
         }
-        for (i, &g) in self.bound.iter().enumerate() {
+        for i in 0..self.bound.len() {
+            let (_, g) = self.bound(state, i);
             let p = project(self.trial(state, i), g);
             let off =
                 libm::hypot(p[0] - state.force[2 * i], p[1] - state.force[2 * i + 1]) / largest;
@@ -186,7 +216,7 @@ impl Coulomb<'_> {
     }
 
     /// One step of Newton's method on p = P(p - r s): stick rows demand s = 0, slip rows
-    /// dp - M (dp - r ds) = P - p with M = (g/|q|)(I - q q/|q|^2), q = p - r s.
+    /// dp - M (dp - r ds) - (q/|q|) dg = P - p with M = (g/|q|)(I - q q/|q|^2), q = p - r s, dg = g' s/|s| ds.
     fn newton(&self, state: &mut State, rigid: [Rigid; 2]) {
         let m = self.bound.len();
         let free: Vec<usize> = (0..2).filter(|&a| matches!(rigid[a], Rigid::Forced(_))).collect();
@@ -197,7 +227,8 @@ impl Coulomb<'_> {
         // Per point, the 2x2 coefficients of dp (`own`) and of ds (`slip`) in its two rows.
         let mut own = vec![[[0.0; 2]; 2]; m];
         let mut slip = vec![[[0.0; 2]; 2]; m];
-        for (i, &g) in self.bound.iter().enumerate() {
+        for i in 0..m {
+            let (slipped, g) = self.bound(state, i);
             let r = self.weight(i);
             let q = self.trial(state, i);
             let length = libm::hypot(q[0], q[1]);
@@ -209,13 +240,14 @@ impl Coulomb<'_> {
             } else {
                 let e = [q[0] / length, q[1] / length];
                 let p = [g * e[0], g * e[1]];
+                let slope = self.slope(state, i, slipped);
                 for a in 0..2 {
                     for b in 0..2 {
                         let unit = if a == b { 1.0 } else { 0.0 };
                         let turn = g / length * (unit - e[a] * e[b]);
                         // Scaled by 1/r so that all rows are displacements.
                         own[i][a][b] = (unit - turn) / r;
-                        slip[i][a][b] = turn;
+                        slip[i][a][b] = turn - e[a] * slope[b] / r;
                     }
                     right[(2 * i + a, 0)] = (p[a] - state.force[2 * i + a]) / r;
                 }
@@ -259,7 +291,7 @@ impl Coulomb<'_> {
         let m = self.bound.len();
         for i in 0..m {
             let p = [state.force[2 * i], state.force[2 * i + 1]];
-            let p = project(p, self.bound[i]);
+            let p = project(p, self.bound(state, i).1);
             [state.force[2 * i], state.force[2 * i + 1]] = p;
         }
         self.update_slip(state, offset);
@@ -268,7 +300,7 @@ impl Coulomb<'_> {
             let old = [state.force[2 * i], state.force[2 * i + 1]];
             let without =
                 [0, 1].map(|a| state.slip[2 * i + a] - w[a][0] * old[0] - w[a][1] * old[1]);
-            let new = point_force(w, without, self.bound[i]);
+            let new = point_force(w, without, self.bound(state, i).1);
             for a in 0..2 {
                 let change = new[a] - old[a];
                 if change != 0.0 {

@@ -18,6 +18,7 @@ mod influence;
 mod measures;
 mod normal;
 mod rolling;
+mod slip_law;
 mod sparse;
 
 pub use block::{Block, BlockError, Lateral};
@@ -27,4 +28,5 @@ pub use influence::{Influence, InfluenceError, Point};
 pub use measures::{Ellipsoid, ellipsoid, peak_shear, stick_border, stick_fraction};
 pub use normal::{Press, PressError, Pressed, press};
 pub use rolling::{Adhesion, Rolling, RollingError};
+pub use slip_law::SlipLaw;
 pub use sparse::{ElementStiffness, Factor, SparseError, StiffnessMatrix, Symbolic, Unknowns};

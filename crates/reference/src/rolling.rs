@@ -2,6 +2,7 @@
 //! of one pitch of the grid of contact points.
 
 use crate::friction::{Coulomb, FrictionError, Rigid, Solution};
+use crate::slip_law::{Particles, SlipLaw, Step};
 use crate::{Influence, Pressed};
 use faer::Mat;
 use thiserror::Error;
@@ -41,6 +42,12 @@ pub enum RollingError {
         /// The coefficient.
         mu: f64,
     },
+    /// The speed of rolling of a law that depends on the slip velocity is not a finite number above zero.
+    #[error("a speed of rolling of {speed} m/s cannot be used")]
+    Speed {
+        /// The speed (m/s).
+        speed: f64,
+    },
     /// The tangential problem of a step failed.
     #[error(transparent)]
     Step(#[from] FrictionError),
@@ -67,7 +74,7 @@ pub enum Adhesion {
     Slip,
 }
 
-/// Two bodies in contact with Coulomb friction, in the frame that moves with the contact. Vectors of two numbers are
+/// Two bodies in contact with friction, in the frame that moves with the contact. Vectors of two numbers are
 /// along the tangents t1 and t2 of [`Influence`], x and y where the normal is z.
 ///
 /// The slave rolls towards +x: particles enter the contact at its leading edge, at +x, and leave
@@ -82,10 +89,17 @@ pub enum Adhesion {
 /// bodies far from the contact does not change the creepage of steady rolling.
 ///
 /// Normal forces are given: the tangential ones do not change them.
+///
+/// The coefficient of friction is constant, or that of a [`SlipLaw`]. Then the state of the law moves with the
+/// particles, and each step solves for forces, slip and coefficients at once.
 pub struct Rolling<'a> {
     influence: &'a Influence,
     contact: Vec<usize>,
+    /// Normal force of the contact points (N), and their friction bound at the end of the last step (N).
+    normal: Vec<f64>,
     bound: Vec<f64>,
+    /// What the particles remember; `None` with a constant coefficient.
+    particles: Option<Particles>,
     /// Tangential compliance among the contact points (m/N).
     matrix: Mat<f64>,
     /// The point upstream of each point; [`NONE`] at the leading edge of the grid.
@@ -112,6 +126,42 @@ impl<'a> Rolling<'a> {
         if !rough {
             return Err(RollingError::Friction { mu });
         }
+        let mut rolling = Self::frictionless(influence, pressed)?;
+        rolling.bound = rolling.normal.iter().map(|n| mu * n).collect();
+        Ok(rolling)
+    }
+
+    /// The same with a friction law. All contact points are at the beginning of contact.
+    ///
+    /// The coefficient is that of the slip velocity of the same step also where a law, such as
+    /// [`friction::Lagged`], asks for that of the step before.
+    ///
+    /// # Errors
+    /// [`RollingError::Grid`], [`RollingError::Border`], [`RollingError::Friction`], [`RollingError::Speed`].
+    pub fn with_law(
+        influence: &'a Influence,
+        pressed: &Pressed,
+        law: SlipLaw,
+    ) -> Result<Self, RollingError> {
+        let speed = law.speed;
+        let moves = speed > 0.0 && speed.is_finite();
+        if !moves {
+            return Err(RollingError::Speed { speed });
+        }
+        let mut rolling = Self::frictionless(influence, pressed)?;
+        let (points, pitch) = (&influence.points, rolling.pitch);
+        let particles = Particles::new(law, pitch, points, &rolling.contact, &rolling.normal);
+        rolling.bound = particles.at_rest(points, &rolling.contact, &rolling.normal);
+        let mut bounds = rolling.bound.iter().zip(&rolling.normal);
+        if let Some((g, n)) = bounds.find(|(g, _)| !(**g > 0.0 && g.is_finite())) {
+            return Err(RollingError::Friction { mu: g / n });
+        }
+        rolling.particles = Some(particles);
+        Ok(rolling)
+    }
+
+    /// Bodies pressed together whose friction bounds are zero.
+    fn frictionless(influence: &'a Influence, pressed: &Pressed) -> Result<Self, RollingError> {
         let (upstream, pitch) = upstream(influence)?;
         let contact = pressed.contact.clone();
         let mut has_downstream = vec![false; upstream.len()];
@@ -134,7 +184,9 @@ impl<'a> Rolling<'a> {
         }
         Ok(Self {
             influence,
-            bound: contact.iter().map(|&i| mu * pressed.force[i]).collect(),
+            bound: vec![0.0; m],
+            normal: contact.iter().map(|&i| pressed.force[i]).collect(),
+            particles: None,
             contact,
             matrix,
             upstream,
@@ -148,13 +200,17 @@ impl<'a> Rolling<'a> {
     }
 
     /// Moves the bodies along the tangents t1 and t2 without rolling; as the first step, the problem of Cattaneo and
-    /// Mindlin.
+    /// Mindlin. With a [`SlipLaw`] the shift is so slow that coefficients are those of rest and states stay.
     ///
     /// # Errors
     /// [`RollingError::Step`].
     pub fn shift(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
-        let before = |_: &Self, i: usize| i;
-        self.step(rigid, before)
+        if let Some(particles) = &self.particles {
+            self.bound = particles.at_rest(&self.influence.points, &self.contact, &self.normal);
+        }
+        let solution = self.solve(rigid, |i| i, None)?;
+        self.take(solution);
+        Ok(())
     }
 
     /// Rolls by one pitch. `rigid` is along t1 and t2; a given motion is the creepage times the pitch.
@@ -162,14 +218,38 @@ impl<'a> Rolling<'a> {
     /// # Errors
     /// [`RollingError::Step`].
     pub fn roll(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
-        let before = |rolling: &Self, i: usize| rolling.upstream[i];
-        self.step(rigid, before)
+        let Some(mut particles) = self.particles.take() else {
+            let solution = self.solve(rigid, |i| self.upstream[i], None)?;
+            self.take(solution);
+            return Ok(());
+        };
+        let rolled = self.roll_particles(rigid, &mut particles);
+        self.particles = Some(particles);
+        rolled
+    }
+
+    /// Rolls by one pitch and moves the states of the particles on.
+    fn roll_particles(
+        &mut self,
+        rigid: [Rigid; 2],
+        particles: &mut Particles,
+    ) -> Result<(), RollingError> {
+        let points = &self.influence.points;
+        let step = particles.step(points, &self.contact, &self.normal, |i| self.upstream[i]);
+        let bounds = (0..self.contact.len()).map(|k| step.bound(k, 0.0));
+        self.bound = bounds.collect();
+        let solution = self.solve(rigid, |i| self.upstream[i], Some(&step))?;
+        particles.take(&step, &self.contact, &solution.slip);
+        let slips = solution.slip.chunks_exact(2).enumerate();
+        self.bound = slips.map(|(k, s)| step.bound(k, libm::hypot(s[0], s[1]))).collect();
+        self.take(solution);
+        Ok(())
     }
 
     /// Rolls until the forces no longer change, at most `steps` pitches, and returns the number of pitches.
     ///
     /// A first guess solves for the state that one pitch of rolling reproduces,
-    /// s_i = w_i - w_up(i) - xi h with both displacements of the same state: one system instead
+    /// s_i = w_i - w_up(i) - xi h with both displacements of the same state and constant bounds: one system instead
     /// of hundreds of steps. If Newton's method does not find it, rolling starts from the
     /// current state. In either case steps of rolling decide whether the state is steady.
     ///
@@ -203,28 +283,28 @@ impl<'a> Rolling<'a> {
             Mat::from_fn(size, size, |i, j| shear[(here(i), here(j))] - shear[(ahead(i), here(j))]);
         let offset: Vec<f64> =
             (0..size).map(|k| self.pressed[here(k)] - self.pressed[ahead(k)]).collect();
-        let friction = Coulomb { compliance: matrix.as_ref(), bound: &self.bound };
+        let friction = Coulomb { compliance: matrix.as_ref(), bound: &self.bound, step: None };
         friction.solve_directly(&offset, rigid, &self.force).ok()
     }
 
-    /// One step; `before` gives the point at which the particle of a contact point was before it.
-    fn step(
-        &mut self,
+    /// One step; `before` gives the point at which the particle of a contact point was before it, `step` the
+    /// bounds where they depend on the slip of the step.
+    fn solve(
+        &self,
         rigid: [Rigid; 2],
-        before: impl Fn(&Self, usize) -> usize,
-    ) -> Result<(), RollingError> {
+        before: impl Fn(usize) -> usize,
+        step: Option<&Step>,
+    ) -> Result<Solution, RollingError> {
         let m = self.contact.len();
         let mut offset = vec![0.0; 2 * m];
         for (k, &i) in self.contact.iter().enumerate() {
-            let from = before(self, i);
+            let from = before(i);
             for a in 0..2 {
                 offset[2 * k + a] = self.pressed[2 * i + a] - self.displacement[2 * from + a];
             }
         }
-        let friction = Coulomb { compliance: self.matrix.as_ref(), bound: &self.bound };
-        let solution = friction.solve(&offset, rigid, &self.force)?;
-        self.take(solution);
-        Ok(())
+        let friction = Coulomb { compliance: self.matrix.as_ref(), bound: &self.bound, step };
+        Ok(friction.solve(&offset, rigid, &self.force)?)
     }
 
     /// Sets forces, slip and rigid motion, and computes the displacements of all points from them.
@@ -256,7 +336,7 @@ impl<'a> Rolling<'a> {
         self.force.chunks_exact(2).map(|p| [p[0], p[1]]).collect()
     }
 
-    /// Friction bound of each contact point, mu times its normal force (N).
+    /// Friction bound of each contact point in the last step, mu times its normal force (N).
     pub fn bound(&self) -> &[f64] {
         &self.bound
     }
