@@ -1,6 +1,5 @@
 //! Coulomb friction on a contact area with given normal forces, for bodies condensed to their surface.
 
-use crate::slip_law::Step;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 use thiserror::Error;
@@ -60,6 +59,18 @@ pub(crate) struct Solution {
     pub slip: Vec<f64>,
     /// Rigid motion of the master relative to the slave (m).
     pub moved: [f64; 2],
+    /// Friction bound of each contact point (N).
+    pub bound: Vec<f64>,
+}
+
+/// Friction bounds that depend on the slip of the contact points.
+pub(crate) trait SlipBound {
+    /// Bound of each point (N) after these slips (m).
+    fn bounds(&self, slip: &[f64]) -> Vec<f64>;
+
+    /// By point, the points on whose slip its bound depends, with the derivative (N/m) with respect to it. Newton's method
+    /// alone uses them: their error changes the number of iterations, not the solution.
+    fn slopes(&self, slip: &[f64]) -> Vec<Vec<(usize, f64)>>;
 }
 
 /// The tangential problem of the points in contact: their compliance and friction bounds.
@@ -69,7 +80,7 @@ pub(crate) struct Coulomb<'a> {
     /// mu times the normal force of each point (N), positive; at rest where it depends on the slip of the step.
     pub bound: &'a [f64],
     /// The bounds as they depend on the slip of the step; `None` where they do not.
-    pub step: Option<&'a Step>,
+    pub slip: Option<&'a dyn SlipBound>,
 }
 
 impl Coulomb<'_> {
@@ -83,7 +94,7 @@ impl Coulomb<'_> {
     /// where it does not converge, sweeps of block Gauss–Seidel, which always descend, give a better start.
     ///
     /// A bound g(|s|) that depends on the slip is part of the same equation. Newton's method takes its derivative
-    /// along; the sweeps take the bound of each point at its slip before. Where g falls too steeply there may be several
+    /// along; a sweep takes the bounds at the slip before it. Where g falls too steeply there may be several
     /// solutions or none; the one found is near `start`.
     pub fn solve(
         &self,
@@ -116,7 +127,7 @@ impl Coulomb<'_> {
         let most: f64 = self.bound.iter().sum();
         let required = rigid.map(|r| if let Rigid::Forced(f) = r { f } else { 0.0 });
         let force = libm::hypot(required[0], required[1]);
-        let constant = self.step.is_none();
+        let constant = self.slip.is_none();
         if force.is_nan() || (constant && force >= most) {
             return Err(FrictionError::Slides { force, most });
         }
@@ -124,6 +135,7 @@ impl Coulomb<'_> {
             force: start.to_vec(),
             moved: rigid.map(|r| if let Rigid::Moved(b) = r { b } else { 0.0 }),
             slip: vec![0.0; 2 * m],
+            bound: self.bound.to_vec(),
         };
         let mut worst = (f64::INFINITY, 0);
         for round in 1..=rounds {
@@ -131,8 +143,8 @@ impl Coulomb<'_> {
                 self.update_slip(&mut state, offset);
                 worst = self.violation(&state, rigid, most);
                 if worst.0 <= TOLERANCE {
-                    let State { force, slip, moved } = state;
-                    return Ok(Solution { force, slip, moved });
+                    let State { force, slip, moved, bound } = state;
+                    return Ok(Solution { force, slip, moved, bound });
                 }
                 self.newton(&mut state, rigid);
             }
@@ -142,7 +154,7 @@ impl Coulomb<'_> {
                 }
             }
         }
-        let most = (0..m).map(|i| self.bound(&state, i).1).sum();
+        let most = state.bound.iter().sum();
         if force >= most {
             return Err(FrictionError::Slides { force, most });
         }
@@ -161,29 +173,15 @@ impl Coulomb<'_> {
                 }
             }
         }
+        if let Some(law) = self.slip {
+            state.bound = law.bounds(&sizes(&state.slip));
+        }
     }
 
     /// The weight r of the slip in p - r s (N/m): the inverse of the point's own mean compliance.
     fn weight(&self, i: usize) -> f64 {
         let w = self.compliance;
         2.0 / (w[(2 * i, 2 * i)] + w[(2 * i + 1, 2 * i + 1)])
-    }
-
-    /// Slip of a point (m), and its friction bound (N).
-    fn bound(&self, state: &State, i: usize) -> (f64, f64) {
-        let slip = libm::hypot(state.slip[2 * i], state.slip[2 * i + 1]);
-        (slip, self.step.map_or(self.bound[i], |step| step.bound(i, slip)))
-    }
-
-    /// Derivative of a point's bound with respect to t1 and t2 of its slip (N/m).
-    fn slope(&self, state: &State, i: usize, slip: f64) -> [f64; 2] {
-        match self.step {
-            Some(step) if slip > 0.0 => {
-                let slope = step.slope(i, slip) / slip;
-                [2 * i, 2 * i + 1].map(|k| slope * state.slip[k])
-            }
-            _ => [0.0; 2],
-        }
     }
 
     /// p - r s of a point.
@@ -203,8 +201,7 @@ impl Coulomb<'_> {
                 worst.0 = f64::max(worst.0, (sum - force).abs() / most);
             }
         }
-        for i in 0..self.bound.len() {
-            let (_, g) = self.bound(state, i);
+        for (i, &g) in state.bound.iter().enumerate() {
             let p = project(self.trial(state, i), g);
             let off =
                 libm::hypot(p[0] - state.force[2 * i], p[1] - state.force[2 * i + 1]) / largest;
@@ -227,8 +224,7 @@ impl Coulomb<'_> {
         // Per point, the 2x2 coefficients of dp (`own`) and of ds (`slip`) in its two rows.
         let mut own = vec![[[0.0; 2]; 2]; m];
         let mut slip = vec![[[0.0; 2]; 2]; m];
-        for i in 0..m {
-            let (slipped, g) = self.bound(state, i);
+        for (i, &g) in state.bound.iter().enumerate() {
             let r = self.weight(i);
             let q = self.trial(state, i);
             let length = libm::hypot(q[0], q[1]);
@@ -240,14 +236,13 @@ impl Coulomb<'_> {
             } else {
                 let e = [q[0] / length, q[1] / length];
                 let p = [g * e[0], g * e[1]];
-                let slope = self.slope(state, i, slipped);
                 for a in 0..2 {
                     for b in 0..2 {
                         let unit = if a == b { 1.0 } else { 0.0 };
                         let turn = g / length * (unit - e[a] * e[b]);
                         // Scaled by 1/r so that all rows are displacements.
                         own[i][a][b] = (unit - turn) / r;
-                        slip[i][a][b] = turn - e[a] * slope[b] / r;
+                        slip[i][a][b] = turn;
                     }
                     right[(2 * i + a, 0)] = (p[a] - state.force[2 * i + a]) / r;
                 }
@@ -265,10 +260,11 @@ impl Coulomb<'_> {
                 }
             }
         }
+        self.add_slopes(state, &free, &mut matrix);
         for (k, &axis) in free.iter().enumerate() {
             for i in 0..m {
                 for a in 0..2 {
-                    matrix[(2 * i + a, 2 * m + k)] = -slip[i][a][axis];
+                    matrix[(2 * i + a, 2 * m + k)] -= slip[i][a][axis];
                 }
                 matrix[(2 * m + k, 2 * i + axis)] = 1.0;
             }
@@ -286,12 +282,42 @@ impl Coulomb<'_> {
         }
     }
 
+    /// Adds the term -(q/|q|) dg of the slip rows, scaled as they are; columns past the forces are the rigid motions
+    /// along `free`.
+    fn add_slopes(&self, state: &State, free: &[usize], matrix: &mut Mat<f64>) {
+        let Some(law) = self.slip else { return };
+        let (m, w) = (state.bound.len(), self.compliance);
+        let slipped = sizes(&state.slip);
+        for (i, slopes) in law.slopes(&slipped).into_iter().enumerate() {
+            let q = self.trial(state, i);
+            let length = libm::hypot(q[0], q[1]);
+            if length <= state.bound[i] {
+                continue;
+            }
+            let scale = 1.0 / (self.weight(i) * length);
+            for (j, slope) in slopes.into_iter().filter(|(j, _)| slipped[*j] > 0.0) {
+                let d = [0, 1].map(|b| scale * slope * state.slip[2 * j + b] / slipped[j]);
+                for column in 0..2 * m {
+                    let change = d[0] * w[(2 * j, column)] + d[1] * w[(2 * j + 1, column)];
+                    for a in 0..2 {
+                        matrix[(2 * i + a, column)] -= q[a] * change;
+                    }
+                }
+                for (k, &axis) in free.iter().enumerate() {
+                    for a in 0..2 {
+                        matrix[(2 * i + a, 2 * m + k)] += q[a] * d[axis];
+                    }
+                }
+            }
+        }
+    }
+
     /// One sweep of block Gauss–Seidel: each point in turn satisfies Coulomb's law exactly.
     fn sweep(&self, state: &mut State, offset: &[f64]) {
         let m = self.bound.len();
         for i in 0..m {
             let p = [state.force[2 * i], state.force[2 * i + 1]];
-            let p = project(p, self.bound(state, i).1);
+            let p = project(p, state.bound[i]);
             [state.force[2 * i], state.force[2 * i + 1]] = p;
         }
         self.update_slip(state, offset);
@@ -300,7 +326,7 @@ impl Coulomb<'_> {
             let old = [state.force[2 * i], state.force[2 * i + 1]];
             let without =
                 [0, 1].map(|a| state.slip[2 * i + a] - w[a][0] * old[0] - w[a][1] * old[1]);
-            let new = point_force(w, without, self.bound(state, i).1);
+            let new = point_force(w, without, state.bound[i]);
             for a in 0..2 {
                 let change = new[a] - old[a];
                 if change != 0.0 {
@@ -320,6 +346,12 @@ struct State {
     force: Vec<f64>,
     slip: Vec<f64>,
     moved: [f64; 2],
+    bound: Vec<f64>,
+}
+
+/// |s| of each point.
+fn sizes(slip: &[f64]) -> Vec<f64> {
+    slip.chunks_exact(2).map(|s| libm::hypot(s[0], s[1])).collect()
 }
 
 /// Projection on the disk of radius `g`.

@@ -1,8 +1,8 @@
 //! Friction between two bodies that are pressed together: the Cattaneo shift, and rolling in steps
 //! of one pitch of the grid of contact points.
 
-use crate::friction::{Coulomb, FrictionError, Rigid, Solution};
-use crate::slip_law::{Particles, SlipLaw, Step};
+use crate::friction::{Coulomb, FrictionError, Rigid, SlipBound, Solution};
+use crate::slip_law::{Particles, Patch, SlipLaw};
 use crate::{Influence, Pressed};
 use faer::Mat;
 use thiserror::Error;
@@ -149,9 +149,8 @@ impl<'a> Rolling<'a> {
             return Err(RollingError::Speed { speed });
         }
         let mut rolling = Self::frictionless(influence, pressed)?;
-        let (points, pitch) = (&influence.points, rolling.pitch);
-        let particles = Particles::new(law, pitch, points, &rolling.contact, &rolling.normal);
-        rolling.bound = particles.at_rest(points, &rolling.contact, &rolling.normal);
+        let particles = Particles::new(law, rolling.pitch, &rolling.patch());
+        rolling.bound = particles.at_rest(&rolling.patch());
         let mut bounds = rolling.bound.iter().zip(&rolling.normal);
         if let Some((g, n)) = bounds.find(|(g, _)| !(**g > 0.0 && g.is_finite())) {
             return Err(RollingError::Friction { mu: g / n });
@@ -206,7 +205,7 @@ impl<'a> Rolling<'a> {
     /// [`RollingError::Step`].
     pub fn shift(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
         if let Some(particles) = &self.particles {
-            self.bound = particles.at_rest(&self.influence.points, &self.contact, &self.normal);
+            self.bound = particles.at_rest(&self.patch());
         }
         let solution = self.solve(rigid, |i| i, None)?;
         self.take(solution);
@@ -218,32 +217,27 @@ impl<'a> Rolling<'a> {
     /// # Errors
     /// [`RollingError::Step`].
     pub fn roll(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
-        let Some(mut particles) = self.particles.take() else {
-            let solution = self.solve(rigid, |i| self.upstream[i], None)?;
-            self.take(solution);
-            return Ok(());
-        };
-        let rolled = self.roll_particles(rigid, &mut particles);
-        self.particles = Some(particles);
-        rolled
-    }
-
-    /// Rolls by one pitch and moves the states of the particles on.
-    fn roll_particles(
-        &mut self,
-        rigid: [Rigid; 2],
-        particles: &mut Particles,
-    ) -> Result<(), RollingError> {
-        let points = &self.influence.points;
-        let step = particles.step(points, &self.contact, &self.normal, |i| self.upstream[i]);
-        let bounds = (0..self.contact.len()).map(|k| step.bound(k, 0.0));
-        self.bound = bounds.collect();
-        let solution = self.solve(rigid, |i| self.upstream[i], Some(&step))?;
-        particles.take(&step, &self.contact, &solution.slip);
-        let slips = solution.slip.chunks_exact(2).enumerate();
-        self.bound = slips.map(|(k, s)| step.bound(k, libm::hypot(s[0], s[1]))).collect();
+        let step = self.particles.as_ref().map(|particles| particles.step(&self.patch()));
+        if let Some(step) = &step {
+            self.bound = step.bounds(&vec![0.0; self.contact.len()]);
+        }
+        let law = step.as_ref().map(|step| step as &dyn SlipBound);
+        let solution = self.solve(rigid, |i| self.upstream[i], law)?;
+        if let (Some(particles), Some(step)) = (&mut self.particles, &step) {
+            particles.take(step, &self.contact, &solution.slip);
+        }
         self.take(solution);
         Ok(())
+    }
+
+    /// The contact points, for a law.
+    fn patch(&self) -> Patch<'_> {
+        Patch {
+            points: &self.influence.points,
+            contact: &self.contact,
+            normal: &self.normal,
+            upstream: &self.upstream,
+        }
     }
 
     /// Rolls until the forces no longer change, at most `steps` pitches, and returns the number of pitches.
@@ -256,9 +250,7 @@ impl<'a> Rolling<'a> {
     /// # Errors
     /// [`RollingError::Step`], [`RollingError::Unsteady`].
     pub fn steady(&mut self, rigid: [Rigid; 2], steps: usize) -> Result<usize, RollingError> {
-        if let Some(guess) = self.reproduced(rigid) {
-            self.take(guess);
-        }
+        self.guess(rigid);
         let largest = self.bound.iter().fold(0.0f64, |m, g| m.max(*g));
         let mut change = f64::INFINITY;
         for step in 1..=steps {
@@ -273,8 +265,22 @@ impl<'a> Rolling<'a> {
         Err(RollingError::Unsteady { steps, change })
     }
 
-    /// The state that a pitch of rolling reproduces, if Newton's method finds it.
-    fn reproduced(&self, rigid: [Rigid; 2]) -> Option<Solution> {
+    /// Takes the state that a pitch of rolling reproduces, if Newton's method finds it: with constant bounds, and with
+    /// those of a law from there on.
+    fn guess(&mut self, rigid: [Rigid; 2]) {
+        let Some(guess) = self.reproduced(rigid, None) else { return };
+        self.take(guess);
+        let Some(particles) = &self.particles else { return };
+        let step = particles.steady(&self.patch());
+        let Some(guess) = self.reproduced(rigid, Some(&step)) else { return };
+        if let Some(particles) = &mut self.particles {
+            particles.take(&step, &self.contact, &guess.slip);
+        }
+        self.take(guess);
+    }
+
+    /// The state that a pitch of rolling reproduces, if Newton's method finds it from the state now.
+    fn reproduced(&self, rigid: [Rigid; 2], slip: Option<&dyn SlipBound>) -> Option<Solution> {
         let size = 2 * self.contact.len();
         let here = |k: usize| 2 * self.contact[k / 2] + k % 2;
         let ahead = |k: usize| 2 * self.upstream[self.contact[k / 2]] + k % 2;
@@ -283,17 +289,17 @@ impl<'a> Rolling<'a> {
             Mat::from_fn(size, size, |i, j| shear[(here(i), here(j))] - shear[(ahead(i), here(j))]);
         let offset: Vec<f64> =
             (0..size).map(|k| self.pressed[here(k)] - self.pressed[ahead(k)]).collect();
-        let friction = Coulomb { compliance: matrix.as_ref(), bound: &self.bound, step: None };
+        let friction = Coulomb { compliance: matrix.as_ref(), bound: &self.bound, slip };
         friction.solve_directly(&offset, rigid, &self.force).ok()
     }
 
-    /// One step; `before` gives the point at which the particle of a contact point was before it, `step` the
+    /// One step; `before` gives the point at which the particle of a contact point was before it, `slip` the
     /// bounds where they depend on the slip of the step.
     fn solve(
         &self,
         rigid: [Rigid; 2],
         before: impl Fn(usize) -> usize,
-        step: Option<&Step>,
+        slip: Option<&dyn SlipBound>,
     ) -> Result<Solution, RollingError> {
         let m = self.contact.len();
         let mut offset = vec![0.0; 2 * m];
@@ -303,14 +309,15 @@ impl<'a> Rolling<'a> {
                 offset[2 * k + a] = self.pressed[2 * i + a] - self.displacement[2 * from + a];
             }
         }
-        let friction = Coulomb { compliance: self.matrix.as_ref(), bound: &self.bound, step };
+        let friction = Coulomb { compliance: self.matrix.as_ref(), bound: &self.bound, slip };
         Ok(friction.solve(&offset, rigid, &self.force)?)
     }
 
-    /// Sets forces, slip and rigid motion, and computes the displacements of all points from them.
+    /// Sets forces, slip, bounds and rigid motion, and computes the displacements of all points from them.
     fn take(&mut self, solution: Solution) {
         self.force = solution.force;
         self.slip = solution.slip;
+        self.bound = solution.bound;
         self.moved = solution.moved;
         self.displacement.copy_from_slice(&self.pressed);
         for (k, &force) in self.force.iter().enumerate() {
