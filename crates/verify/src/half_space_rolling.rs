@@ -19,7 +19,8 @@ use solid::Material;
 use std::sync::Arc;
 
 const SOURCE: &str = "CONTACT (Vollebregt), extrapolated to h = 0";
-const SPEED: f64 = 38.89;
+/// Speed of rolling (m/s).
+pub(crate) const SPEED: f64 = 38.89;
 /// Share of the spacing by which the patch moves in a step: no fraction of small numbers, so that the points pass
 /// through all places in the patch.
 const STRIDE: f64 = 0.382;
@@ -349,22 +350,30 @@ pub(crate) fn transient(size: Size) -> Outcome {
     Ok(rows)
 }
 
-pub(crate) fn memory(size: Size) -> Outcome {
-    /// Distance of memory (m), creepage, T/N, and where the transient ends in a cycle instead of the steady state half
-    /// its range over T/N, on CONTACT's grid of 0.2 mm.
-    const MEMORY: [[f64; 4]; 6] = [
-        [3e-6, 1.5e-3, 0.1851, 0.0],
-        [3e-6, 2.5e-3, 0.2700, 0.0],
-        [3e-6, 4e-3, 0.3461, 0.0095],
-        [5e-6, 1.5e-3, 0.1861, 0.0],
-        [5e-6, 2.5e-3, 0.2725, 0.0],
-        [5e-6, 4e-3, 0.3503, 0.0],
-    ];
-    let source = "CONTACT (Vollebregt), steady, grid of 0.1 mm";
+/// CONTACT's steady rolling of the reference wheel under falling friction with memory: distance of memory (m), creepage, T/N,
+/// and where its transient ends in a cycle instead of the steady state half its range over T/N, on its grid of 0.2 mm.
+pub(crate) const MEMORY: [[f64; 4]; 6] = [
+    [3e-6, 1.5e-3, 0.1851, 0.0],
+    [3e-6, 2.5e-3, 0.2700, 0.0],
+    [3e-6, 4e-3, 0.3461, 0.0095],
+    [5e-6, 1.5e-3, 0.1861, 0.0],
+    [5e-6, 2.5e-3, 0.2725, 0.0],
+    [5e-6, 4e-3, 0.3503, 0.0],
+];
+/// Where the steady values come from.
+pub(crate) const MEMORY_SOURCE: &str = "CONTACT (Vollebregt), steady, grid of 0.1 mm";
+
+/// Falling friction with memory as in [`MEMORY`].
+pub(crate) fn remembering(distance: f64) -> Remembering<Exponential> {
     let steady = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+    Remembering { steady, memory: Memory { distance, floor: 1e-3 } }
+}
+
+pub(crate) fn memory(size: Size) -> Outcome {
+    let source = MEMORY_SOURCE;
     let mut rows = Vec::new();
     for [distance, creepage, traction, cycle] in MEMORY {
-        let law = Remembering { steady, memory: Memory { distance, floor: 1e-3 } };
+        let law = remembering(distance);
         let problem = Problem {
             hertz: &WHEEL,
             material: STEEL,

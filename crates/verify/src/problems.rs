@@ -3,8 +3,9 @@
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
-    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic, rupture,
-    shear_column, shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
+    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic,
+    rolling_memory, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
+    steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -183,6 +184,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "creep-force",
         about: "The reference wheel: eight points of the creep-force curve of CONTACT",
         run: steady_rolling::creep_force,
+    },
+    Problem {
+        name: "rolling-memory",
+        about: "The reference wheel: falling friction with memory, T/N of CONTACT",
+        run: rolling_memory::run,
     },
     Problem {
         name: "half-space-waves",
