@@ -204,10 +204,9 @@ impl<'a> Rolling<'a> {
     /// # Errors
     /// [`RollingError::Step`].
     pub fn shift(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
-        if let Some(particles) = &self.particles {
-            self.bound = particles.at_rest(&self.patch());
-        }
-        let solution = self.solve(rigid, |i| i, None)?;
+        let at_rest = self.particles.as_ref().map(|particles| particles.at_rest(&self.patch()));
+        let bound = at_rest.as_ref().unwrap_or(&self.bound);
+        let solution = self.solve(rigid, |i| i, bound, None)?;
         self.take(solution);
         Ok(())
     }
@@ -218,11 +217,10 @@ impl<'a> Rolling<'a> {
     /// [`RollingError::Step`].
     pub fn roll(&mut self, rigid: [Rigid; 2]) -> Result<(), RollingError> {
         let step = self.particles.as_ref().map(|particles| particles.step(&self.patch()));
-        if let Some(step) = &step {
-            self.bound = step.bounds(&vec![0.0; self.contact.len()]);
-        }
         let law = step.as_ref().map(|step| step as &dyn SlipBound);
-        let solution = self.solve(rigid, |i| self.upstream[i], law)?;
+        let at_rest = law.map(|law| law.bounds(&vec![0.0; self.contact.len()]));
+        let bound = at_rest.as_ref().unwrap_or(&self.bound);
+        let solution = self.solve(rigid, |i| self.upstream[i], bound, law)?;
         if let (Some(particles), Some(step)) = (&mut self.particles, &step) {
             particles.take(step, &self.contact, &solution.slip);
         }
@@ -293,12 +291,13 @@ impl<'a> Rolling<'a> {
         friction.solve_directly(&offset, rigid, &self.force).ok()
     }
 
-    /// One step; `before` gives the point at which the particle of a contact point was before it, `slip` the
-    /// bounds where they depend on the slip of the step.
+    /// One step; `before` gives the point at which the particle of a contact point was before it, `bound` and
+    /// `slip` are as in [`Coulomb`].
     fn solve(
         &self,
         rigid: [Rigid; 2],
         before: impl Fn(usize) -> usize,
+        bound: &[f64],
         slip: Option<&dyn SlipBound>,
     ) -> Result<Solution, RollingError> {
         let m = self.contact.len();
@@ -309,7 +308,7 @@ impl<'a> Rolling<'a> {
                 offset[2 * k + a] = self.pressed[2 * i + a] - self.displacement[2 * from + a];
             }
         }
-        let friction = Coulomb { compliance: self.matrix.as_ref(), bound: &self.bound, slip };
+        let friction = Coulomb { compliance: self.matrix.as_ref(), bound, slip };
         Ok(friction.solve(&offset, rigid, &self.force)?)
     }
 

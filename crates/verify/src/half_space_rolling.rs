@@ -350,8 +350,9 @@ pub(crate) fn transient(size: Size) -> Outcome {
     Ok(rows)
 }
 
-/// CONTACT's steady rolling of the reference wheel under falling friction with memory: distance of memory (m), creepage, T/N,
-/// and where its transient ends in a cycle instead of the steady state half its range over T/N, on its grid of 0.2 mm.
+/// CONTACT's steady rolling of the reference wheel under falling friction with memory: distance of memory (m),
+/// creepage, T/N, and where its transient ends in a cycle instead of the steady state half its range over T/N, in
+/// the last quarter of 30 mm on its grid of 0.1 mm.
 pub(crate) const MEMORY: [[f64; 4]; 6] = [
     [3e-6, 1.5e-3, 0.1851, 0.0],
     [3e-6, 2.5e-3, 0.2700, 0.0],

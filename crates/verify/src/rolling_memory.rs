@@ -75,7 +75,7 @@ impl Case {
         let steady = self.steady(finest, &finest.influence)?;
         let limit = match cycle {
             0.0 => (STEADY, "what is left of the transient"),
-            _ => (cycle / traction, "the limit cycle of the reference"),
+            _ => (cycle, "the limit cycle of the reference"),
         };
         let values = [steady, self.from_rest(finest)?];
         let what = format!("{what}: mean after rolling from rest, beside that of steady rolling");
