@@ -3,7 +3,8 @@
 //!
 //! The bodies are condensed to their contact surface. A sparse Cholesky factorisation gives the compliance of
 //! the surface nodes ([`SurfaceCompliance`]), and two bodies give an influence matrix W = G K^-1 G^T
-//! ([`Influence`]). With it, normal contact ([`press`]), the Cattaneo shift and rolling ([`Rolling`]) are solved.
+//! ([`Influence`]). With it, normal contact ([`press`]), the Cattaneo shift and rolling ([`Rolling`]) are solved, with
+//! constant friction or a friction law ([`SlipLaw`]).
 //! One factorisation serves all of these problems.
 //!
 //! Global frame: x is the direction of rolling, y lateral, z up.
