@@ -241,8 +241,8 @@ impl<'a> Rolling<'a> {
     /// Rolls until the forces no longer change, at most `steps` pitches, and returns the number of pitches.
     ///
     /// A first guess solves for the state that one pitch of rolling reproduces,
-    /// s_i = w_i - w_up(i) - xi h with both displacements of the same state and constant bounds: one system instead
-    /// of hundreds of steps. If Newton's method does not find it, rolling starts from the
+    /// s_i = w_i - w_up(i) - xi h with both displacements of the same state, first with constant bounds, then with those
+    /// of a law: one system each instead of hundreds of steps. If Newton's method does not find it, rolling starts from the
     /// current state. In either case steps of rolling decide whether the state is steady.
     /// With a [`SlipLaw`] a mesh may have several steady states, and a steady state may be unstable: rolling
     /// from rest then ends in another one, or in a cycle.

@@ -77,7 +77,7 @@ impl Case {
             0.0 => (STEADY, "what is left of the transient"),
             _ => (cycle, "the limit cycle of the reference"),
         };
-        let values = [steady, self.from_rest(finest)?];
+        let values = [steady, self.step_by_step(finest)?];
         let what = format!("{what}: mean after rolling from rest, beside that of steady rolling");
         rows.push(Row::new(what, values, steady, limit, "steady rolling on the same mesh"));
         Ok(rows)
@@ -101,8 +101,8 @@ impl Case {
         Ok(rolling.total()[0] / blocks.load)
     }
 
-    /// T/N of rolling from rest, its mean over the end of the way.
-    fn from_rest(&self, blocks: &HalfSpaces<'_>) -> Result<f64, Cause> {
+    /// T/N of rolling from rest, step by step: its mean over the end of the way.
+    fn step_by_step(&self, blocks: &HalfSpaces<'_>) -> Result<f64, Cause> {
         let (mut rolling, rigid) = self.rolling(blocks, &blocks.influence)?;
         let steps = |distance: f64| (distance / rolling.pitch()).round() as usize;
         let (all, last) = (steps(ROLLED), steps(MEAN));
