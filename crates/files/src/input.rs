@@ -24,9 +24,11 @@ pub const CASE: Kind = Kind { what: "a case file", most: 4 * MIB };
 /// A friction table. The resolved case repeats its points in up to eight times as many bytes, and must still
 /// be readable as a [`CASE`].
 pub const TABLE: Kind = Kind { what: "a friction table", most: 512 * KIB };
-/// A mesh or a keyword file. It is read whole; at about 100 bytes per node and element, the largest meshes
+/// A mesh file. It is read whole; at about 100 bytes per node and element, the largest meshes
 /// that one machine can run need a tenth of this size.
 pub const MESH: Kind = Kind { what: "a mesh file", most: 4 * GIB };
+/// An LS-DYNA keyword file, which holds a mesh.
+pub const KEYWORDS: Kind = Kind { what: "a keyword file", most: MESH.most };
 /// A table of another code's contact history, read row by row.
 pub const CONTACT_TABLE: Kind = Kind { what: "a table of a contact history", most: 64 * GIB };
 /// A JSON document that this program wrote; that of a sweep has some kilobytes per run.

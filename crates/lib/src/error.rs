@@ -2,6 +2,7 @@
 
 use ::run::RunError;
 use case::CaseError;
+use ls_dyna::DeckError;
 use miette::Diagnostic;
 use output::OutputError;
 use post::{ImportError, PostError};
@@ -45,6 +46,10 @@ pub enum Error {
         #[help]
         help: Option<&'static str>,
     },
+    /// An LS-DYNA keyword file.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Deck(Box<DeckError>),
     /// A parameter of the slider.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -79,7 +84,11 @@ impl Error {
             Self::Run(error) => error.exit_code(),
             Self::Sweep(error) => error.exit_code(),
             Self::BlowUp(_) | Self::Verify(_) | Self::System(_) => STOPPED_BY_GUARD,
-            Self::Case(_) | Self::Post { .. } | Self::Setting(_) | Self::Option { .. } => BAD_INPUT,
+            Self::Case(_)
+            | Self::Post { .. }
+            | Self::Deck(_)
+            | Self::Setting(_)
+            | Self::Option { .. } => BAD_INPUT,
         }
     }
 
@@ -111,6 +120,12 @@ impl From<ImportError> for Error {
             ),
             ImportError::Output(_) => Self::plain(error.to_string()),
         }
+    }
+}
+
+impl From<DeckError> for Error {
+    fn from(error: DeckError) -> Self {
+        Self::Deck(Box::new(error))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Cases as LS-DYNA keyword files.
 
 use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
 
 use files::output::KEYWORDS;
 use ls_dyna::{Rolling, Units, export, unsayable};
@@ -49,7 +48,7 @@ pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result
     claim("--out", &out, &KEYWORDS, &case::inputs(&case, &options.case.path))?;
     let placed = |error: scenario::ScenarioError| options.case.placed(error.into());
     let model = scenario::model(&case).map_err(placed)?;
-    let stop = AtomicBool::new(false);
+    let stop = listener.stop();
     let start = scenario::start(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(()));
     let facts = start.map_err(placed)?.facts;
     let rolling = Rolling { case: &case, model: &model, facts: &facts };

@@ -4,9 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use case::Case;
-use files::input;
-use ls_dyna::{Units, translate};
-use scenario::Remedy;
+use ls_dyna::{Source, Units, translate};
 use serde_json::{Value, json};
 
 use crate::Error;
@@ -25,6 +23,9 @@ pub struct ImportKOptions {
     /// Units of the file: length (m, cm, mm, in), mass (kg, ton, g), time (s, ms, us)
     #[cfg_attr(feature = "clap", arg(long, value_name = "mm-ton-s", value_parser = units))]
     pub unit: Units,
+    /// Read included files that lie outside the folder of FILE.k as well
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub include_outside: bool,
     /// Folder for case.toml and mesh.inp [default: the file's name without its ending]
     #[cfg_attr(feature = "clap", arg(long, value_name = "DIR"))]
     pub out: Option<PathBuf>,
@@ -34,16 +35,10 @@ pub struct ImportKOptions {
 /// elements, notes.
 ///
 /// # Errors
-/// A card that is not known, by its line; files that are there already or cannot be written; a case that cannot be run.
+/// A card that is not known, by its file and line; an included file that must not be read; files that are there already or cannot be written; a case that cannot be run.
 pub fn import_k(options: &ImportKOptions) -> Result<Value, Error> {
-    let file = options.file.display();
-    let bytes = input::bytes(&options.file, input::MESH)
-        .map_err(|error| Error::option(error.to_string(), "name an LS-DYNA keyword file"))?;
-    let name = options.file.file_name().unwrap_or_default().to_string_lossy();
-    let made = translate(&bytes, options.unit, &name, "mesh.inp").map_err(|error| {
-        let place = error.line.map_or(String::new(), |line| format!(":{line}"));
-        Error::option(format!("{file}{place}: {}", error.fault), error.fault.remedy())
-    })?;
+    let source = Source { file: &options.file, include_outside: options.include_outside };
+    let made = translate(&source, options.unit, "mesh.inp")?;
     let folder = options.out.clone().unwrap_or_else(|| options.file.with_extension(""));
     let [case, mesh] = ["case.toml", "mesh.inp"].map(|name| folder.join(name));
     if let Some(there) = [&case, &mesh].into_iter().find(|path| path.exists()) {

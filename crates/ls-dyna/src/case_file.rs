@@ -1,14 +1,13 @@
 //! What the cards say of materials, load, motion and contact, and the case file with it.
 
-use crate::cards::unsupported;
 use crate::deck::{Contact, Deck, Material};
 use crate::drive::{Drive, Turn};
+use crate::error::{DeckError, lacks, unknown, unsupported};
 use crate::export::NONE;
-use crate::model::{Model, Symmetry, lacks};
+use crate::model::{Model, Symmetry};
 use crate::motion::Damping;
 use crate::shape::Shape;
 use crate::units::Units;
-use mesh::import::{Fault, ImportError};
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use toml::Value;
@@ -64,8 +63,8 @@ impl Settings {
         shape: &Shape,
         units: Units,
         notes: &mut Vec<String>,
-    ) -> Result<Self, ImportError> {
-        let contact = deck.contact.ok_or_else(|| lacks("contact"))?;
+    ) -> Result<Self, DeckError> {
+        let contact = deck.contact.clone().ok_or_else(|| lacks("contact"))?;
         let drive = Drive::of(deck, model, shape, units, notes)?;
         let normal = load(deck, model, units)?;
         let end = deck.endtim.filter(|t| *t > 0.0).ok_or_else(|| lacks("*CONTROL_TERMINATION"))?;
@@ -93,17 +92,17 @@ impl Settings {
         let held = depth.is_some_and(|motion| !motion.ends);
         Ok(Self {
             units,
-            contact,
             penalty: deck.slsfac * contact.sf,
+            contact,
             tssfac: deck.tssfac,
             drive,
             normal,
             held,
             hub_mass: hub_mass(deck, model, units, materials[0].density * units.density()),
             duration: end - deck.begins,
-            damping: deck.damping,
+            damping: deck.damping.clone(),
             intervals: deck.intervals,
-            quiet: deck.quiet,
+            quiet: !deck.quiet.is_empty(),
             symmetry: model.symmetry,
             layers: model.layers,
             materials,
@@ -112,14 +111,9 @@ impl Settings {
     }
 }
 
-/// How many parts alike make up the bodies of which the file has one.
-fn alike(model: &Model) -> f64 {
-    if model.symmetry == Symmetry::Half { 2.0 } else { 1.0 }
-}
-
 /// The mass of the rigid hub (kg) beyond that of its nodes, of elements of this `density` (kg/m^3).
 fn hub_mass(deck: &Deck, model: &Model, units: Units, density: f64) -> f64 {
-    let Some(all) = deck.hub_mass.map(|mass| alike(model) * mass * units.mass()) else {
+    let Some(all) = deck.hub_mass.map(|mass| model.alike() * mass * units.mass()) else {
         return 0.0;
     };
     let own = all - model.lumped_mass("hub", density);
@@ -128,19 +122,19 @@ fn hub_mass(deck: &Deck, model: &Model, units: Units, density: f64) -> f64 {
 }
 
 /// Refuses damping of all motion that does not end before the disk rolls.
-fn damps_the_preload_alone(deck: &Deck) -> Result<(), ImportError> {
-    let Some((curve, line)) = deck.damping.global else { return Ok(()) };
-    let points = deck.curves.get(&curve);
+fn damps_the_preload_alone(deck: &Deck) -> Result<(), DeckError> {
+    let Some((curve, place)) = &deck.damping.global else { return Ok(()) };
+    let points = deck.curves.get(curve);
     let late = |[t, value]: &[f64; 2]| *t >= deck.begins && *value != 0.0;
     if points.is_some_and(|points| !points.iter().any(late)) {
         return Ok(());
     }
     let what = "*DAMPING_GLOBAL while the disk rolls, which holds it back";
-    Err(unsupported(line, what, "let its curve end with the preload, or use *DAMPING_RELATIVE"))
+    Err(unsupported(place, what, "let its curve end with the preload, or use *DAMPING_RELATIVE"))
 }
 
 /// Materials and elements of the two parts; their elements must be alike.
-fn parts(deck: &Deck, model: &Model) -> Result<([Material; 2], Elements), ImportError> {
+fn parts(deck: &Deck, model: &Model) -> Result<([Material; 2], Elements), DeckError> {
     let [(first, a), (second, b)] = [body(deck, &model.parts[0])?, body(deck, &model.parts[1])?];
     for (what, alike) in [
         ("the formulation of their elements", a.full == b.full),
@@ -148,16 +142,16 @@ fn parts(deck: &Deck, model: &Model) -> Result<([Material; 2], Elements), Import
         ("their bulk viscosity", a.bulk == b.bulk),
     ] {
         if !alike {
-            let line = deck.parts[&model.parts[1][0]].line;
+            let place = &deck.parts[&model.parts[1][0]].place;
             let what = format!("a disk and a bar that differ in {what}");
-            return Err(unsupported(line, what, "give both parts the same"));
+            return Err(unsupported(place, what, "give both parts the same"));
         }
     }
     Ok(([first, second], a))
 }
 
 /// Material and elements of a body, whose parts may differ in their formulation alone.
-fn body(deck: &Deck, parts: &[u64]) -> Result<(Material, Elements), ImportError> {
+fn body(deck: &Deck, parts: &[u64]) -> Result<(Material, Elements), DeckError> {
     let found = parts.iter().map(|id| part(deck, *id)).collect::<Result<Vec<_>, _>>()?;
     let (material, first) = found[0];
     for ((other, elements), id) in found[1..].iter().zip(&parts[1..]) {
@@ -165,13 +159,9 @@ fn body(deck: &Deck, parts: &[u64]) -> Result<(Material, Elements), ImportError>
             || elements.hourglass != first.hourglass
             || elements.bulk != first.bulk
         {
-            let line = deck.parts[id].line;
             let what = "parts of one body that differ in more than ELFORM";
-            return Err(unsupported(
-                line,
-                what,
-                "give them one material and one hourglass control",
-            ));
+            let remedy = "give them one material and one hourglass control";
+            return Err(unsupported(&deck.parts[id].place, what, remedy));
         }
     }
     let full = found.iter().all(|(_, elements)| elements.full);
@@ -179,19 +169,17 @@ fn body(deck: &Deck, parts: &[u64]) -> Result<(Material, Elements), ImportError>
 }
 
 /// Material and elements of a part.
-fn part(deck: &Deck, part: u64) -> Result<(Material, Elements), ImportError> {
-    let unknown = |what: &str, id: u64, line: usize| {
-        let fault = Fault::Unknown { from: format!("part {part}"), what: format!("{what} {id}") };
-        ImportError { line: Some(line), fault }
-    };
+fn part(deck: &Deck, part: u64) -> Result<(Material, Elements), DeckError> {
     let card = deck.parts.get(&part).ok_or_else(|| lacks(&format!("*PART {part}")))?;
+    let unknown =
+        |what: &str, id: u64| unknown(&card.place, format!("part {part}"), format!("{what} {id}"));
     let material = deck.materials.get(&card.material);
-    let material = *material.ok_or_else(|| unknown("material", card.material, card.line))?;
+    let material = *material.ok_or_else(|| unknown("material", card.material))?;
     let form = deck.sections.get(&card.section);
-    let full = *form.ok_or_else(|| unknown("section", card.section, card.line))? == 2;
+    let full = *form.ok_or_else(|| unknown("section", card.section))? == 2;
     let held = match (card.hourglass, deck.hourglass.get(&card.hourglass)) {
         (0, held) => held,
-        (id, None) => return Err(unknown("hourglass", id, card.line)),
+        (id, None) => return Err(unknown("hourglass", id)),
         (_, held) => held,
     };
     let hourglass = held.map(|h| h.coefficient);
@@ -295,7 +283,11 @@ fn write_drive(t: &mut String, settings: &Settings) {
         t.push_str("mode = \"height\"           # the displacement in z stays\n");
     }
     if settings.hub_mass != 0.0 {
-        let _ = writeln!(t, "hub_mass = {}            # *ELEMENT_MASS", six(settings.hub_mass));
+        let _ = writeln!(
+            t,
+            "hub_mass = {}            # TM, less the mass of the hub's nodes",
+            six(settings.hub_mass)
+        );
     }
     let _ = writeln!(t, "\n[drive]\nspeed = {}              # VX", six(drive.speed));
     let _ = match drive.turn {
@@ -401,15 +393,12 @@ fn six(x: f64) -> String {
 
 /// The force that presses the disk down (N): the sum over the loaded nodes and that on the hub, by their curves' last
 /// values.
-fn load(deck: &Deck, model: &Model, units: Units) -> Result<f64, ImportError> {
+fn load(deck: &Deck, model: &Model, units: Units) -> Result<f64, DeckError> {
     let mut sum = 0.0;
     let places: HashMap<u64, u32> =
         model.foreign.nodes.ids.iter().zip(0..).map(|(id, place)| (*id, place)).collect();
     for load in &deck.loads {
-        let unknown = |what: String| {
-            let fault = Fault::Unknown { from: "the load".into(), what };
-            ImportError { line: Some(load.on.line), fault }
-        };
+        let unknown = |what: String| unknown(&load.on.place, "the load", what);
         let nodes = if load.on.set {
             let set = deck.node_sets.get(&load.on.id);
             set.cloned().ok_or_else(|| unknown(format!("node set {}", load.on.id)))?
@@ -420,13 +409,13 @@ fn load(deck: &Deck, model: &Model, units: Units) -> Result<f64, ImportError> {
         if let Some(id) = nodes.iter().find(|id| !on_disk(id)) {
             return Err(unknown(format!("node {id}, which is none of the disk's")));
         }
-        sum += load.factor * deck.last(load.curve, load.on.line)? * nodes.len() as f64;
+        sum += load.factor * deck.last(load.curve, &load.on.place)? * nodes.len() as f64;
     }
     for load in deck.rigid_loads.iter().filter(|load| load.dof == 3) {
-        sum += load.factor * deck.last(load.curve, load.line)?;
+        sum += load.factor * deck.last(load.curve, &load.place)?;
     }
     if sum >= 0.0 {
         return Err(lacks("*LOAD_NODE_SET or *LOAD_RIGID_BODY that presses the disk down, in -z"));
     }
-    Ok(-alike(model) * sum * units.force())
+    Ok(-model.alike() * sum * units.force())
 }

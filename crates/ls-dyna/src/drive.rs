@@ -1,11 +1,11 @@
 //! What drives the disk: its rolling speed, and its angular velocity or the torque on it.
 
 use crate::deck::Deck;
-use crate::model::{Model, Symmetry, lacks};
+use crate::error::{DeckError, Place, lacks, unknown, unsupported};
+use crate::model::Model;
 use crate::motion::Motion;
 use crate::shape::Shape;
 use crate::units::Units;
-use mesh::import::{Fault, ImportError};
 
 /// The drive of a case, in SI units.
 pub(crate) struct Drive {
@@ -36,40 +36,42 @@ impl Drive {
         shape: &Shape,
         units: Units,
         notes: &mut Vec<String>,
-    ) -> Result<Self, ImportError> {
-        let initial = deck.initial.filter(|initial| initial.speed > 0.0).ok_or_else(|| {
+    ) -> Result<Self, DeckError> {
+        let initial = deck.initial.as_ref().filter(|initial| initial.speed > 0.0).ok_or_else(|| {
             lacks(
                 "*INITIAL_VELOCITY or *INITIAL_VELOCITY_GENERATION with VX above 0: the rolling speed",
             )
         })?;
         let motion = |dof: i64| deck.motions.iter().find(|motion| motion.dof == dof);
         let last = |motion: Option<&Motion>| {
-            let last = |m: &Motion| Ok(m.factor * deck.last(m.curve, m.line)?);
+            let last = |m: &Motion| Ok(m.factor * deck.last(m.curve, &m.place)?);
             motion.map(last).transpose()
         };
         let speed = last(motion(1))?.unwrap_or(initial.speed);
+        if let Some(m) = motion(1).filter(|_| speed <= 0.0) {
+            let what = format!("a prescribed speed (DOF = 1) that ends at {speed}");
+            return Err(unsupported(&m.place, what, "let the disk roll on, towards +x"));
+        }
         let lateral_creepage = last(motion(2))?.unwrap_or(0.0) / speed;
         for m in [5, 7].into_iter().filter_map(motion) {
-            let points = deck.points(m.curve, m.line)?;
+            let points = deck.points(m.curve, &m.place)?;
             if points.iter().any(|[_, value]| *value != 0.0) {
-                return Err(lacks(
-                    "hub that turns about its axle alone: DOF 5 and 7 are not at rest",
-                ));
+                let what = format!("a hub that turns about DOF = {}", m.dof);
+                return Err(unsupported(&m.place, what, "let it turn about y alone (DOF = 6)"));
             }
         }
         let torque = deck.rigid_loads.iter().find(|load| load.dof == 6);
         let turned = motion(6).filter(|motion| !motion.ends);
         let (turn, curve) = match (torque, turned, initial.spin) {
             (Some(load), _, _) => {
-                let alike = if model.symmetry == Symmetry::Half { 2.0 } else { 1.0 };
-                let unit = units.force() * units.length();
-                let torque = alike * unit * load.factor * deck.last(load.curve, load.line)?;
-                (Turn::Torque(torque), Some((load.curve, load.line)))
+                let unit = model.alike() * units.force() * units.length();
+                let torque = unit * load.factor * deck.last(load.curve, &load.place)?;
+                (Turn::Torque(torque), Some((load.curve, &load.place)))
             }
             // free rolling is what the initial velocity is
             (None, Some(m), Some(free)) => {
-                let end = m.factor * deck.last(m.curve, m.line)?;
-                (Turn::Creepage(end / free - 1.0), Some((m.curve, m.line)))
+                let end = m.factor * deck.last(m.curve, &m.place)?;
+                (Turn::Creepage(end / free - 1.0), Some((m.curve, &m.place)))
             }
             (None, _, Some(spin)) => {
                 let speed = initial.speed * units.velocity();
@@ -81,7 +83,7 @@ impl Drive {
             }
         };
         let ramp =
-            curve.map(|(curve, line)| ramp(deck.points(curve, line)?, deck.begins)).transpose()?;
+            curve.map(|(curve, at)| ramp(deck.points(curve, at)?, deck.begins)).transpose()?;
         Ok(Self {
             speed: speed * units.velocity(),
             turn,
@@ -92,7 +94,7 @@ impl Drive {
 }
 
 /// How long after the time `begins` the values of a curve still change.
-fn ramp(points: &[[f64; 2]], begins: f64) -> Result<f64, ImportError> {
+fn ramp(points: &[[f64; 2]], begins: f64) -> Result<f64, DeckError> {
     let last = points.last().ok_or_else(|| lacks("points of a curve"))?[1];
     let changed = points.iter().rposition(|[_, value]| *value != last);
     let end = changed.and_then(|i| points.get(i + 1)).map_or(begins, |[t, _]| *t);
@@ -101,20 +103,16 @@ fn ramp(points: &[[f64; 2]], begins: f64) -> Result<f64, ImportError> {
 
 impl Deck {
     /// The points of a curve to which a line of the file refers.
-    pub(crate) fn points(&self, curve: u64, line: usize) -> Result<&[[f64; 2]], ImportError> {
-        let unknown = || {
-            let (from, what) = ("the card".into(), format!("curve {curve}"));
-            ImportError { line: Some(line), fault: Fault::Unknown { from, what } }
-        };
+    pub(crate) fn points(&self, curve: u64, at: &Place) -> Result<&[[f64; 2]], DeckError> {
         self.curves
             .get(&curve)
             .filter(|points| !points.is_empty())
             .map(Vec::as_slice)
-            .ok_or_else(unknown)
+            .ok_or_else(|| unknown(at, "the card", format!("curve {curve}")))
     }
 
     /// The last value of such a curve.
-    pub(crate) fn last(&self, curve: u64, line: usize) -> Result<f64, ImportError> {
-        Ok(self.points(curve, line)?.last().map_or(0.0, |[_, value]| *value))
+    pub(crate) fn last(&self, curve: u64, at: &Place) -> Result<f64, DeckError> {
+        Ok(self.points(curve, at)?.last().map_or(0.0, |[_, value]| *value))
     }
 }

@@ -8,17 +8,24 @@
 
 mod cards;
 mod case_file;
+mod contact_surface;
 mod deck;
 mod drive;
+mod error;
 mod export;
 mod model;
 mod motion;
+mod parameters;
 mod shape;
+mod sources;
 #[cfg(test)]
 mod tests;
 mod translate;
 mod units;
+mod unread;
 
+pub use error::{DeckError, Fault, Place};
 pub use export::{Exported, Rolling, export, unsayable};
+pub use sources::Source;
 pub use translate::{Translation, translate};
 pub use units::Units;

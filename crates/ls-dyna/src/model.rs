@@ -1,9 +1,10 @@
 //! The two bodies of a keyword file: their mesh with its sets.
 
-use crate::cards::{syntax, unsupported};
+use crate::contact_surface;
 use crate::deck::{Deck, Target};
+use crate::error::{DeckError, Fault, Place, lacks, unknown, unsupported};
 use crate::units::Units;
-use mesh::import::{Fault, Foreign, ImportError, Labels, Set};
+use mesh::import::{Foreign, Labels};
 use mesh::{Body, Mesh};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -32,17 +33,12 @@ pub(crate) enum Symmetry {
     Slice,
 }
 
-/// The error of a file that lacks what a disk on a bar needs.
-pub(crate) fn lacks(what: &str) -> ImportError {
-    ImportError { line: None, fault: Fault::Syntax { what: format!("the file has no {what}") } }
-}
-
 impl Model {
     /// The model of a keyword file, in metres.
     ///
     /// # Errors
     /// Cards that refer to what is not there, and what a disk on a bar lacks.
-    pub(crate) fn new(deck: &Deck, units: Units) -> Result<Self, ImportError> {
+    pub(crate) fn new(deck: &Deck, units: Units) -> Result<Self, DeckError> {
         let mut foreign = Foreign::default();
         let indices = take_nodes(deck, units, &mut foreign)?;
         take_solids(deck, &indices, &mut foreign)?;
@@ -69,7 +65,9 @@ impl Model {
         if deck.clamped.is_empty() {
             return Err(lacks("*BOUNDARY_SPC_SET that clamps the bar"));
         }
-        take_surfaces(deck, &indices, &nodes[0], &mut foreign)?;
+        let bodies = Bodies { deck, indices: &indices, parts: &parts, nodes: &nodes };
+        contact_surface::take(&bodies, &mut foreign)?;
+        quiet_ends(&bodies, &foreign)?;
         let layers = full_layers(deck, &foreign, &parts);
         let symmetry = symmetry(deck, &indices, &nodes, &foreign)?;
         drop_loose(&mut foreign, &mut nodes);
@@ -111,65 +109,120 @@ impl Model {
         sets.get(set).map_or(0.0, |set| set.nodes.iter().map(|&n| mass[n as usize]).sum())
     }
 
+    /// How many parts alike make up the bodies of which the deck has one.
+    pub(crate) fn alike(&self) -> f64 {
+        if self.symmetry == Symmetry::Half { 2.0 } else { 1.0 }
+    }
+
     /// The faces of a set; empty where there is no such set.
     pub(crate) fn faces(&self, set: &str) -> &[[u32; 4]] {
         self.foreign.sets.get(set).map_or(&[], |set| &set.faces)
     }
 }
 
+/// Disk and bar of a deck while their surfaces are sought.
+pub(crate) struct Bodies<'a> {
+    pub(crate) deck: &'a Deck,
+    pub(crate) indices: &'a Indices,
+    /// Numbers of the parts of both.
+    pub(crate) parts: &'a [Vec<u64>; 2],
+    /// Nodes of both, as indices into the mesh.
+    pub(crate) nodes: &'a [BTreeSet<u32>; 2],
+}
+
+impl Bodies<'_> {
+    /// The segments of a set, as indices into the mesh, to which `from` refers in a line of the deck.
+    pub(crate) fn segments(
+        &self,
+        from: &str,
+        set: u64,
+        at: &Place,
+    ) -> Result<Vec<[u32; 4]>, DeckError> {
+        let segments = self.deck.segment_sets.get(&set);
+        let segments = segments.ok_or_else(|| unknown(at, from, format!("segment set {set}")))?;
+        let name = format!("segment set {set}");
+        let find = |node: u64| self.indices.find(&name, node, at);
+        let face = |[a, b, c, d]: &[u64; 4]| Ok([find(*a)?, find(*b)?, find(*c)?, find(*d)?]);
+        segments.iter().map(face).collect()
+    }
+}
+
 /// Index of every node in the mesh, by its number in the file.
-struct Indices(HashMap<u64, u32>);
+pub(crate) struct Indices(HashMap<u64, u32>);
 
 impl Indices {
     /// Index of a node to which `from` refers in a line of the file.
-    fn find(&self, from: &str, node: u64, line: usize) -> Result<u32, ImportError> {
-        let fault = || Fault::Unknown { from: from.into(), what: format!("node {node}") };
+    fn find(&self, from: &str, node: u64, at: &Place) -> Result<u32, DeckError> {
         let index = self.0.get(&node).copied();
-        index.ok_or_else(|| ImportError { line: Some(line), fault: fault() })
+        index.ok_or_else(|| unknown(at, from, format!("node {node}")))
     }
 
     /// Indices of the nodes that a card refers to.
-    fn of_target(&self, deck: &Deck, target: &Target) -> Result<Vec<u32>, ImportError> {
+    fn of_target(&self, deck: &Deck, target: &Target) -> Result<Vec<u32>, DeckError> {
         let ids = match deck.node_sets.get(&target.id) {
             _ if !target.set => vec![target.id],
             Some(ids) => ids.clone(),
             None => {
-                let (from, what) = ("the card".into(), format!("node set {}", target.id));
-                let fault = Fault::Unknown { from, what };
-                return Err(ImportError { line: Some(target.line), fault });
+                return Err(unknown(&target.place, "the card", format!("node set {}", target.id)));
             }
         };
-        ids.iter().map(|&id| self.find("the card", id, target.line)).collect()
+        ids.iter().map(|&id| self.find("the card", id, &target.place)).collect()
     }
 }
 
-fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Indices, ImportError> {
+/// Refuses segments that do not reflect waves unless they are the bar's ends, which alone a case can say of.
+fn quiet_ends(bodies: &Bodies, foreign: &Foreign) -> Result<(), DeckError> {
+    let Some(first) = bodies.deck.quiet.first() else { return Ok(()) };
+    let x = |n: &u32| foreign.points[*n as usize][0];
+    let along = bodies.nodes[1].iter().map(x);
+    let ends =
+        [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)];
+    let mut found = [false; 2];
+    for set in &bodies.deck.quiet {
+        for face in bodies.segments("the card", set.id, &set.place)? {
+            let at_end = |end: &f64| face.iter().all(|n| (x(n) - end).abs() < SAME);
+            let end = ends.iter().position(at_end);
+            let Some(end) = end.filter(|_| face.iter().all(|n| bodies.nodes[1].contains(n))) else {
+                let what = "*BOUNDARY_NON_REFLECTING of segments off the bar's ends";
+                let remedy = "name the faces at the least and the largest x of the bar alone";
+                return Err(unsupported(&set.place, what, remedy));
+            };
+            found[end] = true;
+        }
+    }
+    if found == [true; 2] {
+        return Ok(());
+    }
+    let what = "*BOUNDARY_NON_REFLECTING of one end of the bar alone";
+    Err(unsupported(&first.place, what, "name the faces of both ends, or of none"))
+}
+
+fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Indices, DeckError> {
     let mut indices = HashMap::new();
     for node in &deck.nodes {
         if indices.insert(node.id, foreign.points.len() as u32).is_some() {
-            let fault = Fault::Repeated { what: "node", id: node.id };
-            return Err(ImportError { line: Some(node.line), fault });
+            return Err(Fault::RepeatedNode { id: node.id }.at(&node.place));
         }
         foreign.points.push(node.point.map(|x| x * units.length()));
-        label(&mut foreign.nodes, node.id, node.line);
+        label(&mut foreign.nodes, node.id, node.place.line);
     }
     Ok(Indices(indices))
 }
 
-fn take_solids(deck: &Deck, indices: &Indices, foreign: &mut Foreign) -> Result<(), ImportError> {
+fn take_solids(deck: &Deck, indices: &Indices, foreign: &mut Foreign) -> Result<(), DeckError> {
     for solid in &deck.solids {
         let mut hex = [0; 8];
         for (corner, &node) in hex.iter_mut().zip(&solid.nodes) {
-            *corner = indices.find(&format!("element {}", solid.id), node, solid.line)?;
+            *corner = indices.find(&format!("element {}", solid.id), node, &solid.place)?;
         }
         foreign.hexes.push(hex);
-        label(&mut foreign.elements, solid.id, solid.line);
+        label(&mut foreign.elements, solid.id, solid.place.line);
     }
     Ok(())
 }
 
 /// The parts of disk and bar: parts that share nodes make a body, and the disk is the one that has nodes of the hub.
-fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[Vec<u64>; 2], ImportError> {
+fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[Vec<u64>; 2], DeckError> {
     let mut of_part: BTreeMap<u64, BTreeSet<u32>> = BTreeMap::new();
     for (e, solid) in deck.solids.iter().enumerate() {
         of_part.entry(solid.part).or_default().extend(foreign.hexes[e]);
@@ -196,7 +249,7 @@ fn parts(deck: &Deck, foreign: &Foreign, hub: &[u32]) -> Result<[Vec<u64>; 2], I
     let (Ok([disk]), Ok([bar])) = (<[_; 1]>::try_from(disk), <[_; 1]>::try_from(others)) else {
         let what = format!("a model of {count} bodies of solids");
         let remedy = "keep the disk and the bar alone; parts that share nodes make one body";
-        return Err(unsupported(deck.solids[0].line, what, remedy));
+        return Err(unsupported(&deck.solids[0].place, what, remedy));
     };
     Ok([disk.0, bar.0])
 }
@@ -234,7 +287,7 @@ fn symmetry(
     indices: &Indices,
     nodes: &[BTreeSet<u32>; 2],
     foreign: &Foreign,
-) -> Result<Symmetry, ImportError> {
+) -> Result<Symmetry, DeckError> {
     let Some(first) = deck.sliding.first() else { return Ok(Symmetry::Whole) };
     let mut sliding = BTreeSet::new();
     for target in &deck.sliding {
@@ -255,7 +308,7 @@ fn symmetry(
         return Ok(Symmetry::Half);
     }
     let what = "*BOUNDARY_SPC with DOFY = 1 of nodes that are neither all nodes nor those of a plane y = 0 that ends both bodies";
-    Err(unsupported(first.line, what, "hold all of them (plane strain) or the plane of symmetry"))
+    Err(unsupported(&first.place, what, "hold all of them (plane strain) or the plane of symmetry"))
 }
 
 /// Distance (m) below which places are the same: less than a file prints.
@@ -320,38 +373,6 @@ fn mirror(foreign: &mut Foreign, nodes: &mut [BTreeSet<u32>; 2]) {
     for body in nodes {
         body.extend(body.clone().into_iter().map(of));
     }
-}
-
-/// The two surfaces of the contact, as the sets `tread` of the disk and `top` of the bar.
-fn take_surfaces(
-    deck: &Deck,
-    indices: &Indices,
-    disk: &BTreeSet<u32>,
-    foreign: &mut Foreign,
-) -> Result<(), ImportError> {
-    let contact = deck.contact.ok_or_else(|| lacks("*CONTACT_SURFACE_TO_SURFACE"))?;
-    for side in contact.sides {
-        let segments = deck.segment_sets.get(&side).ok_or_else(|| {
-            let (from, what) = ("the contact".into(), format!("segment set {side}"));
-            ImportError { line: Some(contact.line), fault: Fault::Unknown { from, what } }
-        })?;
-        if segments.is_empty() {
-            return Err(syntax(contact.line, format!("segment set {side} has no segments")));
-        }
-        let mut faces = Vec::new();
-        for segment in segments {
-            let mut face = [0; 4];
-            for (corner, &node) in face.iter_mut().zip(segment) {
-                *corner = indices.find(&format!("segment set {side}"), node, contact.line)?;
-            }
-            faces.push(face);
-        }
-        let name = if disk.contains(&faces[0][0]) { "tread" } else { "top" };
-        if foreign.sets.insert(name.into(), Set { faces, ..Set::default() }).is_some() {
-            return Err(syntax(contact.line, "the two surfaces of the contact lie on one body"));
-        }
-    }
-    Ok(())
 }
 
 fn label(labels: &mut Labels, id: u64, line: usize) {

@@ -2,9 +2,12 @@
 
 use crate::case_file::{self, Settings};
 use crate::deck::Deck;
+use crate::error::DeckError;
 use crate::model::Model;
+use crate::parameters::Parameters;
+use crate::sources::{Source, Sources};
 use crate::units::Units;
-use mesh::import::{ImportError, write_abaqus};
+use mesh::import::write_abaqus;
 
 /// A keyword file as a case and a mesh file of Creepage.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,22 +21,26 @@ pub struct Translation {
     pub notes: Vec<String>,
 }
 
-/// Translates a keyword file in consistent `units`. `title` is its name for the case's `title`; `mesh_file` is the
-/// value of `mesh.file` in the case.
+/// Translates a deck in consistent `units`. `mesh_file` is the value of `mesh.file` in the case.
 ///
 /// # Errors
-/// A card or field that is not supported, with its line; a card that a disk on a bar needs and the file lacks.
-pub fn translate(
-    bytes: &[u8],
-    units: Units,
-    title: &str,
-    mesh_file: &str,
-) -> Result<Translation, ImportError> {
-    let deck = Deck::read(bytes)?;
-    let mut notes = deck.notes.clone();
+/// A file that cannot be read or must not be included; a card or field that is not supported, with its line; a card
+/// that a disk on a bar needs and the deck lacks.
+pub fn translate(source: &Source, units: Units, mesh_file: &str) -> Result<Translation, DeckError> {
+    let sources = Sources::read(source)?;
+    let cards = sources.cards()?;
+    let parameters = Parameters::of(&cards)?;
+    let cards = cards.into_iter().map(|card| card.with(&parameters)).collect();
+    let deck = Deck::read(cards)?;
+    let mut notes = Vec::new();
+    if !deck.passed_over.is_empty() {
+        let list = deck.passed_over.join(", ");
+        notes.push(format!("passed over: {list}; the case has its own method and output"));
+    }
     let mut model = Model::new(&deck, units)?;
     let shape = model.place(&mut notes);
     let settings = Settings::of(&deck, &model, &shape, units, &mut notes)?;
-    let case = case_file::text(&settings, &shape, [title, mesh_file]);
+    let title = source.file.file_name().unwrap_or_default().to_string_lossy();
+    let case = case_file::text(&settings, &shape, [&title, mesh_file]);
     Ok(Translation { case, mesh: write_abaqus(&model.foreign), notes })
 }

@@ -1,7 +1,7 @@
 //! Cases written as keyword files and read again.
 
 use super::{Rolling, export, unsayable};
-use crate::{Translation, Units, translate};
+use crate::{DeckError, Source, Translation, Units, translate};
 use case::Case;
 use case::schema::{BodyModel, ContactLayers, Ends, LoadMode, Stiffness, Symmetry};
 use mesh::import::{Foreign, read_abaqus};
@@ -37,8 +37,17 @@ impl There {
     }
 
     fn back(&self, units: &str) -> Translation {
-        translate(self.deck.as_bytes(), Units::parse(units).unwrap(), "deck.k", "mesh.inp").unwrap()
+        translated(&self.deck, units).unwrap()
     }
+}
+
+/// A deck in these units, read.
+fn translated(deck: &str, units: &str) -> Result<Translation, DeckError> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("deck.k");
+    std::fs::write(&file, deck).unwrap();
+    let source = Source { file: &file, include_outside: false };
+    translate(&source, Units::parse(units).unwrap(), "mesh.inp")
 }
 
 /// The case of a translation.
@@ -197,7 +206,6 @@ fn what_keyword_files_cannot_say_is_listed_by_key() {
 #[test]
 fn cards_of_the_motion_that_a_case_cannot_say_are_refused_by_their_line() {
     let deck = There::new(small(&["mesh.symmetry=half"]), "mm-ton-s").deck;
-    let units = Units::parse("mm-ton-s").unwrap();
     let lines: Vec<&str> = deck.lines().collect();
     let after = |card: &str, n: usize| n + lines.iter().position(|line| *line == card).unwrap();
     let depth = lines.iter().position(|line| line.starts_with("         5         3         2"));
@@ -216,10 +224,9 @@ fn cards_of_the_motion_that_a_case_cannot_say_are_refused_by_their_line() {
         let mut changed = lines.clone();
         assert_ne!(changed[at], new);
         changed[at] = new;
-        let error = translate(changed.join("\n").as_bytes(), units, "deck.k", "mesh.inp");
-        let error = error.unwrap_err();
+        let error = translated(&changed.join("\n"), "mm-ton-s").unwrap_err();
         assert!(error.to_string().contains(words), "{words}: {error}");
-        assert!(error.line.is_some(), "{words}");
+        assert!(error.place.is_some(), "{words}");
     }
 }
 
