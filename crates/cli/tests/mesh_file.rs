@@ -191,3 +191,29 @@ fn a_keyword_file_becomes_a_case_that_loads_and_is_not_written_over() {
     let wrong = creepage(&["import-k", &deck, "--unit", "ft-lb-s"]);
     assert_eq!(wrong.status.code(), Some(2));
 }
+
+#[test]
+fn a_refused_deck_is_told_by_file_line_and_remedy() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("decks");
+    fs::create_dir(&folder).unwrap();
+    let deck = folder.join("main.k");
+    let out = dir.path().join("out").display().to_string();
+    for (main, included, words) in [
+        ("loads.k", "*INCLUDE\nmain.k\n", "loads.k:2"),
+        ("../loads.k", "*TITLE\n", "--include-outside"),
+        ("loads.k", "*CONTROL_TERMINATION\n&tend\n", "*PARAMETER"),
+        ("loads.k", "*CONTROL_TERMINATION\n&tend\n", "loads.k:2"),
+        ("loads.k", "*MAT_ELASTIC_PLASTIC_HYDRO\n", "*MAT_ELASTIC:"),
+    ] {
+        fs::write(&deck, format!("*KEYWORD\n*INCLUDE\n{main}\n*END\n")).unwrap();
+        fs::write(folder.join(main), included).unwrap();
+        let path = deck.display().to_string();
+        let output = creepage(&["import-k", &path, "--unit", "mm-ton-s", "--out", &out]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        // the report breaks long lines
+        let said = said.replace(['\n', ' ', '│'], "");
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}

@@ -190,6 +190,66 @@ fn a_second_initial_velocity_is_refused() {
 }
 
 #[test]
+fn an_angular_velocity_of_0_or_backwards_is_refused() {
+    for omega in ["       0.0", "   -160.32"] {
+        let error = import(&DECK.replacen("    160.32", omega, 1)).unwrap_err();
+        assert!(error.to_string().contains("OMEGA"), "{error}");
+        assert!(line_of(&error).is_some());
+    }
+}
+
+#[test]
+fn long_standard_and_i10_cards_stand_side_by_side() {
+    let standard = "*MAT_ELASTIC\n$      MID        RO         E        PR\n         1    7.8e-9   2.1e+05       0.3";
+    let long = "*MAT_ELASTIC_TITLE +\nsteel\n                   1              7.8e-9             2.1e+05                 0.3";
+    let text = DECK.replace(standard, long);
+    assert_ne!(text, DECK);
+    assert_eq!(import(&text).unwrap(), import(DECK).unwrap());
+    // columns of 8 become 10
+    let mut i10 = String::new();
+    let mut card = "";
+    for line in DECK.lines() {
+        card = line.strip_prefix('*').unwrap_or(card);
+        match card {
+            "NODE" | "ELEMENT_SOLID" if line.starts_with('*') => i10 += &format!("{line} %\n"),
+            "NODE" => i10 += &format!("{:>10}{}\n", &line[..8], &line[8..]),
+            "ELEMENT_SOLID" => {
+                let fields = (0..line.len()).step_by(8).map(|at| &line[at..line.len().min(at + 8)]);
+                i10 += &fields.map(|field| format!("{field:>10}")).collect::<String>();
+                i10.push('\n');
+            }
+            _ => i10 += &format!("{line}\n"),
+        }
+    }
+    assert_eq!(import(&i10).unwrap(), import(DECK).unwrap());
+    // in a file in the long format, `-` marks cards in the standard one
+    let minus: String = DECK
+        .lines()
+        .map(|line| match line {
+            "*KEYWORD" => "*KEYWORD MEMORY=20M LONG = Y\n".to_owned(),
+            _ if line.starts_with('*') && line != "*END" => format!("{line}-\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    assert_eq!(import(&minus).unwrap(), import(DECK).unwrap());
+}
+
+#[test]
+fn headings_in_another_encoding_are_no_data() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("small.k");
+    // u with two dots in Latin-1
+    let mut bytes = DECK.replacen("disk\n", "R#der\n", 1).into_bytes();
+    *bytes.iter_mut().find(|byte| **byte == b'#').unwrap() = 0xfc;
+    fs::write(&file, bytes).unwrap();
+    let source = Source { file: &file, include_outside: false };
+    let made = translate(&source, Units::parse("mm-ton-s").unwrap(), "mesh.inp").unwrap();
+    assert_eq!(made, import(DECK).unwrap());
+    let error = import(&DECK.replacen("    2.5e-4", "  2\u{b7}5e-4", 1)).unwrap_err();
+    assert!(error.to_string().contains("a number is expected"), "{error}");
+}
+
+#[test]
 fn a_card_that_is_not_read_is_refused_with_a_hint_that_fits_it() {
     for (card, hint) in [
         ("*MAT_PLASTIC_KINEMATIC", "*MAT_ELASTIC"),

@@ -39,6 +39,14 @@ struct Times {
 }
 
 impl Times {
+    fn of(rolling: &Rolling<'_>) -> Self {
+        let preload = rolling.preload_time();
+        let duration = rolling.case.duration();
+        // curves go on beyond the run, which may end a step late
+        let end = 2.0 * (preload + duration);
+        Self { preload, jump: JUMP * duration / rolling.facts.steps as f64, end }
+    }
+
     /// A value that is nothing before the preload is over.
     fn afterwards(&self, value: f64) -> Vec<[f64; 2]> {
         vec![[0.0, 0.0], [self.preload, 0.0], [self.preload + self.jump, value], [self.end, value]]
@@ -69,10 +77,7 @@ fn rise(ramp: f64) -> impl Iterator<Item = [f64; 2]> {
 /// The hub: a rigid body that is pressed down, then rolls.
 pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     let (case, units) = (rolling.case, cards.units());
-    let preload = rolling.preload_time();
-    let jump = JUMP * case.duration() / rolling.facts.steps as f64;
-    // curves go on beyond the run, which may end a step late
-    let times = Times { preload, jump, end: 2.0 * (preload + case.duration()) };
+    let times = Times::of(rolling);
     rigid_hub(cards, rolling);
 
     let speed = case.drive.speed;
@@ -97,7 +102,8 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
     press(cards, rolling, &times);
 
     // part sets are for the disk alone: the bar does not move
-    cards.card("INITIAL_VELOCITY_GENERATION_START_TIME", &[("STIME", preload / units.time())]);
+    cards
+        .card("INITIAL_VELOCITY_GENERATION_START_TIME", &[("STIME", times.preload / units.time())]);
     cards.keyword("INITIAL_VELOCITY_GENERATION");
     cards.fields(&[
         ("ID", number::DISK_PARTS as f64),
@@ -225,11 +231,10 @@ fn loaded(rolling: &Rolling<'_>, dof: f64, curve: u64, factor: f64) -> [(&'stati
 /// Mass damping of all motion until the disk rolls, then relative to the hub as the case says; Kelvin–Voigt damping.
 pub(super) fn damping(cards: &mut Cards, rolling: &Rolling<'_>) {
     let (case, units) = (rolling.case, cards.units());
-    let preload = rolling.preload_time();
+    let Times { preload, end, .. } = Times::of(rolling);
     cards.card("DAMPING_GLOBAL", &[("LCID", curve::PRELOAD_DAMPING as f64)]);
     // critical for the bounce of the disk
     let value = 2.0 * rolling.bounce() * units.time();
-    let end = 2.0 * (preload + case.duration());
     let still = preload * (1.0 - 1e-6);
     cards
         .curve(curve::PRELOAD_DAMPING, &[[0.0, value], [still, value], [preload, 0.0], [end, 0.0]]);

@@ -100,7 +100,15 @@ fn a_case_comes_back_from_its_keyword_file_with_the_same_mesh() {
     ];
     for (sets, units) in [
         (&["element.contact_layers=one-point"][..], "mm-ton-s"),
-        (&["mesh.symmetry=half", "damping.mass=4000", "element.layers=2"], "mm-ton-s"),
+        (
+            &[
+                "mesh.symmetry=half",
+                "damping.mass=4000",
+                "damping.kelvin_voigt=1e-9",
+                "element.layers=2",
+            ],
+            "mm-ton-s",
+        ),
         (falling, "m-kg-s"),
         (slice, "mm-kg-ms"),
     ] {
@@ -132,6 +140,7 @@ fn a_case_comes_back_from_its_keyword_file_with_the_same_mesh() {
             ("contact.penalty.damping", b.contact.penalty.damping, a.contact.penalty.damping),
             ("element.hourglass", b.element.hourglass, a.element.hourglass),
             ("damping.mass", b.damping.mass, a.damping.mass),
+            ("damping.kelvin_voigt", b.damping.kelvin_voigt, a.damping.kelvin_voigt),
             ("damping.bulk_linear", b.damping.bulk_linear, a.damping.bulk_linear),
             ("damping.bulk_quadratic", b.damping.bulk_quadratic, a.damping.bulk_quadratic),
             ("time.factor", b.time.factor.unwrap(), there.facts.stability.factor),
@@ -217,7 +226,7 @@ fn cards_of_the_motion_that_a_case_cannot_say_are_refused_by_their_line() {
         (depth.unwrap(), "         5         3         1         3", "VAD = 1"),
         // damping of all motion that goes on
         (curve, "           1.0                1000.0", "while the disk rolls"),
-        // the nodes of the bar's bottom do not move along y, and others that lie anywhere do
+        // the nodes whose motion is recorded, which are no plane, do not move along y
         (held, "         4         0         0         1         0", "neither all nodes"),
         (load, "         9         1         4     -5000", "DOF = 1"),
     ] {
@@ -225,6 +234,43 @@ fn cards_of_the_motion_that_a_case_cannot_say_are_refused_by_their_line() {
         assert_ne!(changed[at], new);
         changed[at] = new;
         let error = translated(&changed.join("\n"), "mm-ton-s").unwrap_err();
+        assert!(error.to_string().contains(words), "{words}: {error}");
+        assert!(error.place.is_some(), "{words}");
+    }
+}
+
+/// A deck with a line of data in place of another; lines are told by how they begin, the nth of them is meant.
+fn changed(deck: &str, (old, nth): (&str, usize), new: &str) -> String {
+    let mut lines: Vec<&str> = deck.lines().collect();
+    let found = lines.iter().enumerate().filter(|(_, line)| line.starts_with(old));
+    let at = found.map(|(at, _)| at).nth(nth).unwrap_or_else(|| panic!("{old}"));
+    assert_ne!(lines[at], new);
+    lines[at] = new;
+    lines.join("\n")
+}
+
+#[test]
+fn motions_that_would_be_read_as_others_are_refused() {
+    let sets = ["mesh.symmetry=half", "drive.lateral_creepage=0", "bar.ends=quiet"];
+    let deck = There::new(small(&sets), "mm-ton-s").deck;
+    let travel = "         5         1         0         1";
+    let turn = "         5         6         0         2";
+    // the quiet segments are set 13; 12 is the top
+    let quiet = "        13         0         0";
+    for (old, new, words) in [
+        (travel, "         1         1         0         1", "PID 1, which is not the hub's, 5"),
+        (turn, "         5         1         0         2", "a second prescribed motion of DOF = 1"),
+        (travel, "         5         1         0         8", "speed (DOF = 1) that ends at 0"),
+        (turn, "         5         7         0         2", "turns about DOF = 7"),
+        (quiet, "        12         0         0", "off the bar's ends"),
+    ] {
+        // DOF 7 is prescribed already: it is at rest
+        let at_rest = "         5         7         0         8";
+        let deck = match words {
+            "turns about DOF = 7" => changed(&deck, (at_rest, 0), turn),
+            _ => deck.clone(),
+        };
+        let error = translated(&changed(&deck, (old, 0), new), "mm-ton-s").unwrap_err();
         assert!(error.to_string().contains(words), "{words}: {error}");
         assert!(error.place.is_some(), "{words}");
     }
