@@ -154,6 +154,8 @@ pub(super) struct Initial {
     pub(super) speed: f64,
     /// Angular velocity about y, where the card gives it.
     pub(super) spin: Option<f64>,
+    /// `STYP` and the number of the part, part set or node set that has the velocity; `None` for all nodes' card.
+    pub(super) of: Option<(i64, u64)>,
 }
 
 impl Deck {

@@ -1,11 +1,12 @@
 //! What drives the disk: its rolling speed, and its angular velocity or the torque on it.
 
-use crate::deck::Deck;
+use crate::deck::{Deck, Initial};
 use crate::error::{DeckError, Place, lacks, unknown, unsupported};
 use crate::model::Model;
 use crate::motion::Motion;
 use crate::shape::Shape;
 use crate::units::Units;
+use std::collections::BTreeSet;
 
 /// The drive of a case, in SI units.
 pub(crate) struct Drive {
@@ -42,6 +43,7 @@ impl Drive {
                 "*INITIAL_VELOCITY or *INITIAL_VELOCITY_GENERATION with VX above 0: the rolling speed",
             )
         })?;
+        starts_the_disk(deck, model, initial)?;
         let motion = |dof: i64| deck.motions.iter().find(|motion| motion.dof == dof);
         let last = |motion: Option<&Motion>| {
             let last = |m: &Motion| Ok(m.factor * deck.last(m.curve, &m.place)?);
@@ -91,6 +93,36 @@ impl Drive {
             ramp: ramp.map(|t| t * units.time()),
         })
     }
+}
+
+/// Refuses an initial velocity of others than the disk, or of a piece of it.
+fn starts_the_disk(deck: &Deck, model: &Model, initial: &Initial) -> Result<(), DeckError> {
+    let Some((kind, id)) = initial.of else { return Ok(()) };
+    let at = &initial.place;
+    let missing = |what: &str| unknown(at, "the card", format!("{what} {id}"));
+    let whole = |given: &[u64], disk: BTreeSet<u64>, hub: Option<u64>| {
+        let given: BTreeSet<u64> = given.iter().copied().filter(|id| Some(*id) != hub).collect();
+        given == disk
+    };
+    let parts = || model.parts[0].iter().copied().collect();
+    let disk = match kind {
+        1 => {
+            let set = deck.part_sets.get(&id).ok_or_else(|| missing("part set"))?;
+            whole(set, parts(), Some(deck.hub_part))
+        }
+        2 => whole(&[id], parts(), None),
+        3 => {
+            let set = deck.node_sets.get(&id).ok_or_else(|| missing("node set"))?;
+            whole(set, model.disk_nodes(), deck.axle)
+        }
+        _ => false,
+    };
+    if disk {
+        return Ok(());
+    }
+    let what = "*INITIAL_VELOCITY_GENERATION of others than the whole disk";
+    let remedy = "give it to the disk alone: a set of all its parts (STYP 1), its part (2), all its nodes (3)";
+    Err(unsupported(at, what, remedy))
 }
 
 /// How long after the time `begins` the values of a curve still change.

@@ -114,6 +114,13 @@ impl Model {
         if self.symmetry == Symmetry::Half { 2.0 } else { 1.0 }
     }
 
+    /// Numbers of the disk's nodes in the deck: without those of the mirror image, which lies at y < 0.
+    pub(crate) fn disk_nodes(&self) -> BTreeSet<u64> {
+        let Foreign { points, nodes, .. } = &self.foreign;
+        let own = |n: &&u32| self.symmetry != Symmetry::Half || points[**n as usize][1] > -SAME;
+        self.nodes[0].iter().filter(own).map(|n| nodes.ids[*n as usize]).collect()
+    }
+
     /// The faces of a set; empty where there is no such set.
     pub(crate) fn faces(&self, set: &str) -> &[[u32; 4]] {
         self.foreign.sets.get(set).map_or(&[], |set| &set.faces)

@@ -45,7 +45,9 @@ impl Deck {
                 let fields = card.line(1)?.fields(&TENS);
                 let remaining = [(1, "VY"), (2, "VZ"), (3, "VXR"), (4, "VYR"), (5, "VZR")];
                 fields.unused(&card.name, &remaining)?;
-                self.initial(card, fields.real(0, 0.0)?, None)?;
+                let speed = fields.real(0, 0.0)?;
+                let place = card.place.clone();
+                self.initial(card, Initial { place, speed, spin: None, of: None })?;
             }
             "INITIAL_VELOCITY_GENERATION" => self.generated_velocity(card)?,
             "INITIAL_VELOCITY_GENERATION_START_TIME" => {
@@ -96,17 +98,19 @@ impl Deck {
                 "give the angular velocity of the rolling disk, above 0 about the axis NY = 1";
             return Err(unsupported(&fields.place(), what, remedy));
         }
-        self.initial(card, fields.real(3, 0.0)?, Some(spin))
+        let (place, speed) = (card.place.clone(), fields.real(3, 0.0)?);
+        let of = Some((fields.whole(1)?, fields.id(0)?));
+        self.initial(card, Initial { place, speed, spin: Some(spin), of })
     }
 
-    fn initial(&mut self, card: &Card, speed: f64, spin: Option<f64>) -> Result<(), DeckError> {
+    fn initial(&mut self, card: &Card, initial: Initial) -> Result<(), DeckError> {
         let mut further = card.all_lines().skip(2).filter(|line| !line.text.trim().is_empty());
         let further = further.next().map(|line| (line.place(), card.place.clone()));
         let another = self.initial.as_ref().map(|first| (card.place.clone(), first.place.clone()));
         if let Some((at, before)) = further.or(another) {
             return Err(second(&at, "initial velocity", &before, "keep that of the disk alone"));
         }
-        self.initial = Some(Initial { place: card.place.clone(), speed, spin });
+        self.initial = Some(initial);
         Ok(())
     }
 

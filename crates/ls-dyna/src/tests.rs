@@ -199,6 +199,20 @@ fn an_angular_velocity_of_0_or_backwards_is_refused() {
 }
 
 #[test]
+fn an_initial_velocity_of_others_than_the_disk_is_refused() {
+    let velocity = "         1         2    160.32";
+    for (other, words) in [
+        ("         2         2    160.32", "of others than the whole disk"),
+        ("         0         0    160.32", "of others than the whole disk"),
+        ("         1         3    160.32", "of others than the whole disk"),
+        ("         7         1    160.32", "part set 7"),
+    ] {
+        let error = import(&DECK.replacen(velocity, other, 1)).unwrap_err();
+        assert!(error.to_string().contains(words), "{other}: {error}");
+    }
+}
+
+#[test]
 fn long_standard_and_i10_cards_stand_side_by_side() {
     let standard = "*MAT_ELASTIC\n$      MID        RO         E        PR\n         1    7.8e-9   2.1e+05       0.3";
     let long = "*MAT_ELASTIC_TITLE +\nsteel\n                   1              7.8e-9             2.1e+05                 0.3";
