@@ -94,7 +94,7 @@ pub enum Command {
     #[command(
         after_help = "Example:\n  creepage import-k meshes/small.k --unit mm-ton-s --out small\n  \
         creepage run small/case.toml\n\nThe cards that are read, and the keys that they become: \
-        docs/ls-dyna.md. All others are refused by their line."
+        docs/ls-dyna.md. All others are refused by file and line."
     )]
     ImportK(ImportKOptions),
     /// Write a case as an LS-DYNA keyword file: the same mesh, contact and drive for another program

@@ -90,12 +90,10 @@ pub enum Fault {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A file includes itself, maybe by way of others.
-    #[error("{} includes itself, by way of {chain}", file.display())]
+    #[error("a file includes itself: {}", chain.join(" includes "))]
     Cycle {
-        /// The file.
-        file: PathBuf,
-        /// The files from it back to it.
-        chain: String,
+        /// The names of the files, from it back to it.
+        chain: Vec<String>,
     },
     /// An included file lies elsewhere.
     #[error("the included file {} lies outside the deck's folder, {}", file.display(), folder.display())]

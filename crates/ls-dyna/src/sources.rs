@@ -120,8 +120,8 @@ impl Reading<'_> {
             let name = |path: &PathBuf| {
                 path.file_name().unwrap_or_default().to_string_lossy().into_owned()
             };
-            let chain: Vec<String> = self.chain[first..].iter().chain([&real]).map(name).collect();
-            return Err(Fault::Cycle { file: file.into(), chain: chain.join(", ") });
+            let chain = self.chain[first..].iter().chain([&real]).map(name).collect();
+            return Err(Fault::Cycle { chain });
         }
         if self.chain.len() >= DEEPEST {
             return Err(Fault::Excess { what: format!("files more than {DEEPEST} deep") });
