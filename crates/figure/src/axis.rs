@@ -96,6 +96,11 @@ impl Ticked {
         Self { range: low..high, ticks, log: true, decimals: 0 }
     }
 
+    /// Where the ticks are, in drawing coordinates.
+    pub(crate) fn ticks(&self) -> &[f64] {
+        &self.ticks
+    }
+
     pub(crate) fn low(&self) -> f64 {
         self.range.start
     }

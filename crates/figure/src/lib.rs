@@ -3,7 +3,7 @@
 //!
 //! A [`Figure`] is a grid of [`Panel`]s with a caption below them; a panel has two axes, coloured
 //! cells (a map), series of points, and vertical marks, all named in a legend above the plot, where
-//! it can cover nothing.
+//! it can cover nothing. A [`Picture`] shows surfaces in space.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
@@ -13,6 +13,7 @@ mod draw;
 mod figure;
 mod fill;
 mod font;
+mod picture;
 mod thin;
 mod write;
 
@@ -21,6 +22,7 @@ pub use contour::contour;
 pub use figure::{Draw, Figure, Mark, Panel, Series};
 pub use fill::{Cell, Fill, Key, viridis};
 pub use font::font_face;
+pub use picture::{Camera, Pane, Picture, PictureError, Pixels, Surface};
 pub use thin::thin;
 pub use write::{FigureError, Format};
 
