@@ -24,7 +24,7 @@ pub use figure::{Draw, Figure, Mark, Panel, Series};
 pub use fill::{Cell, Fill, Key, viridis};
 pub use film::{Film, FilmError, FilmFormat};
 pub use font::font_face;
-pub use picture::{Camera, Pane, Picture, PictureError, Pixels, Surface};
+pub use picture::{Camera, Pane, Picture, PictureError, Pixels, Surface, round_down};
 pub use thin::thin;
 pub use write::{FigureError, Format};
 

@@ -8,6 +8,7 @@ mod labels;
 mod raster;
 
 pub use camera::Camera;
+pub use labels::round_down;
 
 use crate::Key;
 use thiserror::Error;

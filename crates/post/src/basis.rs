@@ -323,7 +323,7 @@ fn read_text(path: &Path, kind: Kind) -> Result<Option<String>, PostError> {
     }
 }
 
-fn read_toml(path: &Path) -> Result<Option<toml::Table>, PostError> {
+pub(crate) fn read_toml(path: &Path) -> Result<Option<toml::Table>, PostError> {
     let failed = |error: toml::de::Error| PostError::Text {
         path: path.into(),
         reason: format!("is no TOML: {}", error.message()),

@@ -36,6 +36,7 @@ mod page;
 mod patch_series;
 mod projection;
 mod recorded_law;
+mod render;
 mod replay;
 mod roughness;
 mod slip_zone;
@@ -60,6 +61,7 @@ pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use output::layout::Pairing;
 pub use page::{run_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
+pub use render::{Drawable, Quantity, RenderError, Rendering, View, Wanted};
 pub use surface::{NO_BODY, Surface, body_name};
 pub use sweep::{
     ComparedSweep, Sample, SweepVerdict, Trend, Verdict, creep_force_figure, sweep_figures,

@@ -116,22 +116,31 @@ impl Pen<'_, '_> {
     /// The axes x, y, z in the lower right corner of a pane.
     fn axes(&self, camera: &super::Camera, [right, bottom]: [i32; 2]) -> Drawn {
         let px = |points| self.layout.px(points);
-        let half = px(AXIS + 14.0);
-        let middle = [right - half - px(8.0), bottom - half - px(8.0)];
-        self.field(middle.map(|x| x - half), middle.map(|x| x + half))?;
-        let names = ["x", "y", "z"];
-        for (i, name) in names.into_iter().enumerate() {
+        let seen = |i: usize| {
             let mut axis = [0.0; 3];
             axis[i] = 1.0;
             let [across, up, _] = camera.turned(axis);
-            // an axis that points at the viewer has no length to draw
-            if libm::hypot(across, up) < 0.12 {
-                continue;
-            }
-            let end = |points: f64| [middle[0] + px(points * across), middle[1] - px(points * up)];
-            self.line(middle, end(AXIS), BLACK)?;
-            let beyond = AXIS + 8.0 / libm::hypot(across, up).max(0.6);
-            self.text(name, TEXT, end(beyond), HPos::Center)?;
+            // the label of an axis that points at the viewer would lie on the others
+            (libm::hypot(across, up) > 0.3).then_some(([across, up], ["x", "y", "z"][i]))
+        };
+        let axes: Vec<_> = (0..3).filter_map(seen).collect();
+        // how far the axes with their labels reach to the left, right, top and bottom
+        let reach = |side: [f64; 2]| {
+            let along = axes.iter().map(|([across, up], _)| side[0] * across + side[1] * up);
+            px(AXIS * along.fold(0.0, f64::max) + 16.0)
+        };
+        let [left, top] = [reach([-1.0, 0.0]), reach([0.0, 1.0])];
+        let [beyond_x, beyond_y] = [reach([1.0, 0.0]), reach([0.0, -1.0])];
+        let origin = [right - px(8.0) - beyond_x, bottom - px(8.0) - beyond_y];
+        self.field(
+            [origin[0] - left, origin[1] - top],
+            [origin[0] + beyond_x, origin[1] + beyond_y],
+        )?;
+        for ([across, up], name) in axes {
+            let end = |points: f64| [origin[0] + px(points * across), origin[1] - px(points * up)];
+            self.line(origin, end(AXIS), BLACK)?;
+            let label = AXIS + 8.0 / libm::hypot(across, up);
+            self.text(name, TEXT, end(label), HPos::Center)?;
         }
         Ok(())
     }
@@ -166,7 +175,7 @@ impl Pen<'_, '_> {
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `value`.
-pub(super) fn round_down(value: f64) -> f64 {
+pub fn round_down(value: f64) -> f64 {
     let power = libm::pow(10.0, libm::log10(value).floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|f| f * power <= value * (1.0 + 1e-9));
     factor.unwrap_or(1.0) * power

@@ -5,10 +5,12 @@ use crate::Key;
 
 /// Pixels are drawn finer by this factor along each side and then averaged, so that edges are smooth.
 const FINER: usize = 2;
-/// Where the light comes from: right, up, away from the viewer; of length 1.
-const LIGHT: [f64; 3] = [-0.36, 0.48, -0.8];
-/// Brightness of a face turned away from the light; one that faces it has 1.
+/// Where the light comes from: right, up, away from the viewer; of length 1. It comes from beside the viewer, so
+/// that faces that are seen well have the colours of the colour bar.
+const LIGHT: [f64; 3] = [-0.25, 0.3, -0.92];
+/// Brightness of a face turned away from the light, and how much faster than the cosine it rises to 1.
 const SHADE: f64 = 0.62;
+const RISE: f64 = 1.35;
 /// How much of a mesh line's grey covers the colour of the face.
 const LINE: f64 = 0.5;
 const LINE_COLOUR: f64 = 150.0;
@@ -79,8 +81,11 @@ impl Canvas<'_> {
         // the side that is seen faces the viewer
         let facing = if normal[2] > 0.0 { -1.0 } else { 1.0 };
         let cosine: f64 = normal.iter().zip(LIGHT).map(|(n, l)| facing * n * l).sum();
-        let light =
-            if length > 0.0 { SHADE + (1.0 - SHADE) * (cosine / length).max(0.0) } else { SHADE };
+        let light = if length > 0.0 {
+            SHADE + (1.0 - SHADE) * (RISE * cosine / length).clamp(0.0, 1.0)
+        } else {
+            SHADE
+        };
         // lines fade where they would lie so close that they hid the faces
         let twice = ((c.x - a.x) * (d.y - b.y) - (c.y - a.y) * (d.x - b.x)).abs();
         let longest = [[a, b], [b, c], [c, d], [d, a]]
@@ -107,15 +112,29 @@ impl Canvas<'_> {
             let at = triangle.corners.map(|corner| of(&corner));
             at.into_iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(x), h.max(x)])
         };
-        let [left, right] = ends(|corner| corner.x);
         let [top, bottom] = ends(|corner| corner.y);
         for row in clipped(top, bottom, self.size[1]) {
-            for column in clipped(left, right, self.size[0]) {
-                let [x, y] = [column as f64 + 0.5, row as f64 + 0.5];
-                // the share of each corner: that of the triangle opposite to it
-                let opposite =
-                    |p: Corner, q: Corner| ((p.x - x) * (q.y - y) - (p.y - y) * (q.x - x)) / area;
-                let shares = [opposite(b, c), opposite(c, a), opposite(a, b)];
+            // the share of each corner, that of the triangle opposite to it, rises evenly along the row
+            let along = [(b, c), (c, a), (a, b)].map(|(p, q)| {
+                let y = row as f64 + 0.5;
+                let start = (p.x * (q.y - y) - (p.y - y) * q.x) / area;
+                (start, (p.y - q.y) / area)
+            });
+            let mut inside = [0.0, self.size[0] as f64];
+            for (start, rise) in along {
+                let zero = -start / rise;
+                if rise > 0.0 {
+                    inside[0] = zero.max(inside[0]);
+                } else if rise < 0.0 {
+                    inside[1] = zero.min(inside[1]);
+                } else if start < 0.0 {
+                    inside[1] = 0.0;
+                }
+            }
+            // one more at each end, since the ends are rounded; the shares decide
+            for column in clipped(inside[0] - 1.0, inside[1] + 1.0, self.size[0]) {
+                let x = column as f64 + 0.5;
+                let shares = along.map(|(start, rise)| start + rise * x);
                 if shares.iter().all(|share| *share >= 0.0) {
                     self.pixel(row * self.size[0] + column, triangle, shares, area);
                 }

@@ -1,0 +1,148 @@
+//! What a picture can show.
+
+use output::FieldSpec;
+use output::layout::{BODIES, CONTACT, file};
+use std::str::FromStr;
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawable {
+    /// Both bodies, of `fields.vtkhdf`.
+    Fields,
+    /// Both contact surfaces, of `contact.vtkhdf`.
+    Contact,
+}
+
+impl Drawable {
+    /// Name in options.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fields => "fields",
+            Self::Contact => "contact",
+        }
+    }
+
+    /// The file of the run that holds it.
+    pub fn file(self) -> &'static str {
+        match self {
+            Self::Fields => file::FIELDS,
+            Self::Contact => file::CONTACT,
+        }
+    }
+
+    /// What its colours can show.
+    pub fn quantities(self) -> impl Iterator<Item = Quantity> {
+        Quantity::ALL.into_iter().filter(move |quantity| quantity.of() == self)
+    }
+}
+
+impl FromStr for Drawable {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let all = [Self::Fields, Self::Contact];
+        all.into_iter().find(|what| what.name() == text).ok_or("fields or contact is needed")
+    }
+}
+
+/// What the colours of a picture show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Von Mises stress, at a node the mean of the elements around it.
+    VonMises,
+    /// Size of the velocity.
+    Velocity,
+    /// Size of the deformation.
+    Deformation,
+    /// Contact pressure.
+    Pressure,
+    /// Size of the shear traction.
+    Shear,
+    /// Size of the slip velocity, zero where there is no pressure.
+    SlipVelocity,
+}
+
+impl Quantity {
+    /// All, those of the bodies first; the first of each is the one that is shown unless another is asked for.
+    pub const ALL: [Self; 6] = [
+        Self::VonMises,
+        Self::Velocity,
+        Self::Deformation,
+        Self::Pressure,
+        Self::Shear,
+        Self::SlipVelocity,
+    ];
+
+    /// Name in options.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VonMises => "von_mises",
+            Self::Velocity => "velocity",
+            Self::Deformation => "deformation",
+            Self::Pressure => "pressure",
+            Self::Shear => "shear",
+            Self::SlipVelocity => "slip_velocity",
+        }
+    }
+
+    /// What it is of.
+    pub fn of(self) -> Drawable {
+        match self {
+            Self::VonMises | Self::Velocity | Self::Deformation => Drawable::Fields,
+            Self::Pressure | Self::Shear | Self::SlipVelocity => Drawable::Contact,
+        }
+    }
+
+    /// Label of the colour bar with the unit, and the size of that unit (SI).
+    pub(crate) fn label(self) -> (&'static str, f64) {
+        match self {
+            Self::VonMises => ("von Mises stress (MPa)", 1e6),
+            Self::Velocity => ("speed (m/s)", 1.0),
+            Self::Deformation => ("deformation (µm)", 1e-6),
+            Self::Pressure => ("pressure (MPa)", 1e6),
+            Self::Shear => ("shear traction (MPa)", 1e6),
+            Self::SlipVelocity => ("slip velocity (m/s)", 1.0),
+        }
+    }
+
+    /// The dataset from which it is made; `None` for the deformation, which may have to be found.
+    pub(crate) fn dataset(self) -> Option<&'static FieldSpec> {
+        match self {
+            Self::VonMises => Some(&BODIES.stress),
+            Self::Velocity => Some(&BODIES.velocity),
+            Self::Deformation => None,
+            Self::Pressure => Some(&CONTACT.pressure),
+            Self::Shear => Some(&CONTACT.shear),
+            Self::SlipVelocity => Some(&CONTACT.slip_velocity),
+        }
+    }
+}
+
+impl FromStr for Quantity {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Self::ALL.into_iter().find(|quantity| quantity.name() == text).ok_or(
+            "one of von_mises, velocity, deformation (of fields), pressure, shear, slip_velocity (of contact) is \
+             needed",
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_quantity_is_found_by_its_name_and_the_refusal_names_all() {
+        let refusal = "temperature".parse::<Quantity>().unwrap_err();
+        for quantity in Quantity::ALL {
+            assert_eq!(quantity.name().parse(), Ok(quantity));
+            assert!(refusal.contains(quantity.name()));
+        }
+        for what in [Drawable::Fields, Drawable::Contact] {
+            assert_eq!(what.name().parse(), Ok(what));
+            assert_eq!(what.quantities().count(), 3);
+        }
+    }
+}
