@@ -46,19 +46,7 @@ pub fn tests(root: &Path) -> Outcome {
     }
     let mut command = Command::new(&python);
     command.args(pytest).arg("--nbmake").arg(root.join("notebooks")).current_dir(root);
-    if !draws(&python) {
-        eprintln!(
-            "warning: there is no libEGL to draw with; notebooks/first-run.ipynb was skipped"
-        );
-        command.args(["--ignore-glob", "*first-run.ipynb"]);
-    }
     execute(&mut command)
-}
-
-/// Whether VTK can draw without a display.
-fn draws(python: &Path) -> bool {
-    let ask = "import ctypes.util, sys; sys.exit(ctypes.util.find_library('EGL') is None)";
-    Command::new(python).args(["-c", ask]).status().is_ok_and(|status| status.success())
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.

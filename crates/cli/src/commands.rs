@@ -3,8 +3,8 @@
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
-    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
-    SliderOptions, SweepOptions, VerifyOptions,
+    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, RenderOptions, ReportOptions,
+    RunOptions, SliderOptions, SweepOptions, VerifyOptions,
 };
 use serde_json::Value;
 
@@ -69,6 +69,14 @@ pub enum Command {
         --out figures --format svg\n\nWhat each figure shows: docs/checks.md."
     )]
     Plot(PlotOptions),
+    /// Draw a run in three dimensions, deformation magnified: a picture, or a film
+    #[command(
+        after_help = "Examples:\n  creepage render runs/quick\n  creepage render runs/quick --field pressure \
+        --time 1e-3\n  creepage render runs/quick --view contact --magnify 100 --out contact.png\n  creepage render \
+        runs/quick --out quick.gif\n\nA PNG shows one record, a GIF or MP4 all; MP4 needs the program ffmpeg. The \
+        rigid motion of the disk is not magnified. What the views show: docs/files.md."
+    )]
+    Render(RenderOptions),
     /// Write one self-contained HTML page about a run or a sweep: case, numbers, checks, figures
     #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
         runs/b-falling --out b-falling.html")]
@@ -152,6 +160,7 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         }
         Command::Compare(options) => done(&creepage::compare(options)?, compare::text),
         Command::Plot(options) => done(&creepage::plot(options)?.document(), files::figures),
+        Command::Render(options) => done(&creepage::render(options)?, files::picture),
         Command::Report(options) => done(&creepage::report(options)?.document, files::page),
         Command::Sweep(options) => sweep(args, options),
         Command::ImportContact(options) => {

@@ -1,7 +1,7 @@
 //! Creepage as a library: an elastic disk rolls on an elastic bar, by explicit finite elements.
 //!
 //! What the command line does and what Python does are functions here, each with a struct of options: [`run()`] a
-//! case, look at its [`mesh()`], [`check()`], [`plot()`] and [`report()`] what it gave, [`compare()`] runs, [`sweep()`]
+//! case, look at its [`mesh()`], [`check()`], [`plot()`], [`render()`] and [`report()`] what it gave, [`compare()`] runs, [`sweep()`]
 //! over a grid of parameters, [`verify()`] the program, compute with the 1-D [`slider()`]. Each function gives the
 //! document that the command prints with `--json`. Nothing is written to the terminal; who wants to know how far
 //! a command is, or to end it, is a [`Listener`]. Numbers are in SI units.
@@ -85,6 +85,7 @@ mod listener;
 mod mesh;
 mod outputs;
 mod plot;
+mod render;
 mod report;
 mod run;
 mod rupture_plot;
@@ -114,7 +115,8 @@ pub use listener::Listener;
 pub use ls_dyna::Units;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
-pub use post::{Checked, Pairing, Report as PairingReport};
+pub use post::{Checked, Drawable, Pairing, Quantity, Report as PairingReport, View};
+pub use render::{RenderOptions, render};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
 pub use scenario::{Progress, Stage};

@@ -57,6 +57,12 @@ pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, _| Ok(creepage::plot(&options)?.document().into()))
 }
 
+/// Draws a run in three dimensions.
+#[pyfunction]
+pub fn render<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(creepage::render(&options)?.into()))
+}
+
 /// Writes the page about a run.
 #[pyfunction]
 pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {

@@ -18,7 +18,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _creepage {
     #[pymodule_export]
-    use crate::commands::{check, main, mesh, plot, report, run, schema, slider, sweep, verify};
+    use crate::commands::{
+        check, main, mesh, plot, render, report, run, schema, slider, sweep, verify,
+    };
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]

@@ -1,4 +1,4 @@
-//! The files that `creepage sweep`, `plot` and `report` write beside those of a run; `--force` removes them with it.
+//! The files that `creepage sweep`, `plot`, `render` and `report` write beside those of a run; `--force` removes them with it.
 
 use std::fs;
 use std::io;
@@ -32,6 +32,7 @@ fn files() -> Vec<(PathBuf, Ours)> {
         ("check.json".into(), is_check),
         ("check.json.partial".into(), |_| true),
         ("report.html".into(), |path| wrote(path, &PAGE).unwrap_or(false)),
+        ("render.png".into(), |path| wrote(path, &PNG).unwrap_or(false)),
     ];
     for name in FIGURE_NAMES {
         let place = |extension| Path::new(FIGURES).join(format!("{name}.{extension}"));
@@ -76,6 +77,7 @@ mod tests {
             ("check.json", "{\"notes\": 1}"),
             ("report.html", "<!DOCTYPE html><title>mine</title>"),
             ("figures/histories.svg", "<svg><!-- drawn by hand --></svg>"),
+            ("render.png", "a photograph"),
             ("figures/own.png", "\u{89}PNG"),
         ];
         for (name, text) in foreign {

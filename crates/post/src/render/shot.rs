@@ -19,6 +19,8 @@ const SHARE_NEAR: f64 = 0.05;
 /// Side of the close view over the radius of the disk, and over the patch.
 const NEAR_RADII: f64 = 0.14;
 const PATCHES: f64 = 2.5;
+/// Deformation below this share of the side of a pane is round-off.
+const ROUND_OFF: f64 = 1e-9;
 
 /// What a camera follows.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +45,8 @@ pub(super) struct Shot {
     span: f64,
     /// How much larger than it is deformation is drawn.
     pub(super) magnify: f64,
+    /// Whether there is any: displacements of half-spaces are not recorded.
+    deforms: bool,
 }
 
 /// The views of a run.
@@ -76,6 +80,7 @@ fn whole(source: &Source) -> Shot {
         share: SHARE_WHOLE,
         span: f64::NAN,
         magnify: f64::NAN,
+        deforms: true,
     }
 }
 
@@ -99,6 +104,7 @@ fn near(source: &Source) -> Shot {
         share: SHARE_NEAR,
         span: NEAR_RADII * 0.5 * (high - low),
         magnify: f64::NAN,
+        deforms: true,
     }
 }
 
@@ -120,6 +126,7 @@ fn surfaces(source: &Source) -> Vec<Shot> {
             share: SHARE_NEAR,
             span: f64::NAN,
             magnify: f64::NAN,
+            deforms: true,
         }
     };
     // the bar first: it is looked at from above
@@ -190,10 +197,10 @@ impl Shot {
             let longest = 1.2 * x.max(y);
             self.span = if bounds.patch > 0.0 { PATCHES * bounds.patch } else { longest };
         }
+        self.deforms = bounds.deformation > ROUND_OFF * self.span;
         if !self.magnify.is_finite() {
             let fitting = self.share * self.span / bounds.deformation;
-            self.magnify =
-                if fitting.is_finite() { figure::round_down(fitting.max(1.0)) } else { 1.0 };
+            self.magnify = if self.deforms { figure::round_down(fitting.max(1.0)) } else { 1.0 };
         }
     }
 
@@ -210,6 +217,7 @@ impl Shot {
             values.extend_from_within(..);
         }
         let title = match self.magnify {
+            _ if !self.deforms => self.what.clone(),
             1.0 => format!("{}, deformation as it is", self.what),
             times => format!("{}, deformation × {times}", self.what),
         };

@@ -146,7 +146,13 @@ impl Source {
 
     /// The record `index` with `quantity` at its nodes.
     pub(super) fn moment(&self, index: usize, quantity: Quantity) -> Result<Moment, RenderError> {
-        let displacement = self.vectors(&BODIES.displacement, index, quantity)?;
+        let displacement = if quantity.of() == Drawable::Contact && !self.has(&CONTACT.displacement)
+        {
+            // contact histories of other codes need not have it
+            vec![[0.0; 3]; self.points.len()]
+        } else {
+            self.vectors(&BODIES.displacement, index, quantity)?
+        };
         let placed: Vec<Vec3> =
             self.points.iter().zip(&displacement).map(|(p, u)| axpy(*p, 1.0, *u)).collect();
         let deformation = if self.has(&BODIES.deformation) {

@@ -126,6 +126,20 @@ class Run:
         format: str | Sequence[str] = ("svg", "png"),
         window: _Window | None = None,
     ) -> dict[str, list[Path]]: ...
+    def render(
+        self,
+        out: _Path | None = None,
+        *,
+        time: float | None = None,
+        field: Literal["von_mises", "velocity", "deformation", "pressure", "shear", "slip_velocity"]
+        | None = None,
+        what: Literal["fields", "contact"] | None = None,
+        view: Literal["whole", "contact", "both"] | None = None,
+        magnify: float | None = None,
+        span: float | None = None,
+        width: int | None = None,
+        frames: int | None = None,
+    ) -> Path: ...
     def report(self, out: _Path | None = None) -> Path: ...
     def to_pyvista(self, step: int = -1, what: Literal["fields", "contact"] = "fields") -> Any: ...
 

@@ -369,6 +369,40 @@ class Run:
         document = execute(_creepage.plot, options)[0]
         return {each["name"]: [Path(file) for file in each["files"]] for each in document["figures"]}
 
+    def render(
+        self,
+        out=None,
+        *,
+        time=None,
+        field=None,
+        what=None,
+        view=None,
+        magnify=None,
+        span=None,
+        width=None,
+        frames=None,
+    ) -> Path:
+        """Draw the run in three dimensions, deformation magnified: a picture, or a film.
+
+        Args:
+            out: the file, .png, .gif or .mp4 (which needs ffmpeg) [default: render.png in the run's folder].
+            time: draw the record nearest to this time (s) [default: the last]; a film shows all.
+            field: "von_mises", "velocity" or "deformation" of the bodies, "pressure", "shear" or
+                "slip_velocity" of the contact surfaces.
+            what: "fields" (both bodies) or "contact" (both surfaces) [default: that which ``field`` is of].
+            view: "whole", "contact" or "both", of the bodies.
+            magnify: how many times larger deformation is drawn [default: a round number that shows it].
+            span: side of what a view of the contact shows (m).
+            width: width in pixels.
+            frames: at most so many pictures in a film.
+
+        Returns:
+            Path: the file.
+        """
+        options = {"run": self.path, "out": out, "time": time, "field": field, "what": what}
+        options |= {"view": view, "magnify": magnify, "span": span, "width": width, "frames": frames}
+        return Path(execute(_creepage.render, options)[0]["file"])
+
     def report(self, out=None) -> Path:
         """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path."""
         return Path(execute(_creepage.report, {"run": self.path, "out": out})[0]["page"])
