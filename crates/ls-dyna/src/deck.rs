@@ -183,7 +183,7 @@ impl Deck {
         {
             return Ok(());
         }
-        if !unread::passed_over(&card.name) {
+        if !unread::passed_over(card)? {
             return Err(unread::refused(card));
         }
         let name = format!("*{}", card.name);

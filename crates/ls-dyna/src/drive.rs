@@ -55,13 +55,7 @@ impl Drive {
             return Err(unsupported(&m.place, what, "let the disk roll on, towards +x"));
         }
         let lateral_creepage = last(motion(2))?.unwrap_or(0.0) / speed;
-        for m in [5, 7].into_iter().filter_map(motion) {
-            let points = deck.points(m.curve, &m.place)?;
-            if points.iter().any(|[_, value]| *value != 0.0) {
-                let what = format!("a hub that turns about DOF = {}", m.dof);
-                return Err(unsupported(&m.place, what, "let it turn about y alone (DOF = 6)"));
-            }
-        }
+        turns_about_y_alone(deck)?;
         let torque = deck.rigid_loads.iter().find(|load| load.dof == 6);
         let turned = motion(6).filter(|motion| !motion.ends);
         let (turn, curve) = match (torque, turned, initial.spin) {
@@ -93,6 +87,18 @@ impl Drive {
             ramp: ramp.map(|t| t * units.time()),
         })
     }
+}
+
+/// Refuses a hub that turns about x or z.
+fn turns_about_y_alone(deck: &Deck) -> Result<(), DeckError> {
+    for m in deck.motions.iter().filter(|motion| matches!(motion.dof, 5 | 7)) {
+        let points = deck.points(m.curve, &m.place)?;
+        if points.iter().any(|[_, value]| *value != 0.0) {
+            let what = format!("a hub that turns about DOF = {}", m.dof);
+            return Err(unsupported(&m.place, what, "let it turn about y alone (DOF = 6)"));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses an initial velocity of others than the disk, or of a piece of it.

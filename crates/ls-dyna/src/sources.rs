@@ -67,11 +67,12 @@ impl Reading<'_> {
     /// Reads a file, which a line of the deck names, and those that it includes; returns its index.
     fn file(&mut self, path: &Path, named: Option<&Place>) -> Result<usize, DeckError> {
         let fail = |fault| DeckError { place: named.cloned(), fault };
-        let bytes = input::bytes(path, KEYWORDS).map_err(|error| fail(error.into()))?;
-        let real = canonical(path).map_err(fail)?;
-        if let Some(&known) = self.known.get(&real) {
+        let known = path.canonicalize().ok().and_then(|real| self.known.get(&real).copied());
+        if let Some(known) = known {
             return Ok(known);
         }
+        let bytes = input::bytes(path, KEYWORDS).map_err(|error| fail(error.into()))?;
+        let real = canonical(path).map_err(fail)?;
         let index = self.files.len();
         self.known.insert(real.clone(), index);
         self.files.push(File { path: path.into(), bytes, included: Vec::new() });
@@ -90,6 +91,9 @@ impl Reading<'_> {
             let includes = cards.iter().filter(|card| card.name == "INCLUDE");
             includes.map(names).collect::<Result<Vec<_>, _>>()?.concat()
         };
+        if named.len() > MOST {
+            return Err(too_much());
+        }
         let mut included = Vec::new();
         for (name, place) in named {
             let file = self.find(&name, &path);
@@ -128,6 +132,11 @@ impl Reading<'_> {
         }
         Ok(())
     }
+}
+
+fn too_much() -> DeckError {
+    let what = format!("more than {MOST} files or 4 GiB");
+    DeckError { place: None, fault: Fault::Excess { what } }
 }
 
 fn canonical(path: &Path) -> Result<PathBuf, Fault> {
@@ -170,8 +179,7 @@ impl Flat<'_> {
         let file = &self.sources.0[index];
         (self.files, self.bytes) = (self.files + 1, self.bytes + file.bytes.len() as u64);
         if self.files > MOST || self.bytes > KEYWORDS.most {
-            let what = format!("more than {MOST} files or 4 GiB");
-            return Err(DeckError { place: None, fault: Fault::Excess { what } });
+            return Err(too_much());
         }
         let mut included = file.included.iter();
         for card in cards(&file.bytes, &file.path, format)? {

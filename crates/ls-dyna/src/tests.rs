@@ -264,13 +264,28 @@ fn headings_in_another_encoding_are_no_data() {
 }
 
 #[test]
+fn control_cards_that_switch_nothing_on_are_passed_over() {
+    let with = |card: &str| import(&DECK.replacen("*TITLE", &format!("{card}\n*TITLE"), 1));
+    for (card, field) in [
+        ("*CONTROL_SOLUTION\n         #", "SOLN"),
+        ("*CONTROL_IMPLICIT_GENERAL\n         #       0.0", "IMFLAG"),
+        ("*CONTROL_DYNAMIC_RELAXATION\n250,0.001,0.995,0.0,0.0,0,0.04,#", "IDRFLG"),
+    ] {
+        let made = with(&card.replace('#', "0")).unwrap();
+        let name = card.lines().next().unwrap();
+        assert!(made.notes.iter().any(|note| note.contains(name)), "{:?}", made.notes);
+        let error = with(&card.replace('#', "1")).unwrap_err();
+        assert!(error.to_string().contains(&format!("{name} with {field} = 1")), "{error}");
+    }
+}
+
+#[test]
 fn a_card_that_is_not_read_is_refused_with_a_hint_that_fits_it() {
     for (card, hint) in [
         ("*MAT_PLASTIC_KINEMATIC", "*MAT_ELASTIC"),
         ("*ELEMENT_SHELL", "*ELEMENT_SOLID"),
         ("*CONTACT_TIED_NODES_TO_SURFACE", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE"),
-        ("*CONTROL_IMPLICIT_GENERAL", "time.integrator"),
-        ("*CONTROL_DYNAMIC_RELAXATION", "preload.method"),
+        ("*CONTROL_IMPLICIT_EIGENVALUE", "time.integrator"),
         ("*INCLUDE_TRANSFORM", "*INCLUDE"),
         ("*SET_NODE_GENERAL", "*SET_NODE_LIST"),
         ("*PART_INERTIA", "*CONSTRAINED_NODAL_RIGID_BODY_INERTIA"),

@@ -1,27 +1,26 @@
 //! Cards that are not read: those that a case does without, and those that are refused, with what to do instead.
 
-use crate::cards::Card;
+use crate::cards::{Card, TENS};
 use crate::error::{DeckError, unsupported};
 
 /// Begins of keywords that control the method or ask for output, and those among them that change what is computed.
 const PASSED_OVER: [&str; 2] = ["CONTROL_", "DATABASE_"];
-const CHANGING: [&str; 7] = [
-    "CONTROL_ADAP",
-    "CONTROL_COUPLING",
-    "CONTROL_DYNAMIC_RELAXATION",
-    "CONTROL_IMPLICIT",
-    "CONTROL_SOLUTION",
-    "CONTROL_STAGED",
-    "CONTROL_THERMAL",
+const CHANGING: [&str; 5] =
+    ["CONTROL_ADAP", "CONTROL_COUPLING", "CONTROL_IMPLICIT", "CONTROL_STAGED", "CONTROL_THERMAL"];
+
+/// Cards that change nothing as long as a field, by index and name, is blank or 0.
+const SWITCHES: [(&str, usize, &str); 3] = [
+    ("CONTROL_DYNAMIC_RELAXATION", 7, "IDRFLG"),
+    ("CONTROL_IMPLICIT_GENERAL", 0, "IMFLAG"),
+    ("CONTROL_SOLUTION", 0, "SOLN"),
 ];
 
 /// Keywords without a word about the model.
 const UNREMARKABLE: [&str; 3] = ["TITLE", "COMMENT", "PARAMETER"];
 
 /// What to do instead of a card, by the begin of its keyword; the first that fits.
-const HINTS: [(&str, &str); 28] = [
+const HINTS: [(&str, &str); 27] = [
     ("CONTROL_IMPLICIT", "leave it out, and set time.integrator = \"implicit\" in the case"),
-    ("CONTROL_DYNAMIC_RELAXATION", "leave it out: the case finds its preload (preload.method)"),
     ("CONTROL_", "leave it out: bodies are elastic, and their mesh stays"),
     ("INCLUDE_PATH", "write the folder in front of the names of *INCLUDE"),
     ("INCLUDE", "write the file out as it is meant, and name it in *INCLUDE"),
@@ -51,9 +50,17 @@ const HINTS: [(&str, &str); 28] = [
 ];
 
 /// Whether a case does without the card.
-pub(super) fn passed_over(name: &str) -> bool {
+///
+/// # Errors
+/// A card that switches another method on.
+pub(super) fn passed_over(card: &Card) -> Result<bool, DeckError> {
+    let name = card.name.as_str();
+    if let Some((_, field, word)) = SWITCHES.iter().find(|(switch, ..)| *switch == name) {
+        card.line(0)?.fields(&TENS).unused(name, &[(*field, word)])?;
+        return Ok(true);
+    }
     let begins = |begin: &&str| name.starts_with(begin);
-    unremarkable(name) || PASSED_OVER.iter().any(begins) && !CHANGING.iter().any(begins)
+    Ok(unremarkable(name) || PASSED_OVER.iter().any(begins) && !CHANGING.iter().any(begins))
 }
 
 /// Whether that need not be said.
