@@ -36,6 +36,31 @@ fn elastic_energy_is_kept_with_theta_one_half_and_lost_with_theta_one_as_booked(
     assert!(energy_left(1.0) < 0.1, "{}", energy_left(1.0));
 }
 
+/// Displacements of the cube after steps of `longer` times the stable one; explicit steps without `theta`.
+fn breathed(longer: f64, steps: u64, theta: Option<f64>) -> Vec<Padded> {
+    let mut simulation = Simulation::new(breathing(longer));
+    if let Some(theta) = theta {
+        simulation.set_implicit(theta);
+    }
+    (0..steps).for_each(|_| _ = simulation.step(false));
+    simulation.displacement().to_vec()
+}
+
+#[test]
+fn a_free_cube_moves_as_by_explicit_steps_up_to_the_square_of_the_step() {
+    let differ = |longer: f64, steps: u64| {
+        let [explicit, implicit] = [None, Some(0.5)].map(|theta| breathed(longer, steps, theta));
+        let between = explicit
+            .iter()
+            .zip(&implicit)
+            .flat_map(|(a, b)| [0, 1, 2].map(|i| (a.xyz()[i] - b.xyz()[i]).abs()));
+        between.fold(0.0, f64::max)
+    };
+    let [long, short] = [differ(0.2, 20), differ(0.1, 40)];
+    let order = libm::log2(long / short);
+    assert!((order - 2.0).abs() < 0.1, "{order}: {long} and {short}");
+}
+
 /// Two cubes one upon the other, the upper pressed down and pushed sideways.
 fn cubes(mu: f64) -> Result<(Mesh, Setup), ContactError> {
     let upper = mesh::block([2, 2, 2], [2e-3; 3]);
