@@ -6,6 +6,7 @@ Fails where the browser's console says anything, where the page asks for an addr
 figure has no size. Needs the program `chromium` (Debian: apt-get install chromium).
 """
 
+import html
 import pathlib
 import re
 import shutil
@@ -17,9 +18,13 @@ PROBE = """<script>window.addEventListener('load', () => {
   const sizes = [...document.querySelectorAll('svg')].map(s => s.getBoundingClientRect());
   const empty = sizes.filter(r => r.width < 100 || r.height < 100).length;
   const wide = document.documentElement.scrollWidth > window.innerWidth + 1;
-  document.title = `figures ${sizes.length} empty ${empty} wide ${wide} ` +
+  parent.document.title = `figures ${sizes.length} empty ${empty} wide ${wide} ` +
     `resources ${performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length}`;
 });</script></body>"""
+
+
+FRAME = """<!DOCTYPE html><html><head><title>none</title></head><body style="margin:0">
+<iframe style="border:0;width:{width}px;height:6900px" srcdoc="{page}"></iframe></body></html>"""
 
 
 def chromium(*arguments):
@@ -31,23 +36,33 @@ def chromium(*arguments):
     return subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=120)
 
 
+def look(page, framed, width):
+    """Fails where the page is not as it should be in a window of this width."""
+    found = chromium("--enable-logging=stderr", f"--window-size={width + 20},7000", "--dump-dom", framed.as_uri())
+    console = [line for line in found.stderr.splitlines() if ":CONSOLE" in line]
+    title = re.search(r"<title>(figures [^<]*)</title>", found.stdout)
+    report = title.group(1) if title else "the page was not rendered"
+    print(f"{width} px: {report}")
+    if console or not title or not re.search(r"empty 0 wide false resources 0$", report):
+        sys.exit("\n".join([f"{page} is not as it should be at {width} px", *console]))
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     page = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as folder:
-        # beside the page itself only a probe that reports what was laid out
-        probed = pathlib.Path(folder) / "probed.html"
-        probed.write_text(page.read_text().replace("</body>", PROBE))
-        found = chromium("--enable-logging=stderr", "--window-size=1250,2000", "--dump-dom", probed.as_uri())
-    console = [line for line in found.stderr.splitlines() if ":CONSOLE" in line]
-    title = re.search(r"<title>(figures [^<]*)</title>", found.stdout)
-    report = title.group(1) if title else "the page was not rendered"
-    print(report)
-    if console or not title or not re.search(r"empty 0 wide false resources 0$", report):
-        sys.exit("\n".join([f"{page} is not as it should be", *console]))
-    if len(sys.argv) > 2:
-        chromium("--window-size=1250,7000", f"--screenshot={pathlib.Path(sys.argv[2]).resolve()}", page.as_uri())
+        # the page in a frame of that width, since Chromium makes no window as narrow as a phone, with a probe that
+        # reports what was laid out
+        probed = html.escape(page.read_text().replace("</body>", PROBE), quote=True)
+        for width in (1400, 390):
+            framed = pathlib.Path(folder) / f"{width}.html"
+            framed.write_text(FRAME.format(width=width, page=probed))
+            look(page, framed, width)
+            if len(sys.argv) > 2:
+                picture = pathlib.Path(sys.argv[2]).resolve()
+                picture = picture.with_stem(f"{picture.stem}-{width}")
+                chromium(f"--window-size={width + 20},7000", f"--screenshot={picture}", framed.as_uri())
 
 
 if __name__ == "__main__":

@@ -16,15 +16,15 @@ fn creepage(args: &[&str]) -> std::process::Output {
 
 /// The page names no address but the name of the SVG language, which nobody fetches.
 fn is_self_contained(page: &str) {
-    let bare = page.replace("http://www.w3.org/2000/svg", "");
-    for reference in ["http://", "https://", "src=\"", "<script", "@import", "url(/", "<iframe"] {
+    let bare = page.replace("http://www.w3.org/2000/svg", "").replace("src=\"data:image/png", "");
+    for reference in ["http://", "https://", "src=\"", "<script ", "@import", "url(/", "<iframe"] {
         assert!(!bare.contains(reference), "{reference}");
     }
     assert_eq!(nesting_error(page), None);
 }
 
 /// The first place where tags do not nest, read as a browser reads well-formed pages: elements
-/// without content need no end, and what stands in a style sheet is no markup.
+/// without content need no end, and what stands in a style sheet or a script is no markup.
 fn nesting_error(page: &str) -> Option<String> {
     const EMPTY: [&str; 4] = ["meta", "link", "br", "hr"];
     let mut open: Vec<String> = Vec::new();
@@ -51,8 +51,8 @@ fn nesting_error(page: &str) -> Option<String> {
             if !tag.matches('"').count().is_multiple_of(2) {
                 return Some(format!("<{tag}> has an odd quote"));
             }
-            if name == "style" {
-                rest = &rest[rest.find("</style>")?..];
+            if name == "style" || name == "script" {
+                rest = &rest[rest.find(&format!("</{name}>"))?..];
             }
             open.push(name);
         }
@@ -85,6 +85,9 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
         "No node is pulled.",
         "figure-4-bound",
         "creepage run case.toml",
+        "name=\"viewport\"",
+        "What happened",
+        "download=\"check.json\"",
     ] {
         assert!(page.contains(part), "{part}");
     }
@@ -132,4 +135,44 @@ fn a_page_that_cannot_be_made_or_written_ends_with_code_2() {
     let output = creepage(&args);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("cannot write the page"));
+}
+
+#[test]
+fn a_run_that_failed_is_told_from_a_method_that_violates_the_conditions() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    write(&run, FALLING, "penalty", 20, |x, step| perfect(FALLING, x, step));
+    let page = |status: &str| {
+        let summary = json!({ "status": status, "diagnosis": "the energy grew" });
+        fs::write(run.join("summary.json"), summary.to_string()).unwrap();
+        assert_eq!(creepage(&["report", run.to_str().unwrap()]).status.code(), Some(0));
+        fs::read_to_string(run.join("report.html")).unwrap()
+    };
+    let failed = "class=\"fail\">The run failed: its own guards stopped it.";
+    assert!(page("failed").contains(failed) && page("failed").contains("the energy grew"));
+    let completed = page("completed");
+    assert!(
+        completed.contains("class=\"pass\">The run reached its end.")
+            && !completed.contains(failed)
+    );
+}
+
+#[test]
+fn a_folder_of_runs_gets_a_page_that_lists_them() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, status) in [("b", "failed<i>"), ("a", "completed")] {
+        let run = folder.path().join(name);
+        fs::create_dir(&run).unwrap();
+        let summary = json!({ "status": status, "contact": { "traction_coefficient": 0.25 } });
+        fs::write(run.join("summary.json"), summary.to_string()).unwrap();
+    }
+    fs::write(folder.path().join("a/report.html"), "").unwrap();
+    let output = creepage(&["report", folder.path().to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    is_self_contained(&page);
+    for part in ["<a href=\"a/report.html\">a</a>", "0.2500", "failed&lt;i&gt;"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(page.find(">a<").unwrap() < page.find(">b<").unwrap(), "by name");
 }

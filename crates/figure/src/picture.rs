@@ -11,6 +11,8 @@ pub use camera::Camera;
 pub use labels::round_down;
 
 use crate::Key;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use thiserror::Error;
 
 /// Why a picture cannot be drawn.
@@ -60,6 +62,24 @@ pub struct Pixels {
     pub height: u32,
     /// Red, green and blue of each pixel, row by row from the top.
     pub rgb: Vec<u8>,
+}
+
+impl Pixels {
+    /// The pixels as a PNG in an address that an `<img>` of a page takes, so that the page needs no other file.
+    ///
+    /// # Errors
+    /// [`PictureError`] where the PNG library fails.
+    pub fn data_url(&self) -> Result<String, PictureError> {
+        let failed = |error: png::EncodingError| PictureError(error.to_string());
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mut writer = encoder.write_header().map_err(failed)?;
+        writer.write_image_data(&self.rgb).map_err(failed)?;
+        writer.finish().map_err(failed)?;
+        Ok(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
+    }
 }
 
 /// Width and height of a pane (points of 1/96 inch); a single pane is wider.

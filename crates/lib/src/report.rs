@@ -1,10 +1,12 @@
-//! The page about a run or a sweep.
+//! The page about a run, a sweep or a folder of runs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use files::input;
 use files::output::PAGE;
-use post::{CheckOptions, Depth, Limits, PostError, Report, SweepVerdict};
+use output::layout::file;
+use post::{CheckOptions, Depth, Limits, ListedRun, PostError, Report, SweepVerdict};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -18,7 +20,7 @@ use crate::sweep_folder as sweep;
 #[serde(deny_unknown_fields, default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct ReportOptions {
-    /// Folder of a run or of a sweep
+    /// Folder of a run, of a sweep, or of several runs, which are listed
     #[cfg_attr(feature = "clap", arg(value_name = "RUN_OR_SWEEP"))]
     pub run: PathBuf,
     /// The page [default: report.html in that folder]
@@ -39,7 +41,8 @@ pub struct Reported {
     pub document: Value,
 }
 
-/// Writes one self-contained HTML page about a run or a sweep: case, numbers, checks, figures.
+/// Writes one self-contained HTML page about a run or a sweep: what happened, patch, checks, figures, details; or about a
+/// folder of runs: their list.
 ///
 /// # Errors
 /// Results that cannot be read; a page that cannot be written, or would be written over another file.
@@ -51,6 +54,12 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
         let verdicts = post::sweep_verdicts(&options.run, &found)?;
         let verdicts: Vec<Value> = verdicts.iter().map(SweepVerdict::document).collect();
         (sweep_page(&options.run, &found)?, page, json!({ "pass": null, "verdicts": verdicts }))
+    } else if let Some(runs) = listed(&options.run) {
+        let page = place(&options.run);
+        claim("--out", &page, &PAGE, &[])?;
+        let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
+        let document = json!({ "pass": null, "runs": names });
+        (post::runs_page(&sweep::name(&options.run), &runs), page, document)
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
         let page = place(&paths.folder);
@@ -69,6 +78,26 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
     write("--out ", &page, &text)?;
     document["page"] = json!(page.display().to_string());
     Ok(Reported { page, document })
+}
+
+/// The runs below a folder that is no run itself, by name; `None` where there are none.
+fn listed(folder: &Path) -> Option<Vec<ListedRun>> {
+    if !folder.is_dir() || folder.join(file::CONTACT).exists() {
+        return None;
+    }
+    let mut runs = Vec::new();
+    for entry in fs::read_dir(folder).ok()?.flatten() {
+        let run = entry.path();
+        let Ok(text) = input::text(&run.join(file::SUMMARY), input::DOCUMENT) else {
+            continue;
+        };
+        // a summary that is no JSON shows as unknown
+        let summary = serde_json::from_str(&text).unwrap_or_default();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        runs.push(ListedRun { name, summary, page: run.join("report.html").is_file() });
+    }
+    runs.sort_by(|a, b| a.name.cmp(&b.name));
+    (!runs.is_empty()).then_some(runs)
 }
 
 /// Refuses a folder where the page of a sweep would replace what this program did not write.

@@ -59,7 +59,7 @@ pub use integrity::{Depth, prove, prove_case};
 pub use law::Law;
 pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use output::layout::Pairing;
-pub use page::{run_page, sweep_page};
+pub use page::{ListedRun, run_page, runs_page, sweep_page};
 pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use render::{Drawable, Quantity, RenderError, Rendering, View, Wanted};
 pub use surface::{NO_BODY, Surface, body_name};

@@ -1,6 +1,8 @@
 //! Self-contained HTML pages of a run and of a sweep, with figures inline: no network is needed.
 
 mod numbers;
+mod overview;
+mod runs;
 mod sweep;
 mod verdict;
 
@@ -15,20 +17,34 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
 
+pub use runs::{ListedRun, runs_page};
 pub use sweep::sweep_page;
 
 const STYLE: &str = "
-body{font-family:\"DejaVu Sans\",sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;
-color:#111;line-height:1.45}
+body{font-family:\"DejaVu Sans\",sans-serif;max-width:min(110rem,96vw);margin:2rem auto;padding:0 1rem;
+color:#111;line-height:1.45}p,li{max-width:70rem;overflow-wrap:anywhere}
 h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #bbb}
 table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
 td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-.wide{overflow-x:auto}
+.wide{overflow-x:auto}nav a{margin-right:1rem}.csv{font-size:.8rem}
+.overview{display:flex;flex-wrap:wrap;gap:1.5rem;align-items:flex-start}
+.overview>*{flex:1 1 24rem;min-width:0}img{max-width:100%;height:auto;border:1px solid #ddd}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
 @media print{body{max-width:none}figure{break-inside:avoid}}";
+
+/// Offers each table as CSV: a link that the browser makes of the table, without a request.
+const TABLES: &str = "
+for (const table of document.querySelectorAll('table')) {
+  const text = cell => '\\\"' + cell.innerText.trim().replaceAll('\\\"', '\\\"\\\"') + '\\\"';
+  const rows = [...table.rows].map(row => [...row.cells].map(text).join(','));
+  const link = document.createElement('a');
+  link.textContent = 'CSV'; link.className = 'csv'; link.download = 'table.csv';
+  link.href = 'data:text/csv;charset=utf-8,' + encodeURIComponent(rows.join('\\n'));
+  table.after(link);
+}";
 
 /// The HTML page of a run in `folder`, from the document of its check ([`Checked`](crate::Checked)) and its
 /// figures.
@@ -43,30 +59,52 @@ pub fn run_page(
 ) -> Result<String, PostError> {
     let mut out = head(&basis.name);
     let _ = write!(out, "<h1>{}</h1>\n<p>{}</p>\n", escape(&basis.name), title(basis, checked));
+    overview::contents(&mut out);
+    overview::section(&mut out, basis, folder, checked);
+    out.push_str("<h2 id=\"patch\">The patch</h2>\n");
+    patch(&mut out, basis, checked);
+    drawn(&mut out, figures, &PATCH_FIGURES)?;
     verdicts(&mut out, checked);
+    drawn(&mut out, figures, &CONDITION_FIGURES)?;
+    out.push_str("<h2 id=\"details\">Details</h2>\n");
     case(&mut out, basis, checked);
     numbers::section(&mut out, basis);
-    patch(&mut out, basis, checked);
     energy(&mut out, basis);
-    out.push_str("<h2>Figures</h2>\n");
-    for named in figures {
-        let svg = named.figure.svg_element()?;
-        let _ = writeln!(
-            out,
-            "<figure id=\"{}\" aria-label=\"{}\">{svg}</figure>",
-            named.stem,
-            escape(named.about)
-        );
-    }
+    let shown = |stem: &&str| PATCH_FIGURES.contains(stem) || CONDITION_FIGURES.contains(stem);
+    let rest: Vec<&str> = figures.iter().map(|named| named.stem).filter(|s| !shown(s)).collect();
+    drawn(&mut out, figures, &rest)?;
     reproduce(&mut out, basis, folder);
-    out.push_str("</body>\n</html>\n");
+    overview::data(&mut out, checked);
+    end(&mut out);
     Ok(out)
+}
+
+/// Figures of the section about the patch, and of that about the contact conditions.
+const PATCH_FIGURES: [&str; 2] = ["figure-3-tractions", "figure-2-stick-slip"];
+const CONDITION_FIGURES: [&str; 2] = ["figure-4-bound", "figure-7-law"];
+
+/// Appends those of the figures that have these names, in the order of the names.
+fn drawn(out: &mut String, figures: &[Named], stems: &[&str]) -> Result<(), PostError> {
+    for stem in stems {
+        for named in figures.iter().filter(|named| named.stem == *stem) {
+            let svg = named.figure.svg_element()?;
+            let about = escape(named.about);
+            let _ = writeln!(out, "<figure id=\"{stem}\" aria-label=\"{about}\">{svg}</figure>");
+        }
+    }
+    Ok(())
+}
+
+/// Ends a page, with the script that offers each table as CSV.
+fn end(out: &mut String) {
+    let _ = writeln!(out, "<script>{TABLES}</script>\n</body>\n</html>");
 }
 
 fn head(name: &str) -> String {
     // an empty icon keeps browsers from asking a server for one
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{PAGE_MARK}\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n{PAGE_MARK}\n\
          <title>{}</title>\n\
          <link rel=\"icon\" href=\"data:,\">\n<style>{}{STYLE}</style>\n</head>\n<body>\n",
         escape(name),
@@ -79,22 +117,29 @@ pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// What Hertz's theory gives for a patch measure (SI), where it is known apart from the records.
+fn half_space(basis: &Basis, key: &str) -> Option<f64> {
+    let known = ["half_length", "half_width", "peak_pressure"].contains(&key);
+    let scale = basis.scales.get(key).filter(|scale| !scale.from.contains("last record"));
+    scale.filter(|_| known).map(|scale| scale.value)
+}
+
+/// A mean to the digit that half its 95 % interval leaves it, at most four; to four where it has none.
+fn worth(mean: f64, half: Option<f64>) -> String {
+    let known = |half: f64| libm::floor(libm::log10(mean.abs() / half)) as i32 + 2;
+    let significant = half.filter(|half| *half > 0.0 && mean != 0.0).map_or(4, known);
+    digits(mean, significant.clamp(1, 4))
+}
+
 fn number(document: &Value, pointer: &str) -> Option<f64> {
     document.pointer(pointer).and_then(Value::as_f64)
 }
 
 fn title(basis: &Basis, checked: &Value) -> String {
     let text = basis.case.as_ref().and_then(|case| case.get("title")).and_then(|t| t.as_str());
-    let status = basis.summary.as_ref().and_then(|s| s["status"].as_str());
-    let state = match status {
-        Some("completed") => "The run reached its end.",
-        Some("interrupted") => "The run was interrupted; this page shows what it reached.",
-        Some(_) => "The run was stopped by its own guards; this page shows what it reached.",
-        None => "The run has no summary: it is in progress, or its data come from elsewhere.",
-    };
     let ms = |pointer| number(checked, pointer).map_or("?".into(), |t| digits(1e3 * t, 5));
     format!(
-        "{} {state} Judged from {} to {} ms in {} records.",
+        "{} All means are those from {} to {} ms, in {} records.",
         text.map(|text| format!("{}.", escape(text.trim_end_matches('.')))).unwrap_or_default(),
         ms("/window/0"),
         ms("/window/1"),
@@ -103,17 +148,12 @@ fn title(basis: &Basis, checked: &Value) -> String {
 }
 
 fn verdicts(out: &mut String, checked: &Value) {
-    let (word, class) = if checked["pass"] == Value::Bool(true) {
-        ("Every limit on the contact conditions holds.", "pass")
-    } else {
-        ("The run violates the contact conditions beyond their limits.", "fail")
-    };
     let _ = write!(
         out,
-        "<h2>Contact conditions</h2>\n<p class=\"{class}\">{word}</p>\n\
+        "<h2 id=\"conditions\">Contact conditions</h2>\n\
          <p>Limits are those of {} methods; slip and traction are paired in time as: {}. \
          Definitions and scales: docs/checks.md of Creepage.</p>\n\
-         <table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
+         <div class=\"wide\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
          <th></th><th>what it says</th></tr>\n",
         checked["limits_for"].as_str().unwrap_or_default(),
         checked.pointer("/pairing/reported").and_then(Value::as_str).unwrap_or_default()
@@ -146,14 +186,14 @@ fn verdicts(out: &mut String, checked: &Value) {
             escape(&verdict::verdict(measure.name, metric))
         );
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
     for note in checked["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
         let _ = writeln!(out, "<p class=\"note\">Note: {}.</p>", escape(note));
     }
 }
 
 fn case(out: &mut String, basis: &Basis, checked: &Value) {
-    out.push_str("<h2>The case</h2>\n<table>\n");
+    out.push_str("<h3>The case</h3>\n<table>\n");
     let mut row = |label: &str, text: String| {
         let _ = writeln!(out, "<tr><td>{label}</td><td>{}</td></tr>", escape(&text));
     };
@@ -199,7 +239,7 @@ fn case(out: &mut String, basis: &Basis, checked: &Value) {
 
 fn patch(out: &mut String, basis: &Basis, checked: &Value) {
     out.push_str(
-        "<h2>The patch</h2>\n<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
+        "<div class=\"wide\"><table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
          <th></th><th class=\"n\">95 % interval</th><th class=\"n\">deviation</th>\
          <th class=\"n\">half-space</th></tr>\n",
     );
@@ -216,19 +256,12 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
             }
             continue;
         };
-        let reference = match key {
-            "half_length" | "half_width" | "peak_pressure" => basis
-                .scales
-                .get(key)
-                .filter(|scale| !scale.from.contains("last record"))
-                .map(|scale| digits(factor * scale.value, 4)),
-            _ => None,
-        };
+        let reference = half_space(basis, key).map(|value| digits(factor * value, 4));
         let _ = writeln!(
             out,
             "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td>\
              <td class=\"n\">{}</td><td class=\"n\">{}</td>{}</tr>",
-            digits(factor * mean, 4),
+            worth(factor * mean, at("ci95").map(|half| factor * half)),
             at("ci95")
                 .map(|half| format!("\u{b1} {}", digits(factor * half, 2)))
                 .unwrap_or_default(),
@@ -237,14 +270,14 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
             note.map(|note| format!("<td>{}</td>", escape(note))).unwrap_or_default()
         );
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
 }
 
 fn energy(out: &mut String, basis: &Basis) {
     let Some(energy) = basis.summary.as_ref().and_then(|s| s["energy"].as_object()) else {
         return;
     };
-    out.push_str("<h2>Energy at the end</h2>\n<table>\n");
+    out.push_str("<h3>Energy at the end</h3>\n<table>\n");
     for (label, key) in [
         ("kinetic", "kinetic"),
         ("strain", "internal"),
@@ -287,7 +320,7 @@ fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
     let run = format!("runs/{}", escape(&name));
     let _ = write!(
         out,
-        "<h2>How to reproduce</h2>\n<pre>creepage run case.toml --out {run}\ncreepage check {run}\n\
+        "<h3 id=\"reproduce\">How to reproduce</h3>\n<pre>creepage run case.toml --out {run}\ncreepage check {run}\n\
          creepage plot {run}\ncreepage report {run}</pre>\n<p>Made by Creepage {}. Running the \
          resolved case again gives the same bits on the same kind of processor.</p>\n",
         env!("CARGO_PKG_VERSION")
@@ -304,6 +337,15 @@ fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mean_has_the_digits_that_its_interval_leaves_it() {
+        assert_eq!(worth(0.261_23, Some(0.02)), "0.261");
+        assert_eq!(worth(1212.7, Some(300.0)), "1213");
+        assert_eq!(worth(0.261_23, Some(0.3)), "0.3");
+        assert_eq!(worth(0.261_23, None), "0.2612");
+        assert_eq!(worth(0.261_23, Some(1e-9)), "0.2612");
+    }
 
     #[test]
     fn text_cannot_become_markup() {

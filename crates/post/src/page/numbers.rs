@@ -66,7 +66,7 @@ pub(super) fn section(out: &mut String, basis: &Basis) {
     if rows.is_empty() {
         return;
     }
-    out.push_str("<h2>Dimensionless numbers</h2>\n<table>\n");
+    out.push_str("<h3>Dimensionless numbers</h3>\n<table>\n");
     for (name, value, meaning) in rows {
         let _ = writeln!(
             out,

@@ -43,10 +43,11 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
     }
     let _ = writeln!(
         out,
-        "<p>Made by Creepage {} from {}.</p>\n</body>\n</html>",
+        "<p>Made by Creepage {} from {}.</p>",
         env!("CARGO_PKG_VERSION"),
         escape(&path.file_name().unwrap_or_default().to_string_lossy())
     );
+    super::end(&mut out);
     Ok(out)
 }
 

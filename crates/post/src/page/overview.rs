@@ -1,0 +1,149 @@
+//! What happened: whether the run ended, whether its contact obeys the conditions, a picture, and the numbers that matter.
+
+use super::{escape, number, worth};
+use crate::basis::Basis;
+use crate::digits::digits;
+use crate::limits::MEASURES;
+use crate::render::{Rendering, Wanted};
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Width of the picture (pixels).
+const WIDTH: u32 = 1200;
+
+/// Appends the table of contents.
+pub(super) fn contents(out: &mut String) {
+    let sections = [
+        ("overview", "What happened"),
+        ("patch", "The patch"),
+        ("conditions", "Contact conditions"),
+        ("details", "Details"),
+        ("reproduce", "How to reproduce"),
+    ];
+    out.push_str("<nav>");
+    for (anchor, title) in sections {
+        let _ = write!(out, "<a href=\"#{anchor}\">{title}</a> ");
+    }
+    out.push_str("</nav>\n");
+}
+
+/// Appends the section.
+pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &Value) {
+    out.push_str("<h2 id=\"overview\">What happened</h2>\n");
+    let (class, text) = ending(basis);
+    let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
+    let (class, text) = conditions(checked);
+    let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
+    out.push_str("<div class=\"overview\">\n");
+    let _ = writeln!(out, "<div class=\"wide\">{}</div>", numbers(basis, checked));
+    if let Some((url, about)) = picture(folder) {
+        let about = escape(&about);
+        let _ = writeln!(out, "<div><img src=\"{url}\" alt=\"{about}\"/><p>{about}</p></div>");
+    }
+    out.push_str("</div>\n");
+}
+
+/// Whether the run ended as it should.
+fn ending(basis: &Basis) -> (&'static str, String) {
+    let summary = basis.summary.as_ref();
+    let diagnosis = summary.and_then(|summary| summary["diagnosis"].as_str()).unwrap_or_default();
+    match summary.and_then(|summary| summary["status"].as_str()) {
+        Some("completed") => ("pass", "The run reached its end.".into()),
+        Some("interrupted") => {
+            ("", "The run was interrupted. The page shows what it reached.".into())
+        }
+        Some(_) => (
+            "fail",
+            format!(
+                "The run failed: its own guards stopped it. The page shows what it reached. {diagnosis}"
+            ),
+        ),
+        None => (
+            "",
+            "The run has no summary: it is in progress, or its data come from elsewhere.".into(),
+        ),
+    }
+}
+
+/// Whether contact obeys its conditions, which is a matter of the method, not of whether the run worked.
+fn conditions(checked: &Value) -> (&'static str, String) {
+    if checked["pass"] == Value::Bool(true) {
+        return ("pass", "Its contact obeys the contact conditions within all limits.".into());
+    }
+    let beyond = |name: &&str| checked["metrics"][*name]["pass"] == Value::Bool(false);
+    let names: Vec<&str> = MEASURES.iter().map(|measure| measure.name).filter(beyond).collect();
+    let by = checked["limits_for"].as_str().unwrap_or("its");
+    (
+        "fail",
+        format!(
+            "Its contact violates the contact conditions beyond the limits of {by} methods: {}. This is a finding \
+             about the method, not a failure of the run.",
+            names.join(", ")
+        ),
+    )
+}
+
+/// The numbers that matter: label, key of the patch measure, factor to the unit, unit.
+const NUMBERS: [(&str, &str, f64, &str); 6] = [
+    ("normal force", "normal_force", 1e-3, "kN"),
+    ("traction coefficient T/N", "traction_coefficient", 1.0, ""),
+    ("creepage", "creepage", 1e3, "10\u{207b}\u{b3}"),
+    ("peak pressure", "peak_pressure", 1e-6, "MPa"),
+    ("half length of the patch", "half_length", 1e3, "mm"),
+    ("share of the patch that sticks", "stick_fraction", 1.0, ""),
+];
+
+/// The table of these numbers beside Hertz's.
+fn numbers(basis: &Basis, checked: &Value) -> String {
+    let mut out = String::from(
+        "<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th><th></th>\
+         <th class=\"n\">half-space</th></tr>\n",
+    );
+    for (label, key, factor, unit) in NUMBERS {
+        let at = |part: &str| number(checked, &format!("/patch/{key}/{part}")).map(|v| factor * v);
+        let Some(mean) = at("mean") else {
+            continue;
+        };
+        let scale = super::half_space(basis, key);
+        let _ = writeln!(
+            out,
+            "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td></tr>",
+            worth(mean, at("ci95")),
+            scale.map(|scale| digits(factor * scale, 4)).unwrap_or_default()
+        );
+    }
+    out.push_str("</table>");
+    out
+}
+
+/// The last record in three dimensions as an address for `<img>`, and what it shows; `None` where the run has no
+/// records of its bodies.
+fn picture(folder: &Path) -> Option<(String, String)> {
+    let mut rendering = Rendering::open(folder, &Wanted::default()).ok()?;
+    let last = rendering.times().len().checked_sub(1)?;
+    rendering.settle(&[last]).ok()?;
+    let url = rendering.picture(last).ok()?.pixels(WIDTH).ok()?.data_url().ok()?;
+    let time = digits(1e3 * rendering.times()[last], 4);
+    let (label, _) = rendering.colours();
+    Some((url, format!("The bodies at t = {time} ms; colours: {label}. Deformation is magnified.")))
+}
+
+/// Appends a link to the document of `creepage check --json`.
+pub(super) fn data(out: &mut String, checked: &Value) {
+    let text = checked.to_string();
+    let encoded: String =
+        text.bytes().fold(String::with_capacity(2 * text.len()), |mut all, byte| {
+            if byte.is_ascii_alphanumeric() || b"-_.,:".contains(&byte) {
+                all.push(byte as char);
+            } else {
+                let _ = write!(all, "%{byte:02X}");
+            }
+            all
+        });
+    let _ = writeln!(
+        out,
+        "<p><a download=\"check.json\" href=\"data:application/json,{encoded}\">All numbers of the check as \
+         JSON</a>; each table has a link to it as CSV.</p>"
+    );
+}
