@@ -234,7 +234,7 @@ fn the_crates_below_name_no_key() {
 #[test]
 fn messages_of_cases_and_sweeps_name_only_keys_that_there_are() {
     let top: Vec<_> = KEYS.iter().filter_map(|key| key.path.split_once('.')).map(|k| k.0).collect();
-    let files = ["toml", "h5", "vtkhdf", "inp", "vtu", "log"];
+    let files = ["toml", "h5", "vtkhdf", "inp", "vtu", "log", "png", "gif"];
     let of_a_key = |word: &&str| {
         let is_file = files.iter().any(|ending| word.ends_with(ending));
         !is_file && word.split_once('.').is_some_and(|(head, _)| top.contains(&head))
