@@ -102,14 +102,11 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
     );
     for (label, key, factor, unit) in NUMBERS {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}")).map(|v| factor * v);
-        let Some(mean) = at("mean") else {
-            continue;
-        };
+        let mean = at("mean").map_or("\u{2013}".into(), |mean| worth(mean, at("ci95")));
         let scale = super::half_space(basis, key);
         let _ = writeln!(
             out,
-            "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td></tr>",
-            worth(mean, at("ci95")),
+            "<tr><td>{label}</td><td class=\"n\">{mean}</td><td>{unit}</td><td class=\"n\">{}</td></tr>",
             scale.map(|scale| digits(factor * scale, 4)).unwrap_or_default()
         );
     }
