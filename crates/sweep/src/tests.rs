@@ -131,7 +131,7 @@ fn every_sweep_of_the_project_resolves_and_its_runs_have_names_of_their_own() {
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
         .filter(|path| fs::read_to_string(path).unwrap().contains("[[axis]]"))
         .collect();
-    assert_eq!(sweeps.len(), 9, "{sweeps:?}");
+    assert_eq!(sweeps.len(), 12, "{sweeps:?}");
     for path in sweeps {
         let sweep = Sweep::load(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let points = sweep.points().unwrap_or_else(|e| panic!("{}: {e}", path.display()));
