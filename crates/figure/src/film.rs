@@ -166,7 +166,9 @@ impl Film {
             None => self.begin(&pixels)?,
         };
         let written = match &mut open {
-            Open::Png => self.png(&pixels),
+            Open::Png => {
+                File::create(&self.partial).and_then(|file| pixels.write_png(BufWriter::new(file)))
+            }
             Open::Gif(encoder) => {
                 // 10: a tenth of the pixels settles the colours, as the library advises for speed
                 let sizes = [pixels.width, pixels.height].map(|n| n as u16);
@@ -243,20 +245,6 @@ impl Film {
             .stderr(Stdio::piped())
             .spawn()
             .map_err(|_| FilmError::NoEncoder(self.path.clone()))
-    }
-
-    fn png(&self, pixels: &Pixels) -> std::io::Result<()> {
-        let file = File::create(&self.partial)?;
-        let mut encoder = png::Encoder::new(BufWriter::new(file), pixels.width, pixels.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mark = String::from_utf8_lossy(output::PNG_MARK);
-        if let Some((keyword, text)) = mark.split_once('\0') {
-            encoder.add_text_chunk(keyword.into(), text.into())?;
-        }
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&pixels.rgb)?;
-        Ok(writer.finish()?)
     }
 
     /// Ends what is open, so that all is written.

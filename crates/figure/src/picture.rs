@@ -13,6 +13,8 @@ pub use labels::round_down;
 use crate::Key;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use files::output::PNG_MARK;
+use std::io::Write;
 use thiserror::Error;
 
 /// Why a picture cannot be drawn.
@@ -65,19 +67,30 @@ pub struct Pixels {
 }
 
 impl Pixels {
+    /// Writes the pixels as a PNG with the mark of this program.
+    ///
+    /// # Errors
+    /// What `out` or the PNG library fails with.
+    pub fn write_png(&self, out: impl Write) -> std::io::Result<()> {
+        let mut encoder = png::Encoder::new(out, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mark = String::from_utf8_lossy(PNG_MARK);
+        if let Some((keyword, text)) = mark.split_once('\0') {
+            encoder.add_text_chunk(keyword.into(), text.into())?;
+        }
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.rgb)?;
+        Ok(writer.finish()?)
+    }
+
     /// The pixels as a PNG in an address that an `<img>` of a page takes, so that the page needs no other file.
     ///
     /// # Errors
     /// [`PictureError`] where the PNG library fails.
     pub fn data_url(&self) -> Result<String, PictureError> {
-        let failed = |error: png::EncodingError| PictureError(error.to_string());
         let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mut writer = encoder.write_header().map_err(failed)?;
-        writer.write_image_data(&self.rgb).map_err(failed)?;
-        writer.finish().map_err(failed)?;
+        self.write_png(&mut bytes).map_err(|error| PictureError(error.to_string()))?;
         Ok(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
     }
 }

@@ -80,7 +80,7 @@ pub fn render(options: &RenderOptions) -> Result<Value, Error> {
     let mut rendering = Rendering::open(&options.run, &wanted)?;
     let records = records(options, &rendering, format);
     let mut film = Film::create(&out, width, DELAY, &inputs)?;
-    rendering.settle(&records)?;
+    rendering.scale_to(&records)?;
     for &record in &records {
         film.add(&rendering.picture(record)?)?;
     }

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use mesh::HEX_FACES;
 use mesh::import::{Foreign, Set};
 
 use crate::deck::Side;
@@ -69,7 +68,8 @@ fn outer_faces(
     };
     let axle = axle(foreign);
     let mut facing = Vec::new();
-    for (element, face) in skin(bodies, foreign, body) {
+    let of_body = |element: usize| bodies.parts[body].contains(&bodies.deck.solids[element].part);
+    for (element, face) in mesh::outer_faces(&foreign.hexes, of_body) {
         if !parts.contains(&bodies.deck.solids[element].part) {
             continue;
         }
@@ -93,26 +93,7 @@ fn outer_faces(
     Ok(connected(facing))
 }
 
-/// The faces of a body that belong to one element only, with that element.
-fn skin(bodies: &Bodies, foreign: &Foreign, body: usize) -> Vec<(usize, [u32; 4])> {
-    let of_body = |e: &usize| bodies.parts[body].contains(&bodies.deck.solids[*e].part);
-    let elements = (0..foreign.hexes.len()).filter(of_body);
-    let faces: Vec<(usize, [u32; 4])> = elements
-        .flat_map(|e| HEX_FACES.map(|side| (e, side.map(|corner| foreign.hexes[e][corner]))))
-        .collect();
-    let sorted = |face: &[u32; 4]| {
-        let mut nodes = *face;
-        nodes.sort_unstable();
-        nodes
-    };
-    let mut count: HashMap<[u32; 4], u32> = HashMap::new();
-    for (_, face) in &faces {
-        *count.entry(sorted(face)).or_default() += 1;
-    }
-    faces.into_iter().filter(|(_, face)| count[&sorted(face)] == 1).collect()
-}
-
-/// Of faces with their heights those that hang together by edges with the highest: not the upper side of a foot.
+/// Of faces with their heights those connected by edges with the highest: not the upper side of a foot.
 fn connected(faces: Vec<([u32; 4], f64)>) -> Vec<[u32; 4]> {
     let edges = |[a, b, c, d]: [u32; 4]| {
         [[a, b], [b, c], [c, d], [d, a]].map(|[a, b]| [a.min(b), a.max(b)])

@@ -7,7 +7,6 @@ mod error;
 mod quantity;
 mod rigid;
 mod shot;
-mod skin;
 mod source;
 
 pub use error::RenderError;
@@ -113,32 +112,32 @@ impl Rendering {
         self.shots.iter().map(|shot| shot.magnify).collect()
     }
 
-    /// Settles colours, magnification and cameras, so that they are the same in the pictures of all `records`.
+    /// Fixes colours, magnification and cameras, so that they are the same in the pictures of all `records`.
     ///
     /// # Errors
     /// Records that cannot be read.
-    pub fn settle(&mut self, records: &[usize]) -> Result<(), RenderError> {
+    pub fn scale_to(&mut self, records: &[usize]) -> Result<(), RenderError> {
         let mut bounds = Bounds::default();
         for &record in records {
-            bounds.take(&self.source, &self.source.moment(record, self.quantity)?);
+            bounds.take(&self.source, &self.source.record(record, self.quantity)?);
         }
-        self.shots.iter_mut().for_each(|shot| shot.settle(&bounds));
+        self.shots.iter_mut().for_each(|shot| shot.scale_to(&bounds));
         self.top = bounds.top();
         Ok(())
     }
 
-    /// The picture of a record, after [`Self::settle`].
+    /// The picture of a record, after [`Self::scale_to`].
     ///
     /// # Errors
     /// A record that cannot be read.
-    pub fn picture(&self, record: usize) -> Result<Picture, RenderError> {
-        let moment = self.source.moment(record, self.quantity)?;
+    pub fn picture(&self, index: usize) -> Result<Picture, RenderError> {
+        let record = self.source.record(index, self.quantity)?;
         let (label, top) = self.colours();
         let key = Key::Values { label: label.into(), range: [0.0, top], scale: Scale::Linear };
         // milliseconds, to a microsecond
-        let time = format!("t = {:.3} ms", 1e3 * self.source.times[record]);
+        let time = format!("t = {:.3} ms", 1e3 * self.source.times[index]);
         let heading = format!("{time}    {}", self.title);
-        let panes = self.shots.iter().map(|shot| shot.pane(&moment)).collect();
+        let panes = self.shots.iter().map(|shot| shot.pane(&record)).collect();
         Ok(Picture { heading: heading.trim_end().into(), panes, key })
     }
 }

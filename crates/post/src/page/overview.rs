@@ -4,7 +4,10 @@ use super::{escape, number, worth};
 use crate::basis::Basis;
 use crate::digits::digits;
 use crate::limits::MEASURES;
-use crate::render::{Rendering, Wanted};
+use crate::patch_series::{PATCH_TABLE, PatchLine};
+use crate::render::{RenderError, Rendering, Wanted};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -37,10 +40,7 @@ pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &
     let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
     out.push_str("<div class=\"overview\">\n");
     let _ = writeln!(out, "<div class=\"wide\">{}</div>", numbers(basis, checked));
-    if let Some((url, about)) = picture(folder) {
-        let about = escape(&about);
-        let _ = writeln!(out, "<div><img src=\"{url}\" alt=\"{about}\"/><p>{about}</p></div>");
-    }
+    out.push_str(&picture(folder));
     out.push_str("</div>\n");
 }
 
@@ -84,14 +84,14 @@ fn conditions(checked: &Value) -> (&'static str, String) {
     )
 }
 
-/// The numbers that matter: label, key of the patch measure, factor to the unit, unit.
-const NUMBERS: [(&str, &str, f64, &str); 6] = [
-    ("normal force", "normal_force", 1e-3, "kN"),
-    ("traction coefficient T/N", "traction_coefficient", 1.0, ""),
-    ("creepage", "creepage", 1e3, "10\u{207b}\u{b3}"),
-    ("peak pressure", "peak_pressure", 1e-6, "MPa"),
-    ("half length of the patch", "half_length", 1e3, "mm"),
-    ("share of the patch that sticks", "stick_fraction", 1.0, ""),
+/// The numbers that matter, by their keys in [`PATCH_TABLE`].
+const NUMBERS: [&str; 6] = [
+    "normal_force",
+    "traction_coefficient",
+    "creepage",
+    "peak_pressure",
+    "half_length",
+    "stick_fraction",
 ];
 
 /// The table of these numbers beside Hertz's.
@@ -100,7 +100,8 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
         "<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th><th></th>\
          <th class=\"n\">half-space</th></tr>\n",
     );
-    for (label, key, factor, unit) in NUMBERS {
+    let line = |key: &&str| PATCH_TABLE.iter().find(|line| line.key == *key);
+    for PatchLine { label, key, factor, unit } in NUMBERS.iter().filter_map(line) {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}")).map(|v| factor * v);
         let mean = at("mean").map_or("\u{2013}".into(), |mean| worth(mean, at("ci95")));
         let scale = super::half_space(basis, key);
@@ -114,33 +115,39 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
     out
 }
 
-/// The last record in three dimensions as an address for `<img>`, and what it shows; `None` where the run has no
-/// records of its bodies.
-fn picture(folder: &Path) -> Option<(String, String)> {
-    let mut rendering = Rendering::open(folder, &Wanted::default()).ok()?;
-    let last = rendering.times().len().checked_sub(1)?;
-    rendering.settle(&[last]).ok()?;
-    let url = rendering.picture(last).ok()?.pixels(WIDTH).ok()?.data_url().ok()?;
+/// The last record in three dimensions as an element of the page; why there is none where it cannot be drawn, and
+/// nothing where the run has no records of its bodies.
+fn picture(folder: &Path) -> String {
+    match drawn(folder) {
+        Ok((url, about)) => {
+            let about = escape(&about);
+            format!("<div><img src=\"{url}\" alt=\"{about}\"/><p>{about}</p></div>\n")
+        }
+        Err(RenderError::NoFile { .. } | RenderError::NoRecord(_)) => String::new(),
+        Err(error) => {
+            format!("<p class=\"note\">No picture: {}.</p>\n", escape(&error.to_string()))
+        }
+    }
+}
+
+/// The picture as an address for `<img>`, and what it shows.
+fn drawn(folder: &Path) -> Result<(String, String), RenderError> {
+    let mut rendering = Rendering::open(folder, &Wanted::default())?;
+    // a rendering has at least one record
+    let last = rendering.times().len() - 1;
+    rendering.scale_to(&[last])?;
+    let url = rendering.picture(last)?.pixels(WIDTH).and_then(|pixels| pixels.data_url())?;
     let time = digits(1e3 * rendering.times()[last], 4);
     let (label, _) = rendering.colours();
-    Some((url, format!("The bodies at t = {time} ms; colours: {label}. Deformation is magnified.")))
+    Ok((url, format!("The bodies at t = {time} ms; colours: {label}. Deformation is magnified.")))
 }
 
 /// Appends a link to the document of `creepage check --json`.
 pub(super) fn data(out: &mut String, checked: &Value) {
-    let text = checked.to_string();
-    let encoded: String =
-        text.bytes().fold(String::with_capacity(2 * text.len()), |mut all, byte| {
-            if byte.is_ascii_alphanumeric() || b"-_.,:".contains(&byte) {
-                all.push(byte as char);
-            } else {
-                let _ = write!(all, "%{byte:02X}");
-            }
-            all
-        });
+    let encoded = STANDARD.encode(checked.to_string());
     let _ = writeln!(
         out,
-        "<p><a download=\"check.json\" href=\"data:application/json,{encoded}\">All numbers of the check as \
+        "<p><a download=\"check.json\" href=\"data:application/json;base64,{encoded}\">All numbers of the check as \
          JSON</a>; each table has a link to it as CSV.</p>"
     );
 }

@@ -2,6 +2,7 @@
 
 use super::quantity::{Drawable, Quantity};
 use crate::PostError;
+use figure::PictureError;
 use output::OutputError;
 use output::layout::file;
 use std::path::PathBuf;
@@ -13,6 +14,9 @@ pub enum RenderError {
     /// A file of the run cannot be read, is damaged or lacks data.
     #[error(transparent)]
     Post(#[from] PostError),
+    /// The drawing library failed.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
     /// The file with the records is not there.
     #[error("{} holds no {}", folder.display(), what.file())]
     NoFile {
@@ -49,7 +53,7 @@ impl RenderError {
             Self::Post(PostError::Output(OutputError::Damaged { .. })) => {
                 Some("copy it again from where it is whole, or run it again".into())
             }
-            Self::Post(_) => None,
+            Self::Post(_) | Self::Picture(_) => None,
             Self::NoFile { what: Drawable::Fields, .. } => Some(format!(
                 "give the folder of a run; a run writes {} every output.fields_interval, but one of half-spaces \
                  (model = \"half-space\") has no bodies to draw: --what contact draws its surfaces",

@@ -1,8 +1,7 @@
 //! The views of a picture: which faces, from where, magnified how much.
 
 use super::quantity::Drawable;
-use super::skin::skin;
-use super::source::{DISK, Moment, Source, body_name, ends};
+use super::source::{DISK, Record, Source, body_name, ends};
 use super::{View, Wanted};
 use crate::vector::{Vec3, axpy};
 use figure::{Camera, Pane, Surface};
@@ -73,7 +72,7 @@ pub(super) fn shots(source: &Source, what: Drawable, wanted: &Wanted) -> Vec<Sho
 fn whole(source: &Source) -> Shot {
     Shot {
         what: "whole".into(),
-        faces: skin(source.corners.as_chunks().0, |_| true),
+        faces: outside(source, |_| true),
         mirrored: source.half,
         toward: WHOLE,
         aim: Aim::Place([0.0; 3]),
@@ -84,15 +83,20 @@ fn whole(source: &Source) -> Shot {
     }
 }
 
+/// The outer faces of the cells that `keep` takes.
+fn outside(source: &Source, keep: impl Fn(usize) -> bool) -> Vec<[u32; 4]> {
+    let faces = mesh::outer_faces(source.corners.as_chunks().0, keep);
+    faces.into_iter().map(|(_, face)| face).collect()
+}
+
 /// The contact from the side, cut along the middle of the bodies.
 fn near(source: &Source) -> Shot {
-    let cells = source.corners.as_chunks().0;
     let behind = |cell: usize| source.centre(cell)[1] > 0.0;
-    let mut faces = skin(cells, behind);
+    let mut faces = outside(source, behind);
     let mut what = "contact, elements with y > 0";
     // a slice of one element has none there
     if faces.is_empty() {
-        (faces, what) = (skin(cells, |_| true), "contact");
+        (faces, what) = (outside(source, |_| true), "contact");
     }
     let [low, high] = source.heights;
     Shot {
@@ -152,23 +156,23 @@ impl Default for Bounds {
 }
 
 impl Bounds {
-    pub(super) fn take(&mut self, source: &Source, moment: &Moment) {
+    pub(super) fn take(&mut self, source: &Source, record: &Record) {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        self.value = self.value.max(largest(&moment.values));
-        let sizes = moment.deformation.iter().map(|d| crate::vector::norm(*d));
+        self.value = self.value.max(largest(&record.values));
+        let sizes = record.deformation.iter().map(|d| crate::vector::norm(*d));
         self.deformation = sizes.fold(self.deformation, f64::max);
         for axis in 0..3 {
-            let [low, high] = ends(moment.placed.iter().map(|p| p[axis]));
+            let [low, high] = ends(record.placed.iter().map(|p| p[axis]));
             let [l, h] = self.box_[axis];
             self.box_[axis] = [l.min(low), h.max(high)];
         }
         if source.half {
             self.box_[1][0] = self.box_[1][0].min(-self.box_[1][1]);
         }
-        let peak = largest(&moment.pressure);
+        let peak = largest(&record.pressure);
         for axis in 0..2 {
             // a hundredth: the edge of the patch may be ragged
-            let pairs = moment.placed.iter().zip(&moment.pressure);
+            let pairs = record.placed.iter().zip(&record.pressure);
             let loaded = pairs.filter(|(_, p)| **p > 0.01 * peak && peak > 0.0);
             let [low, high] = ends(loaded.map(|(place, _)| place[axis]));
             self.patch = self.patch.max(high - low);
@@ -182,8 +186,8 @@ impl Bounds {
 }
 
 impl Shot {
-    /// Settles what is to be the same in all records.
-    pub(super) fn settle(&mut self, bounds: &Bounds) {
+    /// Fixes what is to be the same in all records.
+    pub(super) fn scale_to(&mut self, bounds: &Bounds) {
         if let Aim::Place(place) = &mut self.aim {
             *place = bounds.box_.map(|[low, high]| 0.5 * (low + high));
             let camera = Camera::new(*place, self.toward, 1.0);
@@ -205,10 +209,10 @@ impl Shot {
     }
 
     /// The view of a record.
-    pub(super) fn pane(&self, moment: &Moment) -> Pane {
-        let mut points = moment.magnified(self.magnify);
+    pub(super) fn pane(&self, record: &Record) -> Pane {
+        let mut points = record.magnified(self.magnify);
         let mut quads = self.faces.clone();
-        let mut values = moment.values.clone();
+        let mut values = record.values.clone();
         if self.mirrored {
             let count = points.len() as u32;
             points.extend_from_within(..);
@@ -221,25 +225,25 @@ impl Shot {
             1.0 => format!("{}, deformation as it is", self.what),
             times => format!("{}, deformation × {times}", self.what),
         };
-        let camera = Camera::new(self.centre(moment), self.toward, self.span);
+        let camera = Camera::new(self.centre(record), self.toward, self.span);
         Pane { title, camera, surface: Surface { points, quads, values } }
     }
 
     /// Where the camera looks.
-    fn centre(&self, moment: &Moment) -> Vec3 {
+    fn centre(&self, record: &Record) -> Vec3 {
         match self.aim {
             Aim::Place(place) => place,
-            Aim::Lowest => moment.lowest,
+            Aim::Lowest => record.lowest,
             Aim::Patch => {
                 let nodes: Vec<usize> =
                     self.faces.as_flattened().iter().map(|n| *n as usize).collect();
-                let total: f64 = nodes.iter().map(|n| moment.pressure[*n]).sum();
+                let total: f64 = nodes.iter().map(|n| record.pressure[*n]).sum();
                 // without contact the middle of the surface
                 let weight = |n: usize| match total > 0.0 {
-                    true => moment.pressure[n] / total,
+                    true => record.pressure[n] / total,
                     false => 1.0 / nodes.len() as f64,
                 };
-                nodes.iter().fold([0.0; 3], |sum, &n| axpy(sum, weight(n), moment.placed[n]))
+                nodes.iter().fold([0.0; 3], |sum, &n| axpy(sum, weight(n), record.placed[n]))
             }
         }
     }

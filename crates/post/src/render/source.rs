@@ -35,7 +35,7 @@ pub(super) struct Source {
 
 /// One record.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Moment {
+pub(super) struct Record {
     /// Where the nodes are (m).
     pub(super) placed: Vec<Vec3>,
     /// What of their displacement is no rigid motion of their body (m).
@@ -48,7 +48,7 @@ pub(super) struct Moment {
     pub(super) lowest: Vec3,
 }
 
-impl Moment {
+impl Record {
     /// Where the nodes are with their deformation `times` as large.
     pub(super) fn magnified(&self, times: f64) -> Vec<Vec3> {
         let pairs = self.placed.iter().zip(&self.deformation);
@@ -145,7 +145,7 @@ impl Source {
     }
 
     /// The record `index` with `quantity` at its nodes.
-    pub(super) fn moment(&self, index: usize, quantity: Quantity) -> Result<Moment, RenderError> {
+    pub(super) fn record(&self, index: usize, quantity: Quantity) -> Result<Record, RenderError> {
         let displacement = if quantity.of() == Drawable::Contact && !self.has(&CONTACT.displacement)
         {
             // contact histories of other codes need not have it
@@ -166,11 +166,11 @@ impl Source {
             Vec::new()
         };
         let lowest = self.lowest(&placed, &deformation);
-        let mut moment = Moment { placed, deformation, values: Vec::new(), pressure, lowest };
-        moment.values = self.values(index, quantity, &moment)?;
+        let mut record = Record { placed, deformation, values: Vec::new(), pressure, lowest };
+        record.values = self.values(index, quantity, &record)?;
         let size = quantity.label().1;
-        moment.values.iter_mut().for_each(|value| *value /= size);
-        Ok(moment)
+        record.values.iter_mut().for_each(|value| *value /= size);
+        Ok(record)
     }
 
     /// The place below the axis of the disk, which moves without jumps from node to node.
@@ -202,7 +202,7 @@ impl Source {
         &self,
         index: usize,
         quantity: Quantity,
-        moment: &Moment,
+        record: &Record,
     ) -> Result<Vec<f64>, RenderError> {
         let sizes = |vectors: Vec<Vec3>| vectors.into_iter().map(norm).collect();
         match (quantity, quantity.dataset()) {
@@ -211,17 +211,17 @@ impl Source {
                 let stress: Vec<f64> = stress.as_chunks().0.iter().map(von_mises).collect();
                 Ok(self.to_nodes(&stress))
             }
-            (Quantity::Pressure, _) => Ok(moment.pressure.clone()),
+            (Quantity::Pressure, _) => Ok(record.pressure.clone()),
             (Quantity::SlipVelocity, Some(field)) => {
                 let mut values: Vec<f64> = sizes(self.vectors(field, index, quantity)?);
                 // surfaces that do not touch move past one another, and that is no slip
                 let open = |pressure: &f64| *pressure <= 0.0;
-                let pairs = values.iter_mut().zip(&moment.pressure);
+                let pairs = values.iter_mut().zip(&record.pressure);
                 pairs.filter(|(_, pressure)| open(pressure)).for_each(|(value, _)| *value = 0.0);
                 Ok(values)
             }
             (_, Some(field)) => Ok(sizes(self.vectors(field, index, quantity)?)),
-            (_, None) => Ok(sizes(moment.deformation.clone())),
+            (_, None) => Ok(sizes(record.deformation.clone())),
         }
     }
 
@@ -308,13 +308,13 @@ mod tests {
 
     #[test]
     fn magnified_bodies_keep_their_place_and_only_their_deformation_grows() {
-        let moment = Moment {
+        let record = Record {
             placed: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
             deformation: vec![[0.0; 3], [0.0, 0.0, 1e-3]],
-            ..Moment::default()
+            ..Record::default()
         };
-        assert_eq!(moment.magnified(100.0)[0], [1.0, 2.0, 3.0]);
-        assert!((moment.magnified(100.0)[1][2] - 6.099).abs() < 1e-12);
-        assert_eq!(moment.magnified(1.0), moment.placed);
+        assert_eq!(record.magnified(100.0)[0], [1.0, 2.0, 3.0]);
+        assert!((record.magnified(100.0)[1][2] - 6.099).abs() < 1e-12);
+        assert_eq!(record.magnified(1.0), record.placed);
     }
 }

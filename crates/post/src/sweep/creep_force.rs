@@ -59,61 +59,67 @@ pub(super) fn creep_force(sweeps: &[(String, &Sweep<'_>)]) -> Option<Figure> {
     if curves.is_empty() {
         return None;
     }
-    let alone = sweeps.len() == 1;
-    let distinct = |name: fn(&Curve) -> &String| {
-        let mut all: Vec<&String> = Vec::new();
-        for name in curves.iter().map(name) {
-            if !all.contains(&name) {
-                all.push(name);
-            }
-        }
-        all
-    };
-    let titles = if alone { vec![] } else { distinct(|curve| &curve.others) };
-    let names =
-        if alone { distinct(|curve| &curve.others) } else { distinct(|curve| &curve.sweep) };
-    let colour = |name: &String| {
-        let k = names.iter().position(|known| *known == name).unwrap_or(0);
-        GROUPS[k % GROUPS.len()]
-    };
-    let points = || curves.iter().flat_map(|curve| &curve.points);
-    let most = points().map(|(x, _)| *x).fold(0.0, f64::max);
-    let x = Axis::linear("creepage (10\u{207b}\u{b3})").over(0.0, 1.03 * most);
-    let top = points().map(|(_, point)| point.value);
-    let y = Axis::linear("T/N").over(0.0, 1.08 * top.fold(0.0, f64::max));
-    let panel = |title: String, shown: Vec<&Curve>, legend: bool| Panel {
-        title,
-        x: x.clone(),
-        y: y.clone(),
-        fill: None,
-        series: shown
-            .iter()
-            .flat_map(|curve| {
-                let name = if alone { &curve.others } else { &curve.sweep };
-                let shown = if legend { name.clone() } else { String::new() };
-                line(shown, colour(name), &curve.points, false)
-            })
-            .collect(),
-        marks: Vec::new(),
-    };
-    let panels: Vec<Panel> = if alone {
-        vec![panel(String::new(), curves.iter().collect(), true)]
+    let (panels, size, lines) = if sweeps.len() == 1 {
+        let all: Vec<&Curve> = curves.iter().collect();
+        let panel = panel(String::new(), &all, &curves, |curve| &curve.others, true);
+        (vec![panel], [720, 460], "a line for each value of the other axes")
     } else {
-        let of = |title: &String| curves.iter().filter(|curve| curve.others == *title).collect();
-        let panels = titles.iter().enumerate();
-        panels.map(|(k, title)| panel((*title).clone(), of(title), k == 0)).collect()
+        let titles = distinct(&curves, |curve| &curve.others);
+        let of = |title: &str| curves.iter().filter(|c| c.others == title).collect::<Vec<_>>();
+        let panels: Vec<Panel> = titles
+            .iter()
+            .enumerate()
+            .map(|(k, title)| {
+                panel((*title).into(), &of(title), &curves, |curve| &curve.sweep, k == 0)
+            })
+            .collect();
+        let size = [360 * panels.len().min(3) as u32, 300 * panels.len().div_ceil(3) as u32 + 50];
+        (panels, size, "a line for each sweep")
     };
-    let lines =
-        if alone { "a line for each value of the other axes" } else { "a line for each sweep" };
     let caption = format!(
         "Tangential over normal force over the creepage, {lines}; bars: the 95 % confidence interval \
          of the mean, where there is none the standard deviation over the records of the \
          evaluation window."
     );
-    let columns = panels.len().min(3);
-    let rows = panels.len().div_ceil(3) as u32;
-    let size = if alone { [720, 460] } else { [360 * columns as u32, 300 * rows + 50] };
-    Some(Figure { size, columns, panels, caption })
+    Some(Figure { size, columns: panels.len().min(3), panels, caption })
+}
+
+/// The names of curves, each once, in the order of the curves.
+fn distinct(curves: &[Curve], name: fn(&Curve) -> &String) -> Vec<&str> {
+    let mut all: Vec<&str> = Vec::new();
+    for name in curves.iter().map(name) {
+        if !all.contains(&name.as_str()) {
+            all.push(name);
+        }
+    }
+    all
+}
+
+/// A panel of some of `all` curves on axes that hold all of them, coloured by `name`.
+fn panel(
+    title: String,
+    shown: &[&Curve],
+    all: &[Curve],
+    name: fn(&Curve) -> &String,
+    legend: bool,
+) -> Panel {
+    let points = || all.iter().flat_map(|curve| &curve.points);
+    let right = points().map(|(x, _)| *x).fold(0.0, f64::max);
+    let top = points().map(|(_, point)| point.value).fold(0.0, f64::max);
+    let names = distinct(all, name);
+    let series = shown.iter().flat_map(|curve| {
+        let place = names.iter().position(|known| known == name(curve)).unwrap_or(0);
+        let label = if legend { name(curve).clone() } else { String::new() };
+        line(label, GROUPS[place % GROUPS.len()], &curve.points, false)
+    });
+    Panel {
+        title,
+        x: Axis::linear("creepage (10\u{207b}\u{b3})").over(0.0, 1.03 * right),
+        y: Axis::linear("T/N").over(0.0, 1.08 * top),
+        fill: None,
+        series: series.collect(),
+        marks: Vec::new(),
+    }
 }
 
 /// The curves of a sweep.
