@@ -103,11 +103,20 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
     let line = |key: &&str| PATCH_TABLE.iter().find(|line| line.key == *key);
     for PatchLine { label, key, factor, unit } in NUMBERS.iter().filter_map(line) {
         let at = |part: &str| number(checked, &format!("/patch/{key}/{part}")).map(|v| factor * v);
-        let mean = at("mean").map_or("\u{2013}".into(), |mean| worth(mean, at("ci95")));
+        let Some(mean) = at("mean") else {
+            let note = checked.pointer(&format!("/patch/{key}/note")).and_then(Value::as_str);
+            let _ = writeln!(
+                out,
+                "<tr><td>{label}</td><td class=\"n\">\u{2013}</td><td colspan=\"2\">{}</td></tr>",
+                escape(note.unwrap_or_default())
+            );
+            continue;
+        };
         let scale = super::half_space(basis, key);
         let _ = writeln!(
             out,
-            "<tr><td>{label}</td><td class=\"n\">{mean}</td><td>{unit}</td><td class=\"n\">{}</td></tr>",
+            "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td></tr>",
+            worth(mean, at("ci95")),
             scale.map(|scale| digits(factor * scale, 4)).unwrap_or_default()
         );
     }
