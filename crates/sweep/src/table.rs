@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::plan::SweepError;
 
 /// Columns besides the parameters and the measures of the checks: heading, and JSON pointer into the entry of a run.
-const COLUMNS: [(&str, &str); 59] = [
+const COLUMNS: [(&str, &str); 60] = [
     ("dt", "/summary/dt"),
     ("dt_limit", "/summary/stability/dt_limit"),
     ("steps", "/summary/steps"),
@@ -64,6 +64,7 @@ const COLUMNS: [(&str, &str); 59] = [
     ("steepness_node", "/summary/exact_contact/steepness_node"),
     ("steepness_patch", "/summary/exact_contact/steepness_patch"),
     ("implicit_cut", "/summary/implicit/cut"),
+    ("implicit_iterations", "/summary/implicit/iterations"),
     ("check_pass", "/check/pass"),
     ("wall_s", "/summary/wall_s"),
     ("peak_rss_mb", "/summary/peak_rss_mb"),
