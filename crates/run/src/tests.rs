@@ -118,3 +118,17 @@ fn the_function_of_a_law_that_the_case_does_not_use_is_refused() {
     assert_eq!(error.exit_code(), 2);
     assert!(!out.exists());
 }
+
+#[test]
+fn the_mesh_report_estimates_the_time_of_explicit_steps_alone() {
+    let case = |more: &str| {
+        let text = format!("mesh.zone.size = 4e-3\ncontact.enforcement = \"exact\"\n{SHORT}{more}");
+        Case::from_text(&text, Path::new("short.toml"), &[]).unwrap()
+    };
+    let explicit = crate::mesh_report(&case(""), None).unwrap();
+    assert!(explicit["estimate"]["run_time_s"].as_f64().unwrap() > 0.0);
+    let implicit = "time.integrator = \"implicit\"\ntime.step = 1e-5\n";
+    let implicit = crate::mesh_report(&case(implicit), None).unwrap();
+    assert!(implicit["estimate"]["run_time_s"].is_null());
+    assert!(implicit["estimate"]["steps"].as_f64().unwrap() > 0.0);
+}

@@ -57,8 +57,9 @@ pub fn text(report: &Value) -> String {
     };
     row(&mut out, "disk", &digits(disk, 3), "MB", &short);
     row(&mut out, "steps", &count(at("/estimate/steps")), "", "");
-    let time = duration(at("/estimate/run_time_s"));
-    row(&mut out, "rolling takes about", &time, "", "on this machine");
+    let time = at("/estimate/run_time_s");
+    let note = if time.is_some() { "on this machine" } else { "not estimated for implicit steps" };
+    row(&mut out, "rolling takes about", &duration(time), "", note);
     out
 }
 
