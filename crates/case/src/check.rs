@@ -12,11 +12,17 @@ use friction::USES;
 /// Most mistakes in one message: more would hide the first.
 const MOST_MISTAKES: usize = 20;
 
+/// Keys that every sweep file has and no case file.
+const SWEEP_KEYS: [&str; 2] = ["base", "axis"];
+
 /// Checks every key: it exists, has the right type and lies in its range; none is missing.
 ///
 /// # Errors
 /// All mistakes, the first with the others in [`KeyError::others`]; no more than some twenty.
 pub fn keys(layers: &Layers) -> Result<(), CaseError> {
+    if let Some(key) = SWEEP_KEYS.iter().find(|key| layers.table.contains_key(**key)) {
+        return raise(vec![sweep_file(layers, key)]);
+    }
     let mut errors = Vec::new();
     check_table(layers, &layers.table, "", "", &mut errors);
     if errors.len() >= MOST_MISTAKES {
@@ -26,6 +32,20 @@ pub fn keys(layers: &Layers) -> Result<(), CaseError> {
         check_needed(layers, &mut errors);
     }
     raise(errors)
+}
+
+/// The error of a sweep file in the place of a case.
+fn sweep_file(layers: &Layers, key: &str) -> KeyError {
+    let origin = layers.origins.get(key).or_else(|| layers.origins.get(&format!("{key}[0]")));
+    let message = format!("this is a sweep file and no case: it has the key `{key}`");
+    let help = "use `creepage sweep` with it, or give its base, which is a case";
+    match origin {
+        Some(origin) => {
+            let source = layers.sources[origin.source].clone();
+            key_error_in(source, origin.key.clone(), key, &message, help)
+        }
+        None => layers.error_nowhere(key, &message, help),
+    }
 }
 
 /// The errors as one, if there are any.
@@ -63,7 +83,7 @@ fn check_table(
             errors.push(unknown(layers, &path, &pattern));
         } else if let Some(key) = keys::find(&pattern) {
             if let Some(problem) = refused(key, value) {
-                errors.push(mistake(&problem, key.remedy));
+                errors.push(mistake(&problem, &remedy(key, value)));
             }
         } else if KEYS.iter().any(|key| key.path.starts_with(&section)) {
             match value {
@@ -179,6 +199,18 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
         _ => false,
     };
     if fine { None } else { not_allowed() }
+}
+
+/// What to do where a value is refused: with the word that a misspelt one was most likely meant to be.
+fn remedy(key: &Key, value: &Value) -> String {
+    let near = match (&key.form, value) {
+        (Form::Word(words), Value::String(word)) => nearest(word, words.iter().copied()),
+        _ => None,
+    };
+    match near {
+        Some(near) => format!("did you mean \"{near}\"? {}", key.remedy),
+        None => key.remedy.to_owned(),
+    }
 }
 
 /// A value as it would be written in a file, with at most 60 characters.

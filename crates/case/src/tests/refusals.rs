@@ -406,3 +406,16 @@ fn implicit_steps_need_exact_contact_and_a_length() {
     let half_space = format!("model = \"half-space\"\n{half_space}");
     refused(read(&half_space), &["time.integrator", "half-space"]);
 }
+
+#[test]
+fn a_sweep_file_in_the_place_of_a_case_is_told_by_its_name() {
+    let text = "title = \"t\"\nbase = \"base.toml\"\n[[axis]]\nkey = \"drive.creepage\"\nvalues = [1e-3]\n";
+    refused(read(text), &["short.toml:2:", "is a sweep file", "creepage sweep"]);
+    refused(read(&text.replace("base = \"base.toml\"\n", "")), &["short.toml:2:", "sweep file"]);
+}
+
+#[test]
+fn a_misspelt_word_is_refused_with_the_nearest_one() {
+    refused(set(&["friction.law=exponentail"]), &["did you mean \"exponential\"?", "\"coulomb\""]);
+    refused(set(&["contact.enforcement=exat"]), &["did you mean \"exact\"?"]);
+}
