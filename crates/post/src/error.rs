@@ -16,6 +16,15 @@ pub enum PostError {
         /// The path that was given.
         path: PathBuf,
     },
+    /// A case or a sweep file in the place of a run.
+    #[error(
+        "{} is a case or a sweep, and no run: run it first, then give the folder of the run",
+        path.display()
+    )]
+    NotYetRun {
+        /// The path that was given.
+        path: PathBuf,
+    },
     /// The file can be read but lacks data that the contact conditions need.
     #[error("{}: {what}", path.display())]
     Lacks {
