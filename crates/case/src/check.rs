@@ -12,7 +12,7 @@ use friction::USES;
 /// Most mistakes in one message: more would hide the first.
 const MOST_MISTAKES: usize = 20;
 
-/// Keys that every sweep file has and no case file.
+/// Keys of a sweep file that no case has.
 const SWEEP_KEYS: [&str; 2] = ["base", "axis"];
 
 /// Checks every key: it exists, has the right type and lies in its range; none is missing.
@@ -20,8 +20,10 @@ const SWEEP_KEYS: [&str; 2] = ["base", "axis"];
 /// # Errors
 /// All mistakes, the first with the others in [`KeyError::others`]; no more than some twenty.
 pub fn keys(layers: &Layers) -> Result<(), CaseError> {
-    if let Some(key) = SWEEP_KEYS.iter().find(|key| layers.table.contains_key(**key)) {
-        return raise(vec![sweep_file(layers, key)]);
+    if let Some(key) = SWEEP_KEYS.into_iter().find(|key| layers.table.contains_key(*key)) {
+        let message = format!("this is a sweep file and no case: it has the key `{key}`");
+        let help = "use `creepage sweep` with it, or give its base, which is a case";
+        return raise(vec![error_at_name(layers, key, key, &message, help)]);
     }
     let mut errors = Vec::new();
     check_table(layers, &layers.table, "", "", &mut errors);
@@ -34,17 +36,14 @@ pub fn keys(layers: &Layers) -> Result<(), CaseError> {
     raise(errors)
 }
 
-/// The error of a sweep file in the place of a case.
-fn sweep_file(layers: &Layers, key: &str) -> KeyError {
-    let origin = layers.origins.get(key).or_else(|| layers.origins.get(&format!("{key}[0]")));
-    let message = format!("this is a sweep file and no case: it has the key `{key}`");
-    let help = "use `creepage sweep` with it, or give its base, which is a case";
-    match origin {
+/// The error `message` about `key` at the place where the name of the key or section `named` was written, if it was.
+fn error_at_name(layers: &Layers, named: &str, key: &str, message: &str, help: &str) -> KeyError {
+    match layers.origins.get(named) {
         Some(origin) => {
             let source = layers.sources[origin.source].clone();
-            key_error_in(source, origin.key.clone(), key, &message, help)
+            key_error_in(source, origin.key.clone(), key, message, help)
         }
-        None => layers.error_nowhere(key, &message, help),
+        None => layers.error_nowhere(key, message, help),
     }
 }
 
@@ -153,13 +152,7 @@ fn missing(layers: &Layers, section: &str, name: &str, key: &Key) -> KeyError {
     let path = join(section, name);
     let message = format!("{path} is missing: it must be given, {}", key.form.allowed(key.unit));
     let help = format!("in [{section}] {}", key.remedy);
-    match layers.origins.get(section) {
-        Some(origin) => {
-            let source = layers.sources[origin.source].clone();
-            key_error_in(source, origin.key.clone(), &path, &message, &help)
-        }
-        None => layers.error_nowhere(&path, &message, &help),
-    }
+    error_at_name(layers, section, &path, &message, &help)
 }
 
 /// Why a value is not allowed for its key, if it is not: the value, then what is allowed.
@@ -244,13 +237,7 @@ fn unknown(layers: &Layers, path: &str, pattern: &str) -> KeyError {
     let help = suggestion(pattern);
     let value = get(&layers.table, path).map(|value| format!(" = {}", show(value)));
     let message = format!("unknown key {path}{}", value.unwrap_or_default());
-    match layers.origins.get(path) {
-        Some(origin) => {
-            let source = layers.sources[origin.source].clone();
-            key_error_in(source, origin.key.clone(), path, &message, &help)
-        }
-        None => layers.error_nowhere(path, &message, &help),
-    }
+    error_at_name(layers, path, path, &message, &help)
 }
 
 /// The remedy for an unknown key: a key of a similar name, if there is one, and the keys of its section. `pattern`
