@@ -19,6 +19,7 @@ mod influence;
 mod measures;
 mod normal;
 mod rolling;
+mod rolling_in_parts;
 mod slip_law;
 mod sparse;
 
@@ -29,5 +30,6 @@ pub use influence::{Influence, InfluenceError, Point};
 pub use measures::{Ellipsoid, ellipsoid, peak_shear, stick_border, stick_fraction};
 pub use normal::{Press, PressError, Pressed, press};
 pub use rolling::{Adhesion, Rolling, RollingError};
+pub use rolling_in_parts::RollingInParts;
 pub use slip_law::SlipLaw;
 pub use sparse::{ElementStiffness, Factor, SparseError, StiffnessMatrix, Symbolic, Unknowns};

@@ -63,7 +63,7 @@ pub enum RollingError {
 
 /// Rolling is steady when no force changes by more than this fraction of the
 /// largest bound over a step.
-const STEADY: f64 = 1e-8;
+pub(crate) const STEADY: f64 = 1e-8;
 
 /// State of a contact point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -228,6 +228,24 @@ impl<'a> Rolling<'a> {
         Ok(())
     }
 
+    /// Goes on from the end of the step of `last`, the same bodies with the contact at another place on the same points. The
+    /// particle at a point was there before, or, where the grid `moves_on`, at the point upstream.
+    ///
+    /// # Errors
+    /// [`RollingError::Step`].
+    pub(crate) fn go_on(
+        &mut self,
+        last: &Self,
+        moves_on: bool,
+        rigid: [Rigid; 2],
+    ) -> Result<(), RollingError> {
+        self.displacement.copy_from_slice(&last.displacement);
+        let before = |i: usize| if moves_on { self.upstream[i] } else { i };
+        let solution = self.solve(rigid, before, &self.bound, None)?;
+        self.take(solution);
+        Ok(())
+    }
+
     /// The contact points, for a law.
     fn patch(&self) -> Patch<'_> {
         Patch {
@@ -267,7 +285,7 @@ impl<'a> Rolling<'a> {
 
     /// Takes the state that a pitch of rolling reproduces, if Newton's method finds it: with constant bounds, and with
     /// those of a law from there on.
-    fn guess(&mut self, rigid: [Rigid; 2]) {
+    pub(crate) fn guess(&mut self, rigid: [Rigid; 2]) {
         let Some(guess) = self.reproduced(rigid, None) else { return };
         self.take(guess);
         let Some(particles) = &self.particles else { return };

@@ -11,10 +11,10 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use reference::{Adhesion, Lateral, Rigid, stick_border};
 
-const MU: f64 = 0.3;
-const SOURCE: &str = "Carter (1926)";
+pub(crate) const MU: f64 = 0.3;
+pub(crate) const SOURCE: &str = "Carter (1926)";
 /// Q/(mu N) and creepage.
-const TABLE: [[f64; 2]; 4] =
+pub(crate) const TABLE: [[f64; 2]; 4] =
     [[0.25, 6.225e-4], [0.5, 1.3609e-3], [0.75, 2.3232e-3], [0.9, 3.1771e-3]];
 
 pub(crate) fn run(size: Size) -> Outcome {

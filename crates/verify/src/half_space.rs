@@ -7,7 +7,9 @@
 use crate::body::STEEL;
 use crate::problem::{Cause, Size};
 use rayon::prelude::*;
-use reference::{Block, Influence, Lateral, Press, Pressed, Rigid, Rolling, ellipsoid, press};
+use reference::{
+    Block, Influence, Lateral, Press, Pressed, Rigid, Rolling, RollingInParts, ellipsoid, press,
+};
 use solid::{Element, Material, element_stiffness};
 
 /// Stiffness of an element, with the hourglass coefficient of rolling runs.
@@ -147,6 +149,32 @@ impl<'a> HalfSpaces<'a> {
         let rigid = [along(rolling.pitch()), Rigid::Moved(0.0)];
         rolling.steady(rigid, STEPS)?;
         Ok(rolling)
+    }
+
+    /// Creepage of steady rolling along x under `force` (N) in steps of a part of the pitch, 1, 2 or 4 of them to a pitch.
+    /// With fewer than 4 it is the mean of as many rollings as bring the apex to the same four places on the grid.
+    pub(crate) fn creepage_in_parts(
+        &self,
+        parts: usize,
+        mu: f64,
+        force: f64,
+    ) -> Result<f64, Cause> {
+        let starts = 4 / parts;
+        let rolled = |start: usize| -> Result<f64, Cause> {
+            let place = |part: usize| {
+                let apex = ((part * starts + start) as f64 + 0.5) / 4.0 - 0.5;
+                let gap = gap(self.hertz, self.lateral, [apex * self.size, 0.0]);
+                let influence = self.influence.with_gaps(gap);
+                let pressed = self.press(&influence)?;
+                Ok((influence, pressed))
+            };
+            let places: Vec<_> = (0..parts).map(place).collect::<Result<_, Cause>>()?;
+            let mut rolling = RollingInParts::new(&places, mu)?;
+            rolling.steady([Rigid::Forced(force), Rigid::Moved(0.0)], STEPS)?;
+            Ok(rolling.creepage()[0])
+        };
+        let sum: f64 = (0..starts).map(rolled).sum::<Result<_, Cause>>()?;
+        Ok(sum / starts as f64)
     }
 }
 

@@ -12,6 +12,7 @@ mod problem;
 mod problems;
 mod rolling_dynamic;
 mod rolling_memory;
+mod rolling_steps;
 mod row;
 
 mod body;

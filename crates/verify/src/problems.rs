@@ -4,8 +4,8 @@ use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
     interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic,
-    rolling_memory, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
-    steady_rolling, waves,
+    rolling_memory, rolling_steps, rupture, shear_column, shear_column_penalty, slider_tables,
+    sliding, steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -184,6 +184,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "creep-force",
         about: "The reference wheel: eight points of the creep-force curve of CONTACT",
         run: steady_rolling::creep_force,
+    },
+    Problem {
+        name: "rolling-steps",
+        about: "Rolling in steps of a pitch, a half, a quarter: creepage of Carter and of CONTACT",
+        run: rolling_steps::run,
     },
     Problem {
         name: "rolling-memory",

@@ -12,14 +12,14 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use reference::{Influence, Lateral, Rigid, Rolling, peak_shear, stick_border, stick_fraction};
 
-const MU: f64 = 0.5;
+pub(crate) const MU: f64 = 0.5;
 /// Speed of rolling of the reference (m/s).
 const SPEED: f64 = 38.89;
-const SOURCE: &str = "CONTACT (Vollebregt), extrapolated to h = 0";
+pub(crate) const SOURCE: &str = "CONTACT (Vollebregt), extrapolated to h = 0";
 const PROFILES: &str = "CONTACT (Vollebregt), grid of 0.05 mm";
 
 /// T/N, creepage, share of the patch that sticks, border of stick on y = 0 (m) and peak shear (Pa).
-const STEADY: [[f64; 5]; 3] = [
+pub(crate) const STEADY: [[f64; 5]; 3] = [
     [0.15, 1.1554e-3, 0.8333, -5.275e-3, 416.2e6],
     [0.28, 2.4348e-3, 0.6517, -3.225e-3, 552.8e6],
     [0.40, 4.1370e-3, 0.4242, -0.425e-3, 617.6e6],
