@@ -5,10 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use creepage::{Listener, Problem, Progress, Row, Stage, Watched};
+use creepage::{Cost, Listener, Problem, Progress, Row, Stage, Watched};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use crate::args::Args;
+use crate::report::layout::{count, digits, duration};
 use crate::report::verify;
 
 const TICKS: u64 = 1000;
@@ -64,6 +65,10 @@ impl Listener for RunWatch<'_> {
             // A sweep that is gone ends this run by another way.
             let _ = writeln!(out, "{done:.4}").and_then(|()| out.flush());
         }
+        if let Some(cost) = &progress.cost {
+            let said = cost_line(cost);
+            self.bar.suspend(|| self.args.say(&said));
+        }
         if self.bar.is_hidden() {
             return;
         }
@@ -92,6 +97,18 @@ impl Listener for RunWatch<'_> {
         let done = progress.step as f64 / progress.steps.max(1) as f64;
         self.bar.set_position((done * TICKS as f64) as u64);
     }
+}
+
+/// What a run will take, in a line.
+fn cost_line(cost: &Cost) -> String {
+    format!(
+        "{} elements, {} steps of {} ns: about {} on this machine, {} MB of results",
+        count(Some(cost.elements as f64)),
+        count(Some(cost.steps as f64)),
+        digits(Some(1e9 * cost.dt), 4),
+        duration(Some(cost.seconds)),
+        digits(Some(1e-6 * cost.disk), 3),
+    )
 }
 
 /// Watches a sweep: a bar on standard error where that is a terminal, elsewhere a line for every

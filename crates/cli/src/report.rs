@@ -4,7 +4,7 @@ pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod files;
-mod layout;
+pub mod layout;
 pub mod mesh;
 pub mod run;
 pub mod slider;

@@ -119,7 +119,7 @@ pub use post::{Checked, Drawable, Pairing, Quantity, Report as PairingReport, Vi
 pub use render::{RenderOptions, render};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
-pub use scenario::{Progress, Stage};
+pub use scenario::{Cost, Progress, Stage};
 pub use slider::{
     LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
 };

@@ -56,7 +56,7 @@ impl Disk {
         }
     }
 
-    fn total(&self) -> f64 {
+    pub(crate) fn total(&self) -> f64 {
         self.fields + self.contact + self.history + self.checkpoints
     }
 

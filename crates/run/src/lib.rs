@@ -4,6 +4,7 @@
 
 mod bench;
 mod checkpoint;
+mod cost;
 pub mod derived;
 mod disk;
 mod error;

@@ -11,6 +11,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Instant, SystemTime};
 
 use crate::checkpoint::remove_checkpoints;
+use crate::cost::cost;
 use crate::disk::Disk;
 use crate::error::RunError;
 use crate::held::FolderLock;
@@ -104,6 +105,8 @@ fn run_in_pool(
         below.iter().try_for_each(|line| log.warn(line))?;
         let disk = Disk::of(case, &model, facts.steps as f64);
         disk.shortage(&options.out).iter().try_for_each(|line| log.warn(line))?;
+        let cost = cost(case, &model, &facts, simulation.dt())?;
+        observe(&Progress { cost, steps: facts.steps, ..stage(case, Stage::Roll) });
     }
     let basis = basis(case, options, &facts, resumed.as_deref());
     // another process may have taken the folder during the preload
@@ -248,5 +251,6 @@ fn stage(case: &Case, stage: Stage) -> Progress {
         normal_force: 0.0,
         tangential_force: 0.0,
         element_steps_per_s: 0.0,
+        cost: None,
     }
 }

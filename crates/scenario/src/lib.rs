@@ -27,7 +27,7 @@ pub use error::{MeshFileError, ScenarioError};
 pub use half_space::{HalfSpaceModel, SurfacePoints, drive, half_space};
 pub use model::{BAR, DISK, Model};
 pub use preload::{PreloadError, PreloadReport};
-pub use progress::{Progress, Stage};
+pub use progress::{Cost, Progress, Stage};
 pub use remedy::Remedy;
 pub use size::{elements, stable_limit};
 pub use start::{Facts, Found, Start};

@@ -14,6 +14,21 @@ pub enum Stage {
     Roll,
 }
 
+/// What a run will take, as estimated before its first step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// Elements.
+    pub elements: usize,
+    /// Steps planned.
+    pub steps: u64,
+    /// Time step (s).
+    pub dt: f64,
+    /// Wall time of rolling (s), from the time that this machine takes for the internal force.
+    pub seconds: f64,
+    /// Room that the results take on the disk (bytes).
+    pub disk: f64,
+}
+
 /// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Progress {
@@ -33,4 +48,6 @@ pub struct Progress {
     pub tangential_force: f64,
     /// Elements times steps per second of wall time (1/s); of the preload, evaluations of elements.
     pub element_steps_per_s: f64,
+    /// What the run will take: told once, before the first step. Steps of half-spaces and implicit steps are not estimated.
+    pub cost: Option<Cost>,
 }

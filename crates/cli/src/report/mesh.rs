@@ -56,7 +56,9 @@ pub fn text(report: &Value) -> String {
         _ => "of results".into(),
     };
     row(&mut out, "disk", &digits(disk, 3), "MB", &short);
-    row(&mut out, "steps", &count(at("/estimate/steps")), "", "");
+    let springs = report.pointer("/estimate/springs_lower_the_step") == Some(&Value::Bool(true));
+    let more = if springs { "or more: closed penalty springs lower the step" } else { "" };
+    row(&mut out, "steps", &count(at("/estimate/steps")), "", more);
     let time = at("/estimate/run_time_s");
     let note = if time.is_some() { "on this machine" } else { "not estimated for implicit steps" };
     row(&mut out, "rolling takes about", &duration(time), "", note);

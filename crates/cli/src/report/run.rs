@@ -227,29 +227,26 @@ fn stability(out: &mut String, summary: &Value) {
 
 fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
     let name = |name: &str| word(summary, &format!("/files/{name}"));
-    let file = |file: &str| folder.join(name(file)).display().to_string();
-    let (contact, history) = (file("contact"), file("history"));
     // a run that does not record its bodies shows its surfaces
-    let (grid, look, surfaces, colour) = if name("fields").is_empty() {
-        let look = "colour by pressure, shear, slip_velocity or state";
-        (contact, look, String::new(), "pressure")
+    let run = folder.display();
+    let (grid, look, render) = if name("fields").is_empty() {
+        (name("contact"), "colour by pressure, shear, slip_velocity or state", String::new())
     } else {
-        let surfaces = format!("             {contact}: pressure, shear, slip_velocity, state\n");
         let look = "Filters > Warp By Vector: displacement; colour by velocity or stress";
-        (file("fields"), look, surfaces, "velocity")
+        let render = format!("  creepage render {run}    the bodies, in three dimensions\n");
+        (name("fields"), look, render)
     };
     let _ = write!(
         out,
-        "\nHow to look at the results
-  ParaView   paraview {grid}
-             Apply; {look}
-{surfaces}  Python     import h5py, vtk, pyvista
-             reader = vtk.vtkHDFReader(); reader.SetFileName(\"{grid}\")
-             reader.UpdateInformation(); reader.SetStep(reader.GetNumberOfSteps() - 1)
-             reader.Update(); pyvista.wrap(reader.GetOutput()).plot(scalars=\"{colour}\")
-             history = h5py.File(\"{history}\"); print(list(history))
-  Numbers    {}
+        "\nWhat next
+  creepage report {run}    one page: pictures, numbers, checks
+  creepage plot {run}      figures
+{render}  creepage check {run}     where the conditions of contact are violated
+  paraview {}    Apply; {look}
+  Python: import creepage; creepage.Run(\"{run}\")
+  all numbers: {}
 ",
+        folder.join(grid).display(),
         folder.join("summary.json").display()
     );
 }
@@ -295,7 +292,7 @@ mod tests {
             "  hourglass                    0.04850 J      1.00 % of internal",
             "    internal force                4.50 s       75.0 %",
             "  time step                      220.0 ns     0.670 of the limit",
-            "  ParaView   paraview runs/quick/fields.vtkhdf",
+            "  creepage report runs/quick    one page: pictures, numbers, checks",
         ] {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
         }
@@ -308,9 +305,8 @@ mod tests {
         surfaces["files"] =
             json!({ "fields": "", "contact": "contact.vtkhdf", "history": "history.h5" });
         let page = text(&surfaces, Path::new("runs/quick"));
-        assert!(page.contains("\n  ParaView   paraview runs/quick/contact.vtkhdf\n"), "{page}");
-        assert!(!page.contains("fields") && !page.contains("runs/quick/\""), "{page}");
-        assert!(page.contains("plot(scalars=\"pressure\")"), "{page}");
+        let look = "\n  paraview runs/quick/contact.vtkhdf    Apply; colour by pressure";
+        assert!(page.contains(look) && !page.contains("fields"), "{page}");
     }
 
     #[test]

@@ -215,6 +215,7 @@ impl UnderWay<'_> {
             normal_force: self.model.width * sums.normal,
             tangential_force: self.model.width * sums.shear[0],
             element_steps_per_s: points(&self.model.rolling) * per_s,
+            cost: None,
         }
     }
 }

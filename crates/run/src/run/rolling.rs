@@ -177,6 +177,7 @@ impl<'a> Rolling<'a> {
             normal_force: report.contact.force[0][2],
             tangential_force: report.contact.force[0][0],
             element_steps_per_s: self.simulation.solid().elements() as f64 * per_s,
+            cost: None,
         }
     }
 

@@ -58,6 +58,7 @@ pub(super) fn preload(
             normal_force,
             tangential_force: 0.0,
             element_steps_per_s: elements * products as f64 / clock.elapsed().as_secs_f64(),
+            cost: None,
         });
         !stop.load(Ordering::Relaxed)
     };
