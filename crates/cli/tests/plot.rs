@@ -47,9 +47,44 @@ fn every_figure_carries_labels_units_and_the_numbers_of_the_case() {
         }
         assert!(svg.contains("(mm)") || svg.contains("(m/s)"), "{name} has no unit");
         assert!(!svg.contains("NaN"), "{name}");
+        assert!(texts(&svg).iter().all(|text| !text.contains('_')), "{name} shows a raw subscript");
         let png = fs::read(run.join(format!("figures/{name}.png"))).unwrap();
         assert_eq!(&png[1..4], b"PNG");
     }
+}
+
+/// The texts of an SVG file, without the elements in them.
+fn texts(svg: &str) -> Vec<String> {
+    let inside = svg.split("<text").skip(1).filter_map(|part| part.split("</text>").next());
+    let bare = |text: &str| {
+        text.split('<')
+            .filter_map(|part| part.split_once('>'))
+            .map(|p| p.1.trim_end_matches('\n'))
+            .collect()
+    };
+    inside.map(|text| bare(&format!("<{text}"))).collect()
+}
+
+#[test]
+fn every_line_of_an_instant_names_it_and_a_caption_names_colours_that_are_there() {
+    let folder = tempfile::tempdir().unwrap();
+    write_with(folder.path(), FALLING, "penalty", 30, 1e-6, Leave::default(), |x, step| {
+        perfect(FALLING, x, step)
+    });
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["plot", folder.path().to_str().unwrap(), "--format", "svg"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let svg =
+        |name: &str| fs::read_to_string(folder.path().join(format!("figures/{name}.svg"))).unwrap();
+    for (name, lines) in [("figure-3-tractions", 4), ("figure-4-bound", 6 + 7)] {
+        let texts = texts(&svg(name));
+        let of_time = texts.iter().filter(|text| text.contains("t = 0.")).count();
+        assert_eq!(of_time, lines, "{name}: {texts:?}");
+    }
+    let law = svg("figure-7-law");
+    assert!(texts(&law).join(" ").contains("vermilion line") && law.contains("#D55E00"));
 }
 
 #[test]

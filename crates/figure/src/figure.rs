@@ -3,6 +3,8 @@
 use crate::{Axis, Fill};
 
 /// A grid of panels.
+///
+/// All its texts may have subscripts, written as in TeX: `p_{n}`.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// Width and height (points of 1/96 inch, as in SVG).
@@ -24,6 +26,8 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
+    /// Whether a unit is as long on one axis as on the other, as a map needs it; the range of one is then widened.
+    pub to_scale: bool,
     /// Coloured cells under the series.
     pub fill: Option<Fill>,
     /// The series, later ones on top.
@@ -32,12 +36,28 @@ pub struct Panel {
     pub marks: Vec<Mark>,
 }
 
-/// Points joined by a line, or dots.
+impl Panel {
+    /// A panel without content.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            title: String::new(),
+            x,
+            y,
+            to_scale: false,
+            fill: None,
+            series: Vec::new(),
+            marks: Vec::new(),
+        }
+    }
+}
+
+/// Points joined by a line, dots, or arrows.
 #[derive(Clone, Debug)]
 pub struct Series {
     /// Name in the legend; none if empty.
     pub label: String,
-    /// Points (x, y) in the units of the axes; one that is not finite interrupts the line.
+    /// Points (x, y) in the units of the axes; one that is not finite interrupts the line. Of arrows, the tail and
+    /// the tip of each, one after the other.
     pub points: Vec<[f64; 2]>,
     /// How they are drawn.
     pub draw: Draw,
@@ -52,6 +72,8 @@ pub enum Draw {
     Dashed([u8; 3]),
     /// Dots of this colour and radius (points of 1/96 inch).
     Dots([u8; 3], f64),
+    /// Arrows of this colour.
+    Arrows([u8; 3]),
 }
 
 /// A vertical dashed line at one x.

@@ -7,6 +7,8 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
+mod arrow;
+mod axes;
 mod axis;
 mod contour;
 mod draw;
@@ -14,7 +16,12 @@ mod figure;
 mod fill;
 mod film;
 mod font;
+mod label;
+mod layout;
+mod legend;
+mod palette;
 mod picture;
+mod raster;
 mod thin;
 mod write;
 
@@ -37,7 +44,7 @@ pub mod colour {
     /// Blue.
     pub const BLUE: [u8; 3] = [0, 114, 178];
     /// Vermilion.
-    pub const RED: [u8; 3] = [213, 94, 0];
+    pub const VERMILION: [u8; 3] = [213, 94, 0];
     /// Bluish green.
     pub const GREEN: [u8; 3] = [0, 158, 115];
     /// Reddish purple.

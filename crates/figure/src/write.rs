@@ -1,8 +1,7 @@
 //! Writing a figure as SVG and PNG.
 
-use crate::draw::{self, Joints};
-use crate::{Figure, font};
-use files::input;
+use crate::layout::Medium;
+use crate::{Figure, draw, font, label, palette, raster};
 use files::output::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
 use std::path::{Path, PathBuf};
@@ -107,16 +106,11 @@ impl Figure {
                 std::fs::write(&path, self.svg(&path)?).map_err(|cause| failed(&path, cause))?;
             }
             Format::Png => {
-                // a figure that is there stays until the new one is whole
-                let unmarked = folder.join(format!(".{stem}.{}.partial.png", std::process::id()));
-                // the encoder does not say why a file cannot be created
-                std::fs::write(&unmarked, []).map_err(|cause| failed(&path, cause))?;
-                let backend = BitMapBackend::new(&unmarked, self.pixels(PNG_UNIT));
-                let drawn = draw_on(self, backend, PNG_UNIT, Joints::Open, &path)
-                    .map(|()| input::bytes(&unmarked, input::RESULTS));
-                let _ = std::fs::remove_file(&unmarked);
-                let image = drawn?.map_err(|error| failed(&path, std::io::Error::other(error)))?;
-                std::fs::write(&path, marked(&image)).map_err(|cause| failed(&path, cause))?;
+                let undrawn = |cause: String| FigureError::Draw { path: path.clone(), cause };
+                register(&path)?;
+                let pixels = raster::pixels(self, PNG_UNIT).map_err(undrawn)?;
+                let image = palette::png(&pixels).map_err(|error| undrawn(error.to_string()))?;
+                std::fs::write(&path, image).map_err(|cause| failed(&path, cause))?;
             }
         }
         Ok(path)
@@ -150,11 +144,18 @@ impl Figure {
 
     /// The SVG text as the drawing library writes it, and its width and height (pixels).
     fn plain_svg(&self, path: &Path) -> Result<(String, u32, u32), FigureError> {
+        register(path)?;
         let mut text = String::new();
         let (width, height) = self.pixels(SVG_UNIT);
-        let backend = SVGBackend::with_string(&mut text, (width, height));
-        draw_on(self, backend, SVG_UNIT, Joints::Viewer, path)?;
-        Ok((text, width, height))
+        {
+            let area = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
+            let drawn = draw::figure(self, &area, f64::from(SVG_UNIT), Medium::Svg);
+            drawn.and_then(|()| area.present()).map_err(|error| FigureError::Draw {
+                path: path.into(),
+                cause: error.to_string(),
+            })?;
+        }
+        Ok((label::typeset(&text), width, height))
     }
 
     fn pixels(&self, unit: u32) -> (u32, u32) {
@@ -162,30 +163,12 @@ impl Figure {
     }
 }
 
-/// A PNG with the mark of this program in a chunk `tEXt` after the first chunk, `IHDR`, whose data have 13 bytes.
-fn marked(image: &[u8]) -> Vec<u8> {
-    const HEAD: usize = 8 + 12 + 13;
-    let (head, rest) = image.split_at(HEAD.min(image.len()));
-    let chunk = [b"tEXt", output::PNG_MARK].concat();
-    let length = (output::PNG_MARK.len() as u32).to_be_bytes();
-    let check = crc32fast::hash(&chunk).to_be_bytes();
-    [head, &length, &chunk, &check, rest].concat()
-}
-
-fn draw_on<DB: DrawingBackend>(
-    figure: &Figure,
-    backend: DB,
-    unit: u32,
-    joints: Joints,
-    path: &Path,
-) -> Result<(), FigureError> {
-    let failed = |cause: String| FigureError::Draw { path: path.into(), cause };
-    if !font::register() {
-        return Err(failed("the font cannot be read".into()));
-    }
-    let area = backend.into_drawing_area();
-    draw::figure(figure, &area, f64::from(unit), joints).map_err(|e| failed(e.to_string()))?;
-    area.present().map_err(|e| failed(e.to_string()))
+/// Makes the font known to the drawing library.
+fn register(path: &Path) -> Result<(), FigureError> {
+    let cause = || "the font cannot be read".into();
+    font::register()
+        .then_some(())
+        .ok_or_else(|| FigureError::Draw { path: path.into(), cause: cause() })
 }
 
 #[cfg(test)]
@@ -197,11 +180,9 @@ mod tests {
         let points = (0..100).map(|i| [f64::from(i), libm::sin(f64::from(i))]).collect();
         let panel = Panel {
             title: "A title".into(),
-            x: Axis::linear("t (s)"),
-            y: Axis::linear("x (m)"),
             series: vec![Series { label: "sine".into(), points, draw: Draw::Line(colour::BLUE) }],
-            marks: vec![Mark { x: 50.0, label: "half".into(), colour: colour::RED }],
-            fill: None,
+            marks: vec![Mark { x: 50.0, label: "half".into(), colour: colour::VERMILION }],
+            ..Panel::new(Axis::linear("t (s)"), Axis::linear("x (m)"))
         };
         Figure { size: [400, 300], columns: 1, panels: vec![panel], caption: String::new() }
     }

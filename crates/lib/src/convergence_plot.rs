@@ -4,11 +4,13 @@ use figure::{Axis, Draw, Figure, Panel, Series, colour};
 use verify::Row;
 
 /// Width and height of a panel (points).
-const PANEL: [u32; 2] = [460, 400];
+const PANEL: [u32; 2] = [350, 330];
+/// Panels in a row.
+const COLUMNS: usize = 3;
 const COLOURS: [[u8; 3]; 7] = [
     colour::BLACK,
     colour::BLUE,
-    colour::RED,
+    colour::VERMILION,
     colour::GREEN,
     colour::PURPLE,
     colour::ORANGE,
@@ -16,7 +18,7 @@ const COLOURS: [[u8; 3]; 7] = [
 ];
 
 /// Series of a panel; more would leave the legend no room for the plot.
-const MOST_SERIES: usize = 8;
+const MOST_SERIES: usize = 6;
 
 /// Errors of the rows with three meshes or more, problem by problem; `None` where there are none.
 ///
@@ -28,12 +30,8 @@ pub fn figure(rows: &[Row]) -> Option<Figure> {
         let full = |panel: &Panel| panel.title != row.name || panel.series.len() >= MOST_SERIES;
         if panels.last().is_none_or(full) {
             panels.push(Panel {
-                fill: None,
                 title: row.name.into(),
-                x: Axis::log("h (mm)"),
-                y: Axis::log("error"),
-                series: Vec::new(),
-                marks: Vec::new(),
+                ..Panel::new(Axis::log("h (mm)"), Axis::log("error"))
             });
         }
         let Some(panel) = panels.last_mut() else { continue };
@@ -41,16 +39,32 @@ pub fn figure(rows: &[Row]) -> Option<Figure> {
         let point = |s: &verify::Sample| [1e3 * s.size, (s.value - row.reference).abs() / scale];
         let label = row.quantity.split(", extrapolated").next().unwrap_or_default();
         panel.series.push(Series {
-            label: label.into(),
+            label: subscripts(label),
             points: row.meshes.iter().map(point).collect(),
             draw: Draw::Line(COLOURS[panel.series.len() % COLOURS.len()]),
         });
     }
     panels.iter_mut().for_each(first_order);
-    let columns = 2;
-    let lines = panels.len().div_ceil(columns) as u32;
-    let size = [PANEL[0] * columns as u32, PANEL[1] * lines];
-    (!panels.is_empty()).then_some(Figure { size, columns, panels, caption: String::new() })
+    let lines = panels.len().div_ceil(COLUMNS) as u32;
+    let size = [PANEL[0] * COLUMNS as u32, PANEL[1] * lines + 40];
+    let caption =
+        "Error over mesh size h, relative to the reference, and absolute where that is zero.";
+    let figure = Figure { size, columns: COLUMNS, panels, caption: caption.into() };
+    (!figure.panels.is_empty()).then_some(figure)
+}
+
+/// The name of a quantity with the subscripts of its symbols, as figures write them: of a symbol of one or two
+/// letters, the letters behind `_`.
+fn subscripts(name: &str) -> String {
+    let of_word = |word: &str| match word.split_once('_') {
+        Some((symbol, subscript)) if (1..=2).contains(&symbol.chars().count()) => {
+            let end = subscript.find(|c: char| !c.is_alphanumeric()).unwrap_or(subscript.len());
+            let (subscript, rest) = subscript.split_at(end);
+            format!("{symbol}_{{{subscript}}}{rest}")
+        }
+        _ => word.to_owned(),
+    };
+    name.split(' ').map(of_word).collect::<Vec<_>>().join(" ")
 }
 
 /// Adds the line of first order through the largest error on the coarsest mesh.
@@ -69,6 +83,12 @@ fn first_order(panel: &mut Panel) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn symbols_have_subscripts_and_other_words_do_not() {
+        assert_eq!(subscripts("k_t 3.5e13: p_f, over mu"), "k_{t} 3.5e13: p_{f}, over mu");
+        assert_eq!(subscripts("shear_column over mu"), "shear_column over mu");
+    }
 
     #[test]
     fn a_panel_shows_the_error_on_each_mesh_and_rows_without_meshes_give_none() {

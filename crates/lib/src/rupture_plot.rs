@@ -58,11 +58,13 @@ fn whole(field: &Field) -> Panel {
     });
     Panel {
         title: "Rupture time".into(),
-        x: Axis::linear("x, along strike (km)").over(-15.0, 15.0),
-        y: Axis::linear("y, along dip (km)").over(-7.5, 7.5),
+        to_scale: true,
         fill: Some(Fill { cells, key }),
         series: series.into(),
-        marks: Vec::new(),
+        ..Panel::new(
+            Axis::linear("x, along strike (km)").over(-15.0, 15.0),
+            Axis::linear("y, along dip (km)").over(-7.5, 7.5),
+        )
     }
 }
 
@@ -72,14 +74,15 @@ fn quarter(meshes: &[Field], reference: &Field) -> Panel {
         |field: &Field, draw| Series { label: field.name.clone(), points: contours(field), draw };
     let mut series: Vec<Series> =
         meshes.iter().enumerate().map(|(i, f)| line(f, draw(i, meshes.len()))).collect();
-    series.push(line(reference, Draw::Dashed(colour::RED)));
+    series.push(line(reference, Draw::Dashed(colour::VERMILION)));
     Panel {
         title: "Contours, one quarter".into(),
-        x: Axis::linear("x, along strike (km)").over(0.0, 15.0),
-        y: Axis::linear("y, along dip (km)").over(0.0, 7.5),
-        fill: None,
+        to_scale: true,
         series,
-        marks: Vec::new(),
+        ..Panel::new(
+            Axis::linear("x, along strike (km)").over(0.0, 15.0),
+            Axis::linear("y, along dip (km)").over(0.0, 7.5),
+        )
     }
 }
 
@@ -103,16 +106,9 @@ fn along(meshes: &[Field], reference: &Field, axis: usize, label: &str) -> Panel
     series.push(Series {
         label: reference.name.clone(),
         points: times(reference),
-        draw: Draw::Dots(colour::RED, 2.5),
+        draw: Draw::Dots(colour::VERMILION, 2.5),
     });
-    Panel {
-        title: String::new(),
-        x: Axis::linear(label),
-        y: Axis::linear("rupture time (s)"),
-        fill: None,
-        series,
-        marks: Vec::new(),
-    }
+    Panel { series, ..Panel::new(Axis::linear(label), Axis::linear("rupture time (s)")) }
 }
 
 /// The finest mesh in black.

@@ -54,15 +54,15 @@ fn line(label: &str, samples: &[Sample], colour: [u8; 3], value: impl Fn(&State)
 
 fn panel(title: &str, y: Axis, series: Vec<Series>, [from, to]: [f64; 2]) -> Panel {
     let x = Axis::linear("t (s)").over(from, to);
-    Panel { title: title.into(), x, y, fill: None, series, marks: Vec::new() }
+    Panel { title: title.into(), series, ..Panel::new(x, y) }
 }
 
 /// The panels of x, of v, of s, and of the forces against time.
 fn panels(p: &Parameters, title: &str, samples: &[Sample], span: [f64; 2]) -> [Panel; 4] {
     let spring = |s: &State| -p.damping * s.v - p.spring * s.x;
     let forces = vec![
-        line("F_fric", samples, colour::RED, |s| s.friction),
-        line("F_spring", samples, colour::BLUE, spring),
+        line("F_{fric}", samples, colour::VERMILION, |s| s.friction),
+        line("F_{spring}", samples, colour::BLUE, spring),
     ];
     let one =
         |label: &str, colour, value: fn(&State) -> f64| vec![line(label, samples, colour, value)];
@@ -108,18 +108,18 @@ pub fn figure_7(p: &Parameters, methods: [Method; 2]) -> Result<Figure, BlowUp> 
         draw: Draw::Line(colour::BLACK),
     };
     let mut panels = Vec::new();
-    for (method, dots) in methods.into_iter().zip([colour::BLUE, colour::RED]) {
+    for (method, dots) in methods.into_iter().zip([colour::BLUE, colour::VERMILION]) {
         let samples = history(p, method)?;
         let points: Vec<_> = samples.iter().skip(1).map(|(_, s)| [s.slip.abs(), s.mu]).collect();
         let points = dots_apart(&points, [FASTEST / 800.0, 5e-4]);
         let label = format!("{} method", method.name());
         panels.push(Panel {
             title: title(method, p),
-            x: Axis::linear("|s| (m/s)").over(0.0, FASTEST),
-            y: Axis::linear("coefficient of friction \u{3bc} (-)"),
             series: vec![Series { label, points, draw: Draw::Dots(dots, 1.2) }, law.clone()],
-            marks: Vec::new(),
-            fill: None,
+            ..Panel::new(
+                Axis::linear("|s| (m/s)").over(0.0, FASTEST),
+                Axis::linear("coefficient of friction \u{3bc} (-)"),
+            )
         });
     }
     Ok(Figure { size: [960, 400], columns: 2, panels, caption: String::new() })
@@ -152,7 +152,7 @@ pub fn figure_8(p: &Parameters, method: Method, span: [f64; 2]) -> Result<Figure
 /// penalty and exact methods, with the explicit method's thresholds by formula.
 pub fn time_step_map(p: &Parameters) -> Figure {
     let methods = [
-        (Method::Explicit, -7, colour::RED),
+        (Method::Explicit, -7, colour::VERMILION),
         (Method::Implicit, -6, colour::BLUE),
         (Method::Penalty, -7, colour::ORANGE),
         (Method::Exact, -7, colour::GREEN),
@@ -165,7 +165,7 @@ pub fn time_step_map(p: &Parameters) -> Figure {
         maps.iter()
             .map(|(method, points, colour)| {
                 let label = match method {
-                    Method::Penalty => format!("penalty, k_t = {:e} N/m", p.stiffness),
+                    Method::Penalty => format!("penalty, k_{{t}} = {:e} N/m", p.stiffness),
                     method => method.name().into(),
                 };
                 let points = points.iter().map(|m| [m.dt, value(m, p)]).collect();
@@ -175,11 +175,11 @@ pub fn time_step_map(p: &Parameters) -> Figure {
     };
     let mut marks = vec![Mark {
         x: chatter_step(p),
-        label: format!("dt_1 = {:.3e} s", chatter_step(p)),
+        label: format!("dt_{{1}} = {:.3e} s", chatter_step(p)),
         colour: colour::GREY,
     }];
     if let Some(x) = collapse_step(p) {
-        marks.push(Mark { x, label: format!("dt_2 = {x:.3e} s"), colour: colour::BLACK });
+        marks.push(Mark { x, label: format!("dt_{{2}} = {x:.3e} s"), colour: colour::BLACK });
     }
     let dt = || Axis::log("dt (s)").over(1e-7, 1e-3);
     let mut slip = series(|m, p| m.adhesion_slip / p.adhesion);
@@ -188,19 +188,15 @@ pub fn time_step_map(p: &Parameters) -> Figure {
     let panels = vec![
         Panel {
             title: "Where the block breaks loose".into(),
-            x: dt(),
-            y: Axis::linear("x_min (m)"),
             series: series(|m, _| m.x_min),
             marks: marks.clone(),
-            fill: None,
+            ..Panel::new(dt(), Axis::linear("x_{min} (m)"))
         },
         Panel {
             title: "Slip in adhesion (exact: zero)".into(),
-            x: dt(),
-            y: Axis::log("rms s / s_adhes (-)"),
             series: slip,
             marks,
-            fill: None,
+            ..Panel::new(dt(), Axis::log("rms s / s_{adhes} (-)"))
         },
     ];
     Figure { size: [760, 760], columns: 1, panels, caption: String::new() }

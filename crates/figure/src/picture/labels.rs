@@ -162,7 +162,7 @@ impl Pen<'_, '_> {
             let [r, g, b] = viridis(f64::from(i) / f64::from(steps - 1));
             self.line([left + i, upper], [left + i, lower], RGBColor(r, g, b))?;
         }
-        let axis = Axis::linear("").over(*low, *high).ticked(std::iter::empty());
+        let axis = Axis::linear("").over(*low, *high).ticked(std::iter::empty(), 7);
         for tick in axis.ticks() {
             let share = (tick - low) / (high - low);
             let x = left + (share * f64::from(steps)).round() as i32;

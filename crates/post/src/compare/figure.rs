@@ -5,7 +5,7 @@ use crate::centreline::profile;
 use figure::{Axis, Draw, Figure, Panel, Series, colour};
 
 const COLOURS: [[u8; 3]; 6] =
-    [colour::BLACK, colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE];
+    [colour::BLACK, colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE];
 
 /// Mean in time as a line, one standard deviation to either side dashed.
 pub(super) fn figure(names: &[&str], lines: &[RunLine], [from, to]: [f64; 2]) -> Figure {
@@ -27,12 +27,8 @@ pub(super) fn figure(names: &[&str], lines: &[RunLine], [from, to]: [f64; 2]) ->
         }
     }
     let panel = Panel {
-        title: String::new(),
-        x: Axis::linear("x from the disk's axis (mm)"),
-        y: Axis::linear("slip speed (m/s)"),
-        fill: None,
         series,
-        marks: Vec::new(),
+        ..Panel::new(Axis::linear("x from the disk's axis (mm)"), Axis::linear("slip speed (m/s)"))
     };
     let caption = format!(
         "Slip speed along the centre line, mean from {:.4} to {:.4} ms; dashed: one standard deviation in \

@@ -60,7 +60,7 @@ pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
     });
     let traction = of * law.mu / MU;
     Some(Reference {
-        label: format!("p_f, half-space (CONTACT) at T/N = {traction:.3}"),
+        label: format!("p_{{f}}, half-space (CONTACT) at T/N = {traction:.3}"),
         points: points.collect(),
     })
 }

@@ -24,7 +24,7 @@ fn along(scene: &Scene<'_>, instant: &Instant, body: u8, quantity: Quantity<'_>)
 }
 
 fn panel(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Panel {
-    Panel { title: title.into(), x, y, fill: None, series, marks: Vec::new() }
+    Panel { title: title.into(), series, ..Panel::new(x, y) }
 }
 
 /// Lines of a quantity, one for each instant.
@@ -52,13 +52,13 @@ pub(super) fn velocities(scene: &Scene<'_>) -> Figure {
         for &body in bodies.iter().rev() {
             let title = format!("Surface nodes of the {}", crate::surface::body_name(body));
             let series = at_instants(scene, body, true, &velocity);
-            panels.push(panel(&title, x_axis(scene), Axis::linear("v_x (m/s)"), series));
+            panels.push(panel(&title, x_axis(scene), Axis::linear("v_{x} (m/s)"), series));
         }
     }
     let first = bodies.first().copied().unwrap_or(0);
     let series = at_instants(scene, first, true, &slip);
     let title = if bodies.len() == 2 { "Difference: slip velocity" } else { "Slip velocity" };
-    panels.push(panel(title, x_axis(scene), Axis::linear("s_x (m/s)"), series));
+    panels.push(panel(title, x_axis(scene), Axis::linear("s_{x} (m/s)"), series));
     let text = "Velocities along x of the surface nodes on y = 0 of both bodies and the slip \
                 velocity of the disk relative to the bar, at three instants; rolling is to the \
                 right (the papers' Figure 1).";
@@ -78,19 +78,19 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
         let points = mega(along(scene, last, scene.body, &pressure));
         let bound = |factor: f64| points.iter().map(|[x, p]| [*x, factor * p]).collect();
         series.push(Series {
-            label: "p_n".into(),
+            label: format!("p_{{n}}, {}", time_label(last)),
             points: points.clone(),
             draw: Draw::Line(colour::BLACK),
         });
         let rest = scene.mu_static();
         series.push(Series {
-            label: format!("\u{3bc}_S p_n, \u{3bc}_S = {rest}"),
+            label: format!("\u{3bc}_{{S}} p_{{n}}, \u{3bc}_{{S}} = {rest}"),
             points: bound(rest),
             draw: Draw::Dashed(colour::BLACK),
         });
         if let Some(crate::Law::Exponential(law)) = scene.basis.law {
             series.push(Series {
-                label: format!("\u{3bc}_D p_n, \u{3bc}_D = {}", law.mu_dynamic),
+                label: format!("\u{3bc}_{{D}} p_{{n}}, \u{3bc}_{{D}} = {}", law.mu_dynamic),
                 points: bound(law.mu_dynamic),
                 draw: Draw::Dashed(colour::GREY),
             });
@@ -103,7 +103,7 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
             .map(|i| -a + 2.0 * a * f64::from(i) / 200.0)
             .map(|x| [1e3 * x, 1e-6 * p0 * (1.0 - (x / a).powi(2)).max(0.0).sqrt()]);
         series.push(Series {
-            label: "half-space (Hertz)".into(),
+            label: "p_{n}, half-space (Hertz)".into(),
             points: hertz.collect(),
             draw: Draw::Line(colour::ORANGE),
         });
@@ -119,15 +119,18 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
     }
     for (instant, colour) in scene.instants.iter().zip(INSTANTS) {
         series.push(Series {
-            label: format!("p_f, {}", time_label(instant)),
+            label: format!("p_{{f}}, {}", time_label(instant)),
             points: mega(along(scene, instant, scene.body, &shear)),
             draw: Draw::Line(colour),
         });
     }
     let y = Axis::linear("traction (MPa)");
     let panels = vec![panel("", x_axis(scene), y, series)];
-    let mut text =
-        "Pressure and shear along y = 0 at three instants (the papers' Figure 3).".to_owned();
+    let mut text = format!(
+        "Pressure along y = 0 at the last of {n} instants and shear at all of them (the papers' Figure 3); the bound \
+         of friction (dashed) is that of the last.",
+        n = scene.instants.len()
+    );
     if has_reference {
         text.push_str(
             " Orange: half-spaces, pressure by Hertz, shear of steady rolling by CONTACT at the \
@@ -158,7 +161,7 @@ pub(super) fn bound(scene: &Scene<'_>) -> Figure {
         let mut series = Vec::new();
         if let (false, Some(last)) = (relative, scene.instants.last()) {
             series.push(Series {
-                label: format!("{} p_n", scene.mu_static()),
+                label: format!("{} p_{{n}}, {}", scene.mu_static(), time_label(last)),
                 points: along(scene, last, scene.body, &|i, row| {
                     scene.mu_static() * pressure(i, row)
                 }),
@@ -171,21 +174,24 @@ pub(super) fn bound(scene: &Scene<'_>) -> Figure {
                     quantity(i, row) * if relative { 1.0 } else { pressure(i, row) }
                 })
             };
-            let names =
-                if relative { ["\u{3bc}(|s|)", "p_f/p_n"] } else { ["\u{3bc}(|s|) p_n", "p_f"] };
+            let names = if relative {
+                ["\u{3bc}(|s|)", "p_{f}/p_{n}"]
+            } else {
+                ["\u{3bc}(|s|) p_{n}", "p_{f}"]
+            };
             series.push(Series {
                 label: format!("{}, {}", names[0], time_label(instant)),
                 points: scaled(&mu),
                 draw: Draw::Dashed(colour),
             });
             series.push(Series {
-                label: names[1].into(),
+                label: format!("{}, {}", names[1], time_label(instant)),
                 points: scaled(&ratio),
                 draw: Draw::Line(colour),
             });
         }
         let y = if relative {
-            Axis::linear("p_f/p_n and \u{3bc}(|s|) (-)").over(0.0, 1.1 * scene.mu_static())
+            Axis::linear("p_{f}/p_{n} and \u{3bc}(|s|) (-)").over(0.0, 1.1 * scene.mu_static())
         } else {
             Axis::linear("traction (MPa)")
         };

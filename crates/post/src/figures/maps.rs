@@ -107,7 +107,7 @@ fn speeds(values: impl Iterator<Item = f64>) -> Key {
     let largest = values.filter(|v| v.is_finite()).fold(0.0f64, f64::max);
     let top = if largest > 0.0 { libm::log10(largest).ceil() } else { 0.0 };
     let range = [libm::pow(10f64, top - 3.0), libm::pow(10f64, top)];
-    Key::Values { label: "|s| (m/s), logarithmic".into(), range, scale: Scale::Log }
+    Key::Values { label: "|s| (m/s)".into(), range, scale: Scale::Log }
 }
 
 /// Figure 2: stick-slip maps at three instants, and below them the slip speed.
@@ -145,12 +145,13 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
             });
             let key = if by_state { state_key.clone() } else { speed_key.clone() };
             panels.push(Panel {
+                to_scale: true,
                 title: if by_state { time_label(instant) } else { String::new() },
-                x: Axis::linear("x from the patch's centre (mm)").over(-width, width),
-                y: Axis::linear("y (mm)").over(-height, height),
                 fill: Some(Fill { cells: cells.collect(), key }),
-                series: Vec::new(),
-                marks: Vec::new(),
+                ..Panel::new(
+                    Axis::linear("x from the patch's centre (mm)").over(-width, width),
+                    Axis::linear("y (mm)").over(-height, height),
+                )
             });
         }
     }
@@ -171,7 +172,7 @@ pub(super) fn space_time(scene: &Scene<'_>, band: &Band) -> Figure {
     let half = SEAM * 0.5 * scene.scales.size;
     let speed_key = speeds(band.samples.iter().map(|sample| sample.speed));
     let ratio_key = Key::Values {
-        label: "p_f/p_n (-)".into(),
+        label: "p_{f}/p_{n} (-)".into(),
         range: [0.0, scene.mu_static()],
         scale: Scale::Linear,
     };
@@ -183,12 +184,11 @@ pub(super) fn space_time(scene: &Scene<'_>, band: &Band) -> Figure {
         });
         let reach = 1e3 * scene.reach();
         Panel {
-            title: String::new(),
-            x: Axis::linear("t (ms)"),
-            y: Axis::linear("x from the patch's centre (mm)").over(-reach, reach),
             fill: Some(Fill { cells: cells.collect(), key: key.clone() }),
-            series: Vec::new(),
-            marks: Vec::new(),
+            ..Panel::new(
+                Axis::linear("t (ms)"),
+                Axis::linear("x from the patch's centre (mm)").over(-reach, reach),
+            )
         }
     };
     let mut panels = vec![panel(&speed_key, &|sample| speed_key.colour(sample.speed))];

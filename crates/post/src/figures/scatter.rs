@@ -17,21 +17,20 @@ pub(super) fn law(scene: &Scene<'_>, band: &Band) -> Figure {
         let falling = (0..=400).map(|i| fastest * f64::from(i) / 400.0).map(|s| [s, law.mu(s)]);
         let graph = std::iter::once([0.0, 0.0]).chain(falling);
         series.push(Series {
-            label: "the law: |s| = 0 up to \u{3bc}_S, then \u{3bc}(|s|)".into(),
+            label: "the law: |s| = 0 up to \u{3bc}_{S}, then \u{3bc}(|s|)".into(),
             points: graph.collect(),
-            draw: Draw::Line(colour::RED),
+            draw: Draw::Line(colour::VERMILION),
         });
     }
     let panel = Panel {
-        title: String::new(),
-        x: Axis::linear("|s| (m/s)").over(-0.02 * fastest, 1.02 * fastest),
-        y: Axis::linear("p_f/p_n (-)").over(0.0, 1.1 * scene.mu_static()),
-        fill: None,
         series,
-        marks: Vec::new(),
+        ..Panel::new(
+            Axis::linear("|s| (m/s)").over(-0.02 * fastest, 1.02 * fastest),
+            Axis::linear("p_{f}/p_{n} (-)").over(0.0, 1.1 * scene.mu_static()),
+        )
     };
     let text = "Shear over pressure against the slip speed of the same record, every node in \
                 contact in the window, over the friction law (as the paper's Figure 7). Points \
-                off the red line violate the contact conditions.";
+                off the vermilion line violate the contact conditions.";
     Figure { size: [760, 500], columns: 1, panels: vec![panel], caption: caption(scene, text) }
 }

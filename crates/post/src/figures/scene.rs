@@ -12,7 +12,7 @@ use std::ops::Range;
 const SNAPSHOTS: f64 = 5.7e-6;
 
 /// Colours of the three instants.
-pub(crate) const INSTANTS: [[u8; 3]; 3] = [colour::BLUE, colour::RED, colour::GREEN];
+pub(crate) const INSTANTS: [[u8; 3]; 3] = [colour::BLUE, colour::VERMILION, colour::GREEN];
 
 /// A record that is drawn, with the centre of its patch.
 pub(crate) struct Instant {

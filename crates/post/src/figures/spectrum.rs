@@ -11,7 +11,7 @@ use output::layout::{HISTORY, PROBE, of_probe};
 use std::path::Path;
 
 const COLOURS: [[u8; 3]; 6] =
-    [colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
 
 /// The spectra of the probes in the file at `path`; `None` where there is no file, or no probe was in contact for
 /// more than 64 steps.
@@ -56,18 +56,18 @@ pub(super) fn spectrum(scene: &Scene<'_>, path: &Path) -> Result<Option<Figure>,
     }
     if let Some(speed) = scene.scales.shear_wave {
         let x = 1e-3 * speed / scene.scales.size;
-        marks.push(Mark { x, label: "c_s/h".into(), colour: colour::BLACK });
+        marks.push(Mark { x, label: "c_{s}/h".into(), colour: colour::BLACK });
     }
     let panel = Panel {
-        title: String::new(),
-        x: Axis::log("frequency (kHz)"),
-        y: Axis::log("power density of s_x (m\u{b2}/s\u{b2}/Hz)"),
-        fill: None,
         series,
         marks,
+        ..Panel::new(
+            Axis::log("frequency (kHz)"),
+            Axis::log("power density of s_{x} (m\u{b2}/s\u{b2}/Hz)"),
+        )
     };
     let text = "Spectrum of the slip velocity along x at the probe nodes while they are in \
-                contact, from every step (Welch, 1024 steps). V/h: nodes that meet; c_s/h: shear waves \
+                contact, from every step (Welch, 1024 steps). V/h: nodes that meet; c_{s}/h: shear waves \
                 over an element.";
     Ok(Some(Figure {
         size: [760, 500],

@@ -114,11 +114,11 @@ fn panel(
     });
     Panel {
         title,
-        x: Axis::linear("creepage (10\u{207b}\u{b3})").over(0.0, 1.03 * right),
-        y: Axis::linear("T/N").over(0.0, 1.08 * top),
-        fill: None,
         series: series.collect(),
-        marks: Vec::new(),
+        ..Panel::new(
+            Axis::linear("creepage (10\u{207b}\u{b3})").over(0.0, 1.03 * right),
+            Axis::linear("T/N").over(0.0, 1.08 * top),
+        )
     }
 }
 

@@ -76,7 +76,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
             series.extend(line(label, GROUPS[k % GROUPS.len()], points, log));
         }
         let (fill, marks) = (None, Vec::new());
-        panels.push(Panel { title: String::new(), x: x.clone(), y, fill, series, marks });
+        panels.push(Panel { fill, series, marks, ..Panel::new(x.clone(), y) });
     }
     if panels.is_empty() {
         return None;
@@ -131,12 +131,8 @@ fn profiles(
         return None;
     }
     let quantities: [(&str, usize, f64); 3] =
-        [("mean p_n (MPa)", 1, 1e-6), ("mean p_f (MPa)", 2, 1e-6), ("mean |s| (m/s)", 3, 1.0)];
+        [("mean p_{n} (MPa)", 1, 1e-6), ("mean p_{f} (MPa)", 2, 1e-6), ("mean |s| (m/s)", 3, 1.0)];
     let panels = quantities.map(|(heading, column, factor)| Panel {
-        title: String::new(),
-        x: Axis::linear("x from the patch's centre (mm)"),
-        y: Axis::linear(heading),
-        fill: None,
         series: lines
             .iter()
             .filter_map(|(label, colour, folder)| {
@@ -148,7 +144,7 @@ fn profiles(
                 })
             })
             .collect(),
-        marks: Vec::new(),
+        ..Panel::new(Axis::linear("x from the patch's centre (mm)"), Axis::linear(heading))
     });
     let others =
         if group.label.is_empty() { String::new() } else { format!(" with {}", group.label) };
@@ -202,11 +198,11 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
         let cells = cells.collect();
         panels.push(Panel {
             title: measure.heading(),
-            x: axis_over(&label(axes[0]), &values[0]),
-            y: axis_over(&label(axes[1]), &values[1]),
             fill: Some(Fill { cells, key }),
-            series: Vec::new(),
-            marks: Vec::new(),
+            ..Panel::new(
+                axis_over(&label(axes[0]), &values[0]),
+                axis_over(&label(axes[1]), &values[1]),
+            )
         });
     }
     if panels.is_empty() {

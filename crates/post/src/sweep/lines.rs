@@ -5,7 +5,7 @@ use figure::{Axis, Draw, Series, colour};
 
 /// Colours of groups of runs.
 pub(super) const GROUPS: [[u8; 3]; 6] =
-    [colour::BLUE, colour::RED, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
 
 /// The label of an axis: its key with the unit.
 pub(super) fn label(axis: &str) -> String {
