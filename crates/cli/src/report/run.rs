@@ -255,9 +255,9 @@ fn scaled(x: Option<f64>, factor: f64) -> Option<f64> {
     x.map(|x| x * factor)
 }
 
-/// Four digits; what is nothing beside the other numbers of its column is shown as nothing.
+/// Four digits; two for what is little beside the other numbers of its column.
 fn small(x: f64) -> String {
-    if x.abs() < 1e-3 { format!("{x:.1e}") } else { digits(Some(x), 4) }
+    if x != 0.0 && x.abs() < 1e-3 { format!("{x:.1e}") } else { digits(Some(x), 4) }
 }
 
 #[cfg(test)]
@@ -297,6 +297,11 @@ mod tests {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
         }
         assert!(!page.contains("null") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn a_force_of_zero_is_a_plain_zero_and_a_small_one_has_two_digits() {
+        assert_eq!([0.0, 2.34e-7, 27.563].map(small), ["0", "2.3e-7", "27.56"]);
     }
 
     #[test]
