@@ -7,6 +7,7 @@ use crate::forms::float;
 use crate::key::{Form, Key, STIFFNESS, number};
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, get, join, key_error_in};
+use crate::units;
 use friction::USES;
 
 /// Most mistakes in one message: more would hide the first.
@@ -194,14 +195,17 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
     if fine { None } else { not_allowed() }
 }
 
-/// What to do where a value is refused: with the word that a misspelt one was most likely meant to be.
+/// What to do where a value is refused: with the word that a misspelt one was most likely meant to be, or the number that
+/// one in another unit was.
 fn remedy(key: &Key, value: &Value) -> String {
-    let near = match (&key.form, value) {
-        (Form::Word(words), Value::String(word)) => nearest(word, words.iter().copied()),
-        _ => None,
+    let meant = match (&key.form, value) {
+        (Form::Word(words), Value::String(word)) => {
+            nearest(word, words.iter().copied()).map(|near| format!("\"{near}\""))
+        }
+        _ => units::meant(key, value),
     };
-    match near {
-        Some(near) => format!("did you mean \"{near}\"? {}", key.remedy),
+    match meant {
+        Some(meant) => format!("did you mean {meant}? {}", key.remedy),
         None => key.remedy.to_owned(),
     }
 }

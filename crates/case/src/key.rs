@@ -79,6 +79,15 @@ pub enum Form {
     Curve,
 }
 
+/// What a number usually is, and the other units in which people think of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Usual {
+    /// Plausible values, in the unit of the key.
+    pub range: Range,
+    /// Other units by name, each with what one of it is in the unit of the key.
+    pub also_in: &'static [(&'static str, f64)],
+}
+
 /// One key of a case file.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
@@ -100,6 +109,8 @@ pub struct Key {
     pub instead_of: Option<&'static str>,
     /// The model for which alone it has meaning; none where it has meaning for all.
     pub model: Option<BodyModel>,
+    /// Values in which a wrong unit shows; none where none is told.
+    pub usual: Option<Usual>,
 }
 
 impl Key {
@@ -127,6 +138,16 @@ impl Key {
         Self { model: Some(BodyModel::HalfSpace), ..self }
     }
 
+    /// The key, whose plausible values lie in `range`; values beyond it that would not in one of the units `also_in` are
+    /// told.
+    pub(crate) const fn usually(
+        self,
+        range: Range,
+        also_in: &'static [(&'static str, f64)],
+    ) -> Self {
+        Self { usual: Some(Usual { range, also_in }), ..self }
+    }
+
     /// Whether it has meaning for a model.
     pub fn has_meaning_for(&self, model: BodyModel) -> bool {
         self.model.is_none_or(|only| only == model)
@@ -137,6 +158,11 @@ impl Key {
         self.needed && self.only.is_none() && !self.path.contains("[]")
     }
 }
+
+/// Other units of a ratio.
+pub(crate) const OF_A_HUNDRED: &[(&str, f64)] = &[("per cent", 1e-2), ("per mille", 1e-3)];
+/// Other units of a speed in m/s.
+pub(crate) const OF_SPEED: &[(&str, f64)] = &[("km/h", 1.0 / 3.6)];
 
 /// The three forms of a penalty stiffness: name (empty for the plain number), range, unit.
 pub const STIFFNESS: [(&str, Range, &str); 3] = [
@@ -155,7 +181,17 @@ pub(crate) const fn within(low: f64, high: f64) -> Range {
 
 /// A row of the table of keys, without its path.
 pub(crate) const fn key(form: Form, unit: &'static str, remedy: &'static str) -> Key {
-    Key { path: "", form, unit, needed: false, remedy, only: None, instead_of: None, model: None }
+    Key {
+        path: "",
+        form,
+        unit,
+        needed: false,
+        remedy,
+        only: None,
+        instead_of: None,
+        model: None,
+        usual: None,
+    }
 }
 
 /// The same, of a key that must be given.

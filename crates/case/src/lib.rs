@@ -32,6 +32,7 @@ mod section;
 mod table;
 #[cfg(test)]
 mod tests;
+mod units;
 pub mod validation;
 mod window;
 mod words;

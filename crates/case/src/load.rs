@@ -15,6 +15,7 @@ use crate::schema::{
     BodyModel, Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing,
 };
 use crate::table;
+use crate::units::with_units;
 use crate::validation;
 use output::hexadecimal;
 use toml::Table;
@@ -47,6 +48,11 @@ impl Case {
             BodyModel::HalfSpace => toml::to_string(&self.table()),
         };
         text.unwrap_or_default()
+    }
+
+    /// [`Case::to_toml`] with the unit of every number as a comment behind it.
+    pub fn to_toml_with_units(&self) -> String {
+        with_units(&self.to_toml())
     }
 
     /// The keys of the case that have meaning for its model.

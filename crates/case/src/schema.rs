@@ -10,7 +10,9 @@ pub use crate::bodies::{
 pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
 use crate::key::Form::{Count, Number, Points, Text};
-use crate::key::{FLAG, INTERVAL, PENALTY, key, needed, over, within, word};
+use crate::key::{
+    FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, over, within, word,
+};
 pub use crate::model::{BodyModel, LeftOut};
 use crate::section::section;
 use crate::words::words;
@@ -192,7 +194,8 @@ section! {
     required Drive ["drive."] {
         /// Rolling speed V in +x (m/s). Required.
         speed: f64
-            => needed(Number(over(0.0, 500.0)), "m/s", "give the rolling speed in +x in m/s: `speed = 38.89`");
+            => needed(Number(over(0.0, 500.0)), "m/s", "give the rolling speed in +x in m/s: `speed = 38.89`")
+                .usually(over(0.0, 120.0), OF_SPEED);
         /// `"creepage"`: the angular velocity is prescribed as (1 + creepage) V/R_eff; `"torque"`: the
         /// torque about the hub is. Default: `"torque"` where `drive.torque` is given, else
         /// `"creepage"`.
@@ -204,7 +207,8 @@ section! {
         creepage: Option<f64>
             => needed(Number(within(-0.5, 0.5)), "-",
                 "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille")
-                .only_with("drive.mode", &["creepage"]).instead_of("drive.torque");
+                .only_with("drive.mode", &["creepage"]).instead_of("drive.torque")
+                .usually(within(-0.1, 0.1), OF_A_HUNDRED);
         /// Lateral velocity of the disk over V (dimensionless), positive in +y; it rises over `ramp`. With finite elements
         /// the hub drifts so, and the rim follows as the disk bends, which takes longer than a roll of 60 mm unless
         /// `disk.hub_radius` leaves a shallow rim. Refused with half a model, plane strain, or a fine zone that follows the
@@ -212,7 +216,8 @@ section! {
         #[serde(default, skip_serializing_if = "is_zero")]
         lateral_creepage: f64
             => key(Number(within(-0.5, 0.5)), "-",
-                "give the ratio of the velocities: `lateral_creepage = 1e-3` for 1 per mille");
+                "give the ratio of the velocities: `lateral_creepage = 1e-3` for 1 per mille")
+                .usually(within(-0.1, 0.1), OF_A_HUNDRED);
         /// Angular velocity of the disk about the vertical over V (rad/m), positive about +z; it rises over `ramp`. With
         /// finite elements the hub turns so and follows its heading, on an arc of this curvature; the rim follows as with
         /// `lateral_creepage`, against its inertia. Refused where that is. Default 0.
@@ -307,7 +312,7 @@ section! {
         /// Normal viscous damping as a fraction of critical (dimensionless). Default 0.1.
         damping: f64 = 0.1
             => key(Number(within(0.0, 1.0)), "-", "give a fraction of critical, not per cent: 0.1")
-                .finite_elements_only();
+                .usually(within(0.0, 1.0), OF_A_HUNDRED).finite_elements_only();
     }
 }
 

@@ -13,6 +13,7 @@ use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
 use crate::schema::{BodyModel, Case, Enforcement, LoadMode, PreloadMethod, Stiffness, Window};
+use crate::units::mistaken;
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
@@ -667,6 +668,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
     };
     case.left_out.warning(case.model).into_iter().for_each(|left_out| warn(true, left_out));
     units(case).into_iter().for_each(|unit| warn(true, unit));
+    mistaken(&case.table()).into_iter().for_each(|unit| warn(true, unit));
     warn(
         case.element.hourglass == 0.0,
         "element.hourglass = 0: nothing holds the elements against hourglassing".into(),

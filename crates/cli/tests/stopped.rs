@@ -182,6 +182,54 @@ fn ctrl_c_during_the_preload_ends_with_code_130() {
 }
 
 #[test]
+fn the_files_of_a_run_are_there_during_its_preload_and_not_after_a_preload_that_fails() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let endless = ["--set", "preload.method='relaxation'", "--set", "preload.tolerance=1e-14"];
+    let run = start(&out, &endless);
+    let clock = Instant::now();
+    while !out.join("history.h5").exists() {
+        assert!(clock.elapsed() < Duration::from_secs(60), "no file");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(read(&out).unwrap(), Held { fields: 0, contact: 0, rows: 0 });
+    let early =
+        Command::new(env!("CARGO_BIN_EXE_creepage")).arg("check").arg(&out).output().unwrap();
+    assert_eq!(early.status.code(), Some(2), "{}", said(&early));
+    interrupt(&run);
+    assert_eq!(run.wait_with_output().unwrap().status.code(), Some(130));
+    for name in ["fields.vtkhdf", "contact.vtkhdf", "history.h5"] {
+        assert!(!out.join(name).exists(), "{name} of a run that did not roll");
+    }
+    // a run that was killed in its preload left nothing that another case could not replace
+    let mut run = start(&out, &[&endless[..], &["--resume"]].concat());
+    while !out.join("history.h5").exists() {
+        assert!(run.try_wait().unwrap().is_none(), "it did not go on");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    let other = start(&out, &["--resume", "--set", "time.roll=0.0002", "--set", "drive.ramp=1e-6"]);
+    let output = other.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(said(&output).contains("holds no results"), "{}", said(&output));
+}
+
+#[test]
+fn rows_of_the_history_are_in_the_file_a_second_after_they_were_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    // a row takes about a tenth of a second: they are handed over before there are enough to fill a block
+    let seldom = ["--set", "output.history_interval=500", "--set", "preload.method='none'"];
+    let mut run = start(&out, &[&LONG[..], &seldom].concat());
+    wait_until_it_rolls(&mut run, &out);
+    let rows = HistoryFile::open(out.join("history.h5")).unwrap().rows();
+    interrupt(&run);
+    assert_eq!(run.wait_with_output().unwrap().status.code(), Some(130));
+    assert!((1..64).contains(&rows), "{rows} rows");
+}
+
+#[test]
 fn a_kill_while_rolling_leaves_readable_files() {
     let mut chance = 0x2545_f491_4f6c_dd1d_u64;
     let mut seen = Vec::new();

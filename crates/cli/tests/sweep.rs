@@ -423,3 +423,56 @@ fn a_plan_run_by_a_shell_and_collected_gives_the_bits_of_the_sweep() {
     assert_eq!(there, here);
     assert_eq!(table, whole);
 }
+
+/// The script of the project for Slurm, with a stub in the place of `sbatch`.
+fn slurm(place: &Place, environment: &[(&str, &str)], words: &[&str]) -> Output {
+    use std::os::unix::fs::PermissionsExt;
+    let stub = place.path("bin/sbatch");
+    fs::create_dir_all(stub.parent().unwrap()).unwrap();
+    fs::write(&stub, "#!/bin/sh\nprintf '%s\\n' \"$@\" > submitted\n").unwrap();
+    fs::set_permissions(&stub, fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", place.path("bin").display(), std::env::var("PATH").unwrap());
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sweeps/slurm.sh");
+    assert!(Command::new("bash").args(["-n", script]).status().unwrap().success());
+    let mut command = Command::new("bash");
+    command.arg(script).args(words).env("PATH", path).env("CREEPAGE", PROGRAM);
+    command.env_remove("SLURM_ARRAY_TASK_ID").envs(environment.iter().copied());
+    command.current_dir(place.dir.path()).output().unwrap()
+}
+
+#[test]
+fn the_slurm_script_asks_for_the_estimated_memory_and_time_and_runs_on_the_processors_it_gets() {
+    let place = Place::new(&format!("{AXIS}values = [0.3, 0.4]\n"));
+    let planned = place.command(&["--out", "of two words", "--plan", "runs.sh"]).output().unwrap();
+    assert_eq!(planned.status.code(), Some(0), "{}", said(&planned));
+
+    let output = slurm(&place, &[], &["runs.sh", "--cpus-per-task=2"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let submitted = fs::read_to_string(place.path("submitted")).unwrap();
+    let words: Vec<&str> = submitted.lines().collect();
+    assert_eq!(words[0], "--array=1-2");
+    // twice the 15 MB of the small case, and a time of seconds
+    let limit = |word: &str, name: &str| -> u64 {
+        word.trim_end_matches('M').strip_prefix(name).unwrap().parse().unwrap()
+    };
+    assert!((520..600).contains(&limit(words[1], "--mem=")), "{submitted}");
+    assert!((10..20).contains(&limit(words[2], "--time=")), "{submitted}");
+    assert_eq!((words[3], words.last()), ("--cpus-per-task=2", Some(&"runs.sh")));
+
+    let task = [("SLURM_ARRAY_TASK_ID", "2"), ("SLURM_CPUS_PER_TASK", "2")];
+    let output = slurm(&place, &task, &["runs.sh"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let runs = fs::read_dir(place.path("of two words/runs")).unwrap();
+    let done: Vec<PathBuf> = runs.map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(done.len(), 1, "{done:?}");
+    let summary: Value =
+        serde_json::from_slice(&fs::read(done[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["threads"], 2);
+
+    let beyond = slurm(&place, &[("SLURM_ARRAY_TASK_ID", "3")], &["runs.sh"]);
+    assert_eq!(beyond.status.code(), Some(2));
+    fs::remove_file(place.path("submitted")).unwrap();
+    fs::remove_dir_all(place.path("of two words/cases")).unwrap();
+    assert_eq!(slurm(&place, &[], &["runs.sh"]).status.code(), Some(2), "no case, no estimate");
+    assert!(!place.path("submitted").exists());
+}

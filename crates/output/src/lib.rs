@@ -43,6 +43,7 @@ mod json;
 pub mod layout;
 mod panics;
 mod provenance;
+pub mod quantities;
 mod reader;
 mod recognise;
 pub mod summary;

@@ -89,15 +89,24 @@ pub struct RunPaths {
     pub case: PathBuf,
 }
 
+/// Refuses a file in TOML in the place of a run.
+///
+/// # Errors
+/// [`PostError::NotYetRun`].
+pub(crate) fn no_case(run: &Path) -> Result<(), PostError> {
+    if run.is_file() && run.extension().is_some_and(|extension| extension == "toml") {
+        return Err(PostError::NotYetRun { path: run.into() });
+    }
+    Ok(())
+}
+
 impl RunPaths {
     /// The files of the run at `run`, its folder or its contact history.
     ///
     /// # Errors
     /// [`PostError::NotYetRun`] for a file in TOML, [`PostError::NoContactFile`] for any other path that is neither.
     pub fn of(run: &Path) -> Result<Self, PostError> {
-        if run.is_file() && run.extension().is_some_and(|extension| extension == "toml") {
-            return Err(PostError::NotYetRun { path: run.into() });
-        }
+        no_case(run)?;
         let none = || PostError::NoContactFile { path: run.into() };
         let folder = if run.is_dir() { run } else { run.parent().ok_or_else(none)? };
         let contact = if run.is_dir() { run.join(file::CONTACT) } else { run.into() };

@@ -12,7 +12,7 @@ mod source;
 pub use error::RenderError;
 pub use quantity::{Drawable, Quantity};
 
-use crate::basis::read_toml;
+use crate::basis::{no_case, read_toml};
 use figure::{Key, Picture, Scale};
 use output::layout::file;
 use shot::{Bounds, Shot};
@@ -74,8 +74,9 @@ impl Rendering {
     /// Opens the run in `folder`.
     ///
     /// # Errors
-    /// Files that are not there, cannot be read or lack what is to be shown.
+    /// A case in the place of the folder; files that are not there, cannot be read or lack what is to be shown.
     pub fn open(folder: &Path, wanted: &Wanted) -> Result<Self, RenderError> {
+        no_case(folder)?;
         let what = wanted.what.or(wanted.quantity.map(Quantity::of)).unwrap_or(Drawable::Fields);
         let source = Source::open(folder, what)?;
         let first = what.quantities().find(|quantity| source.shows(*quantity));

@@ -15,6 +15,7 @@ use case::schema::Case;
 use output::CHECKPOINTS;
 pub use output::VTKHDF;
 use output::layout::file;
+use output::{GridFile, HistoryFile};
 
 /// Prefix of the files that are written to prove a folder writable; a kill leaves one behind.
 const PROBE: &str = ".creepage-";
@@ -172,10 +173,20 @@ pub(crate) fn content(folder: &Path) -> Content {
     }
 }
 
-/// Whether the run in `folder` has written nothing but its case and its log.
+/// Whether the run in `folder` has written nothing but its case, its log and files without a record.
 pub(crate) fn has_no_results(folder: &Path) -> bool {
-    let results = RUN_FILES.iter().filter(|file| ![file::CASE, file::LOG].contains(file));
-    !results.into_iter().any(|file| folder.join(file).exists())
+    let is_bare = |name: &str| {
+        let path = folder.join(name);
+        match name {
+            file::CASE | file::LOG => true,
+            file::FIELDS | file::CONTACT => {
+                GridFile::open(path).is_ok_and(|grid| grid.steps() == 0)
+            }
+            file::HISTORY => HistoryFile::open(path).is_ok_and(|history| history.rows() == 0),
+            _ => false,
+        }
+    };
+    RUN_FILES.iter().all(|name| !folder.join(name).exists() || is_bare(name))
 }
 
 /// Whether a name is that of a run's file that is not yet complete.

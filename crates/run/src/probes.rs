@@ -3,6 +3,7 @@
 
 use crate::error::RunError;
 use crate::record::RecordBasis;
+use crate::record::contact::LONGEST_HELD;
 use case::schema::Case;
 use contact::NodalContact;
 use dynamics::{Simulation, StepReport, Travel};
@@ -11,6 +12,7 @@ use output::layout::{BODY_NAMES, HISTORY, PROBE, ProbeRow, file, of_probe};
 use output::{FieldSpec, History};
 use scenario::{BAR, DISK, Model};
 use std::f64::consts::PI;
+use std::time::Instant;
 
 /// Surface nodes recorded at every step.
 pub(crate) struct Probes {
@@ -21,6 +23,8 @@ pub(crate) struct Probes {
     /// Where the mesh was when the nodes were chosen.
     travel: Travel,
     buffer: Vec<f64>,
+    /// When rows were last written.
+    flushed: Instant,
 }
 
 /// A point of the material of a surface, and the node there.
@@ -154,7 +158,8 @@ impl Probes {
         }
         let history = basis.history(file::PROBES, &columns, |results| &results.probes)?;
         let travel = simulation.travel();
-        Ok(Some(Self { history, places, tables, probes, travel, buffer: Vec::new() }))
+        let (buffer, flushed) = (Vec::new(), Instant::now());
+        Ok(Some(Self { history, places, tables, probes, travel, buffer, flushed }))
     }
 
     pub(crate) fn record(
@@ -177,7 +182,9 @@ impl Probes {
             };
             self.buffer.extend(values.each());
         }
-        if self.buffer.len() >= 256 * self.history.columns().len() {
+        if self.buffer.len() >= 256 * self.history.columns().len()
+            || self.flushed.elapsed() >= LONGEST_HELD
+        {
             self.flush()?;
         }
         Ok(())
@@ -193,6 +200,7 @@ impl Probes {
             self.history.append(&self.buffer)?;
             self.buffer.clear();
         }
+        self.flushed = Instant::now();
         Ok(())
     }
 }

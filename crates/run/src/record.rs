@@ -8,19 +8,20 @@ pub(crate) mod row;
 pub(crate) mod surfaces;
 
 pub(crate) use self::basis::RecordBasis;
-use self::contact::ContactRecord;
+use self::contact::{ContactRecord, Pace};
 use self::row::Whereabouts;
 use self::surfaces::{Surfaces, labels};
 use crate::error::RunError;
 use crate::means::Means;
 use crate::mesh_mode::WatchedFaces;
 use crate::probes::Probes;
+use ::contact::{Contact, NodalContact};
 use case::schema::Case;
 use dynamics::{Hub, Simulation, StepReport, Travel};
 use mesh::Padded;
 use output::layout::{BODIES, BodyFields, Pairing, file};
 use output::{
-    Cells, Checkpoint, FieldSpec, GridSpec, OutputError, Results, Snapshot, StaticField,
+    Cells, Checkpoint, FieldSpec, GridSpec, OutputError, Results, RunFiles, Snapshot, StaticField,
     TransientGrid,
 };
 use scenario::{BAR, DISK, Model};
@@ -75,23 +76,25 @@ pub(crate) struct RecorderState {
 }
 
 impl Recorder {
+    /// Writes into `files`, or where there are none into those that `basis` says it goes on with.
     pub(crate) fn new(
         case: &Case,
         model: &Model,
         simulation: &Simulation,
+        effective_radius: f64,
+        files: Option<RunFiles>,
         basis: &RecordBasis<'_>,
     ) -> Result<Self, RunError> {
         let contact = simulation.contact().ok_or(RunError::NoContact)?;
-        let tables = [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]));
-        let points = [DISK, BAR].map(|side| {
-            tables[side].nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>()
-        });
-        let enforced_on = contact.enforced_on();
-        let mesh_mode = WatchedFaces::new(case, model, &tables, enforced_on, basis.hertz_pressure)?;
-        let half = model.mesh.symmetric;
-        let surfaces = Surfaces { tables, points, faces: mesh_mode.faces(), enforced_on, half };
-        let fields = create_fields(case, model, basis)?;
-        let contact = ContactRecord::new(case, surfaces, simulation.dt(), basis, Some(fields))?;
+        let files = match files {
+            Some(files) => files,
+            None => result_files(case, model, contact, basis)?,
+        };
+        let tables = tables(model, contact);
+        let mesh_mode = watched(case, model, contact, &tables, basis)?;
+        let surfaces = surfaces(model, contact, tables, &mesh_mode);
+        let pace = Pace { dt: simulation.dt(), effective_radius };
+        let contact = ContactRecord::new(case, surfaces, &pace, basis.hertz_pressure, files)?;
         let count = contact.nodes().count();
         Ok(Self {
             probes: Probes::new(case, model, simulation, basis)?,
@@ -254,6 +257,49 @@ impl Recorder {
             fields.each().into_iter().flatten().for_each(|fill| fill(snapshot));
         })
     }
+}
+
+/// Begins the result files of a run but for its probes, or goes on with them. Of `contact` only the nodes are asked: it
+/// need not have touched yet.
+pub(crate) fn result_files(
+    case: &Case,
+    model: &Model,
+    contact: &dyn Contact,
+    basis: &RecordBasis<'_>,
+) -> Result<RunFiles, RunError> {
+    let tables = tables(model, contact);
+    let mesh_mode = watched(case, model, contact, &tables, basis)?;
+    let surfaces = surfaces(model, contact, tables, &mesh_mode);
+    let fields = create_fields(case, model, basis)?;
+    ContactRecord::files(case, &surfaces, basis, Some(fields))
+}
+
+/// Tables of the nodes of both fine zones.
+fn tables(model: &Model, contact: &dyn Contact) -> [NodalContact; 2] {
+    [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]))
+}
+
+fn watched(
+    case: &Case,
+    model: &Model,
+    contact: &dyn Contact,
+    tables: &[NodalContact; 2],
+    basis: &RecordBasis<'_>,
+) -> Result<WatchedFaces, RunError> {
+    WatchedFaces::new(case, model, tables, contact.enforced_on(), basis.hertz_pressure)
+}
+
+fn surfaces<'a>(
+    model: &Model,
+    contact: &dyn Contact,
+    tables: [NodalContact; 2],
+    mesh_mode: &'a WatchedFaces,
+) -> Surfaces<'a> {
+    let points = tables
+        .each_ref()
+        .map(|table| table.nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>());
+    let (enforced_on, half) = (contact.enforced_on(), model.mesh.symmetric);
+    Surfaces { tables, points, faces: mesh_mode.faces(), enforced_on, half }
 }
 
 fn create_fields(

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::{Instant, SystemTime};
 
-use crate::checkpoint::remove_checkpoints;
+use crate::checkpoint::{State, remove_checkpoints};
 use crate::cost::cost;
 use crate::disk::Disk;
 use crate::error::RunError;
@@ -18,9 +18,10 @@ use crate::held::FolderLock;
 use crate::log::Log;
 use crate::postmortem;
 use crate::record::{RecordBasis, Recorder};
+use crate::resume::Point;
 use crate::summary::{Ending, summary, write as write_summary};
 use crate::text_file::remove;
-use begin::{Begun, Resumed, begin};
+use begin::{Begun, begin};
 use case::hertz::hertz;
 use case::schema::{Case, Symmetry};
 use case::validation;
@@ -93,10 +94,12 @@ fn run_in_pool(
         Opening::Run(opened) => *opened,
     };
     observe(&stage(case, Stage::Mesh));
-    let (start, resumed) = match begin(case, options, &mut opened, wall, stop, observe)? {
-        Begun::NotPreloaded(document) => return Ok(document),
-        Begun::Rolling(start, resumed) => (*start, resumed),
-    };
+    let basis = basis(case, options, opened.point.as_ref());
+    let (start, files, resumed) =
+        match begin(case, options, &mut opened, &basis, wall, stop, observe)? {
+            Begun::NotPreloaded(document) => return Ok(document),
+            Begun::Rolling(start, files, resumed) => (*start, files.map(|files| *files), resumed),
+        };
     let Start { simulation, facts } = start;
     let Opened { held, mut log, model, .. } = opened;
     log_facts(&simulation, &facts, &mut log)?;
@@ -108,20 +111,19 @@ fn run_in_pool(
         let cost = cost(case, &model, &facts, simulation.dt())?;
         observe(&Progress { cost, steps: facts.steps, ..stage(case, Stage::Roll) });
     }
-    let basis = basis(case, options, &facts, resumed.as_deref());
     // another process may have taken the folder during the preload
     held.prove()?;
     if resumed.is_some() {
         // what these say of an interruption or a stop is no longer true once the files change
         [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
     }
-    let recorder = Recorder::new(case, &model, &simulation, &basis)?;
+    let recorder = Recorder::new(case, &model, &simulation, facts.radius.effective, files, &basis)?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     drop(model); // the time loop has what it needs
 
     let mut rolling = Rolling::new(case, &facts, &held, simulation, recorder, wall);
-    if let Some(resumed) = resumed {
-        rolling.resume(resumed.state);
+    if let Some(state) = resumed {
+        rolling.resume(*state);
     }
     let Stopped { status, diagnosis, guard } = rolling.roll(options, &basis, stop, observe)?;
     let mut rolled = rolling.end()?;
@@ -147,7 +149,7 @@ fn run_in_pool(
         output,
         keeping,
     };
-    conclude(case, options, &simulation, &facts, &ending, &held, &mut log)
+    conclude(case, options, &simulation, &facts, &ending, &basis.provenance, &held, &mut log)
 }
 
 /// Writes into the log what is known before the disk rolls.
@@ -171,23 +173,21 @@ fn log_facts(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<()
 fn basis<'a>(
     case: &Case,
     options: &'a RunOptions,
-    facts: &Facts,
-    resumed: Option<&Resumed>,
+    point: Option<&Point<State>>,
 ) -> RecordBasis<'a> {
     RecordBasis {
         folder: &options.out,
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),
-            created: match resumed {
-                Some(resumed) => resumed.checkpoint.provenance.created.clone(),
+            created: match point {
+                Some(point) => point.checkpoint.provenance.created.clone(),
                 None => humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
             },
             attributes: kinds(case),
         },
-        effective_radius: facts.radius.effective,
         hertz_pressure: hertz(case).p0,
-        keeps: resumed.map(|resumed| resumed.checkpoint.results.clone()),
+        keeps: point.map(|point| point.checkpoint.results.clone()),
     }
 }
 
@@ -209,6 +209,7 @@ fn conclude(
     simulation: &Simulation,
     facts: &Facts,
     ending: &Ending,
+    made: &Provenance,
     held: &FolderLock,
     log: &mut Log,
 ) -> Result<serde_json::Value, RunError> {
@@ -224,7 +225,7 @@ fn conclude(
         summary.extra.insert("mesh_window".into(), moves);
     }
     held.prove()?;
-    let document = write_summary(&options.out, &summary)?;
+    let document = write_summary(&options.out, &summary, made)?;
     if ending.status == Status::Completed {
         remove_checkpoints(&options.out)?;
     }

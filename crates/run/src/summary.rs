@@ -7,8 +7,9 @@ use crate::means::Means;
 use case::hertz::Hertz;
 use case::schema::{Case, Enforcement};
 use dynamics::{Energies, Simulation};
-use output::layout::file;
+use output::layout::{attribute, file};
 use output::summary::{Contact, Energy, Files, Status, Summary};
+use output::{Provenance, quantities};
 use scenario::Facts;
 use scenario::Model;
 use scenario::PreloadError;
@@ -175,10 +176,21 @@ pub(crate) fn without_rolling(
 const SUMMED: [&str; 6] =
     [file::CASE, file::FIELDS, file::CONTACT, file::HISTORY, file::PROBES, file::POSTMORTEM];
 
-/// Writes the summary of a run whose files are closed into its folder, with their checksums; returns it.
-pub(crate) fn write(folder: &Path, summary: &Summary) -> Result<Value, RunError> {
+/// Writes the summary of a run whose files are closed into its folder, with what it was made by and when, the units of
+/// its quantities, and the checksums of the files; returns it.
+pub(crate) fn write(
+    folder: &Path,
+    summary: &Summary,
+    made: &Provenance,
+) -> Result<Value, RunError> {
     let mut document = json!(summary);
+    let [units, names] = quantities::described(&document);
     if let Value::Object(entries) = &mut document {
+        entries.insert(attribute::VERSION.into(), json!(made.creepage_version));
+        entries.insert(attribute::CASE_HASH.into(), json!(made.case_hash));
+        entries.insert(attribute::CREATED.into(), json!(made.created));
+        entries.insert("units".into(), units);
+        entries.insert("names".into(), names);
         output::seal(entries, &output::sums_of_files(folder, &SUMMED)?);
     }
     output::write_json_atomically(folder.join(file::SUMMARY), &document)?;

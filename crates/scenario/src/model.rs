@@ -3,10 +3,10 @@
 
 use crate::error::ScenarioError;
 use case::friction_law;
-use case::schema::Case;
+use case::schema::{Case, Enforcement};
 use contact::{
-    BodyMaterial, ExactContact, ExactSettings, GapFunction, PenaltyContact, PenaltySettings,
-    StabilityScale,
+    BodyMaterial, Contact, ExactContact, ExactSettings, GapFunction, PenaltyContact,
+    PenaltySettings, StabilityScale,
 };
 use friction::OwnLaw;
 use mesh::{Face, Mesh, Padded, Surface};
@@ -147,6 +147,21 @@ impl Model {
     pub fn exact_contact(&self, case: &Case) -> Result<ExactContact, ScenarioError> {
         let law = friction_law::law(case, self.law.as_ref())?;
         Ok(ExactContact::new(&self.mesh, self.sides(), &self.exact_settings(case), law)?)
+    }
+
+    /// Contact as the case enforces it, for its nodes and their areas alone: springs that are a fraction of the stability
+    /// limit, which only a preload gives, have no stiffness of meaning.
+    ///
+    /// # Errors
+    /// As those of [`Model::penalty_contact`].
+    pub fn contact_nodes(&self, case: &Case) -> Result<Box<dyn Contact>, ScenarioError> {
+        Ok(match case.contact.enforcement {
+            Enforcement::Exact => Box::new(self.exact_contact(case)?),
+            Enforcement::Penalty => {
+                let any = StabilityScale { omega_elastic: 1.0, dt: 1.0 };
+                Box::new(self.penalty_contact(case, any)?)
+            }
+        })
     }
 
     /// The gaps between slave nodes and the other surface that exact contact constrains.

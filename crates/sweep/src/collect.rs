@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use files::input;
-use output::layout::file;
+use output::layout::{attribute, file};
 use serde_json::{Value, json};
 
 use crate::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
@@ -15,8 +15,16 @@ use crate::{ensemble, table};
 /// are checksums of files that hold the time at which they were made. All other numbers of a sweep are the same to
 /// the bit on any number of threads and machines and after any number of interruptions, as long as program and
 /// kernels are the same.
-pub const NOT_REPEATED: [&str; 7] =
-    ["wall_s", "element_steps_per_s", "peak_rss_mb", "stages", "threads", "checksums", "sha256"];
+pub const NOT_REPEATED: [&str; 8] = [
+    "wall_s",
+    "element_steps_per_s",
+    "peak_rss_mb",
+    "stages",
+    "threads",
+    "checksums",
+    "sha256",
+    attribute::CREATED,
+];
 
 /// How far a run is.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +118,8 @@ const NOT_BEGUN: &str = "not begun";
 /// How far a run in `folder` is; where the folder holds a run of another case, it has not begun.
 pub fn state(folder: &Path, run: &Point) -> State {
     let case = input::text(&folder.join(file::CASE), input::CASE).unwrap_or_default();
-    if case != run.case.to_toml() {
+    // an earlier version wrote no units into it
+    if case != run.case.to_toml_with_units() && case != run.case.to_toml() {
         return State::Undone(NOT_BEGUN);
     }
     let Ok(summary) = output::read_summary(folder) else {

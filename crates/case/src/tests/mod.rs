@@ -95,6 +95,59 @@ fn the_resolved_case_loads_to_itself() {
 }
 
 #[test]
+fn the_resolved_case_has_the_unit_of_every_number_behind_it_and_loads_to_itself() {
+    let source = "def law(s):\n    # [load]\n    return 0.3 + 0.1 * s\n";
+    let source = format!("friction.source={}", toml::Value::from(source));
+    for sets in [
+        &["output.window=[{from=0.0,to=1e-5}]", "contact.penalty.normal={ stiffness = 3.5e13 }"][..],
+        &["friction.law=python", &source],
+    ] {
+        let case = set(sets).unwrap();
+        let text = case.to_toml_with_units();
+        let again = Case::from_text(&text, Path::new("x.toml"), &[]).unwrap();
+        assert_eq!((&again, again.hash()), (&case, case.hash()));
+        let line = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap();
+        assert_eq!(line("speed = "), "speed = 38.89  # m/s");
+        assert_eq!(line("normal = 100"), "normal = 100000.0  # N");
+        assert_eq!(line("creepage = "), "creepage = 0.0024");
+        assert_eq!(line("density = "), "density = 7800.0  # kg/m^3");
+    }
+    let case = set(&[
+        "output.window=[{from=0.0,to=1e-5}]",
+        "contact.penalty.normal={ stiffness = 3.5e13 }",
+    ]);
+    let text = case.unwrap().to_toml_with_units();
+    for line in ["from = 0.0  # s", "stiffness = 35000000000000.0  # N/m^3"] {
+        assert!(text.lines().any(|found| found == line), "{line:?} is not a line of\n{text}");
+    }
+}
+
+#[test]
+fn a_speed_in_km_h_and_a_ratio_in_per_cent_are_told_with_what_was_likely_meant() {
+    let warned = |sets: &[&str]| set(sets).unwrap().warnings().join("\n");
+    let fast = warned(&["drive.speed=140"]);
+    assert!(
+        fast.contains("drive.speed = 140 m/s is unusual: did you mean 38.89 (140 km/h)?"),
+        "{fast}"
+    );
+    let steep = warned(&["drive.creepage=0.24"]);
+    for words in ["drive.creepage = 0.24 is unusual", "0.0024 (0.24 per cent)"] {
+        assert!(steep.contains(words), "{steep}");
+    }
+    refused(
+        set(&["drive.creepage=2.4"]),
+        &["did you mean 0.024 (2.4 per cent) or 0.0024 (2.4 per mille)?"],
+    );
+    refused(set(&["drive.lateral_creepage=-4"]), &["did you mean -0.04 (-4 per cent)"]);
+    refused(set(&["contact.penalty.damping=10"]), &["did you mean 0.1 (10 per cent)"]);
+    for plausible in ["drive.speed=83.3", "drive.creepage=-0.02", "drive.creepage=0.1"] {
+        assert!(!warned(&[plausible]).contains("did you mean"), "{plausible}");
+    }
+    // nothing in km/h either
+    refused(set(&["drive.speed=1e6"]), &["at most 500"]);
+}
+
+#[test]
 fn the_hash_tells_cases_apart() {
     assert_ne!(set(&[]).unwrap().hash(), set(&["load.normal=100001"]).unwrap().hash());
 }

@@ -8,7 +8,6 @@ use std::path::Path;
 pub(crate) struct RecordBasis<'a> {
     pub(crate) folder: &'a Path,
     pub(crate) provenance: Provenance,
-    pub(crate) effective_radius: f64,
     pub(crate) hertz_pressure: f64,
     /// How much of the existing files a resumed run keeps; none for a run that begins.
     pub(crate) keeps: Option<Results>,

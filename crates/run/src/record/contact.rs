@@ -16,9 +16,21 @@ use output::{
     TransientGrid, Values,
 };
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// Rows of the history gathered before they are handed to the writer.
 const HISTORY_BATCH: usize = 64;
+/// Rows of a run whose steps take long are handed over at the first row after this time: whoever reads the files
+/// meanwhile sees how far it is.
+pub(crate) const LONGEST_HELD: Duration = Duration::from_secs(1);
+
+/// What a run rolls with.
+pub(crate) struct Pace {
+    /// Time step (s).
+    pub(crate) dt: f64,
+    /// Rolling radius (m) by which creepage is counted.
+    pub(crate) effective_radius: f64,
+}
 
 /// Writes contact surfaces and history, and gathers the means over the evaluation window. It knows nothing of the
 /// bodies below the surfaces.
@@ -35,6 +47,8 @@ pub(crate) struct ContactRecord {
     history_every: u64,
     /// Rows of the history that are not yet handed to the writer.
     rows: Vec<f64>,
+    /// When rows were last handed over.
+    flushed: Instant,
     effective_radius: f64,
     speed: f64,
     /// Whether y >= 0 alone is modelled.
@@ -52,22 +66,32 @@ pub(crate) struct StepRecord {
 }
 
 impl ContactRecord {
-    /// Begins the files, or goes on with them; steps are `dt` (s) long. `fields` is that of a run which records its
-    /// bodies.
-    pub(crate) fn new(
+    /// Begins the files of `surfaces`, or goes on with them; `fields` is that of a run which records its bodies.
+    pub(crate) fn files(
         case: &Case,
-        surfaces: Surfaces<'_>,
-        dt: f64,
+        surfaces: &Surfaces<'_>,
         basis: &RecordBasis<'_>,
         fields: Option<TransientGrid>,
-    ) -> Result<Self, RunError> {
+    ) -> Result<RunFiles, RunError> {
         let images = Images::new(surfaces.half, &surfaces.points);
         let columns = HISTORY.each().map(FieldSpec::clone);
-        let files = RunFiles {
+        Ok(RunFiles {
             fields,
             contact: surfaces.create(case, &images, basis)?,
             history: basis.history(file::HISTORY, &columns, |results| &results.history)?,
-        };
+        })
+    }
+
+    /// Writes into `files`, which are those of `surfaces`.
+    pub(crate) fn new(
+        case: &Case,
+        surfaces: Surfaces<'_>,
+        rolling: &Pace,
+        hertz_pressure: f64,
+        files: RunFiles,
+    ) -> Result<Self, RunError> {
+        let images = Images::new(surfaces.half, &surfaces.points);
+        let Pace { dt, effective_radius } = *rolling;
         let steps_in = |interval: f64| (interval / dt).round().max(1.0) as u64;
         let window = |w: &Window| {
             let step = |t: f64| (t / dt).round() as u64;
@@ -75,14 +99,15 @@ impl ContactRecord {
         };
         Ok(Self {
             writer: BackgroundWriter::start(files)?,
-            patch: Patch::new(case, &surfaces, &images, basis.hertz_pressure),
+            patch: Patch::new(case, &surfaces, &images, hertz_pressure),
             images,
             pairing: surfaces.pairing(),
             contact_every: steps_in(case.output.contact_interval),
             windows: case.output.window.iter().map(window).collect(),
             history_every: case.output.history_interval,
             rows: Vec::with_capacity(HISTORY_BATCH * HISTORY.each().len()),
-            effective_radius: basis.effective_radius,
+            flushed: Instant::now(),
+            effective_radius,
             speed: case.drive.speed,
             half: surfaces.half,
             evaluate: case.evaluation_window(),
@@ -177,7 +202,9 @@ impl ContactRecord {
         let energies = report.energies.unwrap_or_default();
         self.means.add_patch(patch, &energies, step.inside);
         self.rows.extend(row(report, &step.resultants, patch, at).each());
-        if self.rows.len() >= HISTORY_BATCH * HISTORY.each().len() {
+        if self.rows.len() >= HISTORY_BATCH * HISTORY.each().len()
+            || self.flushed.elapsed() >= LONGEST_HELD
+        {
             self.flush()?;
         }
         Ok(())
@@ -189,6 +216,7 @@ impl ContactRecord {
             self.writer.append_history(&self.rows)?;
             self.rows.clear();
         }
+        self.flushed = Instant::now();
         Ok(())
     }
 

@@ -70,7 +70,6 @@ pub(super) fn run(
             },
             attributes: kinds(case),
         },
-        effective_radius: case.disk.radius,
         hertz_pressure: hertz(case).p0,
         keeps: point.as_ref().map(|point| point.checkpoint.results.clone()),
     };
@@ -112,7 +111,7 @@ pub(super) fn run(
         rolling: before[1] + since[1].elapsed(),
         keeping,
     };
-    conclude(case, options, &model, ended, &held, &mut log)
+    conclude(case, options, &model, ended, &basis.provenance, &held, &mut log)
 }
 
 fn tell(model: &HalfSpaceModel, log: &mut Log) -> Result<(), NotWritten> {

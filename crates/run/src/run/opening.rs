@@ -65,7 +65,7 @@ pub(crate) fn open<M, T: DeserializeOwned>(
         (Some(_), Some(held)) => (held, Log::append(log_file)?),
         (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
     };
-    write_text(options.out.join(file::CASE), &case.to_toml())?;
+    write_text(options.out.join(file::CASE), &case.to_toml_with_units())?;
     log_opening(case, options, why, &mut log)?;
     tell(&model, &mut log)?;
     Ok(Opening::Run(Box::new(Opened { held, log, model, point })))

@@ -11,8 +11,8 @@ use crate::summary::{contact_means, window, write as write_summary};
 use case::hertz::hertz;
 use case::schema::Case;
 use dynamics::Energies;
-use output::LOG_END;
 use output::summary::{Energy, Files, Status, Summary};
+use output::{LOG_END, Provenance};
 use scenario::HalfSpaceModel;
 use scenario::memory::peak_rss_mb;
 use serde_json::{Value, json};
@@ -40,6 +40,7 @@ pub(super) fn conclude(
     options: &RunOptions,
     model: &HalfSpaceModel,
     ended: Ended,
+    made: &Provenance,
     held: &FolderLock,
     log: &mut Log,
 ) -> Result<Value, RunError> {
@@ -49,7 +50,7 @@ pub(super) fn conclude(
         summary.extra.insert(output::SAMPLED_LAW.into(), json!(points));
     }
     held.prove()?;
-    let document = write_summary(&options.out, &summary)?;
+    let document = write_summary(&options.out, &summary, made)?;
     if ended.status == Status::Completed {
         remove_checkpoints(&options.out)?;
     }
