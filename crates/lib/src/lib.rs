@@ -98,7 +98,7 @@ mod verify;
 pub use ::run::{BlockElement, Level};
 pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
-pub use ::sweep::Watched;
+pub use ::sweep::{Column, Table, Watched};
 pub use ::verify::{PROBLEMS, Problem, Row};
 pub use bench::{BenchOptions, bench};
 pub use case::json_schema as schema;
@@ -124,4 +124,5 @@ pub use slider::{
     LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
 };
 pub use sweep::{SweepOptions, Swept, sweep};
+pub use sweep_folder::sweep_table;
 pub use verify::{Verified, VerifyOptions, verify};

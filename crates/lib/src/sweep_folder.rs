@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use ::sweep::Table;
 use files::input;
 use post::PostError;
 use serde_json::Value;
@@ -18,6 +19,14 @@ pub fn read(folder: &Path) -> Result<Option<Value>, Error> {
         Err(error) => return Err(failed(error.problem())),
     };
     serde_json::from_str(&text).map(Some).map_err(|error| failed(format!("is no JSON: {error}")))
+}
+
+/// The table of the sweep in `folder`, and its document; `None` where there is none.
+///
+/// # Errors
+/// A document that cannot be read.
+pub fn sweep_table(folder: &Path) -> Result<Option<(Table, Value)>, Error> {
+    Ok(read(folder)?.map(|document| (Table::of(&document), document)))
 }
 
 /// The name of a sweep: that of its folder.

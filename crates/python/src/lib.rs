@@ -10,6 +10,7 @@ mod commands;
 mod files;
 mod held;
 mod law;
+mod sweep;
 mod text;
 
 use pyo3::prelude::*;
@@ -26,5 +27,12 @@ mod _creepage {
     #[pymodule_export]
     use crate::law::check_law;
     #[pymodule_export]
+    use crate::sweep::sweep_table;
+    #[pymodule_export]
     use crate::text::{from_toml, toml};
+
+    /// Version of the program.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)] // as Python has it
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -21,3 +21,4 @@ pub use file::Sweep;
 pub use plan::{Plan, SweepError};
 pub use points::Point;
 pub use schedule::{Budget, Watched};
+pub use table::{Column, Table};

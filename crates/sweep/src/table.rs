@@ -1,9 +1,12 @@
-//! `sweep.csv`: one line per run, and after them one per point of an ensemble; SI units.
+//! The table of a sweep: a row for each run, and after them one for each point of an ensemble; SI units. `sweep.csv` holds
+//! it as text.
 
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
+use case::keys;
+use output::quantities::quantity;
+use serde_json::{Value, json};
 
 use crate::plan::SweepError;
 
@@ -71,12 +74,103 @@ const COLUMNS: [(&str, &str); 60] = [
     ("threads", "/summary/threads"),
 ];
 
-/// Writes the table of a sweep's document beside it.
-pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
-    let parameters: Vec<&str> =
-        document["parameters"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+/// Where a column finds its value in the entry of a run or a point.
+#[derive(Clone, Debug)]
+enum Place {
+    /// The run's name, or of how many members a point is the mean.
+    Name,
+    /// A parameter of the sweep.
+    Parameter,
+    Status,
+    /// At a JSON pointer.
+    At(&'static str),
+    /// A measure of the check.
+    Measure(String),
+    /// Why a run failed.
+    Reason,
+    /// The first of two JSON pointers that the entry has.
+    Interval([String; 2]),
+}
+
+/// A column of the table of a sweep.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Its heading.
+    pub name: String,
+    /// SI unit of its numbers, `1` for ratios and counts; empty for text, and for measures of a check that no run has.
+    pub units: String,
+    /// What it is; empty where the heading says it.
+    pub meaning: String,
+    place: Place,
+}
+
+/// The table of a sweep. A cell without a value is null.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Its columns.
+    pub columns: Vec<Column>,
+    /// A row for each run, one cell for each column.
+    pub runs: Vec<Vec<Value>>,
+    /// The same for each point of an ensemble, means over its members.
+    pub points: Vec<Vec<Value>>,
+}
+
+impl Table {
+    /// The table of a sweep's document.
+    pub fn of(document: &Value) -> Self {
+        let columns = columns(document);
+        let rows = |key: &str, of_point: bool| {
+            let entries = document[key].as_array().map(Vec::as_slice).unwrap_or_default();
+            let row =
+                |entry: &Value| columns.iter().map(|c| c.value(entry, of_point).clone()).collect();
+            entries.iter().map(row).collect::<Vec<Vec<Value>>>()
+        };
+        let (runs, mut points) = (rows("runs", false), rows("points", true));
+        for (row, point) in
+            points.iter_mut().zip(document["points"].as_array().into_iter().flatten())
+        {
+            for (cell, column) in row.iter_mut().zip(&columns) {
+                match column.place {
+                    Place::Name => *cell = json!(format!("mean of {}", point["completed"])),
+                    Place::Status => *cell = json!("ensemble"),
+                    _ => {}
+                }
+            }
+        }
+        Self { columns, runs, points }
+    }
+
+    /// As comma-separated values, in the digits that read back to the same bits.
+    fn text(&self) -> String {
+        let mut text = String::new();
+        line(&mut text, self.columns.iter().map(|column| column.name.clone()));
+        for row in self.runs.iter().chain(&self.points) {
+            line(&mut text, row.iter().map(cell));
+        }
+        text
+    }
+}
+
+impl Column {
+    fn value<'a>(&self, entry: &'a Value, of_point: bool) -> &'a Value {
+        match &self.place {
+            Place::Name => &entry["name"],
+            Place::Parameter => &entry["parameters"][&self.name],
+            Place::Status => &entry["status"],
+            // a deviation over the window belongs to a run, not to a point
+            Place::At(_) if of_point && self.name.ends_with(DEVIATION) => &Value::Null,
+            Place::At(at) => value_at(entry, at),
+            Place::Measure(name) => &entry["check"]["metrics"][name]["value"],
+            Place::Reason => &entry["reason"],
+            Place::Interval(places) => first(entry, places),
+        }
+    }
+}
+
+/// The columns of a sweep: its parameters, results, the measures of all runs and the confidence intervals.
+fn columns(document: &Value) -> Vec<Column> {
     let runs = document["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
-    // The measures of all runs: a run of another friction law may lack some.
+    // a run of another friction law may lack some
     let mut measures: Vec<&str> = Vec::new();
     for run in runs {
         let metrics = run.pointer("/check/metrics").and_then(Value::as_object);
@@ -87,40 +181,73 @@ pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
         }
     }
     measures.sort_unstable();
-    let mut text = String::new();
-    let headings = ["name"].into_iter().chain(parameters.iter().copied()).chain(["status"]);
-    let headings = headings.chain(COLUMNS.iter().map(|(heading, _)| *heading));
-    let measured = measures.iter().map(|name| format!("check_{name}"));
-    let headings = headings.map(str::to_owned).chain(measured).chain(["reason".to_owned()]);
-    let points = document["points"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let intervals = intervals(&measures);
-    let halves = |entry: &Value| -> Vec<String> {
-        let half = |places: &[String; 2]| cell(first(entry, places));
-        intervals.iter().map(|(_, places)| half(places)).collect()
+    let text = |name: &str, place: Place| Column {
+        name: name.into(),
+        units: String::new(),
+        meaning: String::new(),
+        place,
     };
-    line(&mut text, headings.chain(intervals.iter().map(|(heading, _)| heading.clone())));
-    for run in runs {
-        let values = [&run["name"]].into_iter();
-        let values = values.chain(parameters.iter().map(|name| &run["parameters"][*name]));
-        let values = values.chain([&run["status"]]);
-        let values = values
-            .chain(COLUMNS.iter().map(|(_, at)| value_at(run, at)))
-            .chain(measures.iter().map(|name| &run["check"]["metrics"][*name]["value"]))
-            .chain([&run["reason"]]);
-        line(&mut text, values.map(cell).chain(halves(run)));
-    }
-    for point in points {
-        let name = format!("mean of {}", point["completed"]);
-        let parameters = parameters.iter().map(|name| cell(&point["parameters"][*name]));
-        let of_means = |(heading, at): &(&str, &'static str)| {
-            // a deviation over the window belongs to a run, not to a point
-            if heading.ends_with(DEVIATION) { String::new() } else { cell(value_at(point, at)) }
-        };
-        let metrics = measures.iter().map(|name| cell(&point["check"]["metrics"][*name]["value"]));
-        let values = [name].into_iter().chain(parameters).chain(["ensemble".to_owned()]);
-        let values = values.chain(COLUMNS.iter().map(of_means)).chain(metrics);
-        line(&mut text, values.chain([String::new()]).chain(halves(point)));
-    }
+    let mut columns = vec![text("name", Place::Name)];
+    let parameters = document["parameters"].as_array().into_iter().flatten();
+    columns.extend(parameters.filter_map(Value::as_str).map(parameter));
+    columns.push(text("status", Place::Status));
+    columns.extend(COLUMNS.iter().map(|(name, at)| result(name, at, runs)));
+    columns.extend(measures.iter().map(|name| {
+        let [units, meaning] = ["units", "about"].map(|key| {
+            told(runs, &format!("/check/metrics/{name}/{key}")).unwrap_or_default().to_owned()
+        });
+        let place = Place::Measure((*name).to_owned());
+        Column { name: format!("check_{name}"), units, meaning, place }
+    }));
+    columns.push(text("reason", Place::Reason));
+    let halves = intervals(&measures).into_iter().map(|(name, places)| {
+        let of = name.trim_end_matches("_ci95");
+        let base = columns.iter().find(|column| column.name == of);
+        let units = base.map(|column| column.units.clone()).unwrap_or_default();
+        let meaning = format!("half width of the 95 % confidence interval of {of}");
+        Column { name, units, meaning, place: Place::Interval(places) }
+    });
+    let halves: Vec<Column> = halves.collect();
+    columns.extend(halves);
+    columns
+}
+
+/// The column of a parameter, a key of the case.
+fn parameter(name: &str) -> Column {
+    let units = match keys::find(name).map(|key| key.unit) {
+        Some("-") => "1",
+        Some(units) => units,
+        None => "",
+    };
+    let place = Place::Parameter;
+    Column { name: name.into(), units: units.into(), meaning: String::new(), place }
+}
+
+/// A column of [`COLUMNS`]: the summary declares the unit of its quantities, a check tells those of its own.
+fn result(name: &str, at: &'static str, runs: &[Value]) -> Column {
+    let (units, meaning) = match (at.strip_prefix("/summary/"), at.strip_suffix("/value")) {
+        (Some(key), _) => quantity(&key.replace('/', ".")).unwrap_or_default(),
+        (None, Some(entry)) => {
+            let of = |key: &str| told(runs, &format!("{entry}/{key}")).unwrap_or_default();
+            (of("units"), of("about"))
+        }
+        (None, None) => Default::default(),
+    };
+    let meaning = match name.strip_suffix(DEVIATION) {
+        Some(mean) => format!("standard deviation over the window of {mean}"),
+        None => meaning.to_owned(),
+    };
+    Column { name: name.into(), units: units.to_owned(), meaning, place: Place::At(at) }
+}
+
+/// The text at a JSON pointer of the first run that has it.
+fn told<'a>(runs: &'a [Value], at: &str) -> Option<&'a str> {
+    runs.iter().find_map(|run| run.pointer(at).and_then(Value::as_str))
+}
+
+/// Writes the table of a sweep's document beside it.
+pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
+    let text = Table::of(document).text();
     let failed = |cause| SweepError::File { path: path.into(), cause };
     let partial = path.with_extension("csv.partial");
     fs::write(&partial, text).and_then(|()| fs::rename(&partial, path)).map_err(failed)
@@ -192,4 +319,43 @@ fn line(text: &mut String, cells: impl Iterator<Item = String>) {
         }
     }
     text.push('\n');
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn every_number_of_a_summary_has_a_unit_and_spreads_have_that_of_their_mean() {
+        let measure = json!({ "value": 1.5, "units": "deg", "about": "angle of the shear" });
+        let zone = json!({ "mean": { "value": 0.2, "units": "m/s", "about": "mean slip" } });
+        let run = json!({ "name": "000", "status": "completed", "parameters": { "drive.speed": 40.0 },
+            "summary": { "contact": { "normal_force": 1e5 } },
+            "check": { "metrics": { "direction": measure }, "slip_zone": zone } });
+        let document = json!({ "parameters": ["drive.speed", "friction.static"], "runs": [run] });
+        let table = Table::of(&document);
+        let of = |name: &str| table.columns.iter().find(|column| column.name == name).unwrap();
+        for (name, at) in COLUMNS {
+            assert!(!at.starts_with("/summary/") || !of(name).units.is_empty(), "{name}");
+        }
+        for (name, units) in [
+            ("drive.speed", "m/s"),
+            ("friction.static", "1"),
+            ("normal_force", "N"),
+            ("normal_force_sd", "N"),
+            ("normal_force_ci95", "N"),
+            ("slip_zone_mean", "m/s"),
+            ("check_direction", "deg"),
+            ("check_direction_ci95", "deg"),
+            ("status", ""),
+        ] {
+            assert_eq!(of(name).units, units, "{name}");
+        }
+        assert_eq!(of("check_direction").meaning, "angle of the shear");
+        let place = table.columns.iter().position(|column| column.name == "normal_force").unwrap();
+        assert_eq!(table.runs[0][place], 1e5);
+        assert_eq!(table.text().lines().count(), 2);
+    }
 }

@@ -9,11 +9,15 @@ apex at the origin.
 """
 
 from ._commands import run, schema, slider, sweep, verify
+from ._creepage import __version__
 from ._errors import CaseError, CreepageError, Interrupted, LimitError, RunError
 from ._mesh import mesh
+from ._resolved import Case
 from ._run import Field, History, Records, Run, Side, layout
+from ._sweep import Sweep
 
 __all__ = [
+    "Case",
     "CaseError",
     "CreepageError",
     "Field",
@@ -24,6 +28,7 @@ __all__ = [
     "Run",
     "RunError",
     "Side",
+    "Sweep",
     "layout",
     "mesh",
     "run",

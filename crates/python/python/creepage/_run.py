@@ -11,9 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import _creepage
+from . import _creepage, _html
 from ._errors import CaseError, LimitError
 from ._execute import execute
+from ._optional import optional
+from ._resolved import Case
 
 _NAMES, _LAYOUT = _creepage.layout()
 
@@ -213,8 +215,7 @@ class Records(Mapping):
 
     def to_pyvista(self, step=-1):
         """The record ``step`` as a ``pyvista.UnstructuredGrid`` with all fields."""
-        import pyvista
-
+        pyvista = optional("pyvista")
         corners = self.cells.shape[1]
         kind = {8: pyvista.CellType.HEXAHEDRON, 4: pyvista.CellType.QUAD}[corners]
         cells = np.insert(self.cells.astype(np.int64), 0, corners, axis=1)
@@ -224,6 +225,42 @@ class Records(Mapping):
             (grid.cell_data if field.on_cells else grid.point_data)[name] = values
         grid.field_data["time"] = [self.times[self._index(step)]]
         return grid
+
+    def to_xarray(self, fields=None, records=slice(None), side=None):
+        """Fields as an ``xarray.Dataset`` over ``time``, ``node`` (with its place x, y, z in m) or ``cell``, and
+        ``component``.
+
+        Args:
+            fields: names of fields [default: all].
+            records: a slice of the records, by number or, with floats, by time (s) [default: all].
+            side: a :class:`Side`, for one surface alone [default: both bodies].
+        """
+        xarray = optional("xarray")
+        source = self if side is None else side
+        meanings = {name: meaning for name, _, _, meaning in _LAYOUT.get(self.path.name, [])}
+        if any(isinstance(end, float) for end in (records.start, records.stop)):
+            records = self.between(records.start, records.stop, records.step)
+        variables = {}
+        for name in source if fields is None else fields:
+            field = source[name]
+            place = ("cell" if field.on_cells else "node",)
+            values = field[:] if field.constant else field[records]
+            dims = place if field.constant else ("time", *place)
+            if values.ndim > len(dims):
+                dims += ({3: "component", 6: "tensor"}[values.shape[-1]],)
+            attributes = {"units": field.units}
+            if name in meanings:
+                attributes["long_name"] = meanings[name]
+            variables[name] = (dims, values, attributes)
+        used = {dim for dims, _, _ in variables.values() for dim in dims}
+        coordinates = {
+            "time": ("time", self.times[records], {"units": "s"}),
+            **{axis: ("node", source.points[:, k], {"units": "m"}) for k, axis in enumerate("xyz")},
+            "component": ("component", list("xyz")),
+            "tensor": ("tensor", ["xx", "yy", "zz", "xy", "yz", "xz"]),
+        }
+        kept = {name: value for name, value in coordinates.items() if value[0] in used}
+        return xarray.Dataset(variables, kept)
 
     def __repr__(self):
         return f"<{self.path.name}: {self.steps} records of {', '.join(self._fields)}>"
@@ -255,13 +292,25 @@ class History(Mapping):
 
     def to_pandas(self):
         """A ``pandas.DataFrame`` over the time (s); units are in its ``attrs["units"]``."""
-        import pandas
-
+        pandas = optional("pandas")
         time = _NAMES["time"]
         columns = {name: self[name] for name in self if name != time}
         frame = pandas.DataFrame(columns, index=pandas.Index(self[time], name=time))
         frame.attrs["units"] = self.units
         return frame
+
+    def to_xarray(self):
+        """An ``xarray.Dataset`` over the time (s); each variable has the attributes ``units`` and ``long_name``."""
+        xarray = optional("xarray")
+        time = _NAMES["time"]
+        meanings = {name: meaning for name, _, _, meaning in _LAYOUT[_NAMES["history"]]}
+
+        def described(name):
+            attributes = {"units": self._units[name]}
+            return attributes | ({"long_name": meanings[name]} if name in meanings else {})
+
+        columns = {name: (time, self[name], described(name)) for name in self if name != time}
+        return xarray.Dataset(columns, {time: (time, self[time], described(time))})
 
     def __repr__(self):
         return f"<{self.path.name}: {self._file.rows()} rows of {', '.join(self)}>"
@@ -323,9 +372,9 @@ class Run:
         return json.loads(path.read_text("utf-8")) if path.is_file() else {}
 
     @property
-    def case(self) -> dict:
-        """The case as resolved, every default written out."""
-        return json.loads(_creepage.from_toml((self.path / _NAMES["case"]).read_text("utf-8")))
+    def case(self) -> Case:
+        """The case as resolved, every default written out; a dict."""
+        return Case(json.loads(_creepage.from_toml((self.path / _NAMES["case"]).read_text("utf-8"))))
 
     def check(self, window=None, limits=None, *, pairing=None, strict=False) -> dict:
         """Where and by how much the run violates the contact conditions.
@@ -417,6 +466,39 @@ class Run:
         if what not in ("fields", "contact"):
             raise ValueError(f'what = {what!r}; "fields" or "contact" is needed')
         return getattr(self, what).to_pyvista(step)
+
+    def to_xarray(self, what="history", **chosen):
+        """The history, or records of the contact surfaces or the bodies, as an ``xarray.Dataset`` with units.
+
+        Args:
+            what: "history", "contact" or "fields".
+            chosen: of contact and fields, what :meth:`Records.to_xarray` takes; ``side`` also as "disk" or "bar".
+        """
+        if what == "history":
+            return self.history.to_xarray(**chosen)
+        if what not in ("contact", "fields"):
+            raise ValueError(f'what = {what!r}; "history", "contact" or "fields" is needed')
+        records = getattr(self, what)
+        if isinstance(chosen.get("side"), str):
+            if chosen["side"] not in ("disk", "bar"):
+                raise ValueError(f'side = {chosen["side"]!r}; "disk" or "bar" is needed')
+            chosen["side"] = getattr(records, chosen["side"])
+        return records.to_xarray(**chosen)
+
+    def _repr_html_(self):
+        summary = self.summary
+        units, names = summary.get("units", {}), summary.get("names", {})
+        keys = ["steps", "dt", "t_end", "elements", "wall_s", "energy.balance_error"]
+        keys += [f"contact.{key}" for key in summary.get("contact", {})]
+        rows = []
+        for key in keys if summary else []:
+            section, _, last = key.rpartition(".")
+            value = (summary[section] if section else summary)[last]
+            rows.append((key, value, _html.unit(units.get(key, "")), names.get(key, "")))
+        heading = f"run {self.path}: {summary.get('status', 'under way')}"
+        if "diagnosis" in summary:
+            heading += f", {summary['diagnosis']}"
+        return _html.page(heading, ("quantity", "value", "unit", "meaning"), rows)
 
     def __fspath__(self):
         return os.fspath(self.path)
