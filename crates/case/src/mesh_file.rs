@@ -14,7 +14,25 @@ use output::hexadecimal;
 const KEY: &str = "mesh.file";
 const DIGEST: &str = "mesh.sha256";
 /// What to do about a name that ends in none of the endings of a mesh file.
-pub const ENDINGS: &str = "give a Gmsh .msh, an Abaqus .inp or a .vtu file; meshio converts others";
+pub const ENDINGS: &str =
+    "give a Gmsh .msh, an Abaqus .inp, a .vtu or a .vtkhdf file; meshio converts others";
+
+/// The format of a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// One that other programs write.
+    Foreign(Format),
+    /// The VTKHDF grid of `creepage mesh --out`.
+    Own,
+}
+
+impl MeshFormat {
+    /// The format by the ending of a file's name; `None` for one that is not read.
+    pub fn of(path: &Path) -> Option<Self> {
+        let own = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtkhdf"));
+        if own { Some(Self::Own) } else { Format::of(path).map(Self::Foreign) }
+    }
+}
 
 /// Replaces `mesh.file` by the full path of the file, and sets `mesh.sha256`. The path is relative to the case
 /// file that holds it; of an option, to the working directory.
@@ -31,8 +49,8 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
     let refused = |problem: &str, remedy: &str| {
         Err(layers.error(origin, KEY, &format!("\"{file}\": {problem}"), remedy))
     };
-    if Format::of(&path).is_none() {
-        return refused("the name ends in none of .msh, .inp and .vtu", ENDINGS);
+    if MeshFormat::of(&path).is_none() {
+        return refused("the name ends in none of .msh, .inp, .vtu and .vtkhdf", ENDINGS);
     }
     let bytes = match read(&path) {
         Ok(bytes) => bytes,

@@ -217,3 +217,39 @@ fn a_refused_deck_is_told_by_file_line_and_remedy() {
         assert!(said.contains(words), "{words}: {said}");
     }
 }
+
+#[test]
+fn a_mesh_that_the_program_wrote_reads_back_with_all_its_sets() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = dir.path().join("case.toml");
+    fs::write(&case, SMALL).unwrap();
+    let mesh = |more: &[String]| -> Value {
+        let mut args = vec!["mesh", case.to_str().unwrap(), "--json"];
+        args.extend(["--set", "mesh.symmetry=whole"]);
+        args.extend(more.iter().map(String::as_str));
+        let output = creepage(&args);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let generated = mesh(&[]);
+    let counts = |found: &Value| {
+        let sets = |body: usize, set: &str| found["bodies"][body]["sets"][set].clone();
+        let sets = [sets(0, "hub"), sets(0, "tread"), sets(1, "top"), sets(1, "bottom")];
+        let bodies = [0, 1].map(|body| found["bodies"][body]["elements"].clone());
+        (bodies, sets, found["nodes"].clone(), found["quality"]["min_scaled_jacobian"].clone())
+    };
+    for ending in ["msh", "vtu", "vtkhdf"] {
+        let file = dir.path().join(format!("own.{ending}")).display().to_string();
+        mesh(&["--out".into(), file.clone()]);
+        let read = mesh(&["--set".into(), format!("mesh.file={file:?}")]);
+        assert_eq!(counts(&read), counts(&generated), "{ending}");
+        // what the program wrote it may write over
+        mesh(&["--out".into(), file]);
+    }
+}
+
+#[test]
+fn a_grid_that_is_no_mesh_of_the_program_is_refused() {
+    let bytes = fs::read(meshes().join("small.vtu")).unwrap();
+    refused("m.vtkhdf", &bytes, "", &["m.vtkhdf", "creepage mesh CASE --out FILE.vtkhdf"]);
+}

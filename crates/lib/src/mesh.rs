@@ -14,8 +14,8 @@ use crate::{CaseSource, Error, Listener};
 #[serde(deny_unknown_fields, default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct MeshOptions {
-    /// Write the mesh here
-    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.vtu|FILE.vtkhdf",
+    /// Write the mesh and its sets here; mesh.file reads it again
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.vtu|FILE.vtkhdf|FILE.msh",
         value_parser = |file: &str| MESH.read(file)))]
     pub out: Option<PathBuf>,
     /// The case.

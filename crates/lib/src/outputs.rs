@@ -7,6 +7,15 @@ use files::output::{Made, OutputRefused, VTU, check};
 
 use crate::Error;
 
+/// A mesh in Gmsh's format.
+const MSH: Made = Made {
+    what: "mesh",
+    endings: &["msh"],
+    start: ::mesh::import::GMSH_MARK.as_bytes(),
+    marks: &[],
+    proof: None,
+};
+
 /// Refuses the file of an option where writing it would replace an input, or what this program did not
 /// write.
 pub fn claim(option: &str, path: &Path, made: &Made, inputs: &[PathBuf]) -> Result<(), Error> {
@@ -15,11 +24,15 @@ pub fn claim(option: &str, path: &Path, made: &Made, inputs: &[PathBuf]) -> Resu
 
 /// The same for a grid; a file of a run is the run's alone.
 pub fn claim_grid(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
-    let vtu = path.extension().is_some_and(|ending| ending == "vtu");
+    let made = match path.extension().and_then(|ending| ending.to_str()) {
+        Some("vtu") => &VTU,
+        Some("msh") => &MSH,
+        _ => &VTKHDF,
+    };
     if ::run::folder::is_of_a_run(path) {
         return Err(of_the_run(option, path));
     }
-    claim(option, path, if vtu { &VTU } else { &VTKHDF }, inputs)
+    claim(option, path, made, inputs)
 }
 
 /// The refusal to write over a file of a run.

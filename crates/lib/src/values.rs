@@ -37,8 +37,8 @@ pub const WINDOW: Rule<[f64; 2]> =
     Rule { holds: |[from, to]| from <= to, wanted: "the window ends before it begins" };
 /// The file of a mesh.
 pub const MESH: Rule<PathBuf> = Rule {
-    holds: |path| ends(path, &["vtu", "vtkhdf"]),
-    wanted: "the file's name must end in .vtu or .vtkhdf",
+    holds: |path| ends(path, &["vtu", "vtkhdf", "msh"]),
+    wanted: "the file's name must end in .vtu, .vtkhdf or .msh",
 };
 /// The file of a map of violations.
 pub const MAP: Rule<PathBuf> =

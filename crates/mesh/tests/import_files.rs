@@ -1,8 +1,8 @@
 //! Mesh files: the formats give the same mesh, and what is wrong is told with its line.
 #![allow(clippy::unwrap_used)]
 
-use mesh::import::{Fault, Foreign, Format, ImportError, SetNames, Shape, Unit, bodies, fit};
-use mesh::import::{read_abaqus, read_gmsh, read_vtu};
+use mesh::import::{Fault, Foreign, Format, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
+use mesh::import::{read_abaqus, read_gmsh, read_vtu, write_gmsh};
 use mesh::{Bar, Disk, FineZone, Grading, Mesh};
 use std::fs;
 use std::path::Path;
@@ -315,4 +315,17 @@ fn a_mesh_that_creepage_writes_raw_and_appended_is_read() {
         raw.extend(b"</AppendedData></VTKFile>");
         assert_eq!(read_vtu(&raw).unwrap().points, [[0.5, -1.0, 0.25]]);
     }
+}
+
+#[test]
+fn a_mesh_written_for_gmsh_reads_back_with_the_same_bits_and_sets() {
+    let first = foreign("small.msh");
+    let again = read_gmsh(write_gmsh(&first).as_bytes()).unwrap();
+    // a file has elements in the order of their sets, so that sets are compared by their sizes
+    let sizes = |mesh: &Foreign| -> Vec<_> {
+        let size = |set: &Set| (set.hexes.len(), set.faces.len());
+        mesh.sets.iter().map(|(name, set)| (name.clone(), size(set))).collect()
+    };
+    assert_eq!(sizes(&first), sizes(&again));
+    same_bits(&import(&first).unwrap(), &import(&again).unwrap());
 }

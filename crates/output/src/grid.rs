@@ -103,6 +103,11 @@ impl<'a> StaticField<'a> {
         Self { spec: CONSTANT.body.clone(), values: Values::Integer(labels) }
     }
 
+    /// A set of nodes, one of [`MESH_SETS`](crate::layout::MESH_SETS): 1 for a member, 0 for any other point.
+    pub fn set(spec: &FieldSpec, members: &'a [u8]) -> Self {
+        Self { spec: spec.clone(), values: Values::Integer(members) }
+    }
+
     /// The field `area`: the tributary area of each point (m2).
     pub fn area(areas: &'a [f64]) -> Self {
         Self { spec: CONSTANT.area.clone(), values: Values::Scalar(areas) }

@@ -232,6 +232,16 @@ datasets! {
 }
 
 datasets! {
+    /// The sets of nodes in a mesh that `creepage mesh` writes; its elements are told apart by `body`.
+    MeshSets, MESH_SETS {
+        hub: label("1", "1 at the nodes of the rigid hub, else 0"),
+        tread: label("1", "1 at the nodes of the running surface of the disk, else 0"),
+        top: label("1", "1 at the nodes of the running surface of the bar, else 0"),
+        clamp: label("1", "1 at the nodes by which the bar is clamped, else 0"),
+    }
+}
+
+datasets! {
     /// The mesh of a grid, in the group `VTKHDF`.
     MeshDatasets, MESH {
         points = "Points": vector("m", "reference coordinates"),

@@ -12,6 +12,7 @@ pub mod folder;
 mod held;
 mod log;
 mod means;
+mod mesh_file;
 mod mesh_mode;
 pub mod mesh_report;
 mod postmortem;

@@ -1,19 +1,17 @@
 //! The mesh of a case alone: counts, quality, stable step, memory and run-time estimate.
 
 use std::path::Path;
-use std::time::SystemTime;
 
 use crate::cost::step_seconds;
 use crate::disk::Disk;
 use crate::error::RunError;
 use crate::folder::default_folder;
+use crate::mesh_file::write_mesh;
 use case::schema::{Case, Enforcement};
-use output::{Cells, GridSpec, Provenance, StaticField, TransientGrid};
-use scenario::Model;
 use scenario::memory::BYTES_PER_ELEMENT;
 use serde_json::json;
 
-/// Builds the mesh of a case, writes it to `out` if given (`.vtu` by its ending, else VTKHDF), and reports on it:
+/// Builds the mesh of a case, writes it to `out` if given (`.vtu` or `.msh` by its ending, else VTKHDF), and reports on it:
 /// counts, quality, stable steps (s), memory (MB), run time (s; null for implicit steps) and room on the disk (MB). The step, and
 /// with it the run time, is that without contact: closed springs of penalty contact lower it.
 ///
@@ -34,7 +32,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
     let explicit = case.theta().is_none();
     let run_time = explicit.then(|| steps * step_seconds(&mut solid, nodes));
     if let Some(path) = out {
-        write(path, case, &model)?;
+        write_mesh(path, case, &model)?;
     }
     let bodies: Vec<_> = model
         .mesh
@@ -76,30 +74,4 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
             "disk": Disk::of(case, &model, steps).json(&default_folder(case)),
         },
     }))
-}
-
-fn write(path: &Path, case: &Case, model: &Model) -> Result<(), RunError> {
-    let body: Vec<u8> = model
-        .mesh
-        .bodies
-        .iter()
-        .enumerate()
-        .flat_map(|(k, b)| std::iter::repeat_n(k as u8, b.hexes.len()))
-        .collect();
-    let constant = [StaticField::body(&body)];
-    let grid = GridSpec {
-        points: &model.mesh.nodes,
-        cells: Cells::Hexahedra(&model.mesh.hexes),
-        constant: &constant,
-    };
-    if path.extension().is_some_and(|e| e == "vtu") {
-        return Ok(output::write_vtu(path, &grid)?);
-    }
-    let provenance = Provenance {
-        creepage_version: env!("CARGO_PKG_VERSION").into(),
-        case_hash: case.hash(),
-        created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        attributes: crate::run::kinds(case),
-    };
-    Ok(TransientGrid::create(path, &grid, &[], &provenance)?.append(0.0, &[])?)
 }

@@ -1,12 +1,14 @@
 //! The mesh of a case that names a mesh file.
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
-use case::mesh_file;
+use case::mesh_file::{self, MeshFormat};
 use case::schema::{Case, Ends, LengthUnit};
 use mesh::Mesh;
-use mesh::import::{Format, ImportError, SetNames, Shape, Unit, bodies, fit};
-use output::hexadecimal;
+use mesh::import::{Foreign, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
+use output::layout::{CONSTANT, MESH_SETS};
+use output::{GridFile, OutputError, hexadecimal};
 use sha2::{Digest, Sha256};
 
 use crate::error::{MeshFileError, ScenarioError};
@@ -22,15 +24,20 @@ pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError>
         let (path, remedy) = (path.clone(), remedy.to_owned());
         ScenarioError::MeshFile(MeshFileError { path, line: None, problem, remedy })
     };
-    let format =
-        Format::of(&path).ok_or_else(|| refused("is no mesh file".into(), mesh_file::ENDINGS))?;
+    let format = MeshFormat::of(&path)
+        .ok_or_else(|| refused("is no mesh file".into(), mesh_file::ENDINGS))?;
     let bytes =
         mesh_file::read(&path).map_err(|problem| refused(problem, "bring the file back"))?;
     if case.mesh.sha256.as_ref().is_some_and(|s| *s != hexadecimal(&Sha256::digest(&bytes))) {
         return Err(refused("has changed since the case was read".into(), "begin anew"));
     }
-    let imported = format
-        .read(&bytes)
+    let foreign = match format {
+        MeshFormat::Foreign(format) => format.read(&bytes),
+        MeshFormat::Own => Ok(own(&path, &names(case)).map_err(|error| {
+            refused(error.to_string(), "write it again with creepage mesh CASE --out FILE.vtkhdf")
+        })?),
+    };
+    let imported = foreign
         .and_then(|foreign| bodies(&foreign, &names(case), unit(case)))
         .and_then(|imported| fit(imported, &shape(case)))
         .map_err(|ImportError { line, fault }| {
@@ -38,6 +45,35 @@ pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError>
             ScenarioError::MeshFile(MeshFileError { path: path.clone(), line, problem, remedy })
         })?;
     Ok(Some((imported.mesh, imported.notes)))
+}
+
+/// A grid that `creepage mesh` wrote: `body` tells the elements of disk and bar apart, and each field of
+/// [`MESH_SETS`] is a set of nodes.
+fn own(path: &Path, names: &SetNames) -> Result<Foreign, OutputError> {
+    let file = GridFile::open(path)?;
+    let (hexes, rest) = (file.connectivity()?.as_chunks::<8>().0.to_vec(), file.cells());
+    let damaged = |reason: &str| OutputError::Read { path: path.to_owned(), reason: reason.into() };
+    if hexes.len() != rest {
+        return Err(damaged("its cells are no hexahedra"));
+    }
+    let points = file.points()?;
+    if hexes.as_flattened().iter().any(|&node| node as usize >= points.len()) {
+        return Err(damaged("a cell has a point that the file does not have"));
+    }
+    let chosen = |values: Vec<f64>, label: f64| -> Vec<u32> {
+        (0..).zip(values).filter(|(_, value)| *value == label).map(|(index, _)| index).collect()
+    };
+    let mut sets = BTreeMap::new();
+    for (label, name) in [(0.0, &names.disk), (1.0, &names.bar)] {
+        let hexes = chosen(file.read(&CONSTANT.body.name, true, 0)?, label);
+        sets.insert(name.clone(), Set { hexes, ..Set::default() });
+    }
+    let named = [&names.hub, &names.tread, &names.top, &names.clamp];
+    for (spec, name) in MESH_SETS.each().into_iter().zip(named) {
+        let nodes = chosen(file.read(&spec.name, false, 0)?, 1.0);
+        sets.insert(name.clone(), Set { nodes, ..Set::default() });
+    }
+    Ok(Foreign::from_arrays(points, hexes, sets))
 }
 
 fn names(case: &Case) -> SetNames {
