@@ -138,6 +138,22 @@ pub enum Command {
         --element full --threads 1"
     )]
     Bench(BenchOptions),
+    /// Print the completions of commands and options for a shell
+    #[command(after_help = "Examples:\n  creepage completions bash > \
+        ~/.local/share/bash-completion/completions/creepage\n  creepage completions fish > \
+        ~/.config/fish/completions/creepage.fish")]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page of the program, or of one of its commands
+    #[command(
+        after_help = "Examples:\n  creepage man | man -l -\n  creepage man run > creepage-run.1"
+    )]
+    Man {
+        /// The command
+        command: Option<String>,
+    },
 }
 
 /// Runs the command and returns the exit code.
@@ -185,6 +201,11 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
             Ok(found.exit_code())
         }
         Command::Bench(options) => done(&creepage::bench(options)?, bench::text),
+        Command::Completions { shell } => {
+            crate::manual::completions(*shell);
+            Ok(0)
+        }
+        Command::Man { command } => crate::manual::page(command.as_deref()).map(|()| 0),
     }
 }
 

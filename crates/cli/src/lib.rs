@@ -5,6 +5,7 @@
 mod args;
 mod commands;
 mod failure;
+mod manual;
 mod progress;
 mod report;
 mod run;

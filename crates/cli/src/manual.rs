@@ -1,0 +1,48 @@
+//! What an installed program gives a shell and `man`: completions and manual pages.
+
+use std::io::Write;
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+use creepage::Error;
+
+use crate::commands::Line;
+
+/// Prints the completions for `shell`.
+pub fn completions(shell: Shell) {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Line::command(), "creepage", &mut script);
+    print(&script);
+}
+
+/// Prints the manual page (roff) of the program, or of its command `name`.
+///
+/// # Errors
+/// A command that the program does not have.
+pub fn page(name: Option<&str>) -> Result<(), Error> {
+    let mut program = Line::command();
+    // the options that all commands share, in the page of each
+    program.build();
+    let shown = match name {
+        None => program,
+        Some(name) => {
+            let names =
+                program.get_subcommands().map(|c| c.get_name()).collect::<Vec<_>>().join(", ");
+            let command = program.find_subcommand(name).cloned().ok_or_else(|| Error::Option {
+                problem: format!("there is no command {name}"),
+                help: Some(format!("give one of {names}")),
+            })?;
+            command.display_name(format!("creepage-{name}"))
+        }
+    };
+    let mut text = Vec::new();
+    // a vector takes all that is written
+    let _ = clap_mangen::Man::new(shown).render(&mut text);
+    print(&text);
+    Ok(())
+}
+
+fn print(text: &[u8]) {
+    // a reader that closed the pipe wants no more
+    let _ = std::io::stdout().write_all(text);
+}
