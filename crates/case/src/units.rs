@@ -25,7 +25,9 @@ pub(crate) fn with_units(text: &str) -> String {
                 } else if let Some((name, value)) = line.split_once(" = ") {
                     let quotes = ["\"\"\"", "'''"].into_iter().find(|q| value.starts_with(q));
                     open = quotes.filter(|quotes| !value[3..].contains(quotes));
-                    if let Some(unit) = unit_of(&section, name) {
+                    // a word in the place of a number has no unit
+                    let unit = unit_of(&section, name).filter(|_| !value.starts_with(['"', '\'']));
+                    if let Some(unit) = unit {
                         noted.push_str(&format!("  # {unit}"));
                     }
                 }

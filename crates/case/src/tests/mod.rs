@@ -110,6 +110,7 @@ fn the_resolved_case_has_the_unit_of_every_number_behind_it_and_loads_to_itself(
         assert_eq!(line("speed = "), "speed = 38.89  # m/s");
         assert_eq!(line("normal = 100"), "normal = 100000.0  # N");
         assert_eq!(line("creepage = "), "creepage = 0.0024");
+        assert_eq!(line("crown_radius = \"flat"), "crown_radius = \"flat\"");
         assert_eq!(line("density = "), "density = 7800.0  # kg/m^3");
     }
     let case = set(&[
