@@ -54,20 +54,21 @@ pub(crate) fn draw<DB: DrawingBackend>(
     let rows: Vec<(i32, String)> =
         y.ticks().iter().map(|t| (plot.y_at(*t).round() as i32, y.label(*t))).collect();
     for (x, _) in &columns {
-        pen.path([(*x, down.start), (*x, bottom)], GRID, 0.6)?;
+        pen.rule([(*x, down.start), (*x, bottom)], GRID, 0.5)?;
     }
     for (y, _) in &rows {
-        pen.path([(left, *y), (across.end, *y)], GRID, 0.6)?;
+        pen.rule([(left, *y), (across.end, *y)], GRID, 0.5)?;
     }
-    pen.path([(left, down.start), (left, bottom), (across.end, bottom)], colour::BLACK, 0.8)?;
+    pen.rule([(left, down.start), (left, bottom)], colour::BLACK, 1.0)?;
+    pen.rule([(left, bottom), (across.end, bottom)], colour::BLACK, 1.0)?;
     let (tick, text) = (pen.px(TICK), pen.px(2.0 * TICK));
     for (x, label) in columns {
-        pen.path([(x, bottom), (x, bottom + tick)], colour::BLACK, 0.8)?;
+        pen.rule([(x, bottom), (x, bottom + tick)], colour::BLACK, 1.0)?;
         let middle = bottom + text + pen.px(0.4 * TEXT);
         pen.write(&label, TEXT, (x, middle), HPos::Center)?;
     }
     for (y, label) in rows {
-        pen.path([(left - tick, y), (left, y)], colour::BLACK, 0.8)?;
+        pen.rule([(left - tick, y), (left, y)], colour::BLACK, 1.0)?;
         pen.write(&label, TEXT, (left - text, y), HPos::Right)?;
     }
     let below = bottom + text + pen.px(1.4 * TEXT + GAP);

@@ -23,8 +23,9 @@ pub(crate) const GAP: f64 = 5.0;
 pub(crate) enum Medium {
     /// SVG: its viewer joins the segments of lines; [`label::typeset`] makes subscripts afterwards.
     Svg,
-    /// Pixels: segments of lines and subscripts are drawn one by one.
-    Bitmap,
+    /// Pixels: segments of lines and subscripts are drawn one by one. A pixel of the picture is the mean of so many
+    /// in each direction.
+    Bitmap(u32),
 }
 
 /// Draws on an area, with `unit` pixels per point.
@@ -110,11 +111,40 @@ impl<'a, DB: DrawingBackend> Pen<'a, DB> {
             // the middle of smaller letters is nearer to their line
             let down = self.px(size * (TOO_HIGH + lowered + MIDDLE * (1.0 - share)));
             let (x, y) = turn.transform(along, down);
-            let place = (at.0 + x, at.1 + y);
+            // letters that begin on whole pixels of the picture are sharper, and alike wherever they stand
+            let place = self.whole((at.0 + x, at.1 + y));
             self.area.draw(&Text::new(run, place, style(share * size, HPos::Left)))?;
             along += self.width_of_run(run, size, share)?;
         }
         Ok(())
+    }
+
+    /// The nearest point between whole pixels of the picture (pixels of the area).
+    fn whole(&self, (x, y): (i32, i32)) -> (i32, i32) {
+        let Medium::Bitmap(fine) = self.medium else { return (x, y) };
+        let fine = fine as i32;
+        let nearest = |at: i32, base: i32| (at + base + fine / 2).div_euclid(fine) * fine - base;
+        let base = self.area.get_base_pixel();
+        (nearest(x, base.0), nearest(y, base.1))
+    }
+
+    /// Draws a line along an axis from one point to another (pixels), as thick as `points` (of 1/96 inch), sharply.
+    pub fn rule(
+        &self,
+        [from, to]: [(i32, i32); 2],
+        colour: [u8; 3],
+        points: f64,
+    ) -> Result<(), Failure<DB>> {
+        let thick = self.px(points).max(1);
+        let [from, to] = [from, to].map(|at| self.whole(at));
+        let (low, high) = if from.0 == to.0 {
+            let left = self.whole((from.0 - thick / 2, 0)).0;
+            ((left, from.1.min(to.1)), (left + thick, from.1.max(to.1)))
+        } else {
+            let top = self.whole((0, from.1 - thick / 2)).1;
+            ((from.0.min(to.0), top), (from.0.max(to.0), top + thick))
+        };
+        self.area.draw(&Rectangle::new([low, high], rgb(colour).filled()))
     }
 
     /// A text in lines of at most `room` pixels, as far as its words allow.

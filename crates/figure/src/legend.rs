@@ -83,7 +83,7 @@ fn colour_bar<DB: DrawingBackend>(
     for tick in ticked.ticks() {
         let share = (tick - ticked.low()) / (ticked.high() - ticked.low());
         let x = left + (share * f64::from(length)).round() as i32;
-        pen.path([(x, lower), (x, lower + pen.px(TICK))], colour::BLACK, 0.8)?;
+        pen.rule([(x, lower), (x, lower + pen.px(TICK))], colour::BLACK, 1.0)?;
         let middle = lower + pen.px(TICK + 0.5 * TEXT);
         pen.write(&ticked.label(*tick), TEXT, (x, middle), HPos::Center)?;
     }

@@ -4,16 +4,15 @@ use crate::Pixels;
 use files::output::PNG_MARK;
 use std::collections::BTreeMap;
 
-/// Most colours of a palette.
-const MOST: usize = 256;
-
 /// A PNG with the mark of this program. Its palette holds the most frequent colours, which are those of lines, cells
 /// and paper, exactly; the other shades, those at the edges of lines, become the nearest of them.
 ///
+/// `most` is the number of colours, at most 256: the fewer, the smaller the file.
+///
 /// # Errors
 /// What the PNG library fails with.
-pub(crate) fn png(pixels: &Pixels) -> Result<Vec<u8>, png::EncodingError> {
-    let (palette, index) = palette(&pixels.rgb);
+pub(crate) fn png(pixels: &Pixels, most: usize) -> Result<Vec<u8>, png::EncodingError> {
+    let (palette, index) = palette(&pixels.rgb, most);
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, pixels.width, pixels.height);
     encoder.set_color(png::ColorType::Indexed);
@@ -39,11 +38,11 @@ fn colours(rgb: &[u8]) -> &[[u8; 3]] {
     rgb.as_chunks().0
 }
 
-/// At most [`MOST`] colours, the most frequent first, and for each colour the index of the nearest of them.
+/// At most `most` colours, the most frequent first, and for each colour the index of the nearest of them.
 ///
 /// A colour is left out if it is near one that is more frequent. How near is the least of a few distances with which the
 /// colours are few enough, so that a rare colour does not become another.
-fn palette(rgb: &[u8]) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
+fn palette(rgb: &[u8], most: usize) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
     let mut counts = BTreeMap::<[u8; 3], usize>::new();
     for run in colours(rgb).chunk_by(|a, b| a == b) {
         *counts.entry(run[0]).or_default() += run.len();
@@ -51,7 +50,8 @@ fn palette(rgb: &[u8]) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
     let mut frequent: Vec<[u8; 3]> = counts.keys().copied().collect();
     frequent.sort_by_key(|colour| std::cmp::Reverse(counts[colour]));
     let distances = (0..).map(|i| 3 * i * i);
-    let palette = distances.map(|least| apart(&frequent, least)).find(|all| all.len() <= MOST);
+    let palette =
+        distances.map(|least| apart(&frequent, least, most)).find(|all| all.len() <= most);
     let palette = palette.unwrap_or_default();
     let nearest = |colour: [u8; 3]| {
         let indices = (0..palette.len()).min_by_key(|i| distance(palette[*i], colour));
@@ -61,12 +61,12 @@ fn palette(rgb: &[u8]) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
     (palette, index)
 }
 
-/// Those of `colours` that are farther than the square root of `least` from all before them; one more than [`MOST`]
-/// of them where there are more.
-fn apart(colours: &[[u8; 3]], least: u32) -> Vec<[u8; 3]> {
+/// Those of `colours` that are farther than the square root of `least` from all before them; one more than `most` of
+/// them where there are more.
+fn apart(colours: &[[u8; 3]], least: u32, most: usize) -> Vec<[u8; 3]> {
     let mut kept: Vec<[u8; 3]> = Vec::new();
     for colour in colours {
-        if kept.len() <= MOST && kept.iter().all(|other| distance(*colour, *other) > least) {
+        if kept.len() <= most && kept.iter().all(|other| distance(*colour, *other) > least) {
             kept.push(*colour);
         }
     }
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn few_colours_are_kept_exactly() {
         let few = Pixels { width: 2, height: 1, rgb: vec![0, 114, 178, 255, 255, 254] };
-        assert_eq!(decoded(&png(&few).unwrap()), few.rgb);
+        assert_eq!(decoded(&png(&few, 2).unwrap()), few.rgb);
     }
 
     #[test]
@@ -104,7 +104,7 @@ mod tests {
         let all = std::iter::repeat_n([213, 94, 0], 100).chain((0..10_000).map(shade));
         let rgb: Vec<u8> = all.chain([[253, 231, 37]]).flatten().collect();
         let many = Pixels { width: 10_101, height: 1, rgb };
-        let found = decoded(&png(&many).unwrap());
+        let found = decoded(&png(&many, 256).unwrap());
         assert_eq!(found[..300], many.rgb[..300]);
         assert_eq!(found[30_300..], many.rgb[30_300..]);
         let pairs = found.as_chunks::<3>().0.iter().zip(many.rgb.as_chunks::<3>().0);

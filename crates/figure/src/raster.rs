@@ -18,7 +18,7 @@ pub(crate) fn pixels(figure: &Figure, unit: u32) -> Result<Pixels, String> {
     {
         let size = (width * fine, height * fine);
         let area = BitMapBackend::with_buffer(&mut rgb, size).into_drawing_area();
-        let drawn = draw::figure(figure, &area, f64::from(unit * fine), Medium::Bitmap);
+        let drawn = draw::figure(figure, &area, f64::from(unit * fine), Medium::Bitmap(fine));
         drawn.and_then(|()| area.present()).map_err(|error| error.to_string())?;
     }
     Ok(Pixels { width, height, rgb: means(&rgb, width as usize, fine as usize) })

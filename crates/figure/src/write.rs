@@ -1,7 +1,7 @@
 //! Writing a figure as SVG and PNG.
 
 use crate::layout::Medium;
-use crate::{Figure, draw, font, label, palette, raster};
+use crate::{Figure, Fill, Key, Panel, draw, font, label, palette, raster};
 use files::output::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
 use std::path::{Path, PathBuf};
@@ -109,7 +109,8 @@ impl Figure {
                 let undrawn = |cause: String| FigureError::Draw { path: path.clone(), cause };
                 register(&path)?;
                 let pixels = raster::pixels(self, PNG_UNIT).map_err(undrawn)?;
-                let image = palette::png(&pixels).map_err(|error| undrawn(error.to_string()))?;
+                let image = palette::png(&pixels, self.colours())
+                    .map_err(|error| undrawn(error.to_string()))?;
                 std::fs::write(&path, image).map_err(|cause| failed(&path, cause))?;
             }
         }
@@ -158,6 +159,12 @@ impl Figure {
         Ok((label::typeset(&text), width, height))
     }
 
+    /// How many colours its pixels need: lines and letters in a few, maps in many.
+    fn colours(&self) -> usize {
+        let map = |panel: &Panel| matches!(&panel.fill, Some(Fill { key: Key::Values { .. }, .. }));
+        if self.panels.iter().any(map) { 256 } else { 32 }
+    }
+
     fn pixels(&self, unit: u32) -> (u32, u32) {
         (self.size[0] * unit, self.size[1] * unit)
     }
@@ -174,7 +181,7 @@ fn register(path: &Path) -> Result<(), FigureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Cell, Draw, Fill, Key, Mark, Panel, Scale, Series, colour};
+    use crate::{Axis, Cell, Draw, Mark, Scale, Series, colour};
 
     fn figure() -> Figure {
         let points = (0..100).map(|i| [f64::from(i), libm::sin(f64::from(i))]).collect();

@@ -4,7 +4,7 @@ use figure::{Axis, Draw, Figure, Panel, Series, colour};
 use verify::Row;
 
 /// Width and height of a panel (points).
-const PANEL: [u32; 2] = [350, 330];
+const PANEL: [u32; 2] = [350, 310];
 /// Panels in a row.
 const COLUMNS: usize = 3;
 const COLOURS: [[u8; 3]; 7] = [
