@@ -37,7 +37,8 @@ fn every_figure_carries_labels_units_and_the_numbers_of_the_case() {
             "figure-3-tractions",
             "figure-4-bound",
             "figure-7-law",
-            "space-time"
+            "space-time",
+            "contact-maps"
         ]
     );
     for name in names {
@@ -100,7 +101,7 @@ fn one_format_can_be_chosen_and_bare_data_have_the_figures_that_they_allow() {
         .unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let files: Vec<_> = fs::read_dir(&out).unwrap().map(|f| f.unwrap().path()).collect();
-    assert_eq!(files.len(), 6);
+    assert_eq!(files.len(), 7);
     assert!(files.iter().all(|file| file.extension().unwrap() == "svg"));
     let refused = Command::new(env!("CARGO_BIN_EXE_creepage"))
         .args(["plot", folder.path().to_str().unwrap(), "--format", "pdf"])

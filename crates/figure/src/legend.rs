@@ -45,7 +45,8 @@ pub(crate) fn key<DB: DrawingBackend>(
                 let sample = [(middle.0, low), (middle.0 + pen.px(SAMPLE), high)];
                 pen.area.draw(&Rectangle::new(sample, rgb(*colour).filled()))?;
             }
-            Ok(flow.end())
+            // as high as a colour bar, so that maps beside each other are of one size
+            Ok(flow.end().max(room.top + pen.px(2.0 + BAR_HEIGHT + BAR_LABELS)))
         }
     }
 }

@@ -34,14 +34,18 @@ pub(crate) fn png(pixels: &Pixels, most: usize) -> Result<Vec<u8>, png::Encoding
     Ok(out)
 }
 
+/// Colours of a palette that may be rare.
+const RARE: usize = 96;
+
 fn colours(rgb: &[u8]) -> &[[u8; 3]] {
     rgb.as_chunks().0
 }
 
 /// At most `most` colours, the most frequent first, and for each colour the index of the nearest of them.
 ///
-/// A colour is left out if it is near one that is more frequent. How near is the least of a few distances with which the
-/// colours are few enough, so that a rare colour does not become another.
+/// The most frequent are taken as they are; of the last [`RARE`] one is left out if it is near one that is more
+/// frequent. How near is the least of a few distances with which the colours are few enough, so that a rare colour
+/// does not become another.
 fn palette(rgb: &[u8], most: usize) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
     let mut counts = BTreeMap::<[u8; 3], usize>::new();
     for run in colours(rgb).chunk_by(|a, b| a == b) {
@@ -61,12 +65,13 @@ fn palette(rgb: &[u8], most: usize) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
     (palette, index)
 }
 
-/// Those of `colours` that are farther than the square root of `least` from all before them; one more than `most` of
-/// them where there are more.
+/// The first of `colours`, and of the others those that are farther than the square root of `least` from all before
+/// them; one more than `most` where there are more.
 fn apart(colours: &[[u8; 3]], least: u32, most: usize) -> Vec<[u8; 3]> {
     let mut kept: Vec<[u8; 3]> = Vec::new();
     for colour in colours {
-        if kept.len() <= most && kept.iter().all(|other| distance(*colour, *other) > least) {
+        let far = || kept.iter().all(|other| distance(*colour, *other) > least);
+        if kept.len() <= most && (kept.len() < most.saturating_sub(RARE) || far()) {
             kept.push(*colour);
         }
     }

@@ -5,6 +5,7 @@ mod half_space;
 mod histories;
 mod lines;
 mod maps;
+mod patch;
 mod scatter;
 mod scene;
 mod spectrum;
@@ -95,6 +96,10 @@ pub fn figures(
             figure: maps::space_time(&scene, &band),
         },
     ];
+    if let Some(figure) = patch::maps(&scene) {
+        let about = "maps of the patch at the last instant: tractions, slip velocity, stick and slip, friction";
+        all.push(Named { stem: "contact-maps", about, figure });
+    }
     if let Some(figure) = histories::histories(&scene, &paths.folder.join(file::HISTORY))? {
         let about = "forces, creepage, patch and energies over time";
         all.push(Named { stem: "histories", about, figure });

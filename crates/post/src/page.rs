@@ -80,7 +80,7 @@ pub fn run_page(
 }
 
 /// Figures of the section about the patch, and of that about the contact conditions.
-const PATCH_FIGURES: [&str; 2] = ["figure-3-tractions", "figure-2-stick-slip"];
+const PATCH_FIGURES: [&str; 3] = ["figure-3-tractions", "contact-maps", "figure-2-stick-slip"];
 const CONDITION_FIGURES: [&str; 2] = ["figure-4-bound", "figure-7-law"];
 
 /// Appends those of the figures that have these names, in the order of the names.

@@ -36,10 +36,7 @@ pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
         return None;
     };
     let poisson = basis.case.as_ref().and_then(|case| number_at(case, "material.poisson"));
-    let hertz = |name: &str| {
-        basis.scales.get(name).filter(|s| !s.from.contains("last record")).map(|s| s.value)
-    };
-    let (a, b) = (hertz("half_length")?, hertz("half_width")?);
+    let (a, b) = (scene.hertz("half_length")?, scene.hertz("half_width")?);
     let (shape, table_shape) = (a / b, HALF_AXES[0] / HALF_AXES[1]);
     if (poisson? - POISSON).abs() > 1e-6 || (shape / table_shape - 1.0).abs() > 0.01 {
         return None;
@@ -51,7 +48,7 @@ pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
         return None;
     }
     let (along, up) =
-        (1e-3 * a / HALF_AXES[0], law.mu / MU * hertz("peak_pressure")? / PEAK_PRESSURE);
+        (1e-3 * a / HALF_AXES[0], law.mu / MU * scene.hertz("peak_pressure")? / PEAK_PRESSURE);
     let rows =
         TABLE.lines().filter(|line| line.starts_with(|c: char| c == '-' || c.is_ascii_digit()));
     let points = rows.filter_map(|line| {

@@ -27,7 +27,7 @@ struct Sample {
 }
 
 /// Factor by which cells are enlarged, since strain and rounding would leave gaps between them.
-const SEAM: f64 = 1.02;
+pub(super) const SEAM: f64 = 1.02;
 
 /// Most records that the diagram over time shows.
 const MOST_COLUMNS: usize = 400;
@@ -90,11 +90,11 @@ impl Band {
 }
 
 /// Stick dark, slip light: distinct for the colour-blind and in grey.
-fn states() -> Key {
+pub(super) fn states() -> Key {
     Key::Classes(vec![("stick".into(), colour::BLUE), ("slip".into(), colour::ORANGE)])
 }
 
-fn state_colour(state: Option<u8>) -> [u8; 3] {
+pub(super) fn state_colour(state: Option<u8>) -> [u8; 3] {
     match state {
         Some(1) => colour::BLUE,
         Some(2) => colour::ORANGE,
@@ -103,7 +103,7 @@ fn state_colour(state: Option<u8>) -> [u8; 3] {
 }
 
 /// A logarithmic key of slip speeds over the three decades up to the one of the largest.
-fn speeds(values: impl Iterator<Item = f64>) -> Key {
+pub(super) fn speeds(values: impl Iterator<Item = f64>) -> Key {
     let largest = values.filter(|v| v.is_finite()).fold(0.0f64, f64::max);
     let top = if largest > 0.0 { libm::log10(largest).ceil() } else { 0.0 };
     let range = [libm::pow(10f64, top - 3.0), libm::pow(10f64, top)];

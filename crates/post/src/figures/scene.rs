@@ -89,6 +89,12 @@ impl Scene<'_> {
         1.35 * self.basis.scale("half_length").unwrap_or(10.0 * self.scales.size)
     }
 
+    /// A measure of the patch by Hertz (SI), where it is known apart from the records.
+    pub fn hertz(&self, name: &str) -> Option<f64> {
+        let scale = self.basis.scales.get(name).filter(|s| !s.from.contains("last record"));
+        scale.map(|scale| scale.value)
+    }
+
     pub fn in_contact(&self, frame: &Frame, row: usize) -> bool {
         frame.pressure[row] > crate::conditions::IN_CONTACT * self.scales.peak_pressure
     }
