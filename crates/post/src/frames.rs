@@ -155,7 +155,7 @@ impl ContactHistory {
         Err(PostError::Lacks {
             path: self.path.clone(),
             what: format!(
-                "there is no record from {from:e} to {to:e} s; the file has {} from {:e} to {:e} s",
+                "there is no record from {from} to {to} s; the file has {} from {:.6} to {:.6} s",
                 self.times.len(),
                 self.times[0],
                 self.times[self.times.len() - 1]

@@ -12,7 +12,7 @@ pub fn text(document: &Value) -> String {
     let ms = |pointer: &str| digits(number(document, pointer).map(|t| 1e3 * t), 6);
     let _ = writeln!(
         out,
-        "slip along the centre line from {} to {} ms\n\n  {:<40}{:>9}{:>9}{:>11}{:>12}{:>12}",
+        "slip along the centre line from {} to {} ms\n\n  {:<40}{:>9}{:>9}{:>13}{:>12}{:>12}",
         ms("/window/0"),
         ms("/window/1"),
         "run",
@@ -27,7 +27,7 @@ pub fn text(document: &Value) -> String {
         let at = |key: &str| run[key].as_f64();
         let _ = writeln!(
             out,
-            "  {:<40}{:>9}{:>9}{:>11}{:>12}{:>12}",
+            "  {:<40}{:>9}{:>9}{:>13}{:>12}{:>12}",
             word(&run, "/name"),
             digits(at("largest"), 3),
             digits(at("mean"), 4),

@@ -9,7 +9,9 @@ use super::layout::text as word;
 /// What closes the tables, or the names of all problems.
 pub fn text(found: &Verified) -> String {
     if let Some(problems) = found.document["problems"].as_array() {
-        let line = |p| format!("{:<22}{}\n", word(p, "/name"), word(p, "/about"));
+        let names = problems.iter().map(|p| word(p, "/name").len());
+        let width = names.max().unwrap_or(0);
+        let line = |p| format!("{:<width$}  {}\n", word(p, "/name"), word(p, "/about"));
         return problems.iter().map(line).collect();
     }
     let passed = found.rows.iter().filter(|row| row.pass).count();
