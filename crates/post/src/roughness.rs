@@ -15,8 +15,12 @@ pub(crate) struct Roughness {
     record: usize,
     /// Records on each side of the middle of the span; zero where they lie too far apart or too close.
     half: usize,
-    /// The values of the last `2 half + 1` records, each for all nodes: memory is accessed in order.
+    /// The values of the last `2 half + 1` records, each for all nodes that have slipped, at their places: memory is
+    /// accessed nearly in order. A record has no values before a node slips in it.
     ring: Vec<Vec<[f64; 3]>>,
+    /// The place of each node in the records of the ring, or [`NONE`] for one that has not slipped, and their number.
+    places: Vec<usize>,
+    taken: usize,
     /// Number of the record with which the spell of each node began, or [`NONE`].
     since: Vec<usize>,
     sums: Vec<[f64; 3]>,
@@ -38,7 +42,9 @@ impl Roughness {
             interval: None,
             record: 0,
             half: 0,
-            ring: vec![vec![[0.0; 3]; nodes]],
+            ring: vec![Vec::new()],
+            places: vec![NONE; nodes],
+            taken: 0,
             since: vec![NONE; nodes],
             sums: vec![[0.0; 3]; nodes],
             weight: 0.0,
@@ -61,11 +67,11 @@ impl Roughness {
         let nodes = self.since.len();
         let half = (0.5 * self.span / step + 1e-6).floor() as usize;
         self.half = if 2 * half < MOST { half } else { 0 };
-        self.ring.resize(2 * self.half + 1, vec![[0.0; 3]; nodes]);
+        self.ring.resize(2 * self.half + 1, Vec::new());
         for node in 0..nodes {
             if self.since[node] != NONE {
                 self.since[node] = 0;
-                self.sums[node] = self.ring[0][node];
+                self.sums[node] = self.ring[0][self.places[node]];
             }
         }
         self.interval = Some(step);
@@ -80,14 +86,23 @@ impl Roughness {
             self.since[node] = self.record;
             self.sums[node] = [0.0; 3];
         }
-        let gone = std::mem::replace(&mut self.ring[slot][node], values);
+        if self.places[node] == NONE {
+            self.places[node] = self.taken;
+            self.taken += 1;
+        }
+        let place = self.places[node];
+        let row = &mut self.ring[slot];
+        if row.len() <= place {
+            row.resize(self.taken, [0.0; 3]);
+        }
+        let gone = std::mem::replace(&mut row[place], values);
         let count = self.record - self.since[node] + 1;
         let sums = &mut self.sums[node];
         for i in 0..3 {
             sums[i] += if count > whole { values[i] - gone[i] } else { values[i] };
         }
         if let (true, Some(interval)) = (self.half > 0 && count >= whole, self.interval) {
-            let middle = self.ring[(self.record - self.half) % whole][node];
+            let middle = self.ring[(self.record - self.half) % whole][place];
             let weight = area * interval;
             self.weight += weight;
             for i in 0..3 {
@@ -154,5 +169,18 @@ mod tests {
         assert_eq!(roughness.deviations(), Some([0.0; 3]));
         let before = roughness.weight;
         assert!((before / 0.02 - 10.0).abs() < 1e-9, "{before}");
+    }
+
+    #[test]
+    fn nodes_that_never_slip_take_no_memory_in_the_records() {
+        let mut roughness = Roughness::new(1000, 1.0);
+        for i in 0..300 {
+            roughness.begin(0.01 * f64::from(i));
+            let chatter = if i % 2 == 0 { 1.0 } else { -1.0 };
+            roughness.add(3, [chatter; 3], 1.0);
+            roughness.add(999, [chatter; 3], 1.0);
+        }
+        assert!(roughness.ring.iter().all(|row| row.len() == 2));
+        assert!(roughness.deviations().unwrap().iter().all(|one| (one - 1.0).abs() < 0.01));
     }
 }
