@@ -86,7 +86,7 @@ fn wrong_usage_ends_with_code_2() {
     refused(&["run", &path, "--threads", "0"], &["--threads", "1 to 1024"]);
     refused(&["run", &path, "--set", "load.normal"], &["KEY=VALUE"]);
     refused(&["run", &path, "--resume"], &["no run to resume", "leave out --resume"]);
-    refused(&["mesh", &path, "--out", "mesh.stl"], &[".vtu or .vtkhdf"]);
+    refused(&["mesh", &path, "--out", "mesh.stl"], &[".vtu, .vtkhdf or .msh"]);
 }
 
 #[test]

@@ -28,7 +28,7 @@ class Mesh:
 
         Args:
             case: path of a case file, or a dict of its keys.
-            out: write the mesh here, .vtu or .vtkhdf.
+            out: write the mesh here, .vtu, .vtkhdf or .msh.
             overrides: keys of the case, as of :func:`creepage.run`.
 
         Returns:
