@@ -84,6 +84,7 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
         "How to reproduce",
         "No node is pulled.",
         "figure-4-bound",
+        "contact-maps",
         "creepage run case.toml",
         "name=\"viewport\"",
         "What happened",
@@ -91,7 +92,7 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
     ] {
         assert!(page.contains(part), "{part}");
     }
-    assert_eq!(page.matches("<svg").count(), 6);
+    assert_eq!(page.matches("<svg").count(), 7);
     assert!(!page.contains("NaN"));
 }
 

@@ -210,7 +210,7 @@ mod tests {
     fn values_out_of_their_range_are_refused_by_the_name_of_their_option() {
         let run = RunOptions { threads: Some(0), ..RunOptions::default() };
         refused(crate::run(&run, &mut ()), "--threads: a whole number from 1 to 1024");
-        let mesh = MeshOptions { out: Some("mesh.msh".into()), ..MeshOptions::default() };
+        let mesh = MeshOptions { out: Some("mesh.stl".into()), ..MeshOptions::default() };
         refused(crate::mesh(&mesh, &mut ()), "--out: the file's name must end in .vtu");
         for level in Level::ALL.into_iter().filter(|level| !level.available()) {
             let bench = BenchOptions { kernels: Some(level), ..BenchOptions::default() };

@@ -12,13 +12,14 @@ use serde_json::Value;
 const FIGURES: &str = "figures";
 
 /// The figures of a run, each as SVG and PNG.
-pub const FIGURE_NAMES: [&str; 8] = [
+pub const FIGURE_NAMES: [&str; 9] = [
     "figure-1-velocities",
     "figure-2-stick-slip",
     "figure-3-tractions",
     "figure-4-bound",
     "figure-7-law",
     "space-time",
+    "contact-maps",
     "histories",
     "spectrum",
 ];
