@@ -89,6 +89,9 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
         "name=\"viewport\"",
         "What happened",
         "download=\"check.json\"",
+        "data-line=\"p_{n}, t = ",
+        "data-map=\"classes\" data-names=\"stick;slip\"",
+        "function heightAt(",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -127,6 +127,12 @@ impl Ticked {
         self.range.end
     }
 
+    /// The scale and the ends in drawing coordinates, as the attributes of [`group`](crate::group) have them.
+    pub(crate) fn described(&self) -> String {
+        let scale = if self.log { "log" } else { "linear" };
+        format!("{scale} {} {}", self.low(), self.high())
+    }
+
     /// A value in drawing coordinates; `None` if it is not finite there.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = if self.log { libm::log10(value) } else { value };

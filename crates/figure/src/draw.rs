@@ -4,7 +4,7 @@ use crate::axes::{self, Plot};
 use crate::axis::Ticked;
 use crate::layout::{Area, Failure, GAP, LINE, Medium, Pen, TEXT, TICK, TITLE, rgb};
 use crate::legend::{self, Room};
-use crate::{Draw, Figure, Panel, arrow};
+use crate::{Draw, Figure, Panel, Series, arrow, group};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
@@ -13,6 +13,8 @@ use plotters::style::text_anchor::HPos;
 const MARGIN: f64 = 20.0;
 /// Around a panel: above, below, to the left and to the right.
 const AROUND: [f64; 4] = [8.0, 6.0, 8.0, 20.0];
+/// Length of a dash and of the gap after it.
+const DASH: [f64; 2] = [5.0, 3.0];
 /// Most intervals between the ticks of an axis.
 const INTERVALS: usize = 7;
 
@@ -115,7 +117,9 @@ fn draw_panel<DB: DrawingBackend>(
     let [x, y] = if panel.to_scale { to_scale([x, y], [across.len(), down.len()]) } else { [x, y] };
     let plot = Plot { x, y, across, down };
     axes::draw(&pen, panel, &plot)?;
-    content(&pen, panel, &plot)
+    group::open_plot(&pen, panel, &plot)?;
+    content(&pen, panel, &plot)?;
+    group::close(&pen)
 }
 
 /// The axes with the range of one widened, so that a unit is as long on both in a plot of `size` pixels.
@@ -131,11 +135,15 @@ fn content<DB: DrawingBackend>(
     panel: &Panel,
     plot: &Plot,
 ) -> Result<(), Failure<DB>> {
-    for cell in panel.fill.iter().flat_map(|fill| &fill.cells) {
-        if let (Some(low), Some(high)) = (plot.pixel(cell.low), plot.pixel(cell.high)) {
-            let [low, high] = [low, high].map(whole);
-            pen.area.draw(&Rectangle::new([low, high], rgb(cell.colour).filled()))?;
+    if let Some(fill) = &panel.fill {
+        group::open_map(pen, &fill.key)?;
+        for cell in &fill.cells {
+            if let (Some(low), Some(high)) = (plot.pixel(cell.low), plot.pixel(cell.high)) {
+                let [low, high] = [low, high].map(whole);
+                pen.area.draw(&Rectangle::new([low, high], rgb(cell.colour).filled()))?;
+            }
         }
+        group::close(pen)?;
     }
     for mark in &panel.marks {
         let ends = [plot.down.end, plot.down.start].map(f64::from);
@@ -143,32 +151,43 @@ fn content<DB: DrawingBackend>(
             dashed(pen, &ends.map(|y| [x, y]), mark.colour, 1.2)?;
         }
     }
-    for series in &panel.series {
-        let points = series.points.iter().map(|point| plot.pixel(*point));
-        match series.draw {
-            Draw::Line(colour) => {
-                for run in runs(points) {
-                    line(pen, &run, colour)?;
-                }
+    for shown in &panel.series {
+        group::open_series(pen, shown, DASH[1] * pen.unit)?;
+        series(pen, shown, plot)?;
+        group::close(pen)?;
+    }
+    Ok(())
+}
+
+fn series<DB: DrawingBackend>(
+    pen: &Pen<'_, DB>,
+    series: &Series,
+    plot: &Plot,
+) -> Result<(), Failure<DB>> {
+    let points = series.points.iter().map(|point| plot.pixel(*point));
+    match series.draw {
+        Draw::Line(colour) => {
+            for run in runs(points) {
+                line(pen, &run, colour)?;
             }
-            Draw::Dashed(colour) => {
-                for run in runs(points) {
-                    dashed(pen, &run, colour, 1.1)?;
-                }
+        }
+        Draw::Dashed(colour) => {
+            for run in runs(points) {
+                dashed(pen, &run, colour, 1.1)?;
             }
-            Draw::Dots(colour, radius) => {
-                for at in points.flatten() {
-                    let dot = Circle::new(whole(at), pen.px(radius), rgb(colour).filled());
-                    pen.area.draw(&dot)?;
-                }
+        }
+        Draw::Dots(colour, radius) => {
+            for at in points.flatten() {
+                let dot = Circle::new(whole(at), pen.px(radius), rgb(colour).filled());
+                pen.area.draw(&dot)?;
             }
-            Draw::Arrows(colour) => {
-                let points: Vec<_> = points.collect();
-                for ends in points.as_chunks::<2>().0 {
-                    let [Some(tail), Some(tip)] = *ends else { continue };
-                    for piece in arrow::pieces(tail, tip, pen.unit) {
-                        pen.path(piece, colour, 1.0)?;
-                    }
+        }
+        Draw::Arrows(colour) => {
+            let points: Vec<_> = points.collect();
+            for ends in points.as_chunks::<2>().0 {
+                let [Some(tail), Some(tip)] = *ends else { continue };
+                for piece in arrow::pieces(tail, tip, pen.unit) {
+                    pen.path(piece, colour, 1.0)?;
                 }
             }
         }
@@ -223,7 +242,7 @@ fn dashed<DB: DrawingBackend>(
     colour: [u8; 3],
     thick: f64,
 ) -> Result<(), Failure<DB>> {
-    for dash in dashes(points, [5.0, 3.0].map(|length| length * pen.unit)) {
+    for dash in dashes(points, DASH.map(|length| length * pen.unit)) {
         pen.path(dash.into_iter().map(whole).collect::<Vec<_>>(), colour, thick)?;
     }
     Ok(())

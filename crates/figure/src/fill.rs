@@ -54,21 +54,23 @@ impl Key {
     }
 }
 
+/// Colours of [`viridis`], evenly spaced from its lower to its upper end.
+pub(crate) const STOPS: [[u8; 3]; 9] = [
+    [68, 1, 84],
+    [71, 44, 122],
+    [59, 81, 139],
+    [44, 113, 142],
+    [33, 144, 141],
+    [39, 173, 129],
+    [92, 200, 99],
+    [170, 220, 50],
+    [253, 231, 37],
+];
+
 /// The colour map viridis (van der Walt and Smith 2015) at `share`, 0 to 1 and clamped to it; NaN counts as 0.
 /// Its lightness rises evenly, so that it remains legible with colour blindness and in grey print. Linear
 /// between nine of its colours.
 pub fn viridis(share: f64) -> [u8; 3] {
-    const STOPS: [[u8; 3]; 9] = [
-        [68, 1, 84],
-        [71, 44, 122],
-        [59, 81, 139],
-        [44, 113, 142],
-        [33, 144, 141],
-        [39, 173, 129],
-        [92, 200, 99],
-        [170, 220, 50],
-        [253, 231, 37],
-    ];
     let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
     let place = share * (STOPS.len() - 1) as f64;
     let below = (place as usize).min(STOPS.len() - 2);

@@ -17,6 +17,7 @@ mod figure;
 mod fill;
 mod film;
 mod font;
+mod group;
 mod label;
 mod layout;
 mod legend;

@@ -1,7 +1,7 @@
 //! Writing a figure as SVG and PNG.
 
 use crate::layout::Medium;
-use crate::{Figure, Fill, Key, Panel, draw, font, label, palette, raster};
+use crate::{Figure, Fill, Key, Panel, draw, font, group, label, palette, raster};
 use files::output::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
 use std::path::{Path, PathBuf};
@@ -156,7 +156,7 @@ impl Figure {
                 cause: error.to_string(),
             })?;
         }
-        Ok((label::typeset(&text), width, height))
+        Ok((group::written(&label::typeset(&text)), width, height))
     }
 
     /// How many colours its pixels need: lines and letters in a few, maps in many.

@@ -32,6 +32,9 @@ td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .overview>*{flex:1 1 24rem;min-width:0}img{max-width:100%;height:auto;border:1px solid #ddd}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
+#values{position:fixed;z-index:1;pointer-events:none;background:#fffe;border:1px solid #999;padding:.3rem .6rem;
+font-size:.8rem;max-width:90vw}#values i{display:inline-block;width:1em;height:.6em;margin-right:.5em}
+#rule{stroke:#999;stroke-width:3;pointer-events:none}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
 @media print{body{max-width:none}figure{break-inside:avoid}}";
 
@@ -45,6 +48,9 @@ for (const table of document.querySelectorAll('table')) {
   link.href = 'data:text/csv;charset=utf-8,' + encodeURIComponent(rows.join('\\n'));
   table.after(link);
 }";
+
+/// Shows values under the pointer in figures, from the attributes that they have for it.
+const VALUES: &str = include_str!("page/values.js");
 
 /// The HTML page of a run in `folder`, from the document of its check ([`Checked`](crate::Checked)) and its
 /// figures.
@@ -95,9 +101,10 @@ fn drawn(out: &mut String, figures: &[Named], stems: &[&str]) -> Result<(), Post
     Ok(())
 }
 
-/// Ends a page, with the script that offers each table as CSV.
+/// Ends a page, with its scripts.
 fn end(out: &mut String) {
-    let _ = writeln!(out, "<script>{TABLES}</script>\n</body>\n</html>");
+    let _ =
+        writeln!(out, "<script>{TABLES}</script>\n<script>\n{VALUES}</script>\n</body>\n</html>");
 }
 
 fn head(name: &str) -> String {
