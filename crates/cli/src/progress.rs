@@ -9,7 +9,7 @@ use creepage::{Cost, Listener, Problem, Progress, Row, Stage, Watched};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use crate::args::Args;
-use crate::report::layout::{count, digits, duration};
+use crate::report::layout::{about, count, digits};
 use crate::report::verify;
 
 const TICKS: u64 = 1000;
@@ -106,7 +106,7 @@ fn cost_line(cost: &Cost) -> String {
         count(Some(cost.elements as f64)),
         count(Some(cost.steps as f64)),
         digits(Some(1e9 * cost.dt), 4),
-        duration(Some(cost.seconds)),
+        about(Some(cost.seconds)),
         digits(Some(1e-6 * cost.disk), 3),
     )
 }

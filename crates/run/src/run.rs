@@ -108,7 +108,7 @@ fn run_in_pool(
         below.iter().try_for_each(|line| log.warn(line))?;
         let disk = Disk::of(case, &model, facts.steps as f64);
         disk.shortage(&options.out).iter().try_for_each(|line| log.warn(line))?;
-        let cost = cost(case, &model, &facts, simulation.dt())?;
+        let cost = cost(case, &model, &facts, &simulation)?;
         observe(&Progress { cost, steps: facts.steps, ..stage(case, Stage::Roll) });
     }
     // another process may have taken the folder during the preload

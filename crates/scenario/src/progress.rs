@@ -23,7 +23,7 @@ pub struct Cost {
     pub steps: u64,
     /// Time step (s).
     pub dt: f64,
-    /// Wall time of rolling (s), from the time that this machine takes for the internal force.
+    /// Wall time of rolling without output (s), from the time that this machine takes for the first steps.
     pub seconds: f64,
     /// Room that the results take on the disk (bytes).
     pub disk: f64,
@@ -48,6 +48,7 @@ pub struct Progress {
     pub tangential_force: f64,
     /// Elements times steps per second of wall time (1/s); of the preload, evaluations of elements.
     pub element_steps_per_s: f64,
-    /// What the run will take: told once, before the first step. Steps of half-spaces and implicit steps are not estimated.
+    /// What the run will take: told once, before the first step. Not estimated are steps of half-spaces, implicit steps, and a friction law
+    /// in Python.
     pub cost: Option<Cost>,
 }

@@ -62,6 +62,22 @@ pub fn duration(seconds: Option<f64>) -> String {
     }
 }
 
+/// Seconds as an estimate gives them, which another day may miss by a third: to one digit, or half of one.
+pub fn about(seconds: Option<f64>) -> String {
+    let Some(s) = seconds.filter(|s| s.is_finite()) else {
+        return NONE.into();
+    };
+    let units = [(86400.0, "days"), (3600.0, "hours"), (60.0, "min"), (1.0, "s")];
+    // the largest of which there are at least two
+    let (unit, name) = units.into_iter().find(|(unit, _)| s >= 1.9 * unit).unwrap_or((1.0, "s"));
+    let size = s / unit;
+    let step = libm::pow(10.0, libm::log10(size).floor()) / if size < 10.0 { 1.0 } else { 2.0 };
+    match (size / step).round() * step {
+        _ if size < 0.5 => "less than 1 s".into(),
+        rounded => format!("{} {name}", count(Some(rounded.max(1.0)))),
+    }
+}
+
 /// Appends a heading, set off by an empty line.
 pub fn heading(out: &mut String, title: &str) {
     let _ = writeln!(out, "\n{title}");
@@ -76,6 +92,18 @@ pub fn row(out: &mut String, label: &str, number: &str, unit: &str, remark: &str
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_estimate_has_the_digits_that_it_is_worth() {
+        let said = |s| about(Some(s));
+        assert_eq!([3.84, 6.1, 13.4, 74.0].map(said), ["4 s", "6 s", "15 s", "75 s"]);
+        assert_eq!([0.2, 0.7, 119.0, 700.0].map(said), ["less than 1 s", "1 s", "2 min", "10 min"]);
+        assert_eq!(
+            [5e3, 9.9e3, 1.4e5, 3e6].map(said),
+            ["85 min", "3 hours", "40 hours", "35 days"]
+        );
+        assert_eq!(about(None), "-");
+    }
 
     #[test]
     fn digits_are_significant_and_never_nan() {

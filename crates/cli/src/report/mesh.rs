@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::layout::{count, digits, duration, heading, number, row, text as word};
+use super::layout::{about, count, digits, heading, number, row, text as word};
 
 /// The whole page.
 pub fn text(report: &Value) -> String {
@@ -60,8 +60,11 @@ pub fn text(report: &Value) -> String {
     let more = if springs { "or more: closed penalty springs lower the step" } else { "" };
     row(&mut out, "steps", &count(at("/estimate/steps")), "", more);
     let time = at("/estimate/run_time_s");
-    let note = if time.is_some() { "on this machine" } else { "not estimated for implicit steps" };
-    row(&mut out, "rolling takes about", &duration(time), "", note);
+    let note = match time {
+        Some(_) => "on this machine, for the elements and nodes alone",
+        None => "not estimated for implicit steps",
+    };
+    row(&mut out, "rolling takes about", &about(time), "", note);
     out
 }
 
@@ -109,7 +112,7 @@ mod tests {
             "  largest aspect ratio            25.0",
             "  bound by elements              184.7 ns     element 16 514 at (67.7, 9.0, 12.1) mm",
             "  disk                             160 MB     only 99 MB are free",
-            "  rolling takes about           3.84 s        on this machine",
+            "  rolling takes about              4 s        on this machine, for the elements and nodes alone",
         ] {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
         }
