@@ -110,7 +110,10 @@ fn a_bad_mesh_ends_with_code_2_file_line_element_or_set_and_remedy() {
         "unit = \"mm\"",
         &["radius of the disk", "not 0.1 m", "set disk.radius"],
     );
-    refused("m.msh", b"$MeshFormat\n4.1 1 8\n", "", &["m.msh:2", "binary"]);
+    let binary = fs::read(meshes().join("formats/gmsh-4.1.msh")).unwrap();
+    refused("m.msh", &binary[..3000], "", &["m.msh, byte 3000", "the file ends where"]);
+    let no_sets = fs::read(meshes().join("formats/no-sets.msh")).unwrap();
+    refused("m.msh", &no_sets, "", &["the file has no sets", "meshio keeps cell_sets"]);
     refused("m.stl", b"solid", "", &["case.toml", "mesh.file", ".msh, .inp"]);
 }
 
@@ -223,9 +226,15 @@ fn a_mesh_that_the_program_wrote_reads_back_with_all_its_sets() {
     let dir = tempfile::tempdir().unwrap();
     let case = dir.path().join("case.toml");
     fs::write(&case, SMALL).unwrap();
+    for symmetry in ["whole", "half"] {
+        reads_back(&dir, &case, &format!("mesh.symmetry={symmetry}"));
+    }
+}
+
+/// Writes the mesh of a case in every format and reads it.
+fn reads_back(dir: &tempfile::TempDir, case: &Path, symmetry: &str) {
     let mesh = |more: &[String]| -> Value {
-        let mut args = vec!["mesh", case.to_str().unwrap(), "--json"];
-        args.extend(["--set", "mesh.symmetry=whole"]);
+        let mut args = vec!["mesh", case.to_str().unwrap(), "--json", "--set", symmetry];
         args.extend(more.iter().map(String::as_str));
         let output = creepage(&args);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
@@ -242,10 +251,26 @@ fn a_mesh_that_the_program_wrote_reads_back_with_all_its_sets() {
         let file = dir.path().join(format!("own.{ending}")).display().to_string();
         mesh(&["--out".into(), file.clone()]);
         let read = mesh(&["--set".into(), format!("mesh.file={file:?}")]);
-        assert_eq!(counts(&read), counts(&generated), "{ending}");
+        assert_eq!(counts(&read), counts(&generated), "{symmetry} {ending}");
         // what the program wrote it may write over
         mesh(&["--out".into(), file]);
     }
+}
+
+#[test]
+fn half_a_mesh_where_the_whole_is_wanted_is_refused_with_the_key_to_set() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = dir.path().join("case.toml");
+    fs::write(&case, SMALL).unwrap();
+    let case = case.to_str().unwrap();
+    let half = dir.path().join("half.vtu").display().to_string();
+    let written = ["mesh", case, "--set", "mesh.symmetry=half", "--out", &half];
+    assert_eq!(creepage(&written).status.code(), Some(0));
+    let file = format!("mesh.file={half:?}");
+    let output = creepage(&["mesh", case, "--set", "mesh.symmetry=whole", "--set", &file]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("half a model") && said.contains("mesh.symmetry = \"half\""), "{said}");
 }
 
 #[test]

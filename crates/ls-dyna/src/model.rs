@@ -72,7 +72,11 @@ impl Model {
         let symmetry = symmetry(deck, &indices, &nodes, &foreign)?;
         drop_loose(&mut foreign, &mut nodes);
         if symmetry == Symmetry::Half {
-            mirror(&mut foreign, &mut nodes);
+            // a case reads whole bodies, and cuts them itself
+            let image = foreign.mirror(SAME);
+            for body in &mut nodes {
+                body.extend(body.clone().into_iter().map(|n| image[n as usize]));
+            }
         }
         Ok(Self { foreign, parts, nodes, symmetry, layers })
     }
@@ -342,43 +346,6 @@ fn drop_loose(foreign: &mut Foreign, nodes: &mut [BTreeSet<u32>; 2]) {
     }
     for body in nodes {
         *body = body.iter().map(|n| place[*n as usize]).collect();
-    }
-}
-
-/// Adds the mirror image in y = 0 of half a model: a case reads whole bodies, and cuts them itself.
-fn mirror(foreign: &mut Foreign, nodes: &mut [BTreeSet<u32>; 2]) {
-    let count = foreign.points.len();
-    let last = foreign.nodes.ids.iter().copied().max().unwrap_or(0);
-    let mut image: Vec<u32> = (0..count as u32).collect();
-    for n in 0..count {
-        let [x, y, z] = foreign.points[n];
-        if y.abs() < SAME {
-            foreign.points[n][1] = 0.0;
-            continue;
-        }
-        image[n] = foreign.points.len() as u32;
-        foreign.points.push([x, -y, z]);
-        let line = foreign.nodes.lines[n];
-        label(&mut foreign.nodes, last + foreign.points.len() as u64, line);
-    }
-    let of = |n: u32| image[n as usize];
-    let elements = foreign.hexes.len();
-    let last = foreign.elements.ids.iter().copied().max().unwrap_or(0);
-    for e in 0..elements {
-        // the other way round, so that it is not inverted
-        let [a, b, c, d, e1, f, g, h] = foreign.hexes[e].map(of);
-        foreign.hexes.push([d, c, b, a, h, g, f, e1]);
-        let line = foreign.elements.lines[e];
-        label(&mut foreign.elements, last + 1 + e as u64, line);
-    }
-    for set in foreign.sets.values_mut() {
-        let there: BTreeSet<u32> = set.nodes.iter().copied().collect();
-        set.nodes.extend(there.iter().map(|n| of(*n)).filter(|n| !there.contains(n)));
-        set.faces.extend(set.faces.clone().into_iter().map(|[a, b, c, d]| [d, c, b, a].map(of)));
-        set.hexes.extend(set.hexes.clone().into_iter().map(|e| e + elements as u32));
-    }
-    for body in nodes {
-        body.extend(body.clone().into_iter().map(of));
     }
 }
 

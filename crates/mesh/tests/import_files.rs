@@ -1,7 +1,9 @@
 //! Mesh files: the formats give the same mesh, and what is wrong is told with its line.
 #![allow(clippy::unwrap_used)]
 
-use mesh::import::{Fault, Foreign, Format, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
+use mesh::import::{
+    Fault, Foreign, Format, ImportError, Place, Set, SetNames, Shape, Unit, bodies, fit,
+};
 use mesh::import::{read_abaqus, read_gmsh, read_vtu, write_gmsh};
 use mesh::{Bar, Disk, FineZone, Grading, Mesh};
 use std::fs;
@@ -116,13 +118,13 @@ fn cells_other_than_hexahedra_are_refused_by_number_and_line_in_every_format() {
     {
         let text = with_line(CUBE_2.as_bytes(), 22, &format!("7 {kind} 2 1 1 {nodes}"));
         let error = read_gmsh(&text).unwrap_err();
-        assert_eq!(error.line, Some(22));
+        assert_eq!(error.place, Some(Place::Line(22)));
         assert!(error.to_string().contains("element 7") && error.to_string().contains(name));
         assert!(matches!(error.fault, Fault::Cell { .. }));
     }
     let inp = "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT, TYPE=C3D4, ELSET=disk\n31,1,2,1,2\n";
     let error = read_abaqus(inp.as_bytes()).unwrap_err();
-    assert_eq!(error.line, Some(5));
+    assert_eq!(error.place, Some(Place::Line(5)));
     assert!(error.to_string().contains("element 31") && error.to_string().contains("C3D4"));
     for kind in ["C3D20", "C3D20R", "C3D6", "SC8R"] {
         let text = inp.replace("C3D4", kind);
@@ -204,15 +206,18 @@ fn what_is_not_read_is_refused_by_line_with_what_to_do() {
         ("*NODE\n1,0,0,0\n*NGEN\n1,5\n", 3, "*NGEN"),
     ] {
         let error = read_abaqus(text.as_bytes()).unwrap_err();
-        assert_eq!(error.line, Some(line), "{text}");
+        assert_eq!(error.place, Some(Place::Line(line)), "{text}");
         assert!(matches!(error.fault, Fault::Unsupported { remedy, .. } if !remedy.is_empty()));
         assert!(error.to_string().contains(word), "{error}");
     }
-    for (format, word) in [("4 0 8", "MSH format 4"), ("4.1 1 8", "binary"), ("2.2 1 8", "binary")]
-    {
+    for (format, place, word) in [
+        ("4 0 8", Place::Line(2), "MSH format 4"),
+        ("4.1 1 4", Place::Byte(12), "numbers of 4 bytes"),
+        ("3 1 8", Place::Byte(12), "MSH format 3"),
+    ] {
         let text = format!("$MeshFormat\n{format}\n$EndMeshFormat\n");
         let error = read_gmsh(text.as_bytes()).unwrap_err();
-        assert_eq!(error.line, Some(2), "{error}");
+        assert_eq!(error.place, Some(place), "{error}");
         assert!(error.to_string().contains(word), "{error}");
     }
     for (text, word) in [
@@ -231,7 +236,7 @@ fn elements_nested_without_end_are_refused_by_line() {
     let text = format!("<?xml version=\"1.0\"?>\n{}", "<a>".repeat(100_000));
     for text in [text.clone(), text.clone() + &"</a>".repeat(100_000), text + "<AppendedData>_"] {
         let error = read_vtu(text.as_bytes()).unwrap_err();
-        assert_eq!(error.line, Some(2), "{error}");
+        assert_eq!(error.place, Some(Place::Line(2)), "{error}");
         assert!(error.to_string().contains("32 deep"), "{error}");
     }
 }
@@ -249,7 +254,7 @@ fn malformed_texts_are_refused_by_line() {
         (nowhere, "$EndElements"),
     ] {
         let error = read_gmsh(&with_line(cube, line, text)).unwrap_err();
-        assert_eq!(error.line, Some(line), "{text}: {error}");
+        assert_eq!(error.place, Some(Place::Line(line)), "{text}: {error}");
     }
     for text in [
         "*NODE\n1,0,zero,0\n",

@@ -1,6 +1,7 @@
 //! Why a scenario cannot be set up.
 
 use case::key;
+use mesh::import::Place;
 use std::path::{Path, PathBuf};
 
 use crate::remedy::{Remedy, key_of_mesh};
@@ -161,19 +162,23 @@ fn gigabytes(gb: f64) -> String {
 
 /// A mesh file that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {problem}", place(path, *line))]
+#[error("{}: {problem}", at(path, *place))]
 pub struct MeshFileError {
     /// The file.
     pub path: PathBuf,
-    /// Line of a text file, counted from 1.
-    pub line: Option<usize>,
+    /// The place in it, where the cause has one.
+    pub place: Option<Place>,
     /// What is wrong.
     pub problem: String,
     /// What to do.
     pub remedy: String,
 }
 
-fn place(path: &Path, line: Option<usize>) -> String {
+fn at(path: &Path, place: Option<Place>) -> String {
     let path = path.display();
-    line.map_or(path.to_string(), |line| format!("{path}:{line}"))
+    match place {
+        None => path.to_string(),
+        Some(Place::Line(line)) => format!("{path}:{line}"),
+        Some(Place::Byte(byte)) => format!("{path}, byte {byte}"),
+    }
 }

@@ -139,6 +139,11 @@ impl Remedy for Fault {
                     "name the set so in the file, or give its name in the case: {key} = \"...\""
                 )
             }
+            Self::NoSets { .. } => {
+                "write the sets too: meshio keeps cell_sets and point_sets in .vtu and .inp, and in \
+                 .msh only gmsh:physical with its names, field_data"
+                    .into()
+            }
             Self::EmptySet { role, .. }
             | Self::BothBodies { role, .. }
             | Self::NotOutside { role, .. } => {
@@ -180,6 +185,9 @@ impl Remedy for Fault {
             Self::ZoneSize { disk, bar, .. } => {
                 let size = disk.min(*bar);
                 remedy!("set mesh.zone.size = {size:.2e}, or refine the mesh")
+            }
+            Self::HalfOfBodies => {
+                remedy!("set mesh.symmetry = \"half\", or give the mesh of the whole bodies")
             }
             Self::NoEnd { .. } => remedy!("make the ends plane, or set bar.ends = \"free\""),
         }

@@ -71,7 +71,8 @@ fn faults() -> Vec<Fault> {
         Coincident { first: 0, second: 0, body, point: at } FaceShared { element: 0 }
         Hanging { node: 0, element: 0 } SharedNode { node: 0 }
         NoBody { element: 0, of: "", disk: name(), bar: name() }
-        MissingSet { role, name: name(), there: name() } EmptySet { role, name: name(), what: "" }
+        MissingSet { role, name: name(), there: name() } NoSets { role, name: name() }
+        EmptySet { role, name: name(), what: "" }
         BothBodies { role, name: name(), node: 0, body, other: "bar" }
         NotOutside { role, name: name(), nodes: [0; 4], body }
         SetsMeet { first: name(), second: name(), node: 0 } Loose { body, element: 0 }
@@ -84,7 +85,7 @@ fn faults() -> Vec<Fault> {
         OffSurface { node: 0, name: name(), distance: 1.0, role, limit: 1.0 }
         Uncovered { role, name: name(), covered: 1.0, faces: 1 }
         ZoneSize { disk: 1.0, bar: 1.0, size: 2.0 } NoEnd { which: "", at: 0.0 }
-        Mesh (MeshError::LooseNode { node: 0 }));
+        HalfOfBodies {} Mesh (MeshError::LooseNode { node: 0 }));
     of_roles.chain(of_sizes).chain(others).collect()
 }
 

@@ -156,10 +156,10 @@ fn set<'a>(foreign: &'a Foreign, role: SetRole, name: &str) -> Result<&'a Set, I
     match (sets.get(name), &alike[..]) {
         (Some(set), _) => Ok(set),
         (None, &[set]) => Ok(set),
+        _ if sets.is_empty() => Err(Fault::NoSets { role, name: name.into() }.nowhere()),
         _ => {
             let there: Vec<_> = sets.keys().take(30).map(|n| format!("`{n}`")).collect();
             let there = match there.len() {
-                0 => "no sets".into(),
                 n if n < sets.len() => format!("{} and others", there.join(", ")),
                 _ => there.join(", "),
             };

@@ -34,12 +34,27 @@ impl fmt::Display for SetRole {
     }
 }
 
-/// Why a foreign mesh is refused, and the line of the file where the cause stands.
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of a text, counted from 1.
+    Line(usize),
+    /// A byte of a binary file, counted from 0.
+    Byte(usize),
+}
+
+impl From<usize> for Place {
+    fn from(line: usize) -> Self {
+        Self::Line(line)
+    }
+}
+
+/// Why a foreign mesh is refused, and where in the file the cause stands.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
 pub struct ImportError {
-    /// Line of the file, counted from 1; `None` for arrays, and for faults that belong to no line.
-    pub line: Option<usize>,
+    /// Where; `None` for arrays, and for faults that belong to no place.
+    pub place: Option<Place>,
     /// What is wrong.
     pub fault: Fault,
 }
@@ -176,6 +191,14 @@ pub enum Fault {
         name: String,
         /// The names of the sets in the file.
         there: String,
+    },
+    /// The file has no sets at all.
+    #[error("there is no set `{name}` for {role}: the file has no sets")]
+    NoSets {
+        /// What the set stands for.
+        role: SetRole,
+        /// The name looked for.
+        name: String,
     },
     /// A set holds nothing of the kind that is needed.
     #[error("set `{name}` of {role} holds no {what}")]
@@ -375,6 +398,9 @@ pub enum Fault {
         /// What they must be near (m).
         size: f64,
     },
+    /// The mesh is the half y >= 0 of the bodies where the whole is wanted.
+    #[error("the mesh is half a model: it has no part y < 0, and is half as wide as the case says")]
+    HalfOfBodies,
     /// An end of the bar is not plane.
     #[error("the bar has no plane {which} end x = {at} m, on which a quiet boundary could act")]
     NoEnd {
@@ -389,13 +415,13 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The fault at no line.
+    /// The fault at no place.
     pub(crate) fn nowhere(self) -> ImportError {
-        ImportError { line: None, fault: self }
+        ImportError { place: None, fault: self }
     }
 
-    /// The fault at a line, counted from 1.
-    pub(crate) fn at(self, line: usize) -> ImportError {
-        ImportError { line: Some(line), fault: self }
+    /// The fault at a place: a line, counted from 1, or a byte.
+    pub(crate) fn at(self, place: impl Into<Place>) -> ImportError {
+        ImportError { place: Some(place.into()), fault: self }
     }
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Gmsh's MSH 2.2 or 4.1, as text.
+    /// Gmsh's MSH 2.2 or 4.1, as text or binary.
     Gmsh,
     /// Abaqus input file.
     Abaqus,

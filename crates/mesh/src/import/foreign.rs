@@ -1,6 +1,6 @@
 //! A mesh as a file holds it.
 
-use super::error::{Fault, ImportError};
+use super::error::{Fault, ImportError, Place};
 use std::collections::BTreeMap;
 
 /// A mesh as a file or a program gives it, not checked yet.
@@ -32,7 +32,7 @@ pub struct Set {
     pub faces: Vec<[u32; 4]>,
 }
 
-/// The numbers of nodes or elements in a file, and the lines where they stand.
+/// The numbers of nodes or elements in a file, and the lines of a text where they stand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     /// Their numbers; may be empty.
@@ -42,9 +42,12 @@ pub struct Labels {
 }
 
 impl Labels {
-    pub(crate) fn push(&mut self, id: u64, line: usize) {
+    /// Appends an entry; in a binary file its number alone tells where it is.
+    pub(crate) fn push(&mut self, id: u64, place: impl Into<Place>) {
         self.ids.push(id);
-        self.lines.push(line);
+        if let Place::Line(line) = place.into() {
+            self.lines.push(line);
+        }
     }
 
     /// Appends entry `index` of `other`: its number, and its line if it has one.
@@ -60,7 +63,7 @@ impl Labels {
 
     /// The fault, at the line of entry `index` where it has one.
     pub(crate) fn fault(&self, index: usize, fault: Fault) -> ImportError {
-        ImportError { line: self.lines.get(index).copied(), fault }
+        ImportError { place: self.lines.get(index).copied().map(Place::Line), fault }
     }
 }
 

@@ -1,16 +1,17 @@
 //! VTK XML unstructured grids (`.vtu`).
 //!
 //! Source: "VTK File Formats" and "VTK XML Formats", docs.vtk.org. Arrays may be text, base64 or raw, inline or
-//! appended, compressed by zlib or not. A set is an array of zeros and ones: over the points it holds nodes;
-//! over the cells, hexahedra and quadrangles. An array `body` over the cells says which belong to the disk (0)
-//! and to the bar (1), as in Creepage's own files.
+//! appended, compressed by zlib or not. A set is an array of zeros and ones, or one of the sets that meshio puts into
+//! one array: over the points it holds nodes; over the cells, hexahedra and quadrangles. An array `body` over the cells
+//! says which belong to the disk (0) and to the bar (1), as in Creepage's own files.
 //!
-//! Libraries read XML, base64 and zlib (`roxmltree`, `base64`, `miniz_oxide`). `vtkio` would read the whole format,
-//! but has had no release since 2021 except a candidate, and does not read what meshio writes (its issue 21).
+//! Libraries read XML, base64 and zlib (`roxmltree`, `base64`, `miniz_oxide`). `vtkio` 0.7.0-rc2 is not used: it does
+//! not read raw appended data, and its errors name neither the line nor the array.
 
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
 use super::nesting::{DEEPEST, too_deep};
+use super::set_arrays::{Cell, SetArray, SetsOfArrays};
 use super::text::{number, utf8};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -22,8 +23,7 @@ const ZLIB_RATIO: usize = 1100;
 /// Most arrays over points, or over cells, that a file may have.
 const MOST_ARRAYS: usize = 200;
 
-/// Reads a VTU file. Vertices and lines are ignored; arrays of more than one component, and of values other than
-/// zero and one, are no sets.
+/// Reads a VTU file. Vertices and lines are ignored; arrays of more than one component are no sets.
 ///
 /// # Errors
 /// [`Fault::Syntax`] or [`Fault::Unknown`] for a file that does not follow the format, [`Fault::Cell`] for cells
@@ -211,14 +211,16 @@ impl<'a> File<'a> {
         Err(Fault::Cell { element, kind: kind.into() })
     }
 
-    /// Makes sets of the arrays of zeros and ones.
+    /// Makes sets of the arrays that hold sets.
     fn sets(
         &self,
         piece: Node,
         foreign: &mut Foreign,
         members: &[Cell],
     ) -> Result<(), ImportError> {
-        for (section, count) in [("PointData", foreign.points.len()), ("CellData", members.len())] {
+        let mut sets = SetsOfArrays::default();
+        for (section, cells) in [("PointData", None), ("CellData", Some(members))] {
+            let count = cells.map_or(foreign.points.len(), <[Cell]>::len);
             let all: Vec<Node> = child(piece, section).into_iter().flat_map(arrays).collect();
             if all.len() > MOST_ARRAYS {
                 let what = format!("a grid with {} arrays in {section}", all.len());
@@ -229,7 +231,8 @@ impl<'a> File<'a> {
                 let Some(name) = array.attribute("Name").filter(|_| components == "1") else {
                     continue;
                 };
-                if array.attribute("type") == Some("String") {
+                let kind = array.attribute("type").unwrap_or_default();
+                if kind == "String" {
                     continue;
                 }
                 let values = self.numbers(array)?.whole();
@@ -239,21 +242,12 @@ impl<'a> File<'a> {
                         format!("{name} has {} values, not {count}", values.len()),
                     ));
                 }
-                if !values.iter().all(|v| [0, 1].contains(v)) || !values.contains(&1) {
-                    continue;
-                }
-                let chosen = values.iter().enumerate().filter(|v| *v.1 == 1).map(|v| v.0);
-                if section == "PointData" {
-                    foreign.set(name).nodes.extend(chosen.map(|i| i as u32));
-                } else if name == "body" && !values.iter().all(|v| *v == 1) {
-                    for (member, body) in members.iter().zip(&values) {
-                        foreign.set(["disk", "bar"][*body as usize]).take(member);
-                    }
-                } else {
-                    chosen.for_each(|i| foreign.set(name).take(&members[i]));
-                }
+                let wide = matches!(kind, "Int32" | "Int64");
+                sets.take(&SetArray { name, values: &values, wide, cells });
             }
         }
+        foreign.notes.append(&mut sets.notes);
+        foreign.sets = sets.sets();
         Ok(())
     }
 
@@ -447,24 +441,6 @@ impl Numbers {
             Self::Real(values) => {
                 values.into_iter().map(|v| if v.fract() == 0.0 { v as i64 } else { -1 }).collect()
             }
-        }
-    }
-}
-
-/// A cell of the grid: a hexahedron with its index among them, a quadrangle, or one that is ignored.
-enum Cell {
-    Hex(u32, [u32; 8]),
-    Quad([u32; 4]),
-    Ignored,
-}
-
-impl super::foreign::Set {
-    /// Adds a cell to the set.
-    fn take(&mut self, cell: &Cell) {
-        match cell {
-            Cell::Hex(hex, _) => self.hexes.push(*hex),
-            Cell::Quad(nodes) => self.faces.push(*nodes),
-            Cell::Ignored => {}
         }
     }
 }

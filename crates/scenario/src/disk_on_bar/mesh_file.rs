@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use case::mesh_file::{self, MeshFormat};
-use case::schema::{Case, Ends, LengthUnit};
+use case::schema::{Case, Ends, LengthUnit, Symmetry};
 use mesh::Mesh;
-use mesh::import::{Foreign, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
+use mesh::import::{Fault, Foreign, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
 use output::layout::{CONSTANT, MESH_SETS};
 use output::{GridFile, OutputError, hexadecimal};
 use sha2::{Digest, Sha256};
@@ -22,7 +22,7 @@ pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError>
     let Some(path) = case.mesh.file.as_ref().map(PathBuf::from) else { return Ok(None) };
     let refused = |problem: String, remedy: &str| {
         let (path, remedy) = (path.clone(), remedy.to_owned());
-        ScenarioError::MeshFile(MeshFileError { path, line: None, problem, remedy })
+        ScenarioError::MeshFile(MeshFileError { path, place: None, problem, remedy })
     };
     let format = MeshFormat::of(&path)
         .ok_or_else(|| refused("is no mesh file".into(), mesh_file::ENDINGS))?;
@@ -38,11 +38,12 @@ pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError>
         })?),
     };
     let imported = foreign
+        .and_then(|foreign| whole(foreign, case))
         .and_then(|foreign| bodies(&foreign, &names(case), unit(case)))
         .and_then(|imported| fit(imported, &shape(case)))
-        .map_err(|ImportError { line, fault }| {
+        .map_err(|ImportError { place, fault }| {
             let (problem, remedy) = (files::printable(&fault.to_string()), fault.remedy());
-            ScenarioError::MeshFile(MeshFileError { path: path.clone(), line, problem, remedy })
+            ScenarioError::MeshFile(MeshFileError { path: path.clone(), place, problem, remedy })
         })?;
     Ok(Some((imported.mesh, imported.notes)))
 }
@@ -74,6 +75,28 @@ fn own(path: &Path, names: &SetNames) -> Result<Foreign, OutputError> {
         sets.insert(name.clone(), Set { nodes, ..Set::default() });
     }
     Ok(Foreign::from_arrays(points, hexes, sets))
+}
+
+/// The whole mesh of a file that holds the half y >= 0 of the bodies of the case, as `creepage mesh` writes it of half
+/// a model; any other mesh as it is.
+fn whole(mut foreign: Foreign, case: &Case) -> Result<Foreign, ImportError> {
+    // what separates half the width of the bodies from the whole
+    const BETWEEN: f64 = 0.75;
+    // the round-off of coordinates in a file, over the width
+    const NEAR: f64 = 1e-6;
+    let y = || foreign.points.iter().map(|point| unit(case).metres(point[1]));
+    let low = y().fold(f64::INFINITY, f64::min);
+    let high = y().fold(f64::NEG_INFINITY, f64::max);
+    let width = case.disk.width.max(case.bar.width);
+    let apart = low.abs() > NEAR * width || high > BETWEEN * width;
+    if apart || case.mesh.plane_strain {
+        return Ok(foreign);
+    }
+    if case.mesh.symmetry != Symmetry::Half {
+        return Err(ImportError { place: None, fault: Fault::HalfOfBodies });
+    }
+    foreign.mirror(NEAR * high / unit(case).metres(1.0));
+    Ok(foreign)
 }
 
 fn names(case: &Case) -> SetNames {
