@@ -58,7 +58,9 @@ pub(super) fn cards<'a>(
             if keyword.starts_with("KEYWORD") {
                 format = deck_format(&keyword, &place)?.unwrap_or(format);
             }
-            let (name, format) = marked(&keyword, format);
+            // LS-PrePost writes a remark beside some: (ten nodes format)
+            let (keyword, _) = keyword.split_once('(').unwrap_or((&keyword, ""));
+            let (name, format) = marked(keyword.trim_end(), format);
             let name = name.to_owned();
             cards.push(Card { name, place, format, data: Vec::new(), parameters: &NO_PARAMETERS });
             continue;

@@ -319,6 +319,11 @@ impl Deck {
             for (i, corner) in corners.iter_mut().enumerate() {
                 *corner = nodes.id(from + i)?;
             }
+            if from == 0 && nodes.id(8)? != 0 {
+                let what = format!("element {id} of ten nodes");
+                let remedy = "mesh both bodies with *ELEMENT_SOLID of eight nodes";
+                return Err(unsupported(&first.place(), what, remedy));
+            }
             self.solids.push(Solid { id, part, place: first.place(), nodes: corners });
         }
         Ok(())

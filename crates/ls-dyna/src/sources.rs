@@ -106,9 +106,13 @@ impl Reading<'_> {
     /// The file of that name: seen from the deck's folder, as LS-DYNA does, or else from that of the file that
     /// includes it.
     fn find(&self, name: &str, from: &Path) -> PathBuf {
-        let beside = |file: &Path| file.parent().unwrap_or(Path::new("")).join(name);
-        let near_deck = beside(self.source.file);
-        if near_deck.exists() { near_deck } else { beside(from) }
+        let beside = |file: &Path, name: &str| file.parent().unwrap_or(Path::new("")).join(name);
+        // decks of Windows have backslashes between folders
+        let portable = name.replace('\\', "/");
+        let places =
+            [name, &portable].map(|name| [self.source.file, from].map(|f| beside(f, name)));
+        let found = places.as_flattened().iter().find(|file| file.exists());
+        found.unwrap_or(&places[0][1]).clone()
     }
 
     /// Refuses a file that leads back to itself or lies outside.

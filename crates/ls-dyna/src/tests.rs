@@ -288,6 +288,11 @@ fn a_card_that_is_not_read_is_refused_with_a_hint_that_fits_it() {
         ("*CONTROL_IMPLICIT_EIGENVALUE", "time.integrator"),
         ("*INCLUDE_TRANSFORM", "*INCLUDE"),
         ("*SET_NODE_GENERAL", "*SET_NODE_LIST"),
+        ("*SET_SHELL_LIST", "segments, parts and nodes"),
+        ("*DEFINE_FRICTION", "FS, FD and DC"),
+        ("*DEFINE_BOX", "members of sets"),
+        ("*LOAD_GRAVITY_PART", "weight"),
+        ("*CONTROL_REFINE_SOLID", "their mesh stays"),
         ("*PART_INERTIA", "*CONSTRAINED_NODAL_RIGID_BODY_INERTIA"),
         ("*AIRBAG", "leave the card out"),
     ] {
@@ -295,6 +300,24 @@ fn a_card_that_is_not_read_is_refused_with_a_hint_that_fits_it() {
         assert!(error.to_string().contains(card), "{error}");
         assert!(error.fault.remedy().contains(hint), "{card}: {}", error.fault.remedy());
     }
+}
+
+#[test]
+fn elements_of_the_ten_nodes_format_are_read_where_they_have_eight() {
+    let start = DECK.find("*ELEMENT_SOLID\n").unwrap();
+    let end = start + DECK[start..].find("\n*").unwrap();
+    let two_lines = |tenth: &str| {
+        let mut cards = String::from("*ELEMENT_SOLID (ten nodes format)\n");
+        for line in DECK[start..end].lines().skip(1) {
+            let (head, nodes) = line.split_at(16);
+            cards += &format!("{head}\n{nodes}{tenth}\n");
+        }
+        DECK.replacen(&DECK[start..=end], &cards, 1)
+    };
+    let plain = import(DECK).unwrap();
+    assert_eq!(import(&two_lines("       0       0")).unwrap().mesh, plain.mesh);
+    let error = import(&two_lines("       9      10")).unwrap_err();
+    assert!(error.to_string().contains("of ten nodes is not read"), "{error}");
 }
 
 #[test]

@@ -5,8 +5,15 @@ use crate::error::{DeckError, unsupported};
 
 /// Begins of keywords that control the method or ask for output, and those among them that change what is computed.
 const PASSED_OVER: [&str; 2] = ["CONTROL_", "DATABASE_"];
-const CHANGING: [&str; 5] =
-    ["CONTROL_ADAP", "CONTROL_COUPLING", "CONTROL_IMPLICIT", "CONTROL_STAGED", "CONTROL_THERMAL"];
+const CHANGING: [&str; 7] = [
+    "CONTROL_ADAP",
+    "CONTROL_COUPLING",
+    "CONTROL_IMPLICIT",
+    "CONTROL_REFINE",
+    "CONTROL_REMESHING",
+    "CONTROL_STAGED",
+    "CONTROL_THERMAL",
+];
 
 /// Cards that change nothing as long as a field, by index and name, is blank or 0.
 const SWITCHES: [(&str, usize, &str); 3] = [
@@ -19,12 +26,13 @@ const SWITCHES: [(&str, usize, &str); 3] = [
 const UNREMARKABLE: [&str; 3] = ["TITLE", "COMMENT", "PARAMETER"];
 
 /// What to do instead of a card, by the begin of its keyword; the first that fits.
-const HINTS: [(&str, &str); 27] = [
+const HINTS: [(&str, &str); 36] = [
     ("CONTROL_IMPLICIT", "leave it out, and set time.integrator = \"implicit\" in the case"),
     ("CONTROL_", "leave it out: bodies are elastic, and their mesh stays"),
     ("INCLUDE_PATH", "write the folder in front of the names of *INCLUDE"),
     ("INCLUDE", "write the file out as it is meant, and name it in *INCLUDE"),
     ("PARAMETER", "write the numbers themselves, in *PARAMETER"),
+    ("ELEMENT_INERTIA", "give the hub its mass as TM of *CONSTRAINED_NODAL_RIGID_BODY_INERTIA"),
     ("ELEMENT_MASS", "give the hub its mass as TM of *CONSTRAINED_NODAL_RIGID_BODY_INERTIA"),
     ("ELEMENT_", "mesh both bodies with *ELEMENT_SOLID of eight nodes"),
     ("SECTION_", "use *SECTION_SOLID: both bodies are solids"),
@@ -34,17 +42,25 @@ const HINTS: [(&str, &str); 27] = [
     ("EOS_", "leave it out, and use *MAT_ELASTIC"),
     ("PART_", "use *PART, and *CONSTRAINED_NODAL_RIGID_BODY_INERTIA for the mass of the hub"),
     ("CONTACT_", "use *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE between disk and bar"),
+    ("SET_SOLID", "leave it out: contact, clamp and hub are sets of segments, parts and nodes"),
+    ("SET_SHELL", "leave it out: contact, clamp and hub are sets of segments, parts and nodes"),
     ("SET_", "list the members: *SET_NODE_LIST, *SET_SEGMENT or *SET_PART_LIST"),
     ("CONSTRAINED_", "hold the hub by one *CONSTRAINED_NODAL_RIGID_BODY"),
     ("BOUNDARY_PRESCRIBED_MOTION", "move the hub: *BOUNDARY_PRESCRIBED_MOTION_RIGID of its PID"),
     ("BOUNDARY_", "clamp by *BOUNDARY_SPC_SET; quiet ends are *BOUNDARY_NON_REFLECTING"),
     ("LOAD_BODY", "leave it out: weight is no load of a case"),
+    ("LOAD_GRAVITY", "leave it out: weight is no load of a case"),
     ("LOAD_", "load the hub: *LOAD_RIGID_BODY, *LOAD_NODE_SET or *LOAD_NODE_POINT"),
     ("INITIAL_VELOCITY", "use *INITIAL_VELOCITY_GENERATION of the disk"),
     ("INITIAL_", "leave it out: a case begins without stresses, and finds its preload"),
     ("DAMPING_", "use *DAMPING_RELATIVE to the hub, or *DAMPING_PART_STIFFNESS"),
     ("DEFINE_CURVE", "use *DEFINE_CURVE with its points"),
-    ("DEFINE_", "use the global system, and curves with their points: *DEFINE_CURVE"),
+    ("DEFINE_BOX", "leave it out, and list the members of sets"),
+    ("DEFINE_COORDINATE", "leave it out, and give everything in the global system"),
+    ("DEFINE_FRICTION", "give FS, FD and DC on the card of the contact"),
+    ("DEFINE_TRANSFORMATION", "leave it out, and write the coordinates as they are meant"),
+    ("DEFINE_VECTOR", "leave it out, and give everything in the global system"),
+    ("DEFINE_", "use curves with their points: *DEFINE_CURVE"),
     ("RIGIDWALL", "mesh the bar: contact is between two bodies of solids"),
     ("NODE_", "use *NODE, in the global system"),
 ];

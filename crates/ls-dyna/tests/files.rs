@@ -48,6 +48,16 @@ fn a_deck_split_into_files_is_the_same_model() {
 }
 
 #[test]
+fn a_backslash_between_folders_leads_to_the_same_file() {
+    let [main, nodes] = split("more\\nodes.k");
+    let place = files(&[("decks/main.k", &main), ("decks/more/nodes.k", &nodes)]);
+    assert!(read(&place, false).is_ok());
+    let [main, _] = split("..\\nodes.k");
+    let place = files(&[("decks/main.k", &main), ("nodes.k", &nodes)]);
+    assert!(matches!(read(&place, false).unwrap_err().fault, Fault::Outside { .. }));
+}
+
+#[test]
 fn a_file_that_includes_itself_is_refused_by_the_line_that_leads_back() {
     for (main, other, at, chain) in [
         ("*KEYWORD\n*INCLUDE\nmain.k\n", "", ("main.k", 3), "main.k includes main.k"),
