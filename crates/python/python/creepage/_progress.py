@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+import warnings
 
 
 class Bar:
@@ -12,12 +13,22 @@ class Bar:
 
     def __init__(self):
         try:
-            from tqdm.auto import tqdm
+            with warnings.catch_warnings():
+                # a notebook without ipywidgets has a bar of text
+                warnings.simplefilter("ignore")
+                from tqdm.auto import tqdm
         except ImportError:
             self.bar = None
         else:
-            self.bar = tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}, {remaining} left{postfix}")
+            form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, {remaining} left{postfix}"
+            self.bar = tqdm(total=1.0, bar_format=form, **self.pace(tqdm))
         self.told = time.monotonic()
+
+    @staticmethod
+    def pace(tqdm) -> dict:
+        """How often a bar is drawn: where every drawing stays, in a file or an executed notebook, about twenty times."""
+        widget = any(kind.__module__ == "tqdm.notebook" for kind in tqdm.__mro__)
+        return {} if widget or sys.stderr.isatty() else {"mininterval": 1.0, "miniters": 0.05}
 
     def __call__(self, progress: dict) -> None:
         if "stage" in progress:
