@@ -1,5 +1,7 @@
 //! Colours (red, green, blue; 0 to 255) that stay apart for the colour-blind (Okabe and Ito 2008).
 
+/// White, of the paper.
+pub const WHITE: [u8; 3] = [255; 3];
 /// Black.
 pub const BLACK: [u8; 3] = [0, 0, 0];
 /// Grey, for bounds and references.

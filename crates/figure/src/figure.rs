@@ -76,6 +76,17 @@ pub enum Draw {
     Arrows([u8; 3]),
 }
 
+impl Draw {
+    /// The colour.
+    pub(crate) fn colour(self) -> [u8; 3] {
+        let (Self::Line(colour)
+        | Self::Dashed(colour)
+        | Self::Dots(colour, _)
+        | Self::Arrows(colour)) = self;
+        colour
+    }
+}
+
 /// A vertical dashed line at one x.
 #[derive(Clone, Debug)]
 pub struct Mark {

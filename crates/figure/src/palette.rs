@@ -4,19 +4,26 @@ use crate::Pixels;
 use files::output::PNG_MARK;
 use std::collections::BTreeMap;
 
-/// A PNG with the mark of this program. Its palette holds the most frequent colours, which are those of lines, cells
-/// and paper, exactly; the other shades, those at the edges of lines, become the nearest of them.
+/// A PNG with the mark of this program and at most `most` colours, of which there can be 256: the fewer, the smaller
+/// the file.
 ///
-/// `most` is the number of colours, at most 256: the fewer, the smaller the file.
+/// Those of `exact` that occur are kept exactly, so that lines have the colours that the legend says. Of the others the
+/// palette holds those whose change would be seen most, and the rest, shades at the edges of lines and letters, become the
+/// nearest of them.
 ///
 /// # Errors
 /// What the PNG library fails with.
-pub(crate) fn png(pixels: &Pixels, most: usize) -> Result<Vec<u8>, png::EncodingError> {
-    let (palette, index) = palette(&pixels.rgb, most);
+pub(crate) fn png(
+    pixels: &Pixels,
+    exact: &[[u8; 3]],
+    most: usize,
+) -> Result<Vec<u8>, png::EncodingError> {
+    let (palette, index) = palette(&pixels.rgb, exact, most);
+    let half = palette.len() <= 16;
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, pixels.width, pixels.height);
     encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_depth(if half { png::BitDepth::Four } else { png::BitDepth::Eight });
     encoder.set_palette(palette.as_flattened());
     encoder.set_compression(png::Compression::Best);
     // neighbouring indices are no neighbouring colours: differences compress no better
@@ -27,60 +34,63 @@ pub(crate) fn png(pixels: &Pixels, most: usize) -> Result<Vec<u8>, png::Encoding
     }
     let mut writer = encoder.write_header()?;
     let runs = colours(&pixels.rgb).chunk_by(|a, b| a == b);
-    let indices: Vec<u8> =
+    let mut indices: Vec<u8> =
         runs.flat_map(|run| std::iter::repeat_n(index[&run[0]], run.len())).collect();
+    if half {
+        // two in a byte, the left one in its upper half; a row begins a byte
+        let rows = indices.chunks(pixels.width.max(1) as usize).flat_map(|row| row.chunks(2));
+        indices = rows.map(|two| two[0] << 4 | two.get(1).unwrap_or(&0)).collect();
+    }
     writer.write_image_data(&indices)?;
     writer.finish()?;
     Ok(out)
 }
 
-/// Colours of a palette that may be rare.
-const RARE: usize = 96;
-
 fn colours(rgb: &[u8]) -> &[[u8; 3]] {
     rgb.as_chunks().0
 }
 
-/// At most `most` colours, the most frequent first, and for each colour the index of the nearest of them.
-///
-/// The most frequent are taken as they are; of the last [`RARE`] one is left out if it is near one that is more
-/// frequent. How near is the least of a few distances with which the colours are few enough, so that a rare colour
-/// does not become another.
-fn palette(rgb: &[u8], most: usize) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
-    let mut counts = BTreeMap::<[u8; 3], usize>::new();
-    for run in colours(rgb).chunk_by(|a, b| a == b) {
-        *counts.entry(run[0]).or_default() += run.len();
-    }
-    let mut frequent: Vec<[u8; 3]> = counts.keys().copied().collect();
-    frequent.sort_by_key(|colour| std::cmp::Reverse(counts[colour]));
-    let distances = (0..).map(|i| 3 * i * i);
-    let palette =
-        distances.map(|least| apart(&frequent, least, most)).find(|all| all.len() <= most);
-    let palette = palette.unwrap_or_default();
-    let nearest = |colour: [u8; 3]| {
-        let indices = (0..palette.len()).min_by_key(|i| distance(palette[*i], colour));
-        indices.unwrap_or(0) as u8
-    };
-    let index = counts.keys().map(|colour| (*colour, nearest(*colour))).collect();
-    (palette, index)
+/// A colour of a picture.
+struct Shade {
+    colour: [u8; 3],
+    pixels: u64,
+    /// Index of the nearest colour of the palette so far, and the square of the distance to it.
+    nearest: u8,
+    distance: u64,
 }
 
-/// The first of `colours`, and of the others those that are farther than the square root of `least` from all before
-/// them; one more than `most` where there are more.
-fn apart(colours: &[[u8; 3]], least: u32, most: usize) -> Vec<[u8; 3]> {
-    let mut kept: Vec<[u8; 3]> = Vec::new();
-    for colour in colours {
-        let far = || kept.iter().all(|other| distance(*colour, *other) > least);
-        if kept.len() <= most && (kept.len() < most.saturating_sub(RARE) || far()) {
-            kept.push(*colour);
-        }
+/// At most `most` colours, and for each colour of the picture the index of the nearest of them.
+///
+/// Begins with those of `exact` that occur. Then comes, one after the other, the colour that is farthest from those
+/// before it, the square of its distance counted for each of its pixels.
+fn palette(rgb: &[u8], exact: &[[u8; 3]], most: usize) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
+    let mut counts = BTreeMap::<[u8; 3], u64>::new();
+    for run in colours(rgb).chunk_by(|a, b| a == b) {
+        *counts.entry(run[0]).or_default() += run.len() as u64;
     }
-    kept
+    let shade =
+        |(colour, pixels)| Shade { colour, pixels, nearest: 0, distance: u64::from(u32::MAX) };
+    let mut wanted = exact.iter().filter(|colour| counts.contains_key(*colour));
+    let mut shades: Vec<Shade> = counts.clone().into_iter().map(shade).collect();
+    let mut palette: Vec<[u8; 3]> = Vec::new();
+    while palette.len() < most {
+        let worst = shades.iter().max_by_key(|shade| shade.pixels * shade.distance);
+        let worst = worst.filter(|shade| shade.distance > 0).map(|shade| shade.colour);
+        let Some(next) = wanted.next().copied().or(worst) else { break };
+        for shade in &mut shades {
+            let distance = distance(shade.colour, next);
+            if distance < shade.distance {
+                (shade.nearest, shade.distance) = (palette.len() as u8, distance);
+            }
+        }
+        palette.push(next);
+    }
+    (palette, shades.into_iter().map(|shade| (shade.colour, shade.nearest)).collect())
 }
 
 /// The square of the distance of two colours.
-fn distance(a: [u8; 3], b: [u8; 3]) -> u32 {
-    (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum()
+fn distance(a: [u8; 3], b: [u8; 3]) -> u64 {
+    (0..3).map(|i| u64::from(a[i].abs_diff(b[i])).pow(2)).sum()
 }
 
 #[cfg(test)]
@@ -98,8 +108,13 @@ mod tests {
 
     #[test]
     fn few_colours_are_kept_exactly() {
-        let few = Pixels { width: 2, height: 1, rgb: vec![0, 114, 178, 255, 255, 254] };
-        assert_eq!(decoded(&png(&few, 2).unwrap()), few.rgb);
+        // three columns, so that a row of half bytes ends in the middle of one
+        let rgb =
+            vec![0, 114, 178, 255, 255, 254, 255, 255, 254, 1, 2, 3, 0, 114, 178, 0, 114, 178];
+        let few = Pixels { width: 3, height: 2, rgb };
+        for most in [3, 16, 256] {
+            assert_eq!(decoded(&png(&few, &[], most).unwrap()), few.rgb);
+        }
     }
 
     #[test]
@@ -109,10 +124,22 @@ mod tests {
         let all = std::iter::repeat_n([213, 94, 0], 100).chain((0..10_000).map(shade));
         let rgb: Vec<u8> = all.chain([[253, 231, 37]]).flatten().collect();
         let many = Pixels { width: 10_101, height: 1, rgb };
-        let found = decoded(&png(&many, 256).unwrap());
+        let found = decoded(&png(&many, &[], 256).unwrap());
         assert_eq!(found[..300], many.rgb[..300]);
         assert_eq!(found[30_300..], many.rgb[30_300..]);
         let pairs = found.as_chunks::<3>().0.iter().zip(many.rgb.as_chunks::<3>().0);
         assert!(pairs.map(|(a, b)| distance(*a, *b)).max() < Some(15 * 15));
+    }
+
+    #[test]
+    fn a_rare_line_keeps_its_colour_among_many_shades_of_grey() {
+        let line = [230, 159, 0];
+        let greys = (0..=255).flat_map(|grey| std::iter::repeat_n([grey; 3], 10_000));
+        let rgb: Vec<u8> = greys.chain([line]).flatten().collect();
+        let pixels = Pixels { width: 2_560_001, height: 1, rgb };
+        let last =
+            |exact: &[[u8; 3]]| decoded(&png(&pixels, exact, 16).unwrap()).split_off(7_680_000);
+        assert_eq!(last(&[line]), line);
+        assert_ne!(last(&[]), line, "the test shows nothing");
     }
 }

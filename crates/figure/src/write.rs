@@ -1,9 +1,10 @@
 //! Writing a figure as SVG and PNG.
 
 use crate::layout::Medium;
-use crate::{Figure, Fill, Key, Panel, draw, font, group, label, palette, raster};
+use crate::{Figure, Fill, Key, Panel, colour, draw, font, group, label, palette, raster};
 use files::output::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use thiserror::Error;
@@ -38,6 +39,9 @@ const NO_INPUT: &[PathBuf] = &[];
 /// Pixels per point: fine enough that rounding to pixels does not show in print.
 const SVG_UNIT: u32 = 4;
 const PNG_UNIT: u32 = 2;
+
+/// Shades of edges in pictures of lines and letters: more cannot be told apart in print, and the file grows by 3 % with each.
+const SHADES: usize = 4;
 
 /// A file format of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,9 +112,7 @@ impl Figure {
             Format::Png => {
                 let undrawn = |cause: String| FigureError::Draw { path: path.clone(), cause };
                 register(&path)?;
-                let pixels = raster::pixels(self, PNG_UNIT).map_err(undrawn)?;
-                let image = palette::png(&pixels, self.colours())
-                    .map_err(|error| undrawn(error.to_string()))?;
+                let image = self.png().map_err(undrawn)?;
                 std::fs::write(&path, image).map_err(|cause| failed(&path, cause))?;
             }
         }
@@ -159,10 +161,26 @@ impl Figure {
         Ok((group::written(&label::typeset(&text)), width, height))
     }
 
-    /// How many colours its pixels need: lines and letters in a few, maps in many.
-    fn colours(&self) -> usize {
+    /// The figure as a PNG file: maps in 256 colours; lines and letters in those that the figure names and a few shades.
+    fn png(&self) -> Result<Vec<u8>, String> {
+        let pixels = raster::pixels(self, PNG_UNIT)?;
+        let exact = self.named_colours();
         let map = |panel: &Panel| matches!(&panel.fill, Some(Fill { key: Key::Values { .. }, .. }));
-        if self.panels.iter().any(map) { 256 } else { 32 }
+        let most = if self.panels.iter().any(map) { 256 } else { (exact.len() + SHADES).max(12) };
+        palette::png(&pixels, &exact, most.min(256)).map_err(|error| error.to_string())
+    }
+
+    /// The colours of paper, letters, series, marks and classes.
+    fn named_colours(&self) -> Vec<[u8; 3]> {
+        let mut all = BTreeSet::from([colour::WHITE, colour::BLACK]);
+        for panel in &self.panels {
+            all.extend(panel.series.iter().map(|series| series.draw.colour()));
+            all.extend(panel.marks.iter().map(|mark| mark.colour));
+            if let Some(Fill { key: Key::Classes(classes), .. }) = &panel.fill {
+                all.extend(classes.iter().map(|(_, colour)| *colour));
+            }
+        }
+        all.into_iter().collect()
     }
 
     fn pixels(&self, unit: u32) -> (u32, u32) {
@@ -181,7 +199,7 @@ fn register(path: &Path) -> Result<(), FigureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Cell, Draw, Mark, Scale, Series, colour};
+    use crate::{Axis, Cell, Draw, Mark, Scale, Series};
 
     fn figure() -> Figure {
         let points = (0..100).map(|i| [f64::from(i), libm::sin(f64::from(i))]).collect();
