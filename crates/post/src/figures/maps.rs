@@ -123,8 +123,18 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
     });
     let speed_key = speeds(all);
     let state_key = states();
-    let width = 1e3 * scene.reach();
-    let height = 1.35 * 1e3 * scene.basis.scale("half_width").unwrap_or(10.0 * scene.scales.size);
+    // middle and half side of the square of a node (mm)
+    let square = |instant: &Instant, row: usize| {
+        let x = scene.position(&instant.frame, row);
+        ([1e3 * (x[0] - instant.centre), 1e3 * x[1]], 0.5e3 * surface.area[row].sqrt())
+    };
+    let mut reached = [0.0f64; 2];
+    for instant in &scene.instants {
+        for (at, half) in rows_of(instant).into_iter().map(|row| square(instant, row)) {
+            reached = [0, 1].map(|axis| reached[axis].max(at[axis].abs() + half));
+        }
+    }
+    let [width, height] = scene.map_ends(reached);
     let mut panels = Vec::new();
     for by_state in [true, false] {
         if by_state && !scene.history.has.state {
@@ -133,15 +143,14 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
         for instant in &scene.instants {
             let frame = &instant.frame;
             let cells = rows_of(instant).into_iter().map(|row| {
-                let x = scene.position(frame, row);
-                let (x, y) = (1e3 * (x[0] - instant.centre), 1e3 * x[1]);
-                let half = SEAM * 0.5e3 * surface.area[row].sqrt();
+                let (middle, half) = square(instant, row);
                 let colour = if by_state {
                     state_colour(frame.state.as_ref().map(|state| state[row]))
                 } else {
                     speed_key.colour(norm(frame.slip_velocity[row]))
                 };
-                Cell { low: [x - half, y - half], high: [x + half, y + half], colour }
+                let [low, high] = [-SEAM, SEAM].map(|by| middle.map(|x| x + by * half));
+                Cell { low, high, colour }
             });
             let key = if by_state { state_key.clone() } else { speed_key.clone() };
             panels.push(Panel {

@@ -89,10 +89,11 @@ impl<'a> Patch<'a> {
 
     /// The range of all maps (mm).
     fn panel(&self, panel: Panel) -> Panel {
-        let scene = self.scene;
-        let width = 1e3 * scene.reach();
-        let half_width = scene.basis.scale("half_width").unwrap_or(10.0 * scene.scales.size);
-        let height = 1.35e3 * half_width;
+        let reached = [0, 1].map(|axis| {
+            let ends = self.nodes.iter().map(|node| node.at[axis].abs() + node.half);
+            ends.fold(0.0, f64::max)
+        });
+        let [width, height] = self.scene.map_ends(reached);
         let x = Axis::linear("x from the patch's centre (mm)").over(-width, width);
         Panel { x, y: Axis::linear("y (mm)").over(-height, height), to_scale: true, ..panel }
     }

@@ -89,6 +89,14 @@ impl Scene<'_> {
         1.35 * self.basis.scale("half_length").unwrap_or(10.0 * self.scales.size)
     }
 
+    /// Half of what a map of the patch shows in x and in y (mm): the half-space's patch with a margin, and on coarse meshes
+    /// the squares of all nodes in contact, which reach so far from its centre (mm).
+    pub fn map_ends(&self, reached: [f64; 2]) -> [f64; 2] {
+        let half_width = self.basis.scale("half_width").unwrap_or(10.0 * self.scales.size);
+        let patch = [1e3 * self.reach(), 1.35e3 * half_width];
+        [0, 1].map(|axis| patch[axis].max(1.05 * reached[axis]))
+    }
+
     /// A measure of the patch by Hertz (SI), where it is known apart from the records.
     pub fn hertz(&self, name: &str) -> Option<f64> {
         let scale = self.basis.scales.get(name).filter(|s| !s.from.contains("last record"));
