@@ -59,10 +59,26 @@ struct Shade {
     distance: u64,
 }
 
+impl Shade {
+    fn is_grey(&self) -> bool {
+        self.colour.iter().all(|part| *part == self.colour[0])
+    }
+}
+
+/// Of the shades of a kind that are not in the palette, that whose change would be seen most.
+fn worst(shades: &[Shade], kind: impl Fn(&Shade) -> bool) -> Option<[u8; 3]> {
+    let missing = shades.iter().filter(|shade| shade.distance > 0 && kind(shade));
+    missing.max_by_key(|shade| shade.pixels * shade.distance).map(|shade| shade.colour)
+}
+
+/// Greys of a palette besides black and white: those of letters and of the grid.
+pub(crate) const GREYS: usize = 4;
+
 /// At most `most` colours, and for each colour of the picture the index of the nearest of them.
 ///
 /// Begins with those of `exact` that occur. Then comes, one after the other, the colour that is farthest from those
-/// before it, the square of its distance counted for each of its pixels.
+/// before it, the square of its distance counted for each of its pixels: first [`GREYS`] greys, since letters must not get
+/// edges in the colour of a line, then any.
 fn palette(rgb: &[u8], exact: &[[u8; 3]], most: usize) -> (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>) {
     let mut counts = BTreeMap::<[u8; 3], u64>::new();
     for run in colours(rgb).chunk_by(|a, b| a == b) {
@@ -73,10 +89,14 @@ fn palette(rgb: &[u8], exact: &[[u8; 3]], most: usize) -> (Vec<[u8; 3]>, BTreeMa
     let mut wanted = exact.iter().filter(|colour| counts.contains_key(*colour));
     let mut shades: Vec<Shade> = counts.clone().into_iter().map(shade).collect();
     let mut palette: Vec<[u8; 3]> = Vec::new();
+    let mut greys = GREYS;
     while palette.len() < most {
-        let worst = shades.iter().max_by_key(|shade| shade.pixels * shade.distance);
-        let worst = worst.filter(|shade| shade.distance > 0).map(|shade| shade.colour);
-        let Some(next) = wanted.next().copied().or(worst) else { break };
+        let next = wanted.next().copied().or_else(|| {
+            let grey = worst(&shades, Shade::is_grey).filter(|_| greys > 0);
+            greys = greys.saturating_sub(1);
+            grey.or_else(|| worst(&shades, |_| true))
+        });
+        let Some(next) = next else { break };
         for shade in &mut shades {
             let distance = distance(shade.colour, next);
             if distance < shade.distance {
@@ -141,5 +161,15 @@ mod tests {
             |exact: &[[u8; 3]]| decoded(&png(&pixels, exact, 16).unwrap()).split_off(7_680_000);
         assert_eq!(last(&[line]), line);
         assert_ne!(last(&[]), line, "the test shows nothing");
+    }
+
+    #[test]
+    fn letters_keep_grey_edges_among_many_shades_of_lines() {
+        let blues = (0..200u8).flat_map(|i| std::iter::repeat_n([i, i / 2 + 100, 200], 10_000));
+        let greys = [[60; 3], [120; 3], [180; 3]];
+        let rgb: Vec<u8> = blues.chain(greys).flatten().collect();
+        let pixels = Pixels { width: 2_000_003, height: 1, rgb };
+        let found = decoded(&png(&pixels, &[], 16).unwrap());
+        assert_eq!(found[6_000_000..], *greys.as_flattened());
     }
 }

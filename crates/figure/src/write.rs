@@ -40,8 +40,8 @@ const NO_INPUT: &[PathBuf] = &[];
 const SVG_UNIT: u32 = 4;
 const PNG_UNIT: u32 = 2;
 
-/// Shades of edges in pictures of lines and letters: more cannot be told apart in print, and the file grows by 3 % with each.
-const SHADES: usize = 4;
+/// Panels of a picture that is looked at as a whole: there the shades of edges matter less than the size of the file.
+const MANY_PANELS: usize = 20;
 
 /// A file format of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,12 +161,17 @@ impl Figure {
         Ok((group::written(&label::typeset(&text)), width, height))
     }
 
-    /// The figure as a PNG file: maps in 256 colours; lines and letters in those that the figure names and a few shades.
+    /// The figure as a PNG file: maps in 256 colours, lines and letters in 16 or, where it names more than half of these, in
+    /// twice as many as it names.
     fn png(&self) -> Result<Vec<u8>, String> {
         let pixels = raster::pixels(self, PNG_UNIT)?;
         let exact = self.named_colours();
         let map = |panel: &Panel| matches!(&panel.fill, Some(Fill { key: Key::Values { .. }, .. }));
-        let most = if self.panels.iter().any(map) { 256 } else { (exact.len() + SHADES).max(12) };
+        let most = match self.panels.len() {
+            _ if self.panels.iter().any(map) => 256,
+            MANY_PANELS.. => exact.len() + palette::GREYS,
+            _ => (2 * exact.len()).max(16),
+        };
         palette::png(&pixels, &exact, most.min(256)).map_err(|error| error.to_string())
     }
 
