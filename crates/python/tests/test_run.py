@@ -11,6 +11,7 @@ import pytest
 
 from conftest import SHORT, SMALL
 from creepage._case import unfolded
+from creepage._progress import Bar
 
 SETS = [f"--set={key}={value}" for key, value in SHORT.items()]
 
@@ -99,6 +100,16 @@ def test_progress_is_told_by_stages(tmp_path):
     assert stages[0] == "mesh" and stages[-1] == "roll"
     rolled = [told["step"] for told in heard if told["stage"] == "roll"]
     assert rolled == sorted(rolled) and heard[-1]["end_time"] == pytest.approx(1.2e-3 / 38.89)
+
+
+def test_a_bar_that_is_no_terminal_s_is_drawn_about_twenty_times(capsys):
+    pytest.importorskip("tqdm")
+    bar = Bar()
+    bar.bar.mininterval = 0.0  # as in a run of hours
+    for step in range(1001):
+        bar({"stage": "roll", "step": step, "steps": 1000, "time": 0.0, "normal_force": 0.0})
+    bar.close()
+    assert 15 < capsys.readouterr().err.count("\r") < 30
 
 
 def test_what_progress_raises_ends_the_run_in_order(tmp_path):
