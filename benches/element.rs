@@ -8,7 +8,7 @@ fn main() {
     divan::main();
 }
 
-const LEVELS: [Level; 3] = [Level::Avx512, Level::Avx2, Level::Portable];
+const LEVELS: [Level; 4] = [Level::Avx512, Level::Avx2, Level::Neon, Level::Portable];
 const ONE_POINT: Element = Element { hourglass: 0.05 };
 
 fn run<'a>(

@@ -336,7 +336,7 @@ fn a_sweep_leaves_the_same_bits_on_any_number_of_threads_with_its_kernels_pinned
     assert_eq!(first.len(), 2);
     for run in &first {
         assert!(run.resolved.contains("\ndeterministic = true\n"));
-        assert!(["avx2", "fused"].contains(&run.summary["kernels"].as_str().unwrap()));
+        assert!(["avx2", "neon", "fused"].contains(&run.summary["kernels"].as_str().unwrap()));
     }
     for threads in ["2", "3", "4", "7"] {
         for (a, b) in first.iter().zip(sweep(threads)) {

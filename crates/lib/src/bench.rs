@@ -18,7 +18,7 @@ pub struct BenchOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = |n: &str| THREADS.read(n)))]
     pub threads: Option<usize>,
     /// Instruction set of the element kernels [default: the best of this machine]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "avx512|avx2|fused|portable",
+    #[cfg_attr(feature = "clap", arg(long, value_name = "avx512|avx2|neon|fused|portable",
         value_parser = kernels))]
     pub kernels: Option<Level>,
     /// Set a key of the reference case, for example mesh.zone.size=2e-3; may be repeated

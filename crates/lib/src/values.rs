@@ -155,7 +155,8 @@ pub mod words {
 
     /// An instruction set of this machine.
     pub fn kernels(text: &str) -> Result<Level, &'static str> {
-        let level = Level::named(text).ok_or("one of avx512, avx2, fused, portable is needed")?;
+        let level =
+            Level::named(text).ok_or("one of avx512, avx2, neon, fused, portable is needed")?;
         Some(level).filter(KERNELS.holds).ok_or(KERNELS.wanted)
     }
 

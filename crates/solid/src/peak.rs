@@ -18,6 +18,8 @@ pub fn multiply_additions(level: Level, flops: usize) -> usize {
         Level::Avx512 => (8, avx512),
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => (4, avx2),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon => (4, neon),
         Level::Fused => (4, fused),
         _ => (1, portable),
     };
@@ -64,6 +66,13 @@ unsafe fn avx512(rounds: usize, small: f64) -> f64 {
 unsafe fn avx2(rounds: usize, small: f64) -> f64 {
     // SAFETY: as above.
     unsafe { run::<crate::lanes::x86::F64x4>(rounds, small) }
+}
+
+#[cfg(target_arch = "aarch64")]
+#[target_feature(enable = "neon")]
+unsafe fn neon(rounds: usize, small: f64) -> f64 {
+    // SAFETY: as above.
+    unsafe { run::<crate::lanes::neon::F64x2x2>(rounds, small) }
 }
 
 unsafe fn fused(rounds: usize, small: f64) -> f64 {

@@ -7,6 +7,8 @@ use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
 use crate::geometry::displacement_gradient;
 use crate::kernel::{Arrays, Constants, Kernel, OnePoint, Sums, block_force};
+#[cfg(target_arch = "aarch64")]
+use crate::lanes::neon;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::x86;
 use crate::lanes::{Four, Level};
@@ -465,6 +467,8 @@ macro_rules! level_kernels {
 level_kernels!(avx512, x86::F64x8, "avx512f,avx2,fma");
 #[cfg(target_arch = "x86_64")]
 level_kernels!(avx2, x86::F64x4, "avx2,fma");
+#[cfg(target_arch = "aarch64")]
+level_kernels!(neon, neon::F64x2x2, "neon");
 level_kernels!(fused, Four);
 level_kernels!(portable, f64);
 
@@ -479,6 +483,8 @@ fn block_force_of(
         Level::Avx512 => avx512(full, energies, viscous),
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => avx2(full, energies, viscous),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon => neon(full, energies, viscous),
         Level::Fused => fused(full, energies, viscous),
         _ => portable(full, energies, viscous),
     }

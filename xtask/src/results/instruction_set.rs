@@ -11,5 +11,5 @@ pub fn kernels() -> &'static str {
             return "avx2";
         }
     }
-    "portable"
+    if cfg!(target_arch = "aarch64") { "neon" } else { "portable" }
 }
