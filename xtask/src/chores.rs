@@ -15,8 +15,7 @@ pub struct Args {
 
 #[derive(Debug, Subcommand)]
 pub enum Chore {
-    /// Run every check, cheapest first: format, links, lints, documentation, tests, the schema of
-    /// the case files, the kernels' instructions, a smoke run with the checks of its files, the Python package
+    /// Run every check, cheapest first, up to the first that fails
     Validate,
     /// Build the documents as a book, target/book/html, and check its links and its equations
     Book,
@@ -27,7 +26,13 @@ pub enum Chore {
         all: bool,
     },
     /// Build the wheel of the Python package into target/wheel
-    Wheel,
+    Wheel {
+        /// For every Linux with glibc 2.17 or newer, linked by zig (`pip install ziglang`)
+        #[arg(long)]
+        portable: bool,
+    },
+    /// Build the static program with completions and manual pages, target/archive/creepage-....tar.gz
+    Archive,
     /// Kill runs at random moments, resume them, and compare every bit: `--help` after it for more
     #[command(disable_help_flag = true)]
     KillLoop {

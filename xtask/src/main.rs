@@ -1,5 +1,6 @@
-//! Chores: `cargo xtask validate`, `book`, `book-test`, `kill-loop`, `results`, `soak`, `wheel`.
+//! Chores: `cargo xtask validate`, `archive`, `book`, `book-test`, `kill-loop`, `results`, `soak`, `wheel`.
 
+mod archive;
 mod book;
 mod book_test;
 mod chores;
@@ -10,6 +11,7 @@ mod markdown;
 mod results;
 mod shell;
 mod soak;
+mod sources;
 mod step;
 mod structure;
 mod validate;
@@ -27,7 +29,8 @@ fn main() -> ExitCode {
         Chore::Book => step::alone(validate::book),
         Chore::BookTest { all: false } => step::alone(validate::book_test),
         Chore::BookTest { all: true } => step::alone(validate::all_of_the_book),
-        Chore::Wheel => wheel::wheel(),
+        Chore::Wheel { portable } => wheel::wheel(portable),
+        Chore::Archive => archive::archive(),
         Chore::KillLoop { options } => match kill_loop::kill_loop(&step::root(), &options) {
             step::Outcome::Passed => ExitCode::SUCCESS,
             _ => ExitCode::FAILURE,

@@ -5,10 +5,14 @@ use std::process::{Command, ExitCode};
 
 use crate::step::{Outcome, execute, missing, python, root, target};
 
-/// Builds the wheel and says where it is.
-pub fn wheel() -> ExitCode {
+/// Options of maturin that link for every Linux with glibc 2.17 or newer.
+const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
+
+/// Builds the wheel, for other machines too if `portable`, and says where it is.
+pub fn wheel(portable: bool) -> ExitCode {
     let root = root();
-    match python(&root).and_then(|python| build(&root, &python)) {
+    let options = if portable { &PORTABLE[..] } else { &[] };
+    match python(&root).and_then(|python| build(&root, &python, options)) {
         Ok(wheel) => {
             println!("{}", wheel.display());
             ExitCode::SUCCESS
@@ -27,7 +31,7 @@ pub fn tests(root: &Path) -> Outcome {
         Ok(python) => python,
         Err(problem) => return missing(&problem, "the Python package"),
     };
-    let wheel = match build(root, &python) {
+    let wheel = match build(root, &python, &[]) {
         Ok(wheel) => wheel,
         Err(problem) => {
             eprintln!("error: {problem}");
@@ -50,7 +54,7 @@ pub fn tests(root: &Path) -> Outcome {
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.
-fn build(root: &Path, python: &Path) -> Result<PathBuf, String> {
+fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String> {
     let folder = target(root).join("wheel");
     if let Err(error) = std::fs::remove_dir_all(&folder)
         && error.kind() != std::io::ErrorKind::NotFound
@@ -60,7 +64,7 @@ fn build(root: &Path, python: &Path) -> Result<PathBuf, String> {
     let maturin = ["-m", "maturin", "build", "--release", "--quiet", "--manifest-path"];
     let mut command = Command::new(python);
     command.args(maturin).arg(root.join("crates/python/Cargo.toml"));
-    command.arg("--interpreter").arg(python).arg("--out").arg(&folder);
+    command.arg("--interpreter").arg(python).arg("--out").arg(&folder).args(options);
     if execute(&mut command) != Outcome::Passed {
         return Err("maturin could not build the wheel".into());
     }

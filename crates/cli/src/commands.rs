@@ -1,5 +1,7 @@
 //! The commands by their names, and which module does each.
 
+use std::path::PathBuf;
+
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
@@ -148,11 +150,15 @@ pub enum Command {
     },
     /// Print the manual page of the program, or of one of its commands
     #[command(
-        after_help = "Examples:\n  creepage man | man -l -\n  creepage man run > creepage-run.1"
+        after_help = "Examples:\n  creepage man | man -l -\n  creepage man run > creepage-run.1\n  \
+        creepage man --out ~/.local/share/man/man1"
     )]
     Man {
         /// The command
         command: Option<String>,
+        /// Write the pages of the program and of all its commands into this folder
+        #[arg(long, conflicts_with = "command")]
+        out: Option<PathBuf>,
     },
 }
 
@@ -205,7 +211,8 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
             crate::manual::completions(*shell);
             Ok(0)
         }
-        Command::Man { command } => crate::manual::page(command.as_deref()).map(|()| 0),
+        Command::Man { out: Some(folder), .. } => crate::manual::pages(folder).map(|()| 0),
+        Command::Man { command, out: None } => crate::manual::page(command.as_deref()).map(|()| 0),
     }
 }
 

@@ -1,6 +1,8 @@
 //! What an installed program gives a shell and `man`: completions and manual pages.
 
+use std::fs;
 use std::io::Write;
+use std::path::Path;
 
 use clap::CommandFactory;
 use clap_complete::Shell;
@@ -40,6 +42,19 @@ pub fn page(name: Option<&str>) -> Result<(), Error> {
     let _ = clap_mangen::Man::new(shown).render(&mut text);
     print(&text);
     Ok(())
+}
+
+/// Writes the manual pages of the program and of all its commands into `folder`, which is made if need be.
+///
+/// # Errors
+/// A folder or file that cannot be written.
+pub fn pages(folder: &Path) -> Result<(), Error> {
+    fs::create_dir_all(folder)
+        .and_then(|()| clap_mangen::generate_to(Line::command(), folder))
+        .map_err(|error| Error::Option {
+            problem: format!("the pages cannot be written to {}: {error}", folder.display()),
+            help: None,
+        })
 }
 
 fn print(text: &[u8]) {

@@ -45,3 +45,20 @@ fn the_manual_of_an_unknown_command_is_refused_with_those_that_there_are() {
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("walk") && said.contains("run, mesh"), "{said}");
 }
+
+#[test]
+fn all_manual_pages_are_written_into_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let man = folder.path().join("share/man1");
+    printed(&["man", "--out", man.to_str().unwrap()]);
+    assert_eq!(
+        std::fs::read_to_string(man.join("creepage.1")).unwrap().lines().next(),
+        Some(".ie \\n(.g .ds Aq \\(aq")
+    );
+    for command in COMMANDS {
+        let page = std::fs::read_to_string(man.join(format!("creepage-{command}.1"))).unwrap();
+        assert!(page.contains("\\-\\-json"), "{command}");
+    }
+    let output = creepage(&["man", "--out", man.join("creepage.1").to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+}
