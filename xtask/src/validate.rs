@@ -10,12 +10,15 @@ use crate::step::{Outcome, Step, built, cargo, execute, missing, python, root, t
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 18] = [
+    let steps: [(&str, Step); 21] = [
         ("format", format),
         ("links", links),
+        ("spelling", crate::sources::spelling),
+        ("licences", crate::sources::licences),
         ("structure", structure),
         ("lints", lints),
         ("documentation", documentation),
+        ("other machines", crate::sources::other_machines),
         ("tests", tests),
         ("schema", schema),
         ("kernels", kernels),
