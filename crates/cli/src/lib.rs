@@ -19,6 +19,7 @@ use std::sync::{Arc, atomic::AtomicBool};
 use clap::Parser;
 use creepage::{BAD_INPUT, Error};
 use miette::Report;
+use tracing_subscriber::filter::LevelFilter;
 
 use args::Args;
 use commands::Line;
@@ -88,15 +89,13 @@ fn set_up_messages(args: &Args) {
         Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
     }));
     let level = match (args.quiet, args.verbose) {
-        (true, _) => "error",
-        (false, 0) => "warn",
-        (false, 1) => "info",
-        (false, _) => "debug",
+        (true, _) => LevelFilter::ERROR,
+        (false, 0) => LevelFilter::WARN,
+        (false, 1) => LevelFilter::INFO,
+        (false, _) => LevelFilter::DEBUG,
     };
-    let filter = tracing_subscriber::EnvFilter::try_from_env("CREEPAGE_LOG")
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new(level));
     tracing_subscriber::fmt()
-        .with_env_filter(filter)
+        .with_max_level(level)
         .with_writer(std::io::stderr)
         .with_target(false)
         .without_time()
