@@ -142,11 +142,13 @@ impl<'a> Sources<'a> {
 }
 
 /// Half the width of the 95 % confidence interval of the weighted mean of `values`; `None` where a record has no
-/// value, or the batches give no interval.
+/// value, or the batches give no interval. Zero where values differ by rounding alone, as a creepage that is driven.
 fn half(weights: &[f64], values: &[f64]) -> Option<f64> {
     let counts = |(weight, value): (&f64, &f64)| *weight <= 0.0 || value.is_finite();
     let whole = weights.len() == values.len() && weights.iter().zip(values).all(counts);
-    whole.then(|| of_series(weights, values).ok()).flatten()
+    let half = whole.then(|| of_series(weights, values).ok()).flatten()?;
+    let largest = values.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    Some(if half > 1e-12 * largest { half } else { 0.0 })
 }
 
 /// The columns of the history of the run in `folder`, with weights for the window; `None` where there is no
@@ -166,4 +168,19 @@ fn history(folder: &Path, window: &Window) -> Result<Option<Rows>, PostError> {
         }
     }
     Ok(Some(Rows { columns, weights }))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::half;
+
+    #[test]
+    fn values_that_differ_by_rounding_have_an_interval_of_zero_and_others_have_one() {
+        let alternating = |by: f64| (0..200).map(move |i| 2.4e-3 * (1.0 + by * f64::from(i % 3)));
+        let of = |by| half(&[1.0; 200], &alternating(by).collect::<Vec<_>>());
+        assert_eq!(of(2e-16), Some(0.0));
+        assert!(of(1e-6).unwrap() > 0.0);
+        assert_eq!(half(&[1.0; 3], &[1.0, f64::NAN, 1.0]), None);
+    }
 }

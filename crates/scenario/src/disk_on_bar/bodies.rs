@@ -100,8 +100,8 @@ fn generated(case: &Case) -> Result<(Mesh, Vec<String>), ScenarioError> {
     let widened = zone.width > case.mesh.zone.width * (1.0 + 1e-9);
     let note = || {
         format!(
-            "the fine zone is {:.4} mm wide, an even number of elements, so that nodes lie on y = 0",
-            1e3 * zone.width
+            "the fine zone is {} mm wide, an even number of elements, so that nodes lie on y = 0",
+            (1e7 * zone.width).round() / 1e4
         )
     };
     let notes = (widened && !case.mesh.plane_strain).then(note);
