@@ -3,7 +3,7 @@
     python tests/python/check_page.py PAGE.html [PICTURE.png]
 
 Fails where the browser's console says anything, where the page asks for an address, or where a
-figure has no size. Needs the program `chromium` (Debian: apt-get install chromium).
+figure has no size or a row of a table is squeezed. Needs the program `chromium` (Debian: apt-get install chromium).
 """
 
 import html
@@ -18,7 +18,8 @@ PROBE = """<script>window.addEventListener('load', () => {
   const sizes = [...document.querySelectorAll('svg')].map(s => s.getBoundingClientRect());
   const empty = sizes.filter(r => r.width < 100 || r.height < 100).length;
   const wide = document.documentElement.scrollWidth > window.innerWidth + 1;
-  parent.document.title = `figures ${sizes.length} empty ${empty} wide ${wide} ` +
+  const tall = [...document.querySelectorAll('tr')].filter(r => r.getBoundingClientRect().height > 300).length;
+  parent.document.title = `figures ${sizes.length} empty ${empty} wide ${wide} tall rows ${tall} ` +
     `resources ${performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length}`;
 });</script></body>"""
 
@@ -43,7 +44,7 @@ def look(page, framed, width):
     title = re.search(r"<title>(figures [^<]*)</title>", found.stdout)
     report = title.group(1) if title else "the page was not rendered"
     print(f"{width} px: {report}")
-    if console or not title or not re.search(r"empty 0 wide false resources 0$", report):
+    if console or not title or not re.search(r"empty 0 wide false tall rows 0 resources 0$", report):
         sys.exit("\n".join([f"{page} is not as it should be at {width} px", *console]))
 
 

@@ -27,7 +27,7 @@ h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px soli
 table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
 td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-.wide{overflow-x:auto}nav a{margin-right:1rem}.csv{font-size:.8rem}
+.wide{overflow-x:auto}.wide td:last-child:not(.n){min-width:14rem}nav a{margin-right:1rem}.csv{font-size:.8rem}
 .overview{display:flex;flex-wrap:wrap;gap:1.5rem;align-items:flex-start}
 .overview>*{flex:1 1 24rem;min-width:0}img{max-width:100%;height:auto;border:1px solid #ddd}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
