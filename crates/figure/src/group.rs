@@ -15,18 +15,17 @@
 
 use crate::axes::Plot;
 use crate::fill::STOPS;
+use crate::label::PRIVATE;
 use crate::layout::{Failure, Medium, Pen, TEXT};
 use crate::{Axis, Draw, Key, Panel, Series};
 use plotters::prelude::*;
 
 /// Begins the text of a tag.
-const TAG: char = '\u{e000}';
+const TAG: char = PRIVATE[0];
 /// Begins an attribute in such a text.
-const ATTRIBUTE: char = '\u{e001}';
+const ATTRIBUTE: char = PRIVATE[1];
 /// Stands for what begins a subscript, so that it is not typeset as such.
-const SUBSCRIPT: char = '\u{e002}';
-/// These characters, which are for private use and of which labels are freed.
-pub(crate) const PRIVATE: [char; 3] = [TAG, ATTRIBUTE, SUBSCRIPT];
+const SUBSCRIPT: char = PRIVATE[2];
 
 type Attribute = (&'static str, String);
 

@@ -4,6 +4,9 @@
 const BEGINS: &str = "_{";
 const ENDS: char = '}';
 
+/// Characters for private use, of which labels are freed: with them the tags of groups stand among the texts.
+pub(crate) const PRIVATE: [char; 3] = ['\u{e000}', '\u{e001}', '\u{e002}'];
+
 /// Size of a subscript, and how far it is lowered, both over the size of the text around it.
 const SIZE: f64 = 0.7;
 pub(crate) const LOWERED: f64 = 0.2;

@@ -1,6 +1,6 @@
 //! Sizes of the parts of a figure, and text on it.
 
-use crate::{font, group, label};
+use crate::{font, label};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -98,7 +98,7 @@ impl<'a, DB: DrawingBackend> Pen<'a, DB> {
             self.style(size).pos(Pos::new(across, VPos::Center)).transform(turn.clone())
         };
         if self.medium == Medium::Svg {
-            let text = text.replace(group::PRIVATE, "");
+            let text = text.replace(label::PRIVATE, "");
             return self.area.draw(&Text::new(text, at, style(size, across)));
         }
         let width = self.width(text, size)?;
