@@ -65,9 +65,9 @@ impl NodalState {
 
 /// A chunk with instructions of a level: the same bits with all, since nothing is fused.
 fn advance_chunk(chunk: Chunk<'_>, update: &Update<'_>) {
-    #[cfg(target_arch = "x86_64")]
     if matches!(update.level, Level::Avx512 | Level::Avx2) && update.level.available() {
         // SAFETY: the machine has the instructions.
+        #[cfg(target_arch = "x86_64")]
         return unsafe { update_chunk_wide(chunk, update) };
     }
     update_chunk(chunk, update);
