@@ -27,7 +27,7 @@ pub enum Chore {
     },
     /// Build the wheel of the Python package into target/wheel
     Wheel {
-        /// For every Linux with glibc 2.17 or newer, linked by zig (`pip install ziglang`)
+        /// For every Linux with glibc 2.17 or newer, linked by zig, which pip installs
         #[arg(long)]
         portable: bool,
     },

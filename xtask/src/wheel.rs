@@ -12,7 +12,13 @@ const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
 pub fn wheel(portable: bool) -> ExitCode {
     let root = root();
     let options = if portable { &PORTABLE[..] } else { &[] };
-    match python(&root).and_then(|python| build(&root, &python, options)) {
+    let built = python(&root).and_then(|python| {
+        if portable {
+            install_zig(&python)?;
+        }
+        build(&root, &python, options)
+    });
+    match built {
         Ok(wheel) => {
             println!("{}", wheel.display());
             ExitCode::SUCCESS
@@ -21,6 +27,15 @@ pub fn wheel(portable: bool) -> ExitCode {
             eprintln!("error: {problem}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Installs the linker of portable wheels beside maturin.
+fn install_zig(python: &Path) -> Result<(), String> {
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "ziglang==0.17.1"];
+    match execute(Command::new(python).args(pip)) {
+        Outcome::Passed => Ok(()),
+        _ => Err("pip could not install ziglang".into()),
     }
 }
 
@@ -65,6 +80,11 @@ fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String
     let mut command = Command::new(python);
     command.args(maturin).arg(root.join("crates/python/Cargo.toml"));
     command.arg("--interpreter").arg(python).arg("--out").arg(&folder).args(options);
+    // maturin looks for zig by the first `python3` on the path
+    let own = python.parent().map(Path::to_owned);
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders = own.into_iter().chain(std::env::split_paths(&path));
+    command.env("PATH", std::env::join_paths(folders).map_err(|error| error.to_string())?);
     if execute(&mut command) != Outcome::Passed {
         return Err("maturin could not build the wheel".into());
     }
