@@ -178,9 +178,10 @@ fn verdicts(out: &mut String, checked: &Value) {
                 .join(" to "),
             _ => String::new(),
         };
-        let (word, class) = match (&metric["limit"], metric["pass"].as_bool()) {
-            (Value::Null, _) => ("", ""),
-            (_, Some(true)) => ("pass", "pass"),
+        // without a value nothing has kept the limit
+        let (word, class) = match (&metric["limit"], value, metric["pass"].as_bool()) {
+            (Value::Null, ..) | (_, None, Some(true)) => ("", ""),
+            (.., Some(true)) => ("pass", "pass"),
             _ => ("fail", "fail"),
         };
         let units = if measure.units == "1" { "" } else { measure.units };
