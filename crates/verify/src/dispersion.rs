@@ -26,7 +26,8 @@
 //!   pair above grows at `T R^2/(1 - R^2)^2`), hence for every T. Without inertia the equation would be
 //!   `1 + T q = R q`, whose root decays for T > R; with inertia waves along the interface grow instead.
 
-use nalgebra::{Complex, Matrix4};
+use faer::c64 as Complex;
+use faer::mat;
 
 /// The parameters of the stability of steady sliding.
 #[derive(Clone, Copy, Debug)]
@@ -43,33 +44,33 @@ pub(crate) struct Sliding {
 
 impl Sliding {
     /// The fastest growing root q (1/s) at the wave number `k > 0` (1/m); of a conjugate pair the one with Im >= 0.
-    pub fn growth(&self, k: f64) -> Option<Complex<f64>> {
+    pub fn growth(&self, k: f64) -> Option<Complex> {
         let w = k * self.wave_speed;
         let q = fastest(self.falling / self.impedance, self.delay * w)?;
         Some(q * w)
     }
 
     /// The decay `a` into either body (1/m) of a disturbance with wave number `k` (1/m) and growth `q` (1/s).
-    pub fn decay(&self, k: f64, q: Complex<f64>) -> Complex<f64> {
+    pub fn decay(&self, k: f64, q: Complex) -> Complex {
         (k * k + (q / self.wave_speed).powi(2)).sqrt()
     }
 }
 
 /// The root of `sqrt(1 + q^2) (1 + T q) = R q` with the largest real part, with Re sqrt > 0 and Im q >= 0. The squared
 /// equation has four roots; those that solve the equation itself are kept.
-fn fastest(r: f64, t: f64) -> Option<Complex<f64>> {
+fn fastest(r: f64, t: f64) -> Option<Complex> {
     let c = [2.0 / t, (1.0 + t * t - r * r) / (t * t), 2.0 / t, 1.0 / (t * t)];
-    let companion = Matrix4::new(
-        -c[0], -c[1], -c[2], -c[3], //
-        1.0, 0.0, 0.0, 0.0, //
-        0.0, 1.0, 0.0, 0.0, //
-        0.0, 0.0, 1.0, 0.0,
-    );
-    let solves = |q: &Complex<f64>| {
+    let companion = mat![
+        [-c[0], -c[1], -c[2], -c[3]],
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+    ];
+    let solves = |q: &Complex| {
         let left = (1.0 + q * q).sqrt() * (1.0 + t * q);
         (left - r * q).norm() < (left + r * q).norm()
     };
-    let roots = companion.complex_eigenvalues();
+    let roots = companion.eigenvalues().ok()?;
     let growing = roots.iter().filter(|q| q.re > 0.0 && q.im >= 0.0 && solves(q));
     growing.max_by(|a, b| a.re.total_cmp(&b.re)).copied()
 }
@@ -78,7 +79,7 @@ fn fastest(r: f64, t: f64) -> Option<Complex<f64>> {
 mod tests {
     use super::*;
 
-    fn misfit(r: f64, t: f64, q: Complex<f64>) -> f64 {
+    fn misfit(r: f64, t: f64, q: Complex) -> f64 {
         ((1.0 + q * q).sqrt() * (1.0 + t * q) - r * q).norm() / (r * q).norm()
     }
 

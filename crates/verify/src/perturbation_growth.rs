@@ -24,9 +24,9 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{ExactContact, ExactSettings};
 use dynamics::{Fixed, Setup, Simulation};
+use faer::c64 as Complex;
 use friction::{Exponential, FrictionLaw, Memory, NodeFriction, Place, Remembering};
 use mesh::Padded;
-use nalgebra::{Complex, Matrix2, Vector2};
 use solid::{Level, Solid, Viscosity, Volumetric};
 use std::f64::consts::PI;
 
@@ -81,9 +81,8 @@ pub(crate) fn run(size: Size) -> Outcome {
             found.push((mode.cell(refinement), mode.measure(refinement)?));
         }
         let case = format!("V {speed} m/s, d_c {memory} um, wavelength {wavelength} mm");
-        let study = |of: fn(&Complex<f64>) -> f64| {
-            Convergence::new(found.iter().map(|(h, q)| (*h, of(q))), 2.0)
-        };
+        let study =
+            |of: fn(&Complex) -> f64| Convergence::new(found.iter().map(|(h, q)| (*h, of(q))), 2.0);
         let (growth, exact) = (study(|q| q.re), mode.growth);
         let values = [exact.re, growth.finest()];
         let row = Row::asked(format!("{case}: growth rate (1/s)"), values, REQUIRED, SOURCE);
@@ -112,9 +111,9 @@ struct Mode {
     /// k (1/m).
     wave_number: f64,
     /// q (1/s).
-    growth: Complex<f64>,
+    growth: Complex,
     /// a (1/m).
-    decay: Complex<f64>,
+    decay: Complex,
 }
 
 impl Mode {
@@ -150,7 +149,7 @@ impl Mode {
     }
 
     /// The amplitude D of slip (m).
-    fn slip(&self) -> Complex<f64> {
+    fn slip(&self) -> Complex {
         SEED * self.speed / self.growth
     }
 
@@ -161,7 +160,7 @@ impl Mode {
     }
 
     /// The root q (1/s) measured in a run.
-    fn measure(&self, refinement: f64) -> Result<Complex<f64>, Cause> {
+    fn measure(&self, refinement: f64) -> Result<Complex, Cause> {
         let mut simulation = Simulation::new(self.setup(refinement)?);
         let mut table = match simulation.contact() {
             Some(contact) => contact.nodal_table(0),
@@ -310,17 +309,18 @@ fn slope(values: &[f64], dt: f64) -> f64 {
 /// The q (1/s) of the `Re(A exp(q t))` nearest to `values`, one every `dt` (s). With `e = exp(q m dt)` three values m
 /// steps apart obey `A_2 - 2 Re(e) A_1 + |e|^2 A_0 = 0`, here in the sense of least squares; m steps are about 1/|q| of
 /// the `expected` root.
-fn prony(values: &[f64], expected: Complex<f64>, dt: f64) -> Complex<f64> {
+fn prony(values: &[f64], expected: Complex, dt: f64) -> Complex {
     let m = (1.0 / (expected.norm() * dt)).ceil() as usize;
-    let mut normal = Matrix2::zeros();
-    let mut right = Vector2::zeros();
+    // the normal equations of the rows (2 A_1, -A_0) with the right-hand sides A_2
+    let ([mut xx, mut xy, mut yy], [mut xr, mut yr]) = ([0.0; 3], [0.0; 2]);
     for i in 0..values.len().saturating_sub(2 * m) {
-        let row = Vector2::new(2.0 * values[i + m], -values[i]);
-        normal += row * row.transpose();
-        right += row * values[i + 2 * m];
+        let (x, y, r) = (2.0 * values[i + m], -values[i], values[i + 2 * m]);
+        (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+        (xr, yr) = (xr + x * r, yr + y * r);
     }
-    let Some(found) = normal.lu().solve(&right) else { return Complex::new(f64::NAN, f64::NAN) };
-    let (real, square) = (found[0], found[1]);
+    let determinant = xx * yy - xy * xy;
+    let real = (xr * yy - yr * xy) / determinant;
+    let square = (xx * yr - xy * xr) / determinant;
     let e = real + Complex::from(real * real - square).sqrt();
     e.ln() / (m as f64 * dt)
 }
