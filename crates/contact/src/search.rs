@@ -22,9 +22,8 @@
 use crate::face::Positions;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::math::Vector;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 use serde::{Deserialize, Serialize};
 
 /// Margin in terms of the smallest face: small, for few open points; large enough that a rolling
@@ -184,14 +183,9 @@ impl Search {
             spans.iter().map(|s| distance(s, &whole[1 - side]).max(far)).collect::<Vec<f64>>()
         });
         let reach = self.reach(&whole, far);
-        // Leaves are numbered from zero: trees of one or two leaves take no other numbers.
-        let boxes = reach[1].iter().map(|&g| aabb(&self.spans[1][g as usize], 0.0));
-        let leaves = boxes.enumerate();
-        let tree = Bvh::from_iter(BvhBuildStrategy::default(), leaves);
+        let tree = tree_of(reach[1].iter().map(|&g| (g, self.spans[1][g as usize])));
         for &f in &reach[0] {
-            let near = aabb(&self.spans[0][f as usize], far);
-            for leaf in tree.intersect_aabb(&near) {
-                let g = reach[1][leaf as usize];
+            for g in near(&tree, self.spans[0][f as usize], far) {
                 let d = distance(&self.spans[0][f as usize], &self.spans[1][g as usize]);
                 for (side, face) in [(0, f), (1, g)] {
                     let c = &mut clearance[side][face as usize];
@@ -309,16 +303,29 @@ fn distance(a: &Span, b: &Span) -> f64 {
     squared.sqrt()
 }
 
-fn aabb(span: &Span, inflated: f64) -> Aabb {
-    let [low, high] = span;
-    Aabb::new(
-        Vector::new(low[0] - inflated, low[1] - inflated, low[2] - inflated),
-        Vector::new(high[0] + inflated, high[1] + inflated, high[2] + inflated),
+/// The boxes of faces, with the number of each.
+type Tree = RTree<GeomWithData<Rectangle<Vec3>, u32>>;
+
+/// The tree of the boxes that are somewhere.
+fn tree_of(spans: impl Iterator<Item = (u32, Span)>) -> Tree {
+    let somewhere = spans.filter(|(_, [low, high])| low[0] <= high[0]);
+    RTree::bulk_load(
+        somewhere
+            .map(|(face, [low, high])| GeomWithData::new(Rectangle::from_corners(low, high), face))
+            .collect(),
     )
 }
 
+/// The faces of `tree` whose boxes lie within `reach` of `span` along each axis, in no order; none of [`NOTHING`].
+fn near(tree: &Tree, span: Span, reach: f64) -> impl Iterator<Item = u32> {
+    let [low, high] = span;
+    let about = AABB::from_corners(low.map(|x| x - reach), high.map(|x| x + reach));
+    let found = (low[0] <= high[0]).then(|| tree.locate_in_envelope_intersecting(about));
+    found.into_iter().flatten().map(|face| face.data)
+}
+
 /// Calls `visit` for all faces `f` of side 0 and `g` of side 1 whose boxes in the configuration
-/// `positions` lie within `sizes` face sizes of one another.
+/// `positions` lie within `sizes` face sizes of one another, in no order.
 pub(crate) fn neighbours(
     sides: &[ContactSurface; 2],
     positions: &Positions<'_>,
@@ -329,10 +336,9 @@ pub(crate) fn neighbours(
         let at: Vec<Vec3> = sides[side].nodes().map(|n| positions.at(n)).collect();
         (0..sides[side].faces.len()).map(|f| span(&sides[side], f, &at)).collect::<Vec<Span>>()
     });
-    let leaves = spans[1].iter().enumerate().map(|(g, s)| (g, aabb(s, 0.0)));
-    let tree = Bvh::from_iter(BvhBuildStrategy::default(), leaves);
+    let tree = tree_of((0..).zip(spans[1].iter().copied()));
     for (f, s) in spans[0].iter().enumerate() {
-        for g in tree.intersect_aabb(&aabb(s, sizes * sides[0].faces[f].size)) {
+        for g in near(&tree, *s, sizes * sides[0].faces[f].size) {
             visit(f, g as usize);
         }
     }

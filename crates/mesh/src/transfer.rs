@@ -6,9 +6,8 @@
 //! flatten a field of positive curvature at every move, as if a force acted.
 
 use crate::{Body, HEX_CORNERS, Mesh, Padded};
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::math::Vector;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 use std::f64::consts::PI;
 
 /// Two places closer than this, over the shortest distance that matters, are one.
@@ -108,10 +107,10 @@ pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f
         .map(|hex| unwrapped(hex.map(|n| at[(n - first) as usize]), chart))
         .collect();
     let slack = COINCIDENT * size;
-    let tree = Bvh::from_iter(
-        BvhBuildStrategy::default(),
-        elements.iter().map(|corners| around(corners, slack)).enumerate(),
-    );
+    let boxes = (0..).zip(&elements).map(|(element, corners)| {
+        GeomWithData::new(Rectangle::from(around(corners, slack)), element)
+    });
+    let tree = RTree::bulk_load(boxes.collect());
     let around_element = Neighbours::new(mesh, body);
     let end = at.iter().fold(f64::NEG_INFINITY, |end, q| end.max(q[0]));
     let source = |q: &[f64; 3]| {
@@ -124,7 +123,8 @@ pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f
         for place in places {
             // a place may lie beyond a curved side by the sag of an edge
             let about = around(&[place], 0.5 * size);
-            let mut near: Vec<u32> = tree.intersect_aabb(&about).collect();
+            let found = tree.locate_in_envelope_intersecting(about);
+            let mut near: Vec<u32> = found.map(|element| element.data).collect();
             near.sort_unstable();
             for element in near {
                 let corners = &elements[element as usize];
@@ -303,7 +303,7 @@ fn unwrapped(mut corners: [[f64; 3]; 8], chart: Chart) -> [[f64; 3]; 8] {
     corners
 }
 
-fn around(points: &[[f64; 3]], slack: f64) -> Aabb {
+fn around(points: &[[f64; 3]], slack: f64) -> AABB<[f64; 3]> {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for p in points {
         for i in 0..3 {
@@ -311,7 +311,7 @@ fn around(points: &[[f64; 3]], slack: f64) -> Aabb {
             high[i] = high[i].max(p[i] + slack);
         }
     }
-    Aabb::new(Vector::new(low[0], low[1], low[2]), Vector::new(high[0], high[1], high[2]))
+    AABB::from_corners(low, high)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
