@@ -306,17 +306,17 @@ fn distance(a: &Span, b: &Span) -> f64 {
 /// The boxes of faces, with the number of each.
 type Tree = RTree<GeomWithData<Rectangle<Vec3>, u32>>;
 
-/// The tree of the boxes that are somewhere.
+/// The tree of the boxes, but for [`NOTHING`].
 fn tree_of(spans: impl Iterator<Item = (u32, Span)>) -> Tree {
-    let somewhere = spans.filter(|(_, [low, high])| low[0] <= high[0]);
+    let there = spans.filter(|(_, [low, high])| low[0] <= high[0]);
     RTree::bulk_load(
-        somewhere
+        there
             .map(|(face, [low, high])| GeomWithData::new(Rectangle::from_corners(low, high), face))
             .collect(),
     )
 }
 
-/// The faces of `tree` whose boxes lie within `reach` of `span` along each axis, in no order; none of [`NOTHING`].
+/// The faces of `tree` whose boxes lie within `reach` of `span` along each axis, in no particular order; none of [`NOTHING`].
 fn near(tree: &Tree, span: Span, reach: f64) -> impl Iterator<Item = u32> {
     let [low, high] = span;
     let about = AABB::from_corners(low.map(|x| x - reach), high.map(|x| x + reach));
@@ -325,7 +325,7 @@ fn near(tree: &Tree, span: Span, reach: f64) -> impl Iterator<Item = u32> {
 }
 
 /// Calls `visit` for all faces `f` of side 0 and `g` of side 1 whose boxes in the configuration
-/// `positions` lie within `sizes` face sizes of one another, in no order.
+/// `positions` lie within `sizes` face sizes of one another, in no particular order.
 pub(crate) fn neighbours(
     sides: &[ContactSurface; 2],
     positions: &Positions<'_>,

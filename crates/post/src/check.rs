@@ -5,6 +5,8 @@ mod evaluation;
 mod mesh_mode;
 mod scales;
 
+pub use document::keeps_limit;
+
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};
 use crate::centreline::CentreLine;

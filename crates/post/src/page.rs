@@ -8,6 +8,7 @@ mod verdict;
 
 use crate::PostError;
 use crate::basis::Basis;
+use crate::check::keeps_limit;
 use crate::digits::digits;
 use crate::figures::Named;
 use crate::limits::MEASURES;
@@ -178,17 +179,16 @@ fn verdicts(out: &mut String, checked: &Value) {
                 .join(" to "),
             _ => String::new(),
         };
-        // without a value nothing has kept the limit
-        let (word, class) = match (&metric["limit"], value, metric["pass"].as_bool()) {
-            (Value::Null, ..) | (_, None, Some(true)) => ("", ""),
-            (.., Some(true)) => ("pass", "pass"),
-            _ => ("fail", "fail"),
+        let word = match keeps_limit(metric) {
+            None => "",
+            Some(true) => "pass",
+            Some(false) => "fail",
         };
         let units = if measure.units == "1" { "" } else { measure.units };
         let _ = writeln!(
             out,
             "<tr><td>{}</td><td class=\"n\">{} {units}</td><td class=\"n\">{limit}</td>\
-             <td class=\"{class}\">{word}</td><td>{}</td></tr>",
+             <td class=\"{word}\">{word}</td><td>{}</td></tr>",
             measure.name,
             value.map_or("\u{2013}".into(), |value| digits(value, 3)),
             escape(&verdict::verdict(measure.name, metric))

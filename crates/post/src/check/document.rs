@@ -409,6 +409,14 @@ fn entry(measure: &Measure, value: Option<f64>, limit: Option<Limit>, asked: boo
             "units": measure.units, "statistic": measure.statistic, "about": measure.about })
 }
 
+/// Whether a measure of a check's document keeps its limit; `None` without a limit, or without a value that could
+/// keep it.
+pub fn keeps_limit(metric: &Value) -> Option<bool> {
+    let pass = metric["pass"] == json!(true);
+    let without = metric["limit"].is_null() || (metric["value"].is_null() && pass);
+    (!without).then_some(pass)
+}
+
 fn limit_value(limit: Option<Limit>) -> Value {
     match limit {
         None => Value::Null,
@@ -445,5 +453,22 @@ fn law_value(basis: &Basis, followed: bool) -> Value {
             "law": "exponential", "static": law.mu_static, "dynamic": law.mu_dynamic,
             "decay": law.decay, "bound": bound }),
         None => json!({ "law": null, "bound": bound }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_measure_without_a_value_is_not_judged_unless_its_limit_was_asked_for() {
+        let measure = &crate::MEASURES[0];
+        let of = |value, limit, asked| keeps_limit(&entry(measure, value, limit, asked));
+        let limit = Some(Limit::Most(5e-3));
+        assert_eq!(of(None, limit, false), None);
+        assert_eq!(of(None, limit, true), Some(false));
+        assert_eq!(of(Some(1e-3), limit, false), Some(true));
+        assert_eq!(of(Some(1e-2), limit, false), Some(false));
+        assert_eq!(of(Some(1e-2), None, false), None);
     }
 }
