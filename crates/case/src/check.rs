@@ -7,7 +7,7 @@ use crate::forms::float;
 use crate::key::{Form, Key, STIFFNESS, number};
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, get, join, key_error_in};
-use crate::units;
+use crate::{quantity, units};
 use friction::USES;
 
 /// Most mistakes in one message: more would hide the first.
@@ -201,6 +201,9 @@ fn remedy(key: &Key, value: &Value) -> String {
     let meant = match (&key.form, value) {
         (Form::Word(words), Value::String(word)) => {
             nearest(word, words.iter().copied()).map(|near| format!("\"{near}\""))
+        }
+        (Form::Number(range) | Form::Crown(range), Value::String(text)) => {
+            quantity::in_unit(text, key.unit).filter(|x| range.holds(*x)).map(number)
         }
         _ => units::meant(key, value),
     };

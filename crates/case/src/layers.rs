@@ -171,7 +171,7 @@ impl Layers {
         };
         let text = if is_value(value) {
             format!("{key} = {value}")
-        } else if value.chars().all(|c| plain(c) || c == '/' || c == ' ') {
+        } else if value.chars().all(|c| plain(c) || "/ %^µ".contains(c)) {
             format!("{key} = \"{value}\"")
         } else {
             return Err(refuse("the part after '=' is neither a TOML value nor a word", self));

@@ -27,6 +27,7 @@ pub mod mesh_file;
 mod model;
 pub mod name;
 mod naming;
+mod quantity;
 pub mod schema;
 mod section;
 mod table;

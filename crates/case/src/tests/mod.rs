@@ -144,6 +144,15 @@ fn a_speed_in_km_h_and_a_ratio_in_per_cent_are_told_with_what_was_likely_meant()
     for plausible in ["drive.speed=83.3", "drive.creepage=-0.02", "drive.creepage=0.1"] {
         assert!(!warned(&[plausible]).contains("did you mean"), "{plausible}");
     }
+    for (written, meant) in [
+        ("drive.speed=140km/h", "did you mean 38.88888889?"),
+        ("friction.static=50%", "did you mean 0.5?"),
+        ("mesh.zone.size=2 mm", "did you mean 0.002?"),
+        ("disk.material.density=\"7.8 g/cm^3\"", "did you mean 7800?"),
+    ] {
+        refused(set(&[written]), &[meant]);
+    }
+    assert!(!refusal(set(&["friction.static=\"600%\""])).contains("did you mean"));
     // nothing in km/h either
     refused(set(&["drive.speed=1e6"]), &["at most 500"]);
 }

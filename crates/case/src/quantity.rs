@@ -1,0 +1,87 @@
+//! A number with a unit behind it, as text: `"2 mm"`, `"140 km/h"`, `"50%"`. A case takes plain numbers in SI units, and a
+//! refusal says which number such a text is.
+
+/// Units that people write, the unit of a key, and the size of the first in the second.
+const UNITS: &[(&str, &str, f64)] = &[
+    ("km", "m", 1e3),
+    ("cm", "m", 1e-2),
+    ("mm", "m", 1e-3),
+    ("um", "m", 1e-6),
+    ("µm", "m", 1e-6),
+    ("min", "s", 60.0),
+    ("ms", "s", 1e-3),
+    ("us", "s", 1e-6),
+    ("µs", "s", 1e-6),
+    ("ns", "s", 1e-9),
+    ("km/h", "m/s", 1.0 / 3.6),
+    ("mm/s", "m/s", 1e-3),
+    ("kN", "N", 1e3),
+    ("MN", "N", 1e6),
+    ("kNm", "N m", 1e3),
+    ("kN m", "N m", 1e3),
+    ("kPa", "Pa", 1e3),
+    ("MPa", "Pa", 1e6),
+    ("GPa", "Pa", 1e9),
+    ("N/mm^2", "Pa", 1e6),
+    ("g/cm^3", "kg/m^3", 1e3),
+    ("t/m^3", "kg/m^3", 1e3),
+    ("g", "kg", 1e-3),
+    ("t", "kg", 1e3),
+    ("s", "min", 1.0 / 60.0),
+    ("h", "min", 60.0),
+    ("%", "-", 1e-2),
+    ("per cent", "-", 1e-2),
+    ("percent", "-", 1e-2),
+    ("per mille", "-", 1e-3),
+];
+
+/// What a text is in `unit`, where it is a number with a unit of the same kind; rounded to ten digits, so that 2 mm is
+/// 0.002.
+pub(crate) fn in_unit(text: &str, unit: &str) -> Option<f64> {
+    let split = (0..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
+    let (x, written) = split
+        .filter_map(|end| Some((text[..end].trim().parse::<f64>().ok()?, text[end..].trim())))
+        .find(|(_, written)| written.is_empty() || !written.starts_with(char::is_numeric))?;
+    let size = if [unit, ""].contains(&written) {
+        1.0
+    } else {
+        UNITS.iter().find(|(other, of, _)| *other == written && *of == unit)?.2
+    };
+    Some(x * size).filter(|x| x.is_finite()).and_then(|x| format!("{x:.9e}").parse().ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_with_a_unit_of_the_same_kind_is_the_number_in_the_unit_of_the_key() {
+        for (text, unit, wanted) in [
+            ("2mm", "m", 0.002),
+            ("1e-3 m", "m", 1e-3),
+            ("140 km/h", "m/s", 38.88888889),
+            ("210 GPa", "Pa", 210e9),
+            ("50%", "-", 0.5),
+            ("2.4 per mille", "-", 2.4e-3),
+            ("-3.5 µm", "m", -3.5e-6),
+            ("0.3", "-", 0.3),
+        ] {
+            assert_eq!(in_unit(text, unit), Some(wanted), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_texts_are_no_quantities() {
+        for (text, unit) in [
+            ("2 mm", "s"),
+            ("mm", "m"),
+            ("", "m"),
+            ("2 furlongs", "m"),
+            ("1e999 mm", "m"),
+            ("nan m", "m"),
+            ("0.3.1", "-"),
+        ] {
+            assert_eq!(in_unit(text, unit), None, "{text:?}");
+        }
+    }
+}
