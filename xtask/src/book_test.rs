@@ -2,10 +2,10 @@
 //!
 //! Commands stand in blocks whose fence says how they are tested:
 //!
-//! | fence | here | with `--all` |
+//! | fence | here | with `--all` or `--rest` |
 //! |---|---|---|
 //! | `sh run`, or `sh run exit=1` | run, with this exit code | run |
-//! | `sh long` | checked | run |
+//! | `sh long` | checked | run, and kept in `docs/book-test.json` |
 //! | `sh elsewhere` | checked | checked: it needs what a checkout lacks, or changes the machine |
 //!
 //! Blocks are run in the order of the book, in one copy of the checkout, so that later chapters find
@@ -13,9 +13,11 @@
 //! other calls of cargo work in the checkout itself, which spares a second compilation. A command is
 //! checked by having the program read its options, its case and its sweep, and by looking for the files,
 //! packages and chores that it names. Inline code that is a whole command is checked as well. Runs that the
-//! tables of the documents just made are taken from there.
+//! tables of the documents just made are taken from there. `--rest` leaves out the long blocks that passed
+//! before as they stand, or whose commands made a table.
 
 mod made;
+mod passed;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -30,6 +32,7 @@ use crate::chores::Args;
 use crate::markdown::{Block, parse};
 use crate::shell::commands;
 use made::Made;
+use passed::Passed;
 
 /// Programs that the documents are about.
 const PROGRAMS: [&str; 4] = ["cargo", "creepage", "pip", "python"];
@@ -63,6 +66,15 @@ pub struct Programs {
     pub python: Option<PathBuf>,
 }
 
+/// Which long blocks are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Long {
+    None,
+    /// Those that did not pass before as they stand, and those whose runs they need.
+    Rest,
+    All,
+}
+
 /// How a block is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -80,9 +92,9 @@ struct Script {
     text: String,
 }
 
-/// Tests the commands of the checkout at `root` in a copy at `scratch`; `all` runs the long ones, too.
+/// Tests the commands of the checkout at `root` in a copy at `scratch`, and keeps which long blocks passed.
 /// Returns what is wrong, a few lines each.
-pub fn test(root: &Path, scratch: &Path, programs: &Programs, all: bool) -> Vec<String> {
+pub fn test(root: &Path, scratch: &Path, programs: &Programs, long: Long) -> Vec<String> {
     let mut faults = Vec::new();
     let scripts = match scripts(root, &mut faults) {
         Ok(scripts) => scripts,
@@ -98,11 +110,20 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, all: bool) -> Vec<
         return vec![format!("{}: {error}", scratch.display())];
     }
     let made = Made::of(root, &programs.release.join("creepage"));
+    let mut passed = match Passed::read(root) {
+        Ok(passed) => passed,
+        Err(problem) => return vec![problem],
+    };
+    let chosen = match long {
+        Long::None => BTreeSet::new(),
+        Long::Rest => passed.rest(&scripts),
+        Long::All => (0..scripts.len()).collect(),
+    };
     let mut number = 0;
-    for script in &scripts {
-        let exit = match script.kind {
-            Kind::Run { exit } => exit,
-            Kind::Long { exit } if all => exit,
+    for (index, script) in scripts.iter().enumerate() {
+        let (exit, is_long) = match script.kind {
+            Kind::Run { exit } => (exit, false),
+            Kind::Long { exit } if chosen.contains(&index) => (exit, true),
             _ => continue,
         };
         match made.take(&script.text, scratch) {
@@ -116,8 +137,12 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, all: bool) -> Vec<
         let start = Instant::now();
         match execute(root, scratch, programs, &script.text) {
             Ok((code, _)) if code == exit => {
-                eprintln!("{:7.1} s  {}", start.elapsed().as_secs_f64(), script.at);
+                let seconds = start.elapsed().as_secs_f64();
+                eprintln!("{seconds:7.1} s  {}", script.at);
                 number += 1;
+                if is_long && let Err(problem) = passed.keep(root, script, seconds) {
+                    return vec![problem];
+                }
             }
             Ok((code, said)) => {
                 let text = &script.text;
@@ -130,7 +155,11 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, all: bool) -> Vec<
             Err(error) => return vec![format!("{}: bash: {error}", script.at)],
         }
     }
-    println!("{number} blocks of commands run, {} in all", scripts.len());
+    println!(
+        "{number} blocks of commands run, {} in all; {}",
+        scripts.len(),
+        passed.told(&scripts)
+    );
     let _ = fs::remove_dir_all(scratch);
     Vec::new()
 }

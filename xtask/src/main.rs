@@ -27,8 +27,9 @@ fn main() -> ExitCode {
     match Args::parse().chore {
         Chore::Validate => validate::validate(),
         Chore::Book => step::alone(validate::book),
-        Chore::BookTest { all: false } => step::alone(validate::book_test),
-        Chore::BookTest { all: true } => step::alone(validate::all_of_the_book),
+        Chore::BookTest { all: true, .. } => step::alone(validate::all_of_the_book),
+        Chore::BookTest { rest: true, .. } => step::alone(validate::rest_of_the_book),
+        Chore::BookTest { .. } => step::alone(validate::book_test),
         Chore::Wheel { portable } => wheel::wheel(portable),
         Chore::Archive => archive::archive(),
         Chore::KillLoop { options } => match kill_loop::kill_loop(&step::root(), &options) {

@@ -102,6 +102,15 @@ pub fn short_commands(root: &Path) -> Vec<String> {
     short.flat_map(|table| table.steps).map(|step| step.command).collect()
 }
 
+/// The commands of all tables that were made, as their manifests stand.
+pub fn made_commands(root: &Path) -> Vec<String> {
+    let tables = Tables::read(root, &mut Vec::new());
+    let made = tables.manifests.iter().filter(|(name, manifest)| {
+        tables.records.get(*name).is_some_and(|record| record.steps == manifest.steps_sum())
+    });
+    made.flat_map(|(_, manifest)| &manifest.steps).map(|step| step.command.clone()).collect()
+}
+
 /// The step of `validate`: documents say what results say, short tables come out again, and ages are told.
 pub fn step(root: &Path) -> Outcome {
     let options = Options {

@@ -5,7 +5,7 @@ mod damage;
 mod fuzzing;
 mod kills;
 mod properties;
-mod record;
+pub mod record;
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
+use crate::book_test::Long;
 use crate::step::{Outcome, Step, built, cargo, execute, missing, python, root, target, told};
 
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
@@ -202,15 +203,20 @@ pub fn book(root: &Path) -> Outcome {
 
 /// The commands of the book, but for the long ones.
 pub fn book_test(root: &Path) -> Outcome {
-    commands_of_the_book(root, false)
+    commands_of_the_book(root, Long::None)
 }
 
 /// All commands of the book; this takes hours.
 pub fn all_of_the_book(root: &Path) -> Outcome {
-    commands_of_the_book(root, true)
+    commands_of_the_book(root, Long::All)
 }
 
-fn commands_of_the_book(root: &Path, all: bool) -> Outcome {
+/// The commands of the book, with the long ones that have not passed yet.
+pub fn rest_of_the_book(root: &Path) -> Outcome {
+    commands_of_the_book(root, Long::Rest)
+}
+
+fn commands_of_the_book(root: &Path, long: Long) -> Outcome {
     if Command::new("bash").arg("--version").output().is_err() {
         return missing("there is no bash", "the test of the book's commands");
     }
@@ -223,7 +229,7 @@ fn commands_of_the_book(root: &Path, all: bool) -> Outcome {
     }
     let programs = crate::book_test::Programs { release: target(root).join("release"), python };
     let scratch = target(root).join("book-test");
-    match &crate::book_test::test(root, &scratch, &programs, all)[..] {
+    match &crate::book_test::test(root, &scratch, &programs, long)[..] {
         [] => Outcome::Passed,
         faults => told(faults),
     }

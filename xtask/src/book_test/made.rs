@@ -41,7 +41,7 @@ impl Made {
 }
 
 /// A command that makes a run or a sweep: its words without those of the folder, and the folder.
-fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
+pub fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
     let skipped = if words.first()? == "cargo" { 4 } else { 1 };
     let command = words.get(skipped..)?;
     if !["run", "sweep"].contains(&command.first()?.as_str()) {

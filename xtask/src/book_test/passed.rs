@@ -1,0 +1,177 @@
+//! Which long blocks of commands passed, and when: `docs/book-test.json`. They take many hours together, so that they
+//! are run a few at a time.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use super::{Kind, Script};
+use crate::results;
+use crate::shell::commands;
+use crate::soak::record::Trial;
+use crate::step::Outcome;
+
+const FILE: &str = "docs/book-test.json";
+
+/// Blocks by their commands, and the commands that made tables.
+#[derive(Debug, Default)]
+pub struct Passed {
+    blocks: BTreeMap<String, Trial>,
+    tables: BTreeSet<Vec<String>>,
+}
+
+impl Passed {
+    /// What is kept in the checkout at `root`.
+    pub fn read(root: &Path) -> Result<Self, String> {
+        let file = root.join(FILE);
+        let told = |error: &dyn std::fmt::Display| format!("{FILE}: {error}");
+        let blocks = if file.exists() {
+            let text = fs::read_to_string(&file).map_err(|error| told(&error))?;
+            serde_json::from_str(&text).map_err(|error| told(&error))?
+        } else {
+            BTreeMap::new()
+        };
+        let steps = results::made_commands(root);
+        let tables = steps.iter().flat_map(|step| commands(step)).map(|words| what_runs(&words));
+        Ok(Self { blocks, tables: tables.collect() })
+    }
+
+    /// Keeps that a block passed now.
+    pub fn keep(&mut self, root: &Path, script: &Script, seconds: f64) -> Result<(), String> {
+        let (place, passed) = (script.at.clone(), (Outcome::Passed, String::new()));
+        let trial = Trial::ended(root, place, passed, Duration::from_secs_f64(seconds));
+        let text = script.text.clone();
+        self.blocks.extend(trial.map(|trial| (text, trial)));
+        let text = serde_json::to_string_pretty(&self.blocks).map_err(|error| error.to_string())?;
+        fs::write(root.join(FILE), text + "\n").map_err(|error| format!("{FILE}: {error}"))
+    }
+
+    /// The long blocks that neither passed as they stand nor made a table, and those whose runs they read.
+    pub fn rest(&self, scripts: &[Script]) -> BTreeSet<usize> {
+        let mut chosen = BTreeSet::new();
+        let mut read: BTreeSet<String> = BTreeSet::new();
+        for (index, script) in scripts.iter().enumerate().rev() {
+            let (made, named) = folders(&script.text);
+            let of_made = |folder: &&String| made.iter().any(|made| folder.starts_with(made));
+            let wanted: Vec<String> = read.iter().filter(of_made).cloned().collect();
+            let short = matches!(script.kind, Kind::Run { .. });
+            let long = matches!(script.kind, Kind::Long { .. });
+            if long && (!self.has(script) || !wanted.is_empty()) {
+                chosen.insert(index);
+                read.extend(named);
+            }
+            if short || chosen.contains(&index) {
+                read.retain(|folder| !wanted.contains(folder));
+            }
+        }
+        chosen
+    }
+
+    /// How many of the long blocks passed as they stand, and how many made tables.
+    pub fn told(&self, scripts: &[Script]) -> String {
+        let long = scripts.iter().filter(|script| matches!(script.kind, Kind::Long { .. }));
+        let (passed, others): (Vec<&Script>, Vec<&Script>) =
+            long.partition(|script| self.blocks.contains_key(&script.text));
+        let tables = others.iter().filter(|script| self.made_tables(script)).count();
+        format!(
+            "of {} long blocks {} have passed as they stand ({FILE}), {tables} have made tables",
+            passed.len() + others.len(),
+            passed.len()
+        )
+    }
+
+    fn has(&self, script: &Script) -> bool {
+        self.blocks.contains_key(&script.text) || self.made_tables(script)
+    }
+
+    fn made_tables(&self, script: &Script) -> bool {
+        commands(&script.text).iter().all(|words| self.tables.contains(&what_runs(words)))
+    }
+}
+
+/// A command without what only says where its results go and in which form.
+fn what_runs(words: &[String]) -> Vec<String> {
+    let skipped = if words.starts_with(&["cargo", "run", "--release", "--"].map(String::from)) {
+        4
+    } else {
+        usize::from(words.first().is_some_and(|word| word == "creepage"))
+    };
+    let mut kept = Vec::new();
+    let mut words = words[skipped..].iter();
+    while let Some(word) = words.next() {
+        match word.as_str() {
+            "--out" => drop(words.next()),
+            "--force" | "--json" | "--quiet" => {}
+            _ => kept.push(word.clone()),
+        }
+    }
+    kept
+}
+
+/// The folders below `runs` that a script makes, and those that it names besides.
+fn folders(script: &str) -> (BTreeSet<String>, BTreeSet<String>) {
+    let (mut made, mut named) = (BTreeSet::new(), BTreeSet::new());
+    for words in commands(script) {
+        if let Some((_, folder)) = super::made::run(&words) {
+            made.insert(folder.display().to_string());
+        }
+        named.extend(words.into_iter().filter(|word| word.starts_with("runs/")));
+    }
+    named.retain(|folder| !made.contains(folder));
+    (made, named)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn script(kind: Kind, text: &str) -> Script {
+        Script { at: "docs/a.md:1".into(), kind, text: text.into() }
+    }
+
+    fn passed(blocks: &[&str], tables: &[&str]) -> Passed {
+        let trial = Trial {
+            command: "docs/a.md:1".into(),
+            date: "2026-01-02".into(),
+            commit: "abc".into(),
+            changed: false,
+            minutes: 1.0,
+            passed: true,
+            said: String::new(),
+        };
+        let blocks = blocks.iter().map(|text| ((*text).to_owned(), trial.clone())).collect();
+        let tables = tables.iter().flat_map(|step| commands(step));
+        Passed { blocks, tables: tables.map(|words| what_runs(&words)).collect() }
+    }
+
+    #[test]
+    fn a_block_that_passed_or_made_a_table_is_not_of_the_rest() {
+        let long = Kind::Long { exit: 0 };
+        let scripts = [
+            script(long, "creepage sweep a.toml"),
+            script(long, "creepage verify lamb"),
+            script(long, "creepage verify rupture"),
+            script(Kind::Run { exit: 0 }, "creepage run c.toml"),
+        ];
+        let step = "creepage sweep a.toml --out runs/docs/a --force";
+        let passed = passed(&["creepage verify lamb"], &[step]);
+        assert_eq!(passed.rest(&scripts), BTreeSet::from([2]));
+        assert_eq!(
+            passed.told(&scripts),
+            "of 3 long blocks 1 have passed as they stand (docs/book-test.json), 1 have made tables"
+        );
+    }
+
+    #[test]
+    fn what_a_block_reads_is_run_before_it() {
+        let (long, short) = (Kind::Long { exit: 0 }, Kind::Run { exit: 0 });
+        let made = "creepage run a.toml --out runs/b";
+        let reads = "creepage check runs/b";
+        let none = passed(&[made], &[]);
+        let scripts = [script(long, made), script(long, "true"), script(long, reads)];
+        assert_eq!(none.rest(&scripts), BTreeSet::from([0, 1, 2]));
+        let again = [script(long, made), script(short, made), script(long, reads)];
+        assert_eq!(none.rest(&again), BTreeSet::from([2]));
+    }
+}
