@@ -70,9 +70,30 @@ pub struct Programs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Long {
     None,
-    /// Those that did not pass before as they stand, and those whose runs they need.
+    /// Those that neither passed before as they stand nor made a table.
     Rest,
     All,
+}
+
+/// Which blocks are run, besides those whose runs they read.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    pub long: Long,
+    /// The documents by their names without folder; all if there are none.
+    pub chapters: Vec<String>,
+}
+
+impl Chosen {
+    fn holds(&self, script: &Script, passed: &Passed) -> bool {
+        let document = script.at.split(':').next().unwrap_or_default();
+        let here = |chapter: &String| Path::new(document).file_name() == Some(chapter.as_ref());
+        let kind = match (script.kind, self.long) {
+            (Kind::Elsewhere, _) | (Kind::Long { .. }, Long::None) => false,
+            (Kind::Long { .. }, Long::Rest) => !passed.has(script),
+            _ => true,
+        };
+        kind && (self.chapters.is_empty() || self.chapters.iter().any(here))
+    }
 }
 
 /// How a block is tested.
@@ -94,7 +115,7 @@ struct Script {
 
 /// Tests the commands of the checkout at `root` in a copy at `scratch`, and keeps which long blocks passed.
 /// Returns what is wrong, a few lines each.
-pub fn test(root: &Path, scratch: &Path, programs: &Programs, long: Long) -> Vec<String> {
+pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -> Vec<String> {
     let mut faults = Vec::new();
     let scripts = match scripts(root, &mut faults) {
         Ok(scripts) => scripts,
@@ -114,17 +135,13 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, long: Long) -> Vec
         Ok(passed) => passed,
         Err(problem) => return vec![problem],
     };
-    let chosen = match long {
-        Long::None => BTreeSet::new(),
-        Long::Rest => passed.rest(&scripts),
-        Long::All => (0..scripts.len()).collect(),
-    };
+    let runs = with_needed(&scripts, |script| chosen.holds(script, &passed));
     let mut number = 0;
-    for (index, script) in scripts.iter().enumerate() {
+    for script in runs.into_iter().map(|index| &scripts[index]) {
         let (exit, is_long) = match script.kind {
             Kind::Run { exit } => (exit, false),
-            Kind::Long { exit } if chosen.contains(&index) => (exit, true),
-            _ => continue,
+            Kind::Long { exit } => (exit, true),
+            Kind::Elsewhere => continue,
         };
         match made.take(&script.text, scratch) {
             Ok(true) => {
@@ -188,6 +205,25 @@ fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>
         }
     }
     Ok(scripts)
+}
+
+/// The chosen scripts, and those that make the runs that these read, in the order of the book.
+fn with_needed(scripts: &[Script], is_chosen: impl Fn(&Script) -> bool) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    let mut read: BTreeSet<String> = BTreeSet::new();
+    for (index, script) in scripts.iter().enumerate().rev() {
+        if script.kind == Kind::Elsewhere {
+            continue;
+        }
+        let (made, named) = made::folders(&script.text);
+        let is_made = |folder: &String| made.iter().any(|made| folder.starts_with(made));
+        if is_chosen(script) || read.iter().any(is_made) {
+            found.insert(index);
+            read.retain(|folder| !is_made(folder));
+            read.extend(named);
+        }
+    }
+    found
 }
 
 /// How a block says that it is tested; none for a block that is no script.
@@ -298,7 +334,7 @@ fn cargo_finds(root: &Path, words: &[&str]) -> Result<(), String> {
         let [kind, name] = *pair else { continue };
         let files = match kind {
             "--example" => vec![format!("examples/{name}.rs")],
-            "--test" => vec![format!("tests/{name}.rs"), format!("{name}.rs")],
+            "--test" => vec![format!("tests/{name}.rs"), format!("tests/{name}/main.rs")],
             "--bench" => {
                 vec![format!("benches/{name}.rs"), format!("{name}.rs"), format!("src/{name}.rs")]
             }
@@ -398,6 +434,21 @@ mod tests {
         assert_eq!(kind_of("```sh run exit=1\nfalse\n```"), Ok(Some(Kind::Run { exit: 1 })));
         assert_eq!(kind_of("```sh long\ntrue\n```"), Ok(Some(Kind::Long { exit: 0 })));
         assert_eq!(kind_of("```toml\na = 1\n```"), Ok(None));
+    }
+
+    #[test]
+    fn what_a_block_reads_is_run_before_it() {
+        let script =
+            |kind, text: &str| Script { at: "docs/a.md:1".into(), kind, text: text.into() };
+        let (long, short) = (Kind::Long { exit: 0 }, Kind::Run { exit: 0 });
+        let made = "creepage run a.toml --out runs/b";
+        let of_last = |first, second| {
+            let last = script(long, "creepage check runs/b/runs/0");
+            let scripts = [script(first, made), script(second, made), script(long, "true"), last];
+            with_needed(&scripts, |script| script.text.contains("check"))
+        };
+        assert_eq!(of_last(long, Kind::Elsewhere), BTreeSet::from([0, 3]));
+        assert_eq!(of_last(long, short), BTreeSet::from([1, 3]));
     }
 
     #[test]

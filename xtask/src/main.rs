@@ -21,15 +21,22 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::book_test::{Chosen, Long};
 use crate::chores::{Args, Chore};
 
 fn main() -> ExitCode {
     match Args::parse().chore {
         Chore::Validate => validate::validate(),
         Chore::Book => step::alone(validate::book),
-        Chore::BookTest { all: true, .. } => step::alone(validate::all_of_the_book),
-        Chore::BookTest { rest: true, .. } => step::alone(validate::rest_of_the_book),
-        Chore::BookTest { .. } => step::alone(validate::book_test),
+        Chore::BookTest { all, rest, chapters } => {
+            let long = match (all, rest) {
+                (true, _) => Long::All,
+                (false, true) => Long::Rest,
+                (false, false) => Long::None,
+            };
+            let chosen = Chosen { long, chapters };
+            step::alone(|root| validate::commands_of_the_book(root, &chosen))
+        }
         Chore::Wheel { portable } => wheel::wheel(portable),
         Chore::Archive => archive::archive(),
         Chore::KillLoop { options } => match kill_loop::kill_loop(&step::root(), &options) {

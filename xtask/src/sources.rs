@@ -5,9 +5,13 @@ use std::process::Command;
 
 use crate::step::{Outcome, cargo, execute, missing, python};
 
-/// The machines that the sources must compile for, besides the one at hand.
-const TARGETS: [&str; 3] =
-    ["aarch64-apple-darwin", "aarch64-unknown-linux-gnu", "x86_64-pc-windows-gnu"];
+/// The machines that the sources must compile for, besides the one at hand, and what is checked there: the program, or
+/// where the operating system is the same, the crates with instructions of a processor.
+const TARGETS: [(&str, &[&str]); 3] = [
+    ("aarch64-apple-darwin", &["creepage"]),
+    ("aarch64-unknown-linux-gnu", &["creepage-solid", "creepage-dynamics", "creepage-halfspace"]),
+    ("x86_64-pc-windows-gnu", &["creepage"]),
+];
 
 /// No known misspelling in sources, documents and cases, but for the words of `_typos.toml`.
 pub fn spelling(root: &Path) -> Outcome {
@@ -36,16 +40,54 @@ pub fn other_machines(root: &Path) -> Outcome {
         _ => String::new(),
     };
     let mut outcome = Outcome::Skipped;
-    for target in TARGETS {
+    for (target, packages) in TARGETS {
         if !installed.lines().any(|line| line == target) {
             eprintln!("warning: {target} was skipped: `rustup target add {target}`");
             continue;
         }
-        let check = ["check", "--package", "creepage", "--quiet", "--target", target];
+        let packages = packages.iter().flat_map(|package| ["--package", package]);
+        let check: Vec<&str> = ["check", "--release", "--quiet", "--target", target]
+            .into_iter()
+            .chain(packages)
+            .collect();
         outcome = cargo(root, &check, &[("RUSTFLAGS", "-D warnings")]);
         if outcome == Outcome::Failed {
             break;
         }
     }
     outcome
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use std::collections::BTreeSet;
+    use std::fs;
+
+    use super::*;
+
+    /// Whether a file below `folder` says `word`.
+    fn says(folder: &Path, word: &str) -> bool {
+        fs::read_dir(folder).unwrap().any(|entry| {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                says(&path, word)
+            } else {
+                fs::read_to_string(&path).is_ok_and(|text| text.contains(word))
+            }
+        })
+    }
+
+    #[test]
+    fn every_crate_with_instructions_of_a_processor_is_checked_for_another_one() {
+        let crates = fs::read_dir(crate::step::root().join("crates")).unwrap();
+        let folders = crates.map(|entry| entry.unwrap().path());
+        let found: BTreeSet<String> = folders
+            .filter(|folder| says(&folder.join("src"), "target_arch"))
+            .map(|folder| format!("creepage-{}", folder.file_name().unwrap().display()))
+            .collect();
+        let checked: BTreeSet<String> = TARGETS[1].1.iter().map(|name| (*name).into()).collect();
+        assert_eq!(found, checked);
+    }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
-use crate::book_test::Long;
+use crate::book_test::{Chosen, Long};
 use crate::step::{Outcome, Step, built, cargo, execute, missing, python, root, target, told};
 
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
@@ -86,11 +86,17 @@ fn structure(root: &Path) -> Outcome {
 }
 
 fn lints(root: &Path) -> Outcome {
-    cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])
+    // in the profile of the tests, so that macros and build scripts are compiled once
+    let clippy = ["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"];
+    cargo(root, &clippy, &[])
 }
 
 fn documentation(root: &Path) -> Outcome {
-    cargo(root, &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])
+    cargo(
+        root,
+        &["doc", "--release", "--no-deps", "--workspace"],
+        &[("RUSTDOCFLAGS", "-D warnings")],
+    )
 }
 
 /// The README's test command.
@@ -202,21 +208,12 @@ pub fn book(root: &Path) -> Outcome {
 }
 
 /// The commands of the book, but for the long ones.
-pub fn book_test(root: &Path) -> Outcome {
-    commands_of_the_book(root, Long::None)
+fn book_test(root: &Path) -> Outcome {
+    commands_of_the_book(root, &Chosen { long: Long::None, chapters: Vec::new() })
 }
 
-/// All commands of the book; this takes hours.
-pub fn all_of_the_book(root: &Path) -> Outcome {
-    commands_of_the_book(root, Long::All)
-}
-
-/// The commands of the book, with the long ones that have not passed yet.
-pub fn rest_of_the_book(root: &Path) -> Outcome {
-    commands_of_the_book(root, Long::Rest)
-}
-
-fn commands_of_the_book(root: &Path, long: Long) -> Outcome {
+/// Commands of the book.
+pub fn commands_of_the_book(root: &Path, chosen: &Chosen) -> Outcome {
     if Command::new("bash").arg("--version").output().is_err() {
         return missing("there is no bash", "the test of the book's commands");
     }
@@ -229,7 +226,7 @@ fn commands_of_the_book(root: &Path, long: Long) -> Outcome {
     }
     let programs = crate::book_test::Programs { release: target(root).join("release"), python };
     let scratch = target(root).join("book-test");
-    match &crate::book_test::test(root, &scratch, &programs, long)[..] {
+    match &crate::book_test::test(root, &scratch, &programs, chosen)[..] {
         [] => Outcome::Passed,
         faults => told(faults),
     }

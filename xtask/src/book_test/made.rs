@@ -1,5 +1,6 @@
 //! Runs that the tables of the documents made a moment ago, for commands that would make them again.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -41,7 +42,7 @@ impl Made {
 }
 
 /// A command that makes a run or a sweep: its words without those of the folder, and the folder.
-pub fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
+fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
     let skipped = if words.first()? == "cargo" { 4 } else { 1 };
     let command = words.get(skipped..)?;
     if !["run", "sweep"].contains(&command.first()?.as_str()) {
@@ -59,6 +60,17 @@ pub fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
         }
     }
     Some((kept, folder))
+}
+
+/// The folders below `runs` that a script makes, and those that it names besides.
+pub fn folders(script: &str) -> (BTreeSet<String>, BTreeSet<String>) {
+    let (mut made, mut named) = (BTreeSet::new(), BTreeSet::new());
+    for words in commands(script) {
+        made.extend(run(&words).map(|(_, folder)| folder.display().to_string()));
+        named.extend(words.into_iter().filter(|word| word.starts_with("runs/")));
+    }
+    named.retain(|folder| !made.contains(folder));
+    (made, named)
 }
 
 fn modified(file: &Path) -> Option<SystemTime> {

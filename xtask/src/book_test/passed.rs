@@ -47,27 +47,6 @@ impl Passed {
         fs::write(root.join(FILE), text + "\n").map_err(|error| format!("{FILE}: {error}"))
     }
 
-    /// The long blocks that neither passed as they stand nor made a table, and those whose runs they read.
-    pub fn rest(&self, scripts: &[Script]) -> BTreeSet<usize> {
-        let mut chosen = BTreeSet::new();
-        let mut read: BTreeSet<String> = BTreeSet::new();
-        for (index, script) in scripts.iter().enumerate().rev() {
-            let (made, named) = folders(&script.text);
-            let of_made = |folder: &&String| made.iter().any(|made| folder.starts_with(made));
-            let wanted: Vec<String> = read.iter().filter(of_made).cloned().collect();
-            let short = matches!(script.kind, Kind::Run { .. });
-            let long = matches!(script.kind, Kind::Long { .. });
-            if long && (!self.has(script) || !wanted.is_empty()) {
-                chosen.insert(index);
-                read.extend(named);
-            }
-            if short || chosen.contains(&index) {
-                read.retain(|folder| !wanted.contains(folder));
-            }
-        }
-        chosen
-    }
-
     /// How many of the long blocks passed as they stand, and how many made tables.
     pub fn told(&self, scripts: &[Script]) -> String {
         let long = scripts.iter().filter(|script| matches!(script.kind, Kind::Long { .. }));
@@ -81,7 +60,8 @@ impl Passed {
         )
     }
 
-    fn has(&self, script: &Script) -> bool {
+    /// Whether a block passed as it stands, or made a table.
+    pub fn has(&self, script: &Script) -> bool {
         self.blocks.contains_key(&script.text) || self.made_tables(script)
     }
 
@@ -109,19 +89,6 @@ fn what_runs(words: &[String]) -> Vec<String> {
     kept
 }
 
-/// The folders below `runs` that a script makes, and those that it names besides.
-fn folders(script: &str) -> (BTreeSet<String>, BTreeSet<String>) {
-    let (mut made, mut named) = (BTreeSet::new(), BTreeSet::new());
-    for words in commands(script) {
-        if let Some((_, folder)) = super::made::run(&words) {
-            made.insert(folder.display().to_string());
-        }
-        named.extend(words.into_iter().filter(|word| word.starts_with("runs/")));
-    }
-    named.retain(|folder| !made.contains(folder));
-    (made, named)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_that_passed_or_made_a_table_is_not_of_the_rest() {
+    fn a_block_that_passed_as_it_stands_or_made_a_table_is_known() {
         let long = Kind::Long { exit: 0 };
         let scripts = [
             script(long, "creepage sweep a.toml"),
@@ -156,22 +123,10 @@ mod tests {
         ];
         let step = "creepage sweep a.toml --out runs/docs/a --force";
         let passed = passed(&["creepage verify lamb"], &[step]);
-        assert_eq!(passed.rest(&scripts), BTreeSet::from([2]));
+        assert_eq!(scripts.each_ref().map(|script| passed.has(script)), [true, true, false, false]);
         assert_eq!(
             passed.told(&scripts),
             "of 3 long blocks 1 have passed as they stand (docs/book-test.json), 1 have made tables"
         );
-    }
-
-    #[test]
-    fn what_a_block_reads_is_run_before_it() {
-        let (long, short) = (Kind::Long { exit: 0 }, Kind::Run { exit: 0 });
-        let made = "creepage run a.toml --out runs/b";
-        let reads = "creepage check runs/b";
-        let none = passed(&[made], &[]);
-        let scripts = [script(long, made), script(long, "true"), script(long, reads)];
-        assert_eq!(none.rest(&scripts), BTreeSet::from([0, 1, 2]));
-        let again = [script(long, made), script(short, made), script(long, reads)];
-        assert_eq!(none.rest(&again), BTreeSet::from([2]));
     }
 }

@@ -1,0 +1,65 @@
+//! `creepage import-contact` on the example of the documentation, and on tables that are wrong.
+
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn example() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/examples/external-contact")
+}
+
+fn import(folder: &Path, out: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    command.arg("import-contact");
+    for table in ["nodes", "faces", "values"] {
+        command.arg(format!("--{table}")).arg(folder.join(format!("{table}.csv")));
+    }
+    command.arg("--out").arg(out).output().unwrap()
+}
+
+#[test]
+fn the_example_of_the_documentation_is_imported_and_its_planted_fault_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("contact.vtkhdf");
+    let output = import(&example(), &out);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("35 nodes, 24 faces, 4 records"));
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["check", out.to_str().unwrap(), "--json", "--case"])
+        .arg(example().join("case.toml"))
+        .output()
+        .unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let worst = &found["metrics"]["law_error"]["where"];
+    assert!((worst["value"].as_f64().unwrap() + 0.1).abs() < 1e-5, "{worst}");
+    assert_eq!(worst["position"][0], -2e-3);
+    assert_eq!(worst["time"], 2e-6);
+    assert_eq!(found["metrics"]["direction"]["value"], 0.0);
+}
+
+#[test]
+fn wrong_tables_are_refused_with_file_line_and_reason() {
+    for (table, from, to, words) in [
+        ("nodes", "x,y,z", "x,y", "no column \"z\""),
+        ("faces", "0,5,6,1,1", "0,5,6,99,1", "line 2: there is no node 99"),
+        ("faces", "0,5,6,1,1", "0,5,6,1,7", "line 2: there is no body 7"),
+        ("values", "pressure", "force", "no column \"pressure\""),
+        ("values", "\n3e-06,", "\n0,", "the time falls"),
+        ("values", "\n1e-06,", "\nsoon,", "\"soon\" is no number"),
+        ("values", "\n1e-06,", "\n1e-06,1,", "CSV error"),
+        ("values", "\n0,2,", "\n0,1,", "node 1 stands twice at 0e0 s"),
+        ("values", "0.2,0,0,2\n", "0.2,0,0,1.7\n", "there is no state 1.7; they are 0 to 2"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["nodes", "faces", "values"] {
+            let text = fs::read_to_string(example().join(format!("{name}.csv"))).unwrap();
+            let text = if name == table { text.replacen(from, to, 1) } else { text };
+            fs::write(folder.path().join(format!("{name}.csv")), text).unwrap();
+        }
+        let output = import(folder.path(), &folder.path().join("out.vtkhdf"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words) && said.contains(table), "{words:?} is not in:\n{said}");
+    }
+}

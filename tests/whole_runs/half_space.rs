@@ -1,0 +1,88 @@
+//! Runs of half-spaces.
+
+use runs::{Results, run, small};
+
+const MODEL: [&str; 2] = ["model=half-space", "mesh.zone.size=0.4e-3"];
+
+fn rolled(sets: &[&str]) -> Results {
+    small(&[&MODEL[..], sets].concat())
+}
+
+fn length(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[test]
+fn contact_and_friction_hold_at_every_recorded_point() {
+    let falling = ["friction.law=exponential", "friction.dynamic=0.2", "friction.mode=exact"];
+    for law in [&[][..], &falling] {
+        let results = rolled(law);
+        let (shear, slip) = (results.contact("shear"), results.contact("slip_velocity"));
+        let (pressure, mu) = (results.contact("pressure"), results.contact("mu"));
+        let (mut slipping, mut sticking) = (0, 0);
+        for (k, shear) in shear.iter().enumerate() {
+            for (i, tau) in shear.chunks(3).enumerate() {
+                let (p, s) = (pressure[k][i], &slip[k][3 * i..3 * i + 3]);
+                let (size, bound, speed) = (length(tau), mu[k][i] * p, length(s));
+                assert!(size <= bound * (1.0 + 1e-14), "{size} {bound}");
+                if speed > 0.0 {
+                    slipping += 1;
+                    let power: f64 = tau.iter().zip(s).map(|(t, s)| t * s).sum();
+                    assert!((power + bound * speed).abs() <= 1e-12 * bound * speed);
+                } else {
+                    sticking += usize::from(p > 0.0);
+                }
+            }
+        }
+        assert!(slipping > 300 && sticking > 1000, "{slipping} {sticking}");
+    }
+}
+
+#[test]
+fn what_is_recorded_is_no_part_of_the_solution() {
+    let as_it_is = rolled(&[]);
+    for zone in ["mesh.zone.width=0.0096", "mesh.zone.length=0.02", "mesh.window=0.006"] {
+        let other = rolled(&[zone]);
+        assert_eq!(as_it_is.history("tangential_force"), other.history("tangential_force"));
+        assert_ne!(as_it_is.contact("pressure")[5].len(), other.contact("pressure")[5].len());
+        // the patch lies where it did
+        let p0 = "/contact/peak_pressure";
+        assert!((as_it_is.number(p0) / other.number(p0) - 1.0).abs() < 1e-9, "{zone}");
+    }
+}
+
+#[test]
+fn inertia_changes_the_force_of_slow_rolling_by_less_than_a_thousandth() {
+    let force = |sets: &[&str]| rolled(sets).number("/contact/traction_coefficient");
+    let (with, without) = (force(&[]), force(&["half_space.inertia=false", "time.factor=0.05"]));
+    assert!((with / without - 1.0).abs() < 1e-3, "{with} {without}");
+    // waves are as fast as the patch only where it runs: the comparison can fail
+    let fast = ["drive.speed=450", "drive.ramp=2.6e-6", "output.contact_interval=1e-6"];
+    let slow = [&fast[..], &["half_space.inertia=false", "time.factor=0.05"]].concat();
+    let (with, without) = (force(&fast), force(&slow));
+    assert!((with / without - 1.0).abs() > 3e-3, "{with} {without}");
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit_of_half_spaces() {
+    let case = runs::load(&runs::project("tests/small.toml"), &MODEL);
+    let (one, three) = (run(&case, 1), run(&case, 3));
+    assert_eq!(one.differing(&three), Vec::<&str>::new());
+}
+
+#[test]
+fn a_disturbance_of_the_pressure_changes_the_force_by_as_little_and_by_its_seed() {
+    let force = |sets: &[&str]| rolled(sets).history("tangential_force").to_vec();
+    let as_it_is = force(&[]);
+    let disturbed = |seed: &str| force(&["preload.disturbance=1e-6", seed]);
+    let (one, two) = (disturbed("preload.seed=1"), disturbed("preload.seed=2"));
+    let apart = |a: &[f64], b: &[f64]| {
+        let top = a.iter().fold(0.0_f64, |top, x| top.max(x.abs()));
+        a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / top
+    };
+    for pair in [[&as_it_is, &one], [&as_it_is, &two], [&one, &two]] {
+        let apart = apart(pair[0], pair[1]);
+        assert!(apart > 1e-10 && apart < 1e-6, "{apart}");
+    }
+    assert_eq!(one, disturbed("preload.seed=1"));
+}
