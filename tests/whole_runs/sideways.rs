@@ -20,7 +20,7 @@ fn friction_opposes_drift_and_spin_as_on_half_spaces() {
             run.number("/contact/lateral_force") / run.number("/contact/normal_force")
         };
         // half-spaces converge at first order in the spacing
-        let [coarse, fine] = ["mesh.zone.size=0.3e-3", "mesh.zone.size=0.15e-3"]
+        let [coarse, fine] = ["mesh.zone.size=0.4e-3", "mesh.zone.size=0.2e-3"]
             .map(|spacing| share(small(&[ROLL, &["model='half-space'", key, spacing]].concat())));
         let other = 2.0 * fine - coarse;
         let error = finite_elements.number("/energy/balance_error");

@@ -196,11 +196,16 @@ pub(crate) fn kalker(size: Size) -> Outcome {
     const SMALL: f64 = 1e-4;
     let mut rows = Vec::new();
     let circle = |poisson: f64| Material { poisson, ..STEEL };
-    for (what, hertz, material, references) in [
+    let all = [
         ("circle, nu 0.25", &SPHERE, circle(0.25), [4.1125, 3.6676, 1.4655]),
-        ("circle, nu 0.3", &SPHERE, circle(0.3), [4.2941, 3.7281, 1.4963]),
         ("a/b 1.33, nu 0.3", &WHEEL, STEEL, [4.6200, 4.1722, 1.8773]),
-    ] {
+        ("circle, nu 0.3", &SPHERE, circle(0.3), [4.2941, 3.7281, 1.4963]),
+    ];
+    let bodies = match size {
+        Size::Quick => &all[..2],
+        Size::Full => &all[..],
+    };
+    for &(what, hertz, material, references) in bodies {
         let [a, b] = hertz.half_axes;
         let problem = Problem {
             hertz,
@@ -242,7 +247,7 @@ pub(crate) fn kalker(size: Size) -> Outcome {
 /// Spacings of the wheel's problems (m).
 fn spacings(size: Size) -> &'static [f64] {
     match size {
-        Size::Quick => &[1.4e-3, 1e-3, 0.7e-3],
+        Size::Quick => &[2e-3, 1.4e-3, 1e-3],
         Size::Full => &[1e-3, 0.5e-3, 0.25e-3],
     }
 }

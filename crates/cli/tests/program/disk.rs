@@ -76,10 +76,11 @@ fn whole(out: &Path) -> [usize; 3] {
 fn a_file_that_cannot_grow_stops_the_run_and_keeps_its_steps_and_the_run_goes_on_with_room() {
     let folder = tempfile::tempdir().unwrap();
     let complete = folder.path().join("complete");
-    let roll = ["--set", "time.roll=0.003"];
+    // with fields so often that their file is the largest
+    let roll = ["--set", "time.roll=0.003", "--set", "output.fields_interval=8e-7"];
     let wanted = [&BUSY[..], &roll].concat();
     ends(&creepage(&complete, &wanted).output().unwrap(), 0, &[]);
-    // by each of the files in turn, in halves of kilobytes
+    // in halves of kilobytes
     let size = |name: &str| fs::metadata(complete.join(name)).unwrap().len() / 512;
     let [fields, contact, history] = ["fields.vtkhdf", "contact.vtkhdf", "history.h5"].map(size);
     assert!(fields > contact && contact > history, "{fields} {contact} {history}");

@@ -449,11 +449,11 @@ fn the_slurm_script_asks_for_the_estimated_memory_and_time_and_runs_on_the_proce
     let submitted = fs::read_to_string(place.path("submitted")).unwrap();
     let words: Vec<&str> = submitted.lines().collect();
     assert_eq!(words[0], "--array=1-2");
-    // twice the 15 MB of the small case, and a time of seconds
+    // 500 MB and twice the 4 MB of the small case, and a time of seconds
     let limit = |word: &str, name: &str| -> u64 {
         word.trim_end_matches('M').strip_prefix(name).unwrap().parse().unwrap()
     };
-    assert!((520..600).contains(&limit(words[1], "--mem=")), "{submitted}");
+    assert!((505..520).contains(&limit(words[1], "--mem=")), "{submitted}");
     assert!((10..20).contains(&limit(words[2], "--time=")), "{submitted}");
     assert_eq!((words[3], words.last()), ("--cpus-per-task=2", Some(&"runs.sh")));
 
