@@ -20,7 +20,7 @@ pub use implicit::{Corrected, Matrix3};
 
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
-use crate::face::Positions;
+use crate::face::{EDGE, Positions};
 use crate::mortar::{Mean, Mortar};
 use crate::nodal::NodalContact;
 use crate::penalty::{check_common, in_range};
@@ -679,9 +679,10 @@ impl Contact for ExactContact {
         let (own, others) = if is_slave { (constraints, &[][..]) } else { (&[][..], constraints) };
         let others =
             others.iter().filter(|constraint| constraint.is_closed()).flat_map(|constraint| {
-                self.legs[constraint.legs()]
-                    .iter()
-                    .map(move |leg| (constraint, leg.node, leg.weight))
+                // a slave over an edge, to round-off, is not borne by nodes beyond it, nor are they pulled
+                let bears = |leg: &&Leg| leg.weight >= 0.0 || leg.weight <= -EDGE;
+                let legs = self.legs[constraint.legs()].iter().filter(bears);
+                legs.map(move |leg| (constraint, leg.node, leg.weight))
             });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, is_slave);

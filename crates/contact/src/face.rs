@@ -12,7 +12,7 @@ use mesh::{Padded, SmoothSurface};
 const CONVERGED: f64 = 1e-8;
 const ROUNDS: usize = 12;
 /// How far (in face coordinates) a projection may lie beyond an edge and still count as on the face.
-const EDGE: f64 = 1e-9;
+pub(crate) const EDGE: f64 = 1e-9;
 /// The same at the border of the surface.
 const BORDER: f64 = 1e-2;
 const HOPS: usize = 16;
