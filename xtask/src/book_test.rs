@@ -135,7 +135,12 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -
         Ok(passed) => passed,
         Err(problem) => return vec![problem],
     };
-    let runs = with_needed(&scripts, |script| chosen.holds(script, &passed));
+    let may_run = |script: &Script| match script.kind {
+        Kind::Run { .. } => true,
+        Kind::Long { .. } => chosen.long != Long::None,
+        Kind::Elsewhere => false,
+    };
+    let runs = with_needed(&scripts, may_run, |script| chosen.holds(script, &passed));
     let mut number = 0;
     for script in runs.into_iter().map(|index| &scripts[index]) {
         let (exit, is_long) = match script.kind {
@@ -207,16 +212,20 @@ fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>
     Ok(scripts)
 }
 
-/// The chosen scripts, and those that make the runs that these read, in the order of the book.
-fn with_needed(scripts: &[Script], is_chosen: impl Fn(&Script) -> bool) -> BTreeSet<usize> {
+/// Of the scripts that may run those chosen, and those that make the runs that these read, in the order of the book.
+fn with_needed(
+    scripts: &[Script],
+    may_run: impl Fn(&Script) -> bool,
+    is_chosen: impl Fn(&Script) -> bool,
+) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
-    let mut read: BTreeSet<String> = BTreeSet::new();
+    let mut read: BTreeSet<PathBuf> = BTreeSet::new();
     for (index, script) in scripts.iter().enumerate().rev() {
-        if script.kind == Kind::Elsewhere {
+        if !may_run(script) {
             continue;
         }
         let (made, named) = made::folders(&script.text);
-        let is_made = |folder: &String| made.iter().any(|made| folder.starts_with(made));
+        let is_made = |folder: &PathBuf| made.iter().any(|made| folder.starts_with(made));
         if is_chosen(script) || read.iter().any(is_made) {
             found.insert(index);
             read.retain(|folder| !is_made(folder));
@@ -442,13 +451,17 @@ mod tests {
             |kind, text: &str| Script { at: "docs/a.md:1".into(), kind, text: text.into() };
         let (long, short) = (Kind::Long { exit: 0 }, Kind::Run { exit: 0 });
         let made = "creepage run a.toml --out runs/b";
-        let of_last = |first, second| {
-            let last = script(long, "creepage check runs/b/runs/0");
-            let scripts = [script(first, made), script(second, made), script(long, "true"), last];
-            with_needed(&scripts, |script| script.text.contains("check"))
+        let other = "creepage run a.toml --out runs/b/runs/01";
+        let of_last = |first, second, may_run: fn(&Script) -> bool| {
+            let last = script(short, "creepage check runs/b/runs/0");
+            let scripts = [script(first, made), script(second, made), script(long, other), last];
+            with_needed(&scripts, may_run, |script| script.text.contains("check"))
         };
-        assert_eq!(of_last(long, Kind::Elsewhere), BTreeSet::from([0, 3]));
-        assert_eq!(of_last(long, short), BTreeSet::from([1, 3]));
+        let all = |script: &Script| script.kind != Kind::Elsewhere;
+        assert_eq!(of_last(long, Kind::Elsewhere, all), BTreeSet::from([0, 3]));
+        assert_eq!(of_last(long, short, all), BTreeSet::from([1, 3]));
+        let short_ones = |script: &Script| matches!(script.kind, Kind::Run { .. });
+        assert_eq!(of_last(long, Kind::Elsewhere, short_ones), BTreeSet::from([3]));
     }
 
     #[test]

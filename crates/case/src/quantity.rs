@@ -1,7 +1,13 @@
 //! A number with a unit behind it, as text: `"2 mm"`, `"140 km/h"`, `"50%"`. A case takes plain numbers in SI units, and a
 //! refusal says which number such a text is.
 
-/// Units that people write, the unit of a key, and the size of the first in the second.
+use crate::key::{OF_A_HUNDRED, OF_SPEED};
+
+/// Longest text that is looked at (bytes).
+const LONGEST: usize = 40;
+
+/// Units that people write, the unit of a key, and the size of the first in the second. More are in [`OF_SPEED`] and
+/// [`OF_A_HUNDRED`].
 const UNITS: &[(&str, &str, f64)] = &[
     ("km", "m", 1e3),
     ("cm", "m", 1e-2),
@@ -13,10 +19,10 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("us", "s", 1e-6),
     ("µs", "s", 1e-6),
     ("ns", "s", 1e-9),
-    ("km/h", "m/s", 1.0 / 3.6),
     ("mm/s", "m/s", 1e-3),
     ("kN", "N", 1e3),
     ("MN", "N", 1e6),
+    ("Nm", "N m", 1.0),
     ("kNm", "N m", 1e3),
     ("kN m", "N m", 1e3),
     ("kPa", "Pa", 1e3),
@@ -30,24 +36,32 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("s", "min", 1.0 / 60.0),
     ("h", "min", 60.0),
     ("%", "-", 1e-2),
-    ("per cent", "-", 1e-2),
     ("percent", "-", 1e-2),
-    ("per mille", "-", 1e-3),
 ];
 
 /// What a text is in `unit`, where it is a number with a unit of the same kind; rounded to ten digits, so that 2 mm is
 /// 0.002.
 pub(crate) fn in_unit(text: &str, unit: &str) -> Option<f64> {
-    let split = (0..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
-    let (x, written) = split
-        .filter_map(|end| Some((text[..end].trim().parse::<f64>().ok()?, text[end..].trim())))
-        .find(|(_, written)| written.is_empty() || !written.starts_with(char::is_numeric))?;
-    let size = if [unit, ""].contains(&written) {
-        1.0
-    } else {
-        UNITS.iter().find(|(other, of, _)| *other == written && *of == unit)?.2
-    };
+    if text.len() > LONGEST {
+        return None;
+    }
+    let mut splits = (0..=text.len()).rev().filter_map(|end| text.split_at_checked(end));
+    let (x, written) =
+        splits.find_map(|(x, written)| Some((x.trim().parse::<f64>().ok()?, written.trim())))?;
+    let size = if [unit, ""].contains(&written) { 1.0 } else { size_of(written, unit)? };
     Some(x * size).filter(|x| x.is_finite()).and_then(|x| format!("{x:.9e}").parse().ok())
+}
+
+/// The size of a unit in another.
+fn size_of(written: &str, unit: &str) -> Option<f64> {
+    let unnamed = match unit {
+        "m/s" => OF_SPEED,
+        "-" => OF_A_HUNDRED,
+        _ => &[],
+    };
+    let named =
+        UNITS.iter().filter(|(_, of, _)| *of == unit).map(|(other, _, size)| (*other, *size));
+    named.chain(unnamed.iter().copied()).find(|(other, _)| *other == written).map(|(_, size)| size)
 }
 
 #[cfg(test)]
@@ -83,5 +97,7 @@ mod tests {
         ] {
             assert_eq!(in_unit(text, unit), None, "{text:?}");
         }
+        let long = format!("2{}mm", " ".repeat(LONGEST));
+        assert_eq!(in_unit(&long, "m"), None);
     }
 }

@@ -63,11 +63,11 @@ fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
 }
 
 /// The folders below `runs` that a script makes, and those that it names besides.
-pub fn folders(script: &str) -> (BTreeSet<String>, BTreeSet<String>) {
+pub fn folders(script: &str) -> (BTreeSet<PathBuf>, BTreeSet<PathBuf>) {
     let (mut made, mut named) = (BTreeSet::new(), BTreeSet::new());
     for words in commands(script) {
-        made.extend(run(&words).map(|(_, folder)| folder.display().to_string()));
-        named.extend(words.into_iter().filter(|word| word.starts_with("runs/")));
+        made.extend(run(&words).map(|(_, folder)| folder));
+        named.extend(words.iter().map(PathBuf::from).filter(|word| word.starts_with("runs")));
     }
     named.retain(|folder| !made.contains(folder));
     (made, named)
