@@ -2,8 +2,11 @@
 
 use runs::{Results, load, project, run};
 
-/// The small case, exact contact, half a model; two moves of 3.2 mm in its roll of 8 mm.
-const SMALL: [&str; 7] = [
+/// The small case, exact contact, half a model; two moves of 3.2 mm in its roll of 8 mm. Beside the zone the elements of a
+/// tensor product stay small: with those of `two_to_one`, which differ in size from one zone to the other, the mean normal
+/// force differs by 0.5 %.
+const SMALL: [&str; 8] = [
+    "mesh.grading=tensor",
     "contact.enforcement=exact",
     "mesh.symmetry=half",
     "time.step=4e-8",
