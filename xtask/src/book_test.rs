@@ -19,7 +19,7 @@
 mod made;
 mod passed;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -124,6 +124,7 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -
     for script in scripts.iter().filter(|script| !matches!(script.kind, Kind::Run { .. })) {
         faults.extend(check(root, programs, script));
     }
+    faults.extend(made_twice(&scripts));
     if !faults.is_empty() {
         return faults;
     }
@@ -210,6 +211,26 @@ fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>
         }
     }
     Ok(scripts)
+}
+
+/// Commands whose folder an earlier one of the book has made, which the program would refuse.
+fn made_twice(scripts: &[Script]) -> Vec<String> {
+    let mut places: BTreeMap<PathBuf, &str> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for script in scripts.iter().filter(|script| script.kind != Kind::Elsewhere) {
+        for (folder, again) in made::folders_made(&script.text) {
+            match places.get(&folder) {
+                Some(first) if !again => {
+                    let (at, folder) = (&script.at, folder.display());
+                    faults.push(format!(
+                        "{at}: {folder} is made in {first} already: --out or --force"
+                    ));
+                }
+                _ => drop(places.insert(folder, &script.at)),
+            }
+        }
+    }
+    faults
 }
 
 /// Of the scripts that may run those chosen, and those that make the runs that these read, in the order of the book.
@@ -443,6 +464,20 @@ mod tests {
         assert_eq!(kind_of("```sh run exit=1\nfalse\n```"), Ok(Some(Kind::Run { exit: 1 })));
         assert_eq!(kind_of("```sh long\ntrue\n```"), Ok(Some(Kind::Long { exit: 0 })));
         assert_eq!(kind_of("```toml\na = 1\n```"), Ok(None));
+    }
+
+    #[test]
+    fn a_folder_that_an_earlier_block_has_made_is_told() {
+        let script = |text: &str| Script {
+            at: "docs/a.md:1".into(),
+            kind: Kind::Long { exit: 0 },
+            text: text.into(),
+        };
+        let twice = |second: &str| made_twice(&[script("creepage run a.toml"), script(second)]);
+        assert_eq!(twice("creepage run b/a.toml").len(), 1);
+        for fine in ["creepage run a.toml --force", "creepage run a.toml --out runs/c", "true"] {
+            assert!(twice(fine).is_empty(), "{fine}");
+        }
     }
 
     #[test]

@@ -62,6 +62,16 @@ fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
     Some((kept, folder))
 }
 
+/// The folders that a script makes, in order, and whether what lies there may stay or be replaced.
+pub fn folders_made(script: &str) -> Vec<(PathBuf, bool)> {
+    let again = ["--force", "--resume", "--plan", "--collect"];
+    let made = commands(script).into_iter().filter_map(|words| {
+        let may_be_there = words.iter().any(|word| again.contains(&word.as_str()));
+        Some((run(&words)?.1, may_be_there))
+    });
+    made.collect()
+}
+
 /// The folders below `runs` that a script makes, and those that it names besides.
 pub fn folders(script: &str) -> (BTreeSet<PathBuf>, BTreeSet<PathBuf>) {
     let (mut made, mut named) = (BTreeSet::new(), BTreeSet::new());
