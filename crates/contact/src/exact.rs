@@ -679,7 +679,8 @@ impl Contact for ExactContact {
         let (own, others) = if is_slave { (constraints, &[][..]) } else { (&[][..], constraints) };
         let others =
             others.iter().filter(|constraint| constraint.is_closed()).flat_map(|constraint| {
-                // a slave over an edge, to round-off, is not borne by nodes beyond it, nor are they pulled
+                // Beyond an edge that a slave lies over, weights are zero to round-off. The forces keep them for their
+                // balance; shown, they would pull a node.
                 let bears = |leg: &&Leg| leg.weight >= 0.0 || leg.weight <= -EDGE;
                 let legs = self.legs[constraint.legs()].iter().filter(bears);
                 legs.map(move |leg| (constraint, leg.node, leg.weight))
