@@ -74,12 +74,10 @@ pub fn folders_made(script: &str) -> Vec<(PathBuf, bool)> {
 
 /// The folders below `runs` that a script makes, and those that it names besides.
 pub fn folders(script: &str) -> (BTreeSet<PathBuf>, BTreeSet<PathBuf>) {
-    let (mut made, mut named) = (BTreeSet::new(), BTreeSet::new());
-    for words in commands(script) {
-        made.extend(run(&words).map(|(_, folder)| folder));
-        named.extend(words.iter().map(PathBuf::from).filter(|word| word.starts_with("runs")));
-    }
-    named.retain(|folder| !made.contains(folder));
+    let made: BTreeSet<PathBuf> =
+        folders_made(script).into_iter().map(|(folder, _)| folder).collect();
+    let words = commands(script).into_iter().flatten().map(PathBuf::from);
+    let named = words.filter(|word| word.starts_with("runs") && !made.contains(word)).collect();
     (made, named)
 }
 

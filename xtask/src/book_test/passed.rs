@@ -6,6 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Kind, Script};
 use crate::results;
 use crate::shell::commands;
@@ -14,10 +16,24 @@ use crate::step::Outcome;
 
 const FILE: &str = "docs/book-test.json";
 
+/// When a block passed.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Pass {
+    /// Where it stood, `file:line`.
+    place: String,
+    /// The day, in UTC.
+    date: String,
+    /// The commit that was tried, and whether files were changed since.
+    commit: String,
+    changed: bool,
+    minutes: f64,
+}
+
 /// Blocks by their commands, and the commands that made tables.
 #[derive(Debug, Default)]
 pub struct Passed {
-    blocks: BTreeMap<String, Trial>,
+    blocks: BTreeMap<String, Pass>,
     tables: BTreeSet<Vec<String>>,
 }
 
@@ -39,10 +55,12 @@ impl Passed {
 
     /// Keeps that a block passed now.
     pub fn keep(&mut self, root: &Path, script: &Script, seconds: f64) -> Result<(), String> {
-        let (place, passed) = (script.at.clone(), (Outcome::Passed, String::new()));
-        let trial = Trial::ended(root, place, passed, Duration::from_secs_f64(seconds));
-        let text = script.text.clone();
-        self.blocks.extend(trial.map(|trial| (text, trial)));
+        let (text, place) = (script.text.clone(), script.at.clone());
+        let passed = (Outcome::Passed, String::new());
+        let trial = Trial::ended(root, text.clone(), passed, Duration::from_secs_f64(seconds));
+        self.blocks.extend(trial.map(|Trial { date, commit, changed, minutes, .. }| {
+            (text, Pass { place, date, commit, changed, minutes })
+        }));
         let text = serde_json::to_string_pretty(&self.blocks).map_err(|error| error.to_string())?;
         fs::write(root.join(FILE), text + "\n").map_err(|error| format!("{FILE}: {error}"))
     }
@@ -98,16 +116,14 @@ mod tests {
     }
 
     fn passed(blocks: &[&str], tables: &[&str]) -> Passed {
-        let trial = Trial {
-            command: "docs/a.md:1".into(),
+        let pass = Pass {
+            place: "docs/a.md:1".into(),
             date: "2026-01-02".into(),
             commit: "abc".into(),
             changed: false,
             minutes: 1.0,
-            passed: true,
-            said: String::new(),
         };
-        let blocks = blocks.iter().map(|text| ((*text).to_owned(), trial.clone())).collect();
+        let blocks = blocks.iter().map(|text| ((*text).to_owned(), pass.clone())).collect();
         let tables = tables.iter().flat_map(|step| commands(step));
         Passed { blocks, tables: tables.map(|words| what_runs(&words)).collect() }
     }
@@ -128,5 +144,11 @@ mod tests {
             passed.told(&scripts),
             "of 3 long blocks 1 have passed as they stand (docs/book-test.json), 1 have made tables"
         );
+    }
+
+    #[test]
+    fn what_the_project_keeps_is_read() {
+        let kept = Passed::read(&crate::step::root()).map(|passed| passed.blocks.len());
+        assert!(kept.as_ref().is_ok_and(|blocks| *blocks > 0), "{kept:?}");
     }
 }
