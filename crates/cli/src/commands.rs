@@ -6,14 +6,15 @@ use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
     ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, RenderOptions, ReportOptions,
-    RunOptions, SliderOptions, SweepOptions, VerifyOptions,
+    RunOptions, SliderOptions, SweepOptions,
 };
 use serde_json::Value;
 
 use crate::args::Args;
-use crate::progress::{Remarks, SliderWatch, SweepWatch, VerifyWatch};
-use crate::report::{self, bench, check, compare, files, mesh, slider, verify};
+use crate::progress::{Remarks, SliderWatch, SweepWatch};
+use crate::report::{self, bench, check, compare, files, mesh, slider};
 use crate::run::RunArgs;
+use crate::verify::VerifyArgs;
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
 #[derive(Debug, Parser)]
@@ -131,7 +132,7 @@ pub enum Command {
         after_help = "Examples:\n  creepage verify --list\n  creepage verify hertz-wheel\n  \
         creepage verify --quick --json > verify.json"
     )]
-    Verify(VerifyOptions),
+    Verify(VerifyArgs),
     /// Measure the element kernel and whole step on this machine, beside what its memory and arithmetic
     /// allow
     #[command(
@@ -201,11 +202,7 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
             args.show(&found.document(), || slider::text(&found));
             Ok(found.exit_code())
         }
-        Command::Verify(options) => {
-            let found = creepage::verify(options, &mut VerifyWatch(args))?;
-            args.show(&found.document, || verify::text(&found));
-            Ok(found.exit_code())
-        }
+        Command::Verify(options) => crate::verify::command(args, options),
         Command::Bench(options) => done(&creepage::bench(options)?, bench::text),
         Command::Completions { shell } => {
             crate::manual::completions(*shell);

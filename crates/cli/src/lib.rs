@@ -10,6 +10,11 @@ mod progress;
 mod report;
 mod run;
 mod stop;
+#[cfg(feature = "verify")]
+mod verify;
+#[cfg(not(feature = "verify"))]
+#[path = "verify_left_out.rs"]
+mod verify;
 
 use std::ffi::OsString;
 use std::io::Write;

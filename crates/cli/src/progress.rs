@@ -5,12 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use creepage::{Cost, Listener, Problem, Progress, Row, Stage, Watched};
+use creepage::{Cost, Listener, Progress, Stage, Watched};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use crate::args::Args;
 use crate::report::layout::{about, count, digits};
-use crate::report::verify;
 
 const TICKS: u64 = 1000;
 
@@ -188,21 +187,6 @@ impl Listener for SliderWatch<'_> {
         self.bar.set_position(step);
         if step == steps {
             self.bar.finish_and_clear();
-        }
-    }
-}
-
-/// Shows the verification problems as they are done, and leaves Ctrl-C to end them at once.
-pub struct VerifyWatch<'a>(pub &'a Args);
-
-impl Listener for VerifyWatch<'_> {
-    fn remark(&mut self, line: &str) {
-        self.0.say(line);
-    }
-
-    fn verified(&mut self, problem: &Problem, rows: &[Row], seconds: f64) {
-        if !self.0.json && !self.0.quiet {
-            let _ = write!(std::io::stdout(), "{}", verify::rows(problem, rows, seconds));
         }
     }
 }

@@ -9,6 +9,7 @@ pub mod mesh;
 pub mod run;
 pub mod slider;
 pub mod sweep;
+#[cfg(feature = "verify")]
 pub mod verify;
 
 use std::io::Write;

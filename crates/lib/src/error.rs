@@ -9,6 +9,7 @@ use post::{ImportError, PostError};
 use slider::BlowUp;
 use sweep::SweepError;
 use thiserror::Error;
+#[cfg(feature = "verify")]
 use verify::VerifyError;
 
 use crate::slider::SettingError;
@@ -59,6 +60,7 @@ pub enum Error {
     #[diagnostic(help("`creepage slider --thresholds` prints the limits of the explicit method"))]
     BlowUp(BlowUp),
     /// A verification problem could not be computed.
+    #[cfg(feature = "verify")]
     #[error("{0}")]
     #[diagnostic(help("this is a defect of the program or its build"))]
     Verify(VerifyError),
@@ -83,7 +85,9 @@ impl Error {
         match self {
             Self::Run(error) => error.exit_code(),
             Self::Sweep(error) => error.exit_code(),
-            Self::BlowUp(_) | Self::Verify(_) | Self::System(_) => STOPPED_BY_GUARD,
+            Self::BlowUp(_) | Self::System(_) => STOPPED_BY_GUARD,
+            #[cfg(feature = "verify")]
+            Self::Verify(_) => STOPPED_BY_GUARD,
             Self::Case(_)
             | Self::Post { .. }
             | Self::Deck(_)
@@ -141,6 +145,7 @@ impl From<BlowUp> for Error {
     }
 }
 
+#[cfg(feature = "verify")]
 impl From<VerifyError> for Error {
     fn from(error: VerifyError) -> Self {
         Self::Verify(error)

@@ -76,6 +76,7 @@ mod bench;
 mod case_source;
 mod check;
 mod compare;
+#[cfg(feature = "verify")]
 mod convergence_plot;
 mod error;
 mod export_k;
@@ -88,17 +89,20 @@ mod plot;
 mod render;
 mod report;
 mod run;
+#[cfg(feature = "verify")]
 mod rupture_plot;
 mod slider;
 mod sweep;
 mod sweep_folder;
 mod values;
+#[cfg(feature = "verify")]
 mod verify;
 
 pub use ::run::{BlockElement, Level};
 pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
 pub use ::sweep::{Column, Table, Watched};
+#[cfg(feature = "verify")]
 pub use ::verify::{PROBLEMS, Problem, Row};
 pub use bench::{BenchOptions, bench};
 pub use case::json_schema as schema;
@@ -125,4 +129,5 @@ pub use slider::{
 };
 pub use sweep::{SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
+#[cfg(feature = "verify")]
 pub use verify::{Verified, VerifyOptions, verify};

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use scenario::Progress;
 use sweep::Watched;
+#[cfg(feature = "verify")]
 use verify::{Problem, Row};
 
 /// Hears a command while it works, and may end it. Nothing has to be heard: `&mut ()` is a listener. A run tells it from a
@@ -32,6 +33,7 @@ pub trait Listener: Send {
     fn slider(&mut self, _step: u64, _steps: u64) {}
 
     /// What a verification problem gave, and in what time (s).
+    #[cfg(feature = "verify")]
     fn verified(&mut self, _problem: &Problem, _rows: &[Row], _seconds: f64) {}
 }
 

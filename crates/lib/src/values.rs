@@ -199,7 +199,7 @@ mod tests {
 
     use crate::{
         BenchOptions, CheckOptions, Error, MeshOptions, PairingReport, RunOptions, SliderOptions,
-        SweepOptions, VerifyOptions,
+        SweepOptions,
     };
 
     fn refused<T>(found: Result<T, Error>, said: &str) {
@@ -237,8 +237,6 @@ mod tests {
         let mut mass = slider;
         mass.settings.mass = Some(0.1);
         refused(crate::slider(&mass, &mut ()), "--tables cannot be used with a parameter");
-        let verify = VerifyOptions { list: true, quick: true, ..VerifyOptions::default() };
-        refused(crate::verify(&verify, &mut ()), "--list cannot be used with --quick");
     }
 
     #[test]

@@ -132,3 +132,16 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Problem>, Error> {
     };
     names.iter().map(|name| ::verify::find(name).ok_or_else(|| unknown(name))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn naming_all_problems_excludes_how_they_run() {
+        let options = VerifyOptions { list: true, quick: true, ..VerifyOptions::default() };
+        let error = verify(&options, &mut ()).unwrap_err();
+        assert_eq!(error.to_string(), "--list cannot be used with --quick");
+        assert_eq!(error.exit_code(), 2);
+    }
+}
