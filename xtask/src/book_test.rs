@@ -9,8 +9,8 @@
 //! | `sh elsewhere` | checked | checked: it needs what a checkout lacks, or changes the machine |
 //!
 //! Blocks are run in the order of the book, in one copy of the checkout, so that later chapters find
-//! the runs of earlier ones. `creepage`, also as `cargo run --release --`, is the program just built;
-//! other calls of cargo work in the checkout itself, which spares a second compilation. A command is
+//! the runs of earlier ones. `creepage`, also as `cargo run --release --` or `target/release/creepage`, is
+//! the program just built; other calls of cargo work in the checkout itself, which spares a second compilation. A command is
 //! checked by having the program read its options, its case and its sweep, and by looking for the files,
 //! packages and chores that it names. Inline code that is a whole command is checked as well. Runs that the
 //! tables of the documents just made are taken from there. `--rest` leaves out the long blocks that passed
@@ -79,14 +79,14 @@ pub enum Long {
 #[derive(Clone, Debug)]
 pub struct Chosen {
     pub long: Long,
-    /// The documents by their names without folder; all if there are none.
+    /// The documents by their names without folder, or blocks by that and their line (`start.md:19`); all if there
+    /// are none.
     pub chapters: Vec<String>,
 }
 
 impl Chosen {
     fn holds(&self, script: &Script, passed: &Passed) -> bool {
-        let document = script.at.split(':').next().unwrap_or_default();
-        let here = |chapter: &String| Path::new(document).file_name() == Some(chapter.as_ref());
+        let here = |chapter: &String| is_in(script, chapter);
         let kind = match (script.kind, self.long) {
             (Kind::Elsewhere, _) | (Kind::Long { .. }, Long::None) => false,
             (Kind::Long { .. }, Long::Rest) => !passed.has(script),
@@ -94,6 +94,12 @@ impl Chosen {
         };
         kind && (self.chapters.is_empty() || self.chapters.iter().any(here))
     }
+}
+
+/// Whether the block is of the document, or is the one at `document:line`.
+fn is_in(script: &Script, chosen: &str) -> bool {
+    let document = script.at.split(':').next().unwrap_or_default();
+    [document, &script.at].iter().any(|at| Path::new(at).file_name() == Some(chosen.as_ref()))
 }
 
 /// How a block is tested.
@@ -125,10 +131,14 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -
         faults.extend(check(root, programs, script));
     }
     faults.extend(made_twice(&scripts));
+    let is_empty = |chosen: &&String| !scripts.iter().any(|script| is_in(script, chosen));
+    faults.extend(
+        chosen.chapters.iter().filter(is_empty).map(|name| format!("no commands are at {name}")),
+    );
     if !faults.is_empty() {
         return faults;
     }
-    if let Err(error) = lay_out(root, scratch) {
+    if let Err(error) = lay_out(root, scratch, programs) {
         return vec![format!("{}: {error}", scratch.display())];
     }
     let made = Made::of(root, &programs.release.join("creepage"));
@@ -307,20 +317,24 @@ fn check(root: &Path, programs: &Programs, script: &Script) -> Vec<String> {
     faults
 }
 
+/// The words after the program, however a command calls it; none for a command of another program.
+fn arguments(command: &[String]) -> Option<&[String]> {
+    const CALLS: [&[&str]; 5] = [
+        &["creepage"],
+        &["$CREEPAGE"],
+        &["target/release/creepage"],
+        &["cargo", "run", "--release", "--"],
+        &["cargo", "run", "--release", "--no-default-features", "--"],
+    ];
+    let call = CALLS.iter().find(|call| command.iter().take(call.len()).eq(call.iter()))?;
+    Some(&command[call.len()..])
+}
+
 fn check_command(root: &Path, programs: &Programs, command: &[String]) -> Result<(), String> {
     let words: Vec<&str> = command.iter().map(String::as_str).collect();
-    match words[..] {
-        ["creepage" | "$CREEPAGE", ..] => reads(root, programs, &words[1..]),
-        ["cargo", "run", "--release", "--", ..] => reads(root, programs, &words[4..]),
-        ["cargo", "xtask", ..] => match Args::try_parse_from(&words[1..]) {
-            Err(error) if error.use_stderr() => Err(error.to_string()),
-            _ => Ok(()),
-        },
-        ["cargo", ..] => cargo_finds(root, &words[1..]),
-        ["python", "-m", ..] => Ok(()),
-        ["python", file, ..] => exists(root, file),
-        [program, ..] if FOREIGN.contains(&program) || program.contains('/') => Ok(()),
-        _ => Err(format!("an unknown program (known are {})", FOREIGN.join(", "))),
+    match arguments(command) {
+        Some(given) => reads(root, programs, given),
+        None => is_there(root, &words),
     }?;
     // Files below the project's folders are there, whoever reads them.
     for word in &words {
@@ -336,8 +350,23 @@ fn exists(root: &Path, file: &str) -> Result<(), String> {
     if root.join(file).exists() { Ok(()) } else { Err(format!("there is no {file}")) }
 }
 
+/// What the command of another program names exists.
+fn is_there(root: &Path, words: &[&str]) -> Result<(), String> {
+    match *words {
+        ["cargo", "xtask", ..] => match Args::try_parse_from(&words[1..]) {
+            Err(error) if error.use_stderr() => Err(error.to_string()),
+            _ => Ok(()),
+        },
+        ["cargo", ..] => cargo_finds(root, &words[1..]),
+        ["python", "-m", ..] => Ok(()),
+        ["python", file, ..] => exists(root, file),
+        [program, ..] if FOREIGN.contains(&program) || program.contains('/') => Ok(()),
+        _ => Err(format!("an unknown program (known are {})", FOREIGN.join(", "))),
+    }
+}
+
 /// The program reads these words as a command of its own, with all options, keys and cases.
-fn reads(root: &Path, programs: &Programs, words: &[&str]) -> Result<(), String> {
+fn reads(root: &Path, programs: &Programs, words: &[String]) -> Result<(), String> {
     let read = Command::new(programs.release.join("creepage"))
         .arg("--check-args")
         .args(words)
@@ -393,12 +422,14 @@ fn package_folder(root: &Path, package: &str) -> Option<PathBuf> {
     })
 }
 
-/// A copy of the checkout without build output, runs and hidden files.
-fn lay_out(root: &Path, scratch: &Path) -> std::io::Result<()> {
+/// A copy of the checkout without runs and hidden files, and of what is built the program alone.
+fn lay_out(root: &Path, scratch: &Path, programs: &Programs) -> std::io::Result<()> {
     if scratch.exists() {
         fs::remove_dir_all(scratch)?;
     }
-    fs::create_dir_all(scratch)?;
+    let release = scratch.join("target/release");
+    fs::create_dir_all(&release)?;
+    fs::copy(programs.release.join("creepage"), release.join("creepage"))?;
     let left_out = BTreeSet::from(["target", "runs"]);
     for entry in fs::read_dir(root)? {
         let entry = entry?;
@@ -419,7 +450,12 @@ fn lay_out(root: &Path, scratch: &Path) -> std::io::Result<()> {
 /// Before every script: the first command that fails ends it.
 const PRELUDE: &str = r#"set -euo pipefail
 cargo() {
-    if [ "${1-} ${2-} ${3-}" = "run --release --" ]; then shift 3; creepage "$@"; return; fi
+    if [ "${1-} ${2-}" = "run --release" ]; then
+        case "${3-}" in
+        --) shift 3; creepage "$@"; return;;
+        --no-default-features) shift 4; creepage "$@"; return;;
+        esac
+    fi
     (builtin cd "$CREEPAGE_CHECKOUT" && command cargo "$@")
 }
 "#;
@@ -477,6 +513,17 @@ mod tests {
         assert_eq!(twice("creepage run b/a.toml").len(), 1);
         for fine in ["creepage run a.toml --force", "creepage run a.toml --out runs/c", "true"] {
             assert!(twice(fine).is_empty(), "{fine}");
+        }
+    }
+
+    #[test]
+    fn a_block_is_chosen_by_its_document_or_by_that_and_its_line() {
+        let script =
+            Script { at: "docs/a.md:19".into(), kind: Kind::Long { exit: 0 }, text: "true".into() };
+        for (chosen, wanted) in
+            [("a.md", true), ("a.md:19", true), ("a.md:1", false), ("b.md", false), ("docs", false)]
+        {
+            assert_eq!(is_in(&script, chosen), wanted, "{chosen}");
         }
     }
 

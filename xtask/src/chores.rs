@@ -27,7 +27,8 @@ pub enum Chore {
         /// Of the long ones, run those that have not passed as they stand and made no table
         #[arg(long, conflicts_with = "all")]
         rest: bool,
-        /// Documents whose commands are run, `verdict.md`, with those that they need [default: all]
+        /// Documents whose commands are run, `verdict.md`, or blocks of them, `verdict.md:190`, with those that they need
+        /// [default: all]
         chapters: Vec<String>,
     },
     /// Build the wheel of the Python package into target/wheel

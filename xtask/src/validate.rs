@@ -11,7 +11,7 @@ use crate::step::{Outcome, Step, built, cargo, execute, missing, python, root, t
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 21] = [
+    let steps: [(&str, Step); 22] = [
         ("format", format),
         ("links", links),
         ("spelling", crate::sources::spelling),
@@ -21,6 +21,7 @@ pub fn validate() -> ExitCode {
         ("documentation", documentation),
         ("other machines", crate::sources::other_machines),
         ("tests", tests),
+        ("program without verify", without_verify),
         ("schema", schema),
         ("kernels", kernels),
         ("smoke run", smoke_run),
@@ -104,6 +105,12 @@ fn tests(root: &Path) -> Outcome {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
     cargo(root, &["test", "--release", "--workspace"], &[("CREEPAGE_PYTHON", &python)])
+}
+
+/// The program of the README's first command, which leaves the verification problems out.
+fn without_verify(root: &Path) -> Outcome {
+    let library = ["--package", "creepage", "--lib", "--no-default-features"];
+    cargo(root, &[&["test", "--release"], &library[..]].concat(), &[])
 }
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.

@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use super::arguments;
 use crate::book::copy;
 use crate::results;
 use crate::shell::commands;
@@ -43,8 +44,7 @@ impl Made {
 
 /// A command that makes a run or a sweep: its words without those of the folder, and the folder.
 fn run(words: &[String]) -> Option<(Vec<String>, PathBuf)> {
-    let skipped = if words.first()? == "cargo" { 4 } else { 1 };
-    let command = words.get(skipped..)?;
+    let command = arguments(words)?;
     if !["run", "sweep"].contains(&command.first()?.as_str()) {
         return None;
     }
@@ -102,11 +102,18 @@ mod tests {
             ("creepage run cases/quick.toml --set a=1 --force", "runs/quick"),
             ("creepage run cases/quick.toml --out runs/docs/q --force --set a=1", "runs/docs/q"),
             ("cargo run --release -- run cases/quick.toml --set a=1", "runs/quick"),
+            (
+                "cargo run --release --no-default-features -- run cases/quick.toml --set a=1",
+                "runs/quick",
+            ),
+            ("target/release/creepage run cases/quick.toml --set a=1", "runs/quick"),
         ] {
             assert_eq!(of(line), Some((wanted.to_owned(), folder.into())), "{line}");
         }
         assert_eq!(of("creepage check runs/quick"), None);
-        assert_eq!(of("git status"), None);
+        for other in ["git status", "git run a", "cargo run --release -p creepage-mesh", "cargo"] {
+            assert_eq!(of(other), None, "{other}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Kind, Script};
+use super::{Kind, Script, arguments};
 use crate::results;
 use crate::shell::commands;
 use crate::soak::record::Trial;
@@ -90,13 +90,8 @@ impl Passed {
 
 /// A command without what only says where its results go and in which form.
 fn what_runs(words: &[String]) -> Vec<String> {
-    let skipped = if words.starts_with(&["cargo", "run", "--release", "--"].map(String::from)) {
-        4
-    } else {
-        usize::from(words.first().is_some_and(|word| word == "creepage"))
-    };
     let mut kept = Vec::new();
-    let mut words = words[skipped..].iter();
+    let mut words = arguments(words).unwrap_or(words).iter();
     while let Some(word) = words.next() {
         match word.as_str() {
             "--out" => drop(words.next()),
