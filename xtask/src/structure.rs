@@ -1,9 +1,12 @@
-//! The crates use one another as `docs/architecture.md` draws it, and the modules of a crate without circles.
+//! The crates use one another as `docs/architecture.md` draws it, and the modules of a crate without circles;
+//! and no package is compiled twice.
 
 mod circles;
+mod features;
 mod paths;
 
 pub use circles::circles;
+pub use features::compiled_twice;
 
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

@@ -75,10 +75,11 @@ fn links(root: &Path) -> Outcome {
     }
 }
 
-/// The crates use one another as they are drawn, and their modules without circles.
+/// The crates use one another as they are drawn, and their modules without circles; no package is compiled twice.
 fn structure(root: &Path) -> Outcome {
-    use crate::structure::{circles, differences};
-    let faults = differences(root).and_then(|drawn| Ok([drawn, circles(root)?].concat()));
+    use crate::structure::{circles, compiled_twice, differences};
+    let faults = differences(root)
+        .and_then(|drawn| Ok([drawn, circles(root)?, compiled_twice(root)?].concat()));
     match faults {
         Ok(faults) if faults.is_empty() => Outcome::Passed,
         Ok(faults) => told(&faults),
