@@ -132,9 +132,9 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -
         faults.extend(check(root, programs, script));
     }
     faults.extend(made_twice(&scripts));
-    let is_empty = |chosen: &&String| !scripts.iter().any(|script| is_in(script, chosen));
+    let has_none = |place: &&String| !scripts.iter().any(|script| is_in(script, place));
     faults.extend(
-        chosen.chapters.iter().filter(is_empty).map(|name| format!("no commands are at {name}")),
+        chosen.chapters.iter().filter(has_none).map(|place| format!("no commands are at {place}")),
     );
     if !faults.is_empty() {
         return faults;
@@ -143,7 +143,7 @@ pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -
         return vec![format!("{}: {error}", scratch.display())];
     }
     let made = Made::of(root, &programs.release.join("creepage"));
-    let mut passed = match Passed::read(root) {
+    let mut passed = match Passed::read(root, &scripts) {
         Ok(passed) => passed,
         Err(problem) => return vec![problem],
     };

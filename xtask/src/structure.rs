@@ -1,5 +1,5 @@
-//! The crates use one another as `docs/architecture.md` draws it, and the modules of a crate without circles;
-//! and no package is compiled twice.
+//! The crates use one another as `docs/architecture.md` draws it, the modules of a crate without circles, and the
+//! program and the tests share what they compile.
 
 mod circles;
 mod features;

@@ -26,6 +26,7 @@ pub fn command(_: &Args, _: &VerifyArgs) -> Result<u8, Error> {
 mod tests {
     use clap::Parser;
 
+    use super::*;
     use crate::commands::{Line, dispatch};
 
     #[test]
@@ -33,8 +34,10 @@ mod tests {
         for words in ["verify", "verify --list", "verify hertz-wheel --quick --plot figures"] {
             let words = ["creepage"].into_iter().chain(words.split(' '));
             let error = dispatch(&Line::try_parse_from(words).unwrap()).unwrap_err();
-            assert_eq!(error.to_string(), "this program was built without `creepage verify`");
             assert_eq!(error.exit_code(), 2);
+            let Error::Option { problem, help: Some(help) } = error else { panic!("{error}") };
+            assert_eq!(problem, "this program was built without `creepage verify`");
+            assert!(help.contains("cargo build --release"), "{help}");
         }
     }
 }
