@@ -4,46 +4,25 @@ use figure::{Axis, Draw, Figure, Panel, Series, colour};
 use verify::Row;
 
 /// Width and height of a panel (points).
-const PANEL: [u32; 2] = [350, 310];
+const PANEL: [u32; 2] = [350, 340];
 /// Panels in a row.
 const COLUMNS: usize = 3;
-const COLOURS: [[u8; 3]; 7] = [
-    colour::BLACK,
-    colour::BLUE,
-    colour::VERMILION,
-    colour::GREEN,
-    colour::PURPLE,
-    colour::ORANGE,
-    colour::GREY,
-];
-
-/// Series of a panel; more would leave the legend no room for the plot.
-const MOST_SERIES: usize = 6;
+/// Colours of the series of a panel. More series would leave the plot no room below their names.
+const COLOURS: [[u8; 3]; 4] = [colour::BLACK, colour::BLUE, colour::VERMILION, colour::GREEN];
 
 /// Errors of the rows with three meshes or more, problem by problem; `None` where there are none.
 ///
 /// The error is relative to the reference, and absolute where the reference is zero. A dashed line
 /// shows first order.
 pub fn figure(rows: &[Row]) -> Option<Figure> {
-    let mut panels: Vec<Panel> = Vec::new();
-    for row in rows.iter().filter(|row| row.meshes.len() > 2) {
-        let full = |panel: &Panel| panel.title != row.name || panel.series.len() >= MOST_SERIES;
-        if panels.last().is_none_or(full) {
-            panels.push(Panel {
-                title: row.name.into(),
-                ..Panel::new(Axis::log("h (mm)"), Axis::log("error"))
-            });
-        }
-        let Some(panel) = panels.last_mut() else { continue };
-        let scale = if row.reference == 0.0 { 1.0 } else { row.reference.abs() };
-        let point = |s: &verify::Sample| [1e3 * s.size, (s.value - row.reference).abs() / scale];
-        let label = row.quantity.split(", extrapolated").next().unwrap_or_default();
-        panel.series.push(Series {
-            label: subscripts(label),
-            points: row.meshes.iter().map(point).collect(),
-            draw: Draw::Line(COLOURS[panel.series.len() % COLOURS.len()]),
-        });
-    }
+    let studies: Vec<&Row> = rows.iter().filter(|row| row.meshes.len() > 2).collect();
+    let problems = studies.chunk_by(|one, next| one.name == next.name);
+    let mut panels: Vec<Panel> = problems
+        .flat_map(|problem| {
+            let panels = problem.len().div_ceil(COLOURS.len());
+            problem.chunks(problem.len().div_ceil(panels)).map(panel)
+        })
+        .collect();
     panels.iter_mut().for_each(first_order);
     let lines = panels.len().div_ceil(COLUMNS) as u32;
     let size = [PANEL[0] * COLUMNS as u32, PANEL[1] * lines + 40];
@@ -51,6 +30,25 @@ pub fn figure(rows: &[Row]) -> Option<Figure> {
         "Error over mesh size h, relative to the reference, and absolute where that is zero.";
     let figure = Figure { size, columns: COLUMNS, panels, caption: caption.into() };
     (!figure.panels.is_empty()).then_some(figure)
+}
+
+/// Errors of rows of one problem, at most as many as there are colours.
+fn panel(rows: &[&Row]) -> Panel {
+    let series = rows.iter().zip(COLOURS).map(|(row, colour)| {
+        let scale = if row.reference == 0.0 { 1.0 } else { row.reference.abs() };
+        let point = |s: &verify::Sample| [1e3 * s.size, (s.value - row.reference).abs() / scale];
+        let label = row.quantity.split(", extrapolated").next().unwrap_or_default();
+        Series {
+            label: subscripts(label),
+            points: row.meshes.iter().map(point).collect(),
+            draw: Draw::Line(colour),
+        }
+    });
+    Panel {
+        title: rows.first().map(|row| row.name.into()).unwrap_or_default(),
+        series: series.collect(),
+        ..Panel::new(Axis::log("h (mm)"), Axis::log("error"))
+    }
 }
 
 /// The name of a quantity with the subscripts of its symbols, as figures write them: of a symbol of one or two
@@ -101,5 +99,14 @@ mod tests {
             );
         }
         assert!(figure(&[Row::new("q", [1.0, 1.0], 1.0, (0.1, ""), "")]).is_none());
+    }
+
+    #[test]
+    fn many_rows_of_a_problem_are_divided_evenly() {
+        let study = verify::Convergence::new([4e-3, 2e-3, 1e-3].map(|h| (h, 5.0 + h)), 1.0);
+        let rows = [(); 6].map(|()| Row::extrapolated("q", 5.0, &study, (0.0, ""), ""));
+        let drawn = figure(&rows).unwrap();
+        // with the line of first order
+        assert_eq!(drawn.panels.iter().map(|panel| panel.series.len()).collect::<Vec<_>>(), [4, 4]);
     }
 }
