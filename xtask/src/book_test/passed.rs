@@ -50,8 +50,7 @@ impl Passed {
         };
         blocks.retain(|text, _| scripts.iter().any(|script| script.text == *text));
         let steps = results::made_commands(root);
-        let tables = steps.iter().flat_map(|step| commands(step)).map(|words| what_runs(&words));
-        Ok(Self { blocks, tables: tables.collect() })
+        Ok(Self { blocks, tables: of_tables(&steps) })
     }
 
     /// Keeps that a block passed now.
@@ -89,13 +88,28 @@ impl Passed {
     }
 }
 
-/// A command without what only says where its results go and in which form.
+/// What the commands of tables run. Those of the longest resume sweeps that were interrupted, which end with the results
+/// of the whole sweep.
+fn of_tables(steps: &[impl AsRef<str>]) -> BTreeSet<Vec<String>> {
+    let whole = |mut words: Vec<String>| {
+        words.retain(|word| word != "--resume");
+        what_runs(&words)
+    };
+    steps.iter().flat_map(|step| commands(step.as_ref())).map(whole).collect()
+}
+
+/// A command without what only says where its results and its pictures go and in which form.
 fn what_runs(words: &[String]) -> Vec<String> {
     let mut kept = Vec::new();
     let mut words = arguments(words).unwrap_or(words).iter();
     while let Some(word) = words.next() {
         match word.as_str() {
             "--out" => drop(words.next()),
+            // that it draws matters
+            "--plot" => {
+                words.next();
+                kept.push(word.clone());
+            }
             "--force" | "--json" | "--quiet" => {}
             _ => kept.push(word.clone()),
         }
@@ -123,8 +137,7 @@ mod tests {
             minutes: 1.0,
         };
         let blocks = blocks.iter().map(|text| ((*text).to_owned(), pass.clone())).collect();
-        let tables = tables.iter().flat_map(|step| commands(step));
-        Passed { blocks, tables: tables.map(|words| what_runs(&words)).collect() }
+        Passed { blocks, tables: of_tables(tables) }
     }
 
     #[test]
@@ -132,16 +145,24 @@ mod tests {
         let long = Kind::Long { exit: 0 };
         let scripts = [
             script(long, "creepage sweep a.toml"),
+            script(long, "creepage sweep a.toml --resume"),
             script(long, "creepage verify lamb"),
+            script(long, "creepage verify --plot pictures"),
             script(long, "creepage verify rupture"),
+            script(long, "creepage verify rupture --plot pictures"),
             script(Kind::Run { exit: 0 }, "creepage run c.toml"),
         ];
-        let step = "creepage sweep a.toml --out runs/docs/a --force";
-        let passed = passed(&["creepage verify lamb"], &[step]);
-        assert_eq!(scripts.each_ref().map(|script| passed.has(script)), [true, true, false, false]);
+        let steps = [
+            "creepage sweep a.toml --out runs/docs/a --resume",
+            "creepage verify --json --plot runs/docs/verify",
+            "creepage verify rupture --json",
+        ];
+        let passed = passed(&["creepage verify lamb"], &steps);
+        let has = scripts.each_ref().map(|script| passed.has(script));
+        assert_eq!(has, [true, false, true, true, true, false, false]);
         assert_eq!(
             passed.told(&scripts),
-            "of 3 long blocks 1 have passed as they stand (docs/book-test.json), 1 have made tables"
+            "of 6 long blocks 1 have passed as they stand (docs/book-test.json), 3 have made tables"
         );
     }
 
