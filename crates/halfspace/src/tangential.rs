@@ -12,6 +12,9 @@ const LOCAL: f64 = 3.0;
 /// Iterations after which a point that slips takes the solution in slip where there are several, as if it had slipped in the
 /// step before: under friction that falls steeply, neighbours may else make one another stick and slip in turn.
 const SETTLED: usize = 30;
+/// Steps of Newton's method to a given force at most, and the share of the force at which it ends.
+const NEWTON_STEPS: usize = 6;
+const BALANCED: f64 = 1e-13;
 
 impl Rolling {
     /// Displacements by the tractions `work.from` at this instant, into `work.now`.
@@ -104,64 +107,103 @@ impl Rolling {
         })
     }
 
-    /// The rigid slip backward (m/s) at which the tractions of this iteration add up to the force along x.
+    /// The rigid slip backward (m/s) at which the tractions of this iteration add up to the force along x. Newton's method
+    /// takes two or three steps to it from that of the iteration before, unless nearly all points slip.
     fn backward_at(&self, force: f64, guess: f64, rate: f64, compliance: f64) -> f64 {
-        let excess = |backward: f64| {
-            let sum: f64 = self
-                .points
-                .iter()
-                .enumerate()
-                .map(|(k, &(i, at))| {
-                    let free = self.trial(k, i, backward, rate, compliance);
-                    return_mapping(&self.point(i, at), free, compliance).shear[0]
-                })
-                .sum();
-            sum * self.cell() - force
-        };
+        let zero = BALANCED * force.abs();
+        let mut backward = guess;
+        for _ in 0..NEWTON_STEPS {
+            let (found, slope) = self.force_along(backward, rate, compliance);
+            let excess = found - force;
+            if excess.abs() <= zero {
+                return backward;
+            }
+            if !(excess.is_finite() && slope > 0.0) {
+                break;
+            }
+            backward -= excess / slope;
+        }
         let mean = force.abs() / self.cell() / self.points.len().max(1) as f64;
-        let mut width = 1e-3 * compliance * mean + 1e-12;
-        let (mut low, mut high) = (guess - width, guess + width);
-        let (mut at_low, mut at_high) = (excess(low), excess(high));
-        for _ in 0..60 {
-            if at_low <= 0.0 && at_high >= 0.0 {
-                break;
-            }
-            width *= 2.0;
-            if at_low > 0.0 {
-                (high, at_high) = (low, at_low);
-                low -= width;
-                at_low = excess(low);
+        let excess = |backward: f64| self.force_along(backward, rate, compliance).0 - force;
+        rising_root(excess, guess, 1e-3 * compliance * mean + 1e-12, zero)
+    }
+
+    /// The force along x of the tractions of this iteration (N, or N/m in line contact), and its slope over the rigid slip at
+    /// a constant coefficient of friction.
+    fn force_along(&self, backward: f64, rate: f64, compliance: f64) -> (f64, f64) {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for (k, &(i, at)) in self.points.iter().enumerate() {
+            let free = self.trial(k, i, backward, rate, compliance);
+            let point = self.point(i, at);
+            let found = return_mapping(&point, free, compliance);
+            sum += found.shear[0];
+            slope += if found.slips {
+                // the traction of the bound turns with the trial velocity
+                let [along, across] = free.map(|v| v * v);
+                let squared = along + across;
+                found.mu * point.at.pressure * across / (squared * squared.sqrt())
             } else {
-                (low, at_low) = (high, at_high);
-                high += width;
-                at_high = excess(high);
-            }
+                1.0 / compliance
+            };
         }
-        // regula falsi, with the Illinois rule (Dowell and Jarratt 1971)
-        let mut side = 0;
-        for _ in 0..60 {
-            if at_high.is_nan() || at_low.is_nan() || at_high <= at_low {
-                break;
-            }
-            let middle = (low * at_high - high * at_low) / (at_high - at_low);
-            let at = excess(middle);
-            if at.abs() <= 1e-13 * force.abs() || high - low <= 1e-15 * (low.abs() + high.abs()) {
-                return middle;
-            }
-            if at < 0.0 {
-                (low, at_low) = (middle, at);
-                if side == -1 {
-                    at_high *= 0.5;
-                }
-                side = -1;
-            } else {
-                (high, at_high) = (middle, at);
-                if side == 1 {
-                    at_low *= 0.5;
-                }
-                side = 1;
-            }
+        (sum * self.cell(), slope * self.cell())
+    }
+}
+
+/// The root of a function that rises, near `guess`: by regula falsi with the Illinois rule (Dowell and Jarratt 1971) in a
+/// bracket that begins with `width` to each side, until the function is at most `zero`.
+fn rising_root(function: impl Fn(f64) -> f64, guess: f64, mut width: f64, zero: f64) -> f64 {
+    let (mut low, mut high) = (guess - width, guess + width);
+    let (mut at_low, mut at_high) = (function(low), function(high));
+    for _ in 0..60 {
+        if at_low <= 0.0 && at_high >= 0.0 {
+            break;
         }
-        0.5 * (low + high)
+        width *= 2.0;
+        if at_low > 0.0 {
+            (high, at_high) = (low, at_low);
+            low -= width;
+            at_low = function(low);
+        } else {
+            (low, at_low) = (high, at_high);
+            high += width;
+            at_high = function(high);
+        }
+    }
+    let mut side = 0;
+    for _ in 0..60 {
+        if at_high.is_nan() || at_low.is_nan() || at_high <= at_low {
+            break;
+        }
+        let middle = (low * at_high - high * at_low) / (at_high - at_low);
+        let at = function(middle);
+        if at.abs() <= zero || high - low <= 1e-15 * (low.abs() + high.abs()) {
+            return middle;
+        }
+        if at < 0.0 {
+            (low, at_low) = (middle, at);
+            if side == -1 {
+                at_high *= 0.5;
+            }
+            side = -1;
+        } else {
+            (high, at_high) = (middle, at);
+            if side == 1 {
+                at_low *= 0.5;
+            }
+            side = 1;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_root_far_from_the_guess_is_found_where_the_function_bends() {
+        let root = rising_root(|x| x * x * x - 27.0, -40.0, 1e-3, 1e-12);
+        assert!((root - 3.0).abs() < 1e-12, "{root}");
     }
 }
