@@ -108,14 +108,14 @@ impl Rolling {
     }
 
     /// The rigid slip backward (m/s) at which the tractions of this iteration add up to the force along x. Newton's method
-    /// takes two or three steps to it from that of the iteration before, unless nearly all points slip.
+    /// starts at `guess`, the rigid slip of the iteration before. Where all points slip it may fail; a bracket does not.
     fn backward_at(&self, force: f64, guess: f64, rate: f64, compliance: f64) -> f64 {
-        let zero = BALANCED * force.abs();
+        let tolerance = BALANCED * force.abs();
         let mut backward = guess;
         for _ in 0..NEWTON_STEPS {
             let (found, slope) = self.force_along(backward, rate, compliance);
             let excess = found - force;
-            if excess.abs() <= zero {
+            if excess.abs() <= tolerance {
                 return backward;
             }
             if !(excess.is_finite() && slope > 0.0) {
@@ -125,7 +125,7 @@ impl Rolling {
         }
         let mean = force.abs() / self.cell() / self.points.len().max(1) as f64;
         let excess = |backward: f64| self.force_along(backward, rate, compliance).0 - force;
-        rising_root(excess, guess, 1e-3 * compliance * mean + 1e-12, zero)
+        rising_root(excess, guess, 1e-3 * compliance * mean + 1e-12, tolerance)
     }
 
     /// The force along x of the tractions of this iteration (N, or N/m in line contact), and its slope over the rigid slip at
@@ -151,8 +151,8 @@ impl Rolling {
 }
 
 /// The root of a function that rises, near `guess`: by regula falsi with the Illinois rule (Dowell and Jarratt 1971) in a
-/// bracket that begins with `width` to each side, until the function is at most `zero`.
-fn rising_root(function: impl Fn(f64) -> f64, guess: f64, mut width: f64, zero: f64) -> f64 {
+/// bracket that begins with `width` to each side, until the size of the function is at most `tolerance`.
+fn rising_root(function: impl Fn(f64) -> f64, guess: f64, mut width: f64, tolerance: f64) -> f64 {
     let (mut low, mut high) = (guess - width, guess + width);
     let (mut at_low, mut at_high) = (function(low), function(high));
     for _ in 0..60 {
@@ -177,7 +177,7 @@ fn rising_root(function: impl Fn(f64) -> f64, guess: f64, mut width: f64, zero: 
         }
         let middle = (low * at_high - high * at_low) / (at_high - at_low);
         let at = function(middle);
-        if at.abs() <= zero || high - low <= 1e-15 * (low.abs() + high.abs()) {
+        if at.abs() <= tolerance || high - low <= 1e-15 * (low.abs() + high.abs()) {
             return middle;
         }
         if at < 0.0 {

@@ -19,8 +19,8 @@ pub fn figure(rows: &[Row]) -> Option<Figure> {
     let problems = studies.chunk_by(|one, next| one.name == next.name);
     let mut panels: Vec<Panel> = problems
         .flat_map(|problem| {
-            let panels = problem.len().div_ceil(COLOURS.len());
-            problem.chunks(problem.len().div_ceil(panels)).map(panel)
+            let count = problem.len().div_ceil(COLOURS.len());
+            problem.chunks(problem.len().div_ceil(count)).map(panel)
         })
         .collect();
     panels.iter_mut().for_each(first_order);

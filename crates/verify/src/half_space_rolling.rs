@@ -293,7 +293,7 @@ const SHIFT: u32 = 24;
 
 pub(crate) fn transient(size: Size) -> Outcome {
     /// Rolled distance (m), and the creepage there on CONTACT's grids of 0.2 and 0.1 mm. CONTACT gives the mean over a step
-    /// of one spacing; these are between the middles of its steps.
+    /// of one spacing, which belongs to the middle of the step. These values are interpolated between the middles.
     const TRANSIENT: [[f64; 3]; 4] = [
         [4e-3, 1.82918e-3, 1.83281e-3],
         [8e-3, 2.70057e-3, 2.72772e-3],
@@ -338,7 +338,7 @@ pub(crate) fn transient(size: Size) -> Outcome {
         .collect::<Result<_, Cause>>()?;
     let mut rows = Vec::new();
     for [rolled, coarse, fine] in TRANSIENT {
-        // of first order in the spacing, as steady rolling
+        // to h = 0, with the first order of steady rolling
         let creepage = 2.0 * fine - coarse;
         // mean over four spacings about the distance
         let values = histories.iter().map(|(h, history)| {

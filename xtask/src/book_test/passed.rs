@@ -88,8 +88,8 @@ impl Passed {
     }
 }
 
-/// What the commands of tables run. Those of the longest resume sweeps that were interrupted, which end with the results
-/// of the whole sweep.
+/// What the commands of tables run. Long ones go on with a sweep that was interrupted (`--resume`), which ends with the
+/// results of the whole sweep.
 fn of_tables(steps: &[impl AsRef<str>]) -> BTreeSet<Vec<String>> {
     let whole = |mut words: Vec<String>| {
         words.retain(|word| word != "--resume");
