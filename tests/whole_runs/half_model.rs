@@ -193,6 +193,6 @@ fn both_gradings_and_surfaces_without_curvature_roll_at_the_default_step_as_the_
 fn the_log_says_that_what_is_not_symmetric_is_suppressed() {
     let case = load(&project("tests/small.toml"), &[EXACT, HALF, "time.roll=0.0002"]);
     let (found, log) = run_with(&case, 1, None);
-    assert!(log.contains("fluctuations that y = 0 does not mirror are suppressed"), "{log}");
+    assert!(log.contains("fluctuations without this symmetry are suppressed"), "{log}");
     assert_eq!(found.summary["symmetry"], "half");
 }

@@ -64,7 +64,7 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
         && expected != found
     {
         let problem = format!("\"{expected}\" is not that of {}, {found}", path.display());
-        let remedy = "the mesh has changed: bring the file of then back, or leave mesh.sha256 out";
+        let remedy = "the mesh file has changed: restore the earlier one, or leave mesh.sha256 out";
         return Err(layers.error(layers.origins.get(DIGEST), DIGEST, &problem, remedy));
     }
     let path = std::path::absolute(&path).unwrap_or(path);

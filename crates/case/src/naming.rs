@@ -4,7 +4,7 @@
 #[macro_export]
 macro_rules! remedy {
     ($text:literal) => {{
-        const { assert!($crate::keys::names_only_keys($text), "it names a key that there is not") };
+        const { assert!($crate::keys::names_only_keys($text), "it names a key that does not exist") };
         format!($text)
     }};
 }

@@ -47,6 +47,6 @@ fn hold_leash(stop: Stop) -> Result<(), Error> {
         std::process::exit(INTERRUPTED.into());
     });
     held.map(drop).map_err(|error| {
-        Error::System(format!("the thread that minds the sweep cannot be started: {error}"))
+        Error::System(format!("the thread that watches the sweep cannot be started: {error}"))
     })
 }

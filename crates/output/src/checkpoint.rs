@@ -139,7 +139,7 @@ impl Checkpoint {
             return Err(refuse("its checksum does not match"));
         }
         let (step, results) = postcard::from_bytes(&results)
-            .map_err(|_| refuse("what it says of the result files cannot be read"))?;
+            .map_err(|_| refuse("its record of the result files cannot be read"))?;
         Ok(Self { provenance, step, results, state })
     }
 

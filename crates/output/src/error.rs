@@ -85,7 +85,7 @@ pub enum OutputError {
         cause: std::io::Error,
     },
     /// A state that cannot be serialised, or is read as another type than it was written.
-    #[error("the state of the run does not go through a checkpoint: {cause}")]
+    #[error("the state of the run cannot be kept in a checkpoint: {cause}")]
     State {
         /// What postcard said.
         cause: postcard::Error,

@@ -5,7 +5,7 @@ mod evaluation;
 mod mesh_mode;
 mod scales;
 
-pub use document::keeps_limit;
+pub use document::{keeps_limit, slip_paired};
 
 use crate::PostError;
 use crate::basis::{Basis, RunPaths};

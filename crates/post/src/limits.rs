@@ -50,7 +50,7 @@ pub const MEASURES: [Measure; 19] = [
         "mu_error",
         "1",
         "max",
-        "mu used over the law's, made again from the records, - 1",
+        "mu used over the law's, recomputed from the records, - 1",
         most(1e-10),
         most(TWO_PASSES),
     ),

@@ -8,7 +8,7 @@ mod verdict;
 
 use crate::PostError;
 use crate::basis::Basis;
-use crate::check::keeps_limit;
+use crate::check::{keeps_limit, slip_paired};
 use crate::digits::digits;
 use crate::figures::Named;
 use crate::limits::MEASURES;
@@ -159,12 +159,12 @@ fn verdicts(out: &mut String, checked: &Value) {
     let _ = write!(
         out,
         "<h2 id=\"conditions\">Contact conditions</h2>\n\
-         <p>Limits are those of {} methods; slip and traction are paired in time as: {}. \
+         <p>The limits are those of {} methods. The slip velocity paired with a traction is {}. \
          Definitions and scales: docs/checks.md of Creepage.</p>\n\
          <div class=\"wide\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
          <th></th><th>what it says</th></tr>\n",
         checked["limits_for"].as_str().unwrap_or_default(),
-        checked.pointer("/pairing/reported").and_then(Value::as_str).unwrap_or_default()
+        slip_paired(checked)
     );
     for measure in MEASURES {
         let metric = &checked["metrics"][measure.name];
@@ -225,10 +225,11 @@ fn case(out: &mut String, basis: &Basis, checked: &Value) {
     }
     for (name, entry) in checked["scales"].as_object().into_iter().flatten() {
         let value = entry["value"].as_f64().map_or("?".into(), |value| digits(value, 5));
-        let units = entry["units"].as_str().filter(|u| *u != "1").unwrap_or_default();
+        let units = entry["units"].as_str().filter(|u| *u != "1");
+        let units = units.map(|u| format!(" {u}")).unwrap_or_default();
         let about = entry["about"].as_str().unwrap_or_default();
         let from = entry["from"].as_str().unwrap_or_default();
-        row(&name.replace('_', " "), format!("{value} {units}: {about} (from: {from})"));
+        row(&name.replace('_', " "), format!("{value}{units}: {about} (from: {from})"));
     }
     if let Some(summary) = &basis.summary {
         let count = |key: &str| summary[key].as_u64().map_or("?".into(), |n| n.to_string());
@@ -278,7 +279,10 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
             note.map(|note| format!("<td>{}</td>", escape(note))).unwrap_or_default()
         );
     }
-    out.push_str("</table></div>\n");
+    out.push_str(
+        "</table></div>\n<p class=\"note\">95 % interval: that of the mean, from batches of records. It is missing where \
+         the value changes as slowly as the window is long. Deviation: the standard deviation over the records.</p>\n",
+    );
 }
 
 fn energy(out: &mut String, basis: &Basis) {
@@ -307,7 +311,7 @@ fn energy(out: &mut String, basis: &Basis) {
     if let Some(error) = energy.get("balance_error").and_then(Value::as_f64) {
         let _ = writeln!(
             out,
-            "<p>The ledger closes to {} of the largest energy exchanged.</p>",
+            "<p>The energy balance closes to {} of the largest energy exchanged.</p>",
             digits(error, 2)
         );
     }

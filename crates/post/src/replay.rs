@@ -114,7 +114,7 @@ impl Replay {
             None if constant => Method::Passes,
             None => {
                 return Err(
-                    "the file does not say which pressure and which slip each node's law was told \
+                    "the file does not say which pressure and which slip the law of each node was given \
                             (no enforced_on, no pass_pressure)"
                         .into(),
                 );

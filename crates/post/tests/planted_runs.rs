@@ -35,7 +35,7 @@ fn a_perfect_run_passes_the_limits_of_exact_methods() {
         let found = judge(folder.path(), Report::Stricter).unwrap();
         assert!(found.pass, "{friction}: {:#}", found.document["metrics"]);
         for (name, metric) in found.document["metrics"].as_object().unwrap() {
-            // the coefficient is not made again: these runs do not say how a law is told of slip
+            // the coefficient is not recomputed: these runs do not say which slip the law was given
             let left_out = ["switching_rate", "roughness_ratio", "mu_error", "mu_error_blurred"];
             if !left_out.contains(&name.as_str()) {
                 is(&found, name, 0.0);
@@ -306,7 +306,7 @@ fn springs_that_give_under_held_nodes_are_told_from_what_the_algorithm_does() {
     }
     let note = found.document["notes"][0].as_str().unwrap();
     assert!(note.contains("law_error, direction, violating_fraction"), "{note}");
-    assert!(note.contains("give of its springs"), "{note}");
+    assert!(note.contains("penalty springs that deform"), "{note}");
 }
 
 #[test]

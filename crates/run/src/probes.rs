@@ -148,7 +148,7 @@ impl Probes {
                     format!("node {n} of the {body} at {x:.6}, {:.6}, {z:.6} m", probe.sign * y)
                 }
                 _ => format!(
-                    "the point of the {body} at {s:.6}, {y:.6} m; NaN while the fine zone does not hold it"
+                    "the point of the {body} at {s:.6}, {y:.6} m; NaN while it lies outside of the fine zone"
                 ),
             };
             columns.extend(PROBE.each().map(|column| FieldSpec {

@@ -132,7 +132,10 @@ fn run_in_pool(
     }
     if let Some(guard) = &guard {
         postmortem::write(&options.out, &mut rolled.simulation, guard, &basis.provenance)?;
-        log.say(&format!("{} holds both bodies as they are", file::POSTMORTEM))?;
+        log.say(&format!(
+            "{} holds both bodies as they were when the run stopped",
+            file::POSTMORTEM
+        ))?;
     }
     let Rolled { simulation, energies, means, before, rolling, output, keeping } = rolled;
     let ending = Ending {

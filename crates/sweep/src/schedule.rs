@@ -269,5 +269,5 @@ fn reason(log: &Path) -> String {
     let text = input::text(log, input::LOG).unwrap_or_default();
     let message = text.lines().find_map(|line| line.trim_start().strip_prefix('\u{d7}'));
     let last = || text.lines().rev().find(|line| !line.trim().is_empty());
-    message.or_else(last).unwrap_or("it left no results and said nothing").trim().to_owned()
+    message.or_else(last).unwrap_or("it left no results and no message").trim().to_owned()
 }

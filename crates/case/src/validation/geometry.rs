@@ -95,7 +95,7 @@ fn check_crowns(case: &Case, found: &mut Findings<'_>) {
                 radius >= width,
                 &[key],
                 || format!("{key} = {} m must be at least the width, {width} m", number(radius)),
-                "a crown rounder than its body's width is no running surface",
+                "a crown radius below the width of the body makes no running surface",
             );
         }
     }

@@ -36,7 +36,7 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
             (
                 "mesh.window",
                 case.mesh.window.is_some(),
-                "mesh.window: the moves of the mesh know a disk that rolls straight",
+                "mesh.window: the mesh can follow only a disk that rolls straight",
                 "give a mesh.zone.length for the whole roll in place of mesh.window",
             ),
             (

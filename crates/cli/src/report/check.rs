@@ -13,7 +13,7 @@ pub fn text(document: &Value) -> String {
     let ms = |pointer: &str| digits(at(pointer).map(|t| 1e3 * t), 5);
     let _ = writeln!(
         out,
-        "{}: contact conditions from {} to {} ms, {} records, {} nodes in contact and time",
+        "{}: contact conditions from {} to {} ms, {} records, {} nodes in contact summed over them",
         word(document, "/name"),
         ms("/window/0"),
         ms("/window/1"),
@@ -32,15 +32,7 @@ pub fn text(document: &Value) -> String {
         scale("slip_threshold", 1e3),
         word(document, "/limits_for"),
     );
-    let _ = writeln!(
-        out,
-        "  slip paired with traction: {}\n",
-        match word(document, "/pairing/reported") {
-            "stricter" => "that of the step before or after, whichever is stricter",
-            "before" => "that of the step before",
-            _ => "that of the step after",
-        }
-    );
+    let _ = writeln!(out, "  slip paired with traction: {}\n", post::slip_paired(document));
     let _ = writeln!(
         out,
         "  {:<20}{:>11} {:<4}{:>14}  {:<6}where",

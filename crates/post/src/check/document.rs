@@ -119,7 +119,7 @@ impl Evaluation<'_> {
         if let Err(why) = &self.replay {
             let looked = self.history.has.mu && !why.is_empty();
             return looked.then(|| {
-                format!("the law's mu is not made again from the records, mu is not judged: {why}")
+                format!("mu is not judged, since the law's mu cannot be recomputed from the records: {why}")
             });
         }
         let followed = self.followed();
@@ -141,8 +141,8 @@ impl Evaluation<'_> {
             _ => String::new(),
         };
         Some(format!(
-            "on {:.0} % of contact area and time the steps since contact began are not all recorded{late}: \
-             there the law's mu is known to {:.2} % (median; 95 % of it to {:.2} %) only, on {:.0} % to \
+            "on {:.0} % of contact area and time, not every step since contact began is recorded{late}: there \
+             the law's mu is known only to {:.2} % (median; 95 % of it to {:.2} %), and on {:.0} % to \
              round-off (record every step from the start, or for long enough, in an [[output.window]])",
             percent("blurred"),
             blur("blur_median"),
@@ -170,8 +170,8 @@ impl Evaluation<'_> {
         }
         if self.history.follows {
             notes.push(
-                "the fine zone follows the contact, so that a node is no point of material: switching_rate, roughness_ratio \
-                 and laws that remember are not judged; moves of the mesh add to the fluctuation of slip"
+                "the fine zone follows the contact, so a node does not stay at its point of the material: switching_rate, \
+                 roughness_ratio and laws with memory are not judged, and moves of the mesh add to the fluctuation of slip"
                     .into(),
             );
         }
@@ -191,16 +191,16 @@ impl Evaluation<'_> {
         }
         if let Some(body) = self.history.enforced_on.filter(|_| self.history.in_means) {
             notes.push(format!(
-                "mortar rows: the conditions hold in means over the faces around the nodes of the {0}, as \
-                 slip_velocity there is; the pair, which takes single points, and the {1} are not judged",
+                "mortar rows: the conditions are enforced in means over the faces around the nodes of the {0}, and \
+                 slip_velocity there is such a mean; the pair, which compares single points, and the {1} are not judged",
                 body_name(body),
                 body_name(1 - body)
             ));
         }
         if self.without_projection > 0 {
             notes.push(format!(
-                "{} node-times in contact project on no face of the other side and are left out \
-                 of the pair",
+                "the pair leaves out {} records of nodes in contact that project on no face of the \
+                 other body",
                 self.without_projection
             ));
         }
@@ -353,10 +353,10 @@ impl Evaluation<'_> {
                 "the file has no field mu"
             }
             "mu_error" | "mu_error_blurred" if self.replay.is_err() => {
-                "the law's mu is not made again, see the note"
+                "the law's mu cannot be recomputed, see the note"
             }
             "mu_error" => "no node has every step recorded since its contact began",
-            "mu_error_blurred" => "every step is recorded that the law's mu needs",
+            "mu_error_blurred" => "every step that the law's mu needs is recorded",
             "roughness_ratio" if matches!(basis.law, Some(Law::Coulomb(_))) => {
                 "the law's coefficient is constant"
             }
@@ -367,7 +367,7 @@ impl Evaluation<'_> {
                 "no node slips for a tenth of a transit, or records lie too far apart or too close for it"
             }
             "law_scatter" if basis.bound == Bound::Used => {
-                "the law is no graph over the slip speed alone, or its graph is not known"
+                "the law is not a function of slip speed alone, or its graph is not known"
             }
             "adhesion_slip" => "no node is in adhesion",
             "law_error_let_slip" | "direction_let_slip" => "the algorithm lets no node slip",
@@ -390,9 +390,8 @@ fn compliance_note(metrics: &Map<String, Value>) -> Option<String> {
         AFFECTED_BY_COMPLIANCE.into_iter().filter(|name| !holds(name)).collect();
     (!failed.is_empty() && own.iter().all(|name| measured(name) && holds(name))).then(|| {
         format!(
-            "law and direction hold where the algorithm lets nodes slip; what takes {} beyond the \
-             limit is the give of its springs at nodes that it holds (docs/checks.md, What penalty \
-             can pass)",
+            "law and direction hold at nodes that the algorithm lets slip; penalty springs that deform at \
+             nodes held in stick take {} beyond the limit (docs/checks.md, What penalty can pass)",
             failed.join(", ")
         )
     })
@@ -407,6 +406,15 @@ fn entry(measure: &Measure, value: Option<f64>, limit: Option<Limit>, asked: boo
     };
     json!({ "value": value, "limit": limit_value(limit), "pass": pass, "where": null,
             "units": measure.units, "statistic": measure.statistic, "about": measure.about })
+}
+
+/// The slip velocity that the document of a check pairs with a traction, in words.
+pub fn slip_paired(document: &Value) -> &'static str {
+    match document["pairing"]["reported"].as_str() {
+        Some("before") => "that of the step before",
+        Some("after") => "that of the step after",
+        _ => "that of the step before or after, whichever is stricter",
+    }
 }
 
 /// Whether a measure of a check's document keeps its limit; `None` without a limit, or without a value that could
@@ -444,7 +452,7 @@ fn details(all: &[(&'static str, Option<Pairing>, Statistic)]) -> Value {
 fn law_value(basis: &Basis, followed: bool) -> Value {
     let bound = match basis.bound {
         Bound::Law => "mu(|s|)",
-        Bound::Used if followed => "mu of the law, made again from the records",
+        Bound::Used if followed => "mu of the law, recomputed from the records",
         Bound::Used => "mu that the algorithm used",
     };
     match basis.law {

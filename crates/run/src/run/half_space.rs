@@ -123,7 +123,7 @@ fn tell(model: &HalfSpaceModel, log: &mut Log) -> Result<(), NotWritten> {
     ))?;
     if faded > 0.0 {
         log.say(&format!(
-            "plane strain: {:.1} % of the static compliance across the patch is felt without waves, as the memory fades",
+            "plane strain: {:.1} % of the static compliance across the patch acts without waves, since the memory fades",
             100.0 * faded
         ))?;
     }
@@ -241,7 +241,7 @@ fn unsound(sums: &StepSums) -> Option<String> {
     }
     (sums.unconverged > UNCONVERGED).then(|| {
         format!(
-            "{at}: tractions that obey friction were not found; the last of {} iterations still changed the slip velocity by \
+            "{at}: no tractions that obey the friction law were found; the last of {} iterations still changed the slip velocity by \
              {:.1e} of the largest trial velocity; remedy: a shorter time.step, or friction with memory",
             sums.iterations, sums.unconverged
         )

@@ -113,8 +113,7 @@ pub(super) fn log_model(case: &Case, model: &Model, log: &mut Log) -> Result<(),
     log.say(&format!("mesh: {elements} elements, {nodes} nodes"))?;
     if model.parts > 1.0 {
         log.say(
-            "symmetry: y >= 0 is modelled, numbers are of the whole bodies; fluctuations that y = 0 does not mirror \
-             are suppressed",
+            "symmetry: y >= 0 is modelled, numbers are of the whole bodies; fluctuations without this symmetry are suppressed",
         )?;
     }
     if let Some(columns) = case.window_columns() {
