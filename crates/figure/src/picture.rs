@@ -42,6 +42,8 @@ pub struct Pane {
     pub camera: Camera,
     /// The surface; quads with a point that is not finite are left out.
     pub surface: Surface,
+    /// Whether a light shows how faces are turned. Without it colours are those of the colour bar alone.
+    pub lit: bool,
 }
 
 /// Panes side by side below a heading, and what their colours mean below them.
@@ -178,7 +180,7 @@ mod tests {
 
     fn picture(panes: Vec<Surface>) -> Picture {
         let camera = Camera::new([0.0; 3], [0.0, 0.0, -1.0], 4.0);
-        let pane = |surface| Pane { title: "A pane".into(), camera, surface };
+        let pane = |surface| Pane { title: "A pane".into(), camera, surface, lit: true };
         let key = Key::Values { label: "p (MPa)".into(), range: [0.0, 10.0], scale: Scale::Linear };
         let panes = panes.into_iter().map(pane).collect();
         Picture { heading: "t = 1 ms".into(), panes, key }

@@ -38,7 +38,7 @@ pub struct RenderOptions {
     #[serde(deserialize_with = "parsed")]
     #[cfg_attr(feature = "clap", arg(long, value_name = "whole|contact|both", value_parser = view))]
     pub view: Option<View>,
-    /// The picture, or the film [default: render.png in that folder]
+    /// The picture, or the film [default: render.png in that folder, of contact surfaces render-contact.png]
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.png|FILE.gif|FILE.mp4"))]
     pub out: Option<PathBuf>,
     /// How many times larger deformation is drawn [default: a round number that shows it]
@@ -65,7 +65,9 @@ const DELAY: u16 = 10;
 /// Options that do not go together; records that cannot be read or lack the field; a file that cannot be written, or
 /// is not to be written over.
 pub fn render(options: &RenderOptions) -> Result<Value, Error> {
-    let out = options.out.clone().unwrap_or_else(|| options.run.join("render.png"));
+    let out = options.out.clone().unwrap_or_else(|| {
+        options.run.join(if of_contact(options) { "render-contact.png" } else { "render.png" })
+    });
     let format = FilmFormat::of(&out)?;
     check(options, format)?;
     let wanted = Wanted {
@@ -117,8 +119,13 @@ fn check(options: &RenderOptions, format: FilmFormat) -> Result<(), Error> {
             format!("it has {}", names.join(", ")),
         ));
     }
-    let surfaces = options.what.or(options.field.map(Quantity::of)) == Some(Drawable::Contact);
+    let surfaces = of_contact(options);
     exclude(("--view", options.view.is_some()), &[("contact surfaces, which have one", surfaces)])
+}
+
+/// Whether the contact surfaces are drawn, not the bodies.
+fn of_contact(options: &RenderOptions) -> bool {
+    options.what.or(options.field.map(Quantity::of)) == Some(Drawable::Contact)
 }
 
 /// The records that are drawn.

@@ -77,13 +77,18 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
     for (run, history) in runs.iter_mut().zip(&histories) {
         lines.push(read(history, &mut run.basis, window)?);
     }
-    let described: Vec<Value> =
-        runs.iter().zip(&lines).map(|(run, line)| describe(run, line)).collect();
+    let labels = labels(runs);
+    let described: Vec<Value> = runs
+        .iter()
+        .zip(&labels)
+        .zip(&lines)
+        .map(|((run, label), line)| describe(run, label, line))
+        .collect();
     let mut differences = Vec::new();
     for k in 1..runs.len() {
         let [a, b] = [&lines[k - 1], &lines[k]];
         differences.push(json!({
-            "from": runs[k - 1].basis.name, "to": runs[k].basis.name,
+            "from": labels[k - 1], "to": labels[k],
             "slip": difference::of([a, b], |line| &line.slip, window),
             "shear": difference::of([a, b], |line| &line.shear, window),
             "growth": growth::growth([&runs[k - 1].basis, &runs[k].basis], [&histories[k - 1], &histories[k]])?,
@@ -96,15 +101,25 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
         "runs": described,
         "differences": differences,
     });
-    let names: Vec<&str> = runs.iter().map(|run| run.basis.name.as_str()).collect();
-    Ok(Comparison { document, figure: figure::figure(&names, &lines, window) })
+    Ok(Comparison { document, figure: figure::figure(&labels, &lines, window) })
+}
+
+/// What tells the runs apart: the names of their cases, of their folders where two cases have one name.
+fn labels(runs: &[Compared]) -> Vec<String> {
+    let label = |run: &Compared| {
+        let name = &run.basis.name;
+        let alike = runs.iter().filter(|other| other.basis.name == *name).count();
+        let folder = run.paths.folder.file_name().filter(|_| alike > 1);
+        folder.map_or_else(|| name.clone(), |folder| folder.to_string_lossy().into_owned())
+    };
+    runs.iter().map(label).collect()
 }
 
 /// The entry of a run in the document.
-fn describe(run: &Compared, line: &RunLine) -> Value {
+fn describe(run: &Compared, label: &str, line: &RunLine) -> Value {
     let zone = line.zone.as_ref();
     json!({
-        "name": run.basis.name, "folder": run.paths.folder, "side": body_name(line.line.body),
+        "name": run.basis.name, "label": label, "folder": run.paths.folder, "side": body_name(line.line.body),
         "largest": zone.map(|zone| zone.largest), "mean": zone.map(|zone| zone.mean),
         "fluctuation": zone.and_then(|zone| zone.fluctuation),
         "fluctuating_share": zone.and_then(|zone| zone.fluctuating_share),

@@ -14,9 +14,21 @@ pub(crate) fn digits(value: f64, significant: i32) -> String {
     text.replace('-', "\u{2212}")
 }
 
+/// `value` with as many significant digits as it has, at least three.
+pub fn all_digits(value: f64) -> String {
+    let texts = (3..10).map(|significant| digits(value, significant));
+    let mut whole = texts.filter(|text| text.parse() == Ok(value));
+    whole.next().unwrap_or_else(|| value.to_string())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::digits;
+    use super::{all_digits, digits};
+
+    #[test]
+    fn a_limit_keeps_the_digit_that_tells_it_from_one() {
+        assert_eq!([0.8, 1.25, 0.999, 1.001].map(all_digits), ["0.800", "1.25", "0.999", "1.001"]);
+    }
 
     #[test]
     fn numbers_stay_short() {

@@ -51,6 +51,7 @@ pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
 pub use check::{CheckOptions, Checked, Report, check, keeps_limit, slip_paired};
 pub use compare::{Compared, Comparison, compare};
 pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
+pub use digits::all_digits;
 pub use error::PostError;
 pub use figures::{Named, figures};
 pub use frames::{ContactHistory, Frame, Recorded};

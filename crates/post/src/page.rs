@@ -9,7 +9,7 @@ mod verdict;
 use crate::PostError;
 use crate::basis::Basis;
 use crate::check::{keeps_limit, slip_paired};
-use crate::digits::digits;
+use crate::digits::{all_digits, digits};
 use crate::figures::Named;
 use crate::limits::MEASURES;
 use crate::patch_series::{PATCH_TABLE, PatchLine};
@@ -37,6 +37,10 @@ td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 font-size:.8rem;max-width:90vw}#values i{display:inline-block;width:1em;height:.6em;margin-right:.5em}
 #rule{stroke:#999;stroke-width:3;pointer-events:none}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
+@media(max-width:600px){figure{overflow-x:auto}figure svg{min-width:44rem}
+.measures table,.measures tbody{display:block}.measures tr{display:grid;grid-template-columns:1fr 5rem 4rem 2.7rem}
+.measures td,.measures th{padding:.2rem .3rem}.measures td:last-child{grid-column:1/-1}
+.measures th:last-child{display:none}.measures td:not(:last-child){border-bottom:none}}
 @media print{body{max-width:none}figure{break-inside:avoid}}";
 
 /// Offers each table as CSV: a link that the browser makes of the table, without a request.
@@ -161,7 +165,7 @@ fn verdicts(out: &mut String, checked: &Value) {
         "<h2 id=\"conditions\">Contact conditions</h2>\n\
          <p>The limits are those of {} methods. The slip velocity paired with a traction is {}. \
          Definitions and scales: docs/checks.md of Creepage.</p>\n\
-         <div class=\"wide\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
+         <div class=\"wide measures\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
          <th></th><th>what it says</th></tr>\n",
         checked["limits_for"].as_str().unwrap_or_default(),
         slip_paired(checked)
@@ -174,7 +178,7 @@ fn verdicts(out: &mut String, checked: &Value) {
             (Value::Array(ends), _) => ends
                 .iter()
                 .filter_map(Value::as_f64)
-                .map(|end| digits(end, 3))
+                .map(all_digits)
                 .collect::<Vec<_>>()
                 .join(" to "),
             _ => String::new(),
@@ -281,7 +285,7 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
     }
     out.push_str(
         "</table></div>\n<p class=\"note\">95 % interval: that of the mean, from batches of records. It is missing where \
-         the value changes as slowly as the window is long. Deviation: the standard deviation over the records.</p>\n",
+         the value drifts during the window. Deviation: the standard deviation over the records.</p>\n",
     );
 }
 

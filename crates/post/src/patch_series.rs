@@ -14,7 +14,7 @@ pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
     ("peak_pressure", "Pa", "peak pressure of that fit"),
     ("peak_pressure_raw", "Pa", "largest nodal pressure"),
     ("peak_shear", "Pa", "largest nodal shear traction"),
-    ("area", "m2", "area in contact"),
+    ("area", "m2", "sum of the areas of the nodes in contact"),
     ("normal_force", "N", "z component of the force on the disk"),
     ("tangential_force", "N", "x component of the force on the disk"),
     ("lateral_force", "N", "y component of the force on the disk"),
@@ -50,7 +50,7 @@ const fn line(
 pub const PATCH_TABLE: [PatchLine; 13] = [
     line("half length (fit)", "half_length", 1e3, "mm"),
     line("half width (fit)", "half_width", 1e3, "mm"),
-    line("area", "area", 1e6, "mm\u{b2}"),
+    line("area (nodes)", "area", 1e6, "mm\u{b2}"),
     line("peak pressure (fit)", "peak_pressure", 1e-6, "MPa"),
     line("peak pressure (nodes)", "peak_pressure_raw", 1e-6, "MPa"),
     line("peak shear", "peak_shear", 1e-6, "MPa"),

@@ -34,6 +34,7 @@ fn files() -> Vec<(PathBuf, Ours)> {
         ("check.json.partial".into(), |_| true),
         ("report.html".into(), |path| wrote(path, &PAGE).unwrap_or(false)),
         ("render.png".into(), |path| wrote(path, &PNG).unwrap_or(false)),
+        ("render-contact.png".into(), |path| wrote(path, &PNG).unwrap_or(false)),
     ];
     for name in FIGURE_NAMES {
         let place = |extension| Path::new(FIGURES).join(format!("{name}.{extension}"));

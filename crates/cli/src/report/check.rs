@@ -73,7 +73,7 @@ fn limit(limit: &Value) -> String {
     match (limit.as_f64(), limit[0].as_f64(), limit[1].as_f64()) {
         (Some(most), ..) => digits(Some(most), 2),
         (None, Some(low), Some(high)) => {
-            format!("{}..{}", digits(Some(low), 3), digits(Some(high), 3))
+            format!("{}..{}", post::all_digits(low), post::all_digits(high))
         }
         _ => "-".into(),
     }

@@ -28,7 +28,7 @@ pub fn text(document: &Value) -> String {
         let _ = writeln!(
             out,
             "  {:<40}{:>9}{:>9}{:>13}{:>12}{:>12}",
-            word(&run, "/name"),
+            word(&run, "/label"),
             digits(at("largest"), 3),
             digits(at("mean"), 4),
             digits(at("fluctuation"), 4),

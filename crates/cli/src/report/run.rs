@@ -33,9 +33,12 @@ fn title(out: &mut String, summary: &Value) {
     let threads = at("/threads").unwrap_or(1.0);
     let _ = writeln!(
         out,
-        "  {} elements, {} nodes; {threads} thread{}{}; {} MB",
-        count(at("/elements")),
-        count(at("/nodes")),
+        "  {}; {threads} thread{}{}; {} MB",
+        if of_half_spaces(summary) {
+            format!("half-spaces, {} points", count(at("/nodes")))
+        } else {
+            format!("{} elements, {} nodes", count(at("/elements")), count(at("/nodes")))
+        },
         if threads == 1.0 { "" } else { "s" },
         match word(summary, "/kernels") {
             "" => String::new(),
@@ -53,6 +56,11 @@ fn title(out: &mut String, summary: &Value) {
     let _ = writeln!(out, "{}", if steps > 0.0 { &rolled } else { "  nothing rolled" });
 }
 
+/// Whether half-spaces rolled, which have neither elements nor springs.
+fn of_half_spaces(summary: &Value) -> bool {
+    word(summary, "/model") == "half-space"
+}
+
 /// A quantity of the contact: label, key, factor to the unit, unit.
 type Quantity = (&'static str, &'static str, f64, &'static str);
 
@@ -64,7 +72,7 @@ const CONTACT: [Quantity; 9] = [
     ("creepage", "creepage", 1e3, "1e-3"),
     ("patch half length", "patch_half_length", 1e3, "mm"),
     ("patch half width", "patch_half_width", 1e3, "mm"),
-    ("patch area", "patch_area", 1e6, "mm2"),
+    ("patch area (nodes)", "patch_area", 1e6, "mm2"),
     ("peak pressure", "peak_pressure", 1e-6, "MPa"),
 ];
 
@@ -115,7 +123,7 @@ fn contact(out: &mut String, summary: &Value) {
         share("/contact/slip_fraction")
     );
     mesh_mode(out, summary);
-    if at("/half_space/peak_pressure").is_some() {
+    if at("/half_space/peak_pressure").is_some() && !of_half_spaces(summary) {
         // only a run with exact enforcement, which has no springs, counts what that takes
         let exact = summary.get("exact_contact").is_some_and(Value::is_object);
         let springs = if exact { "" } else { "soft penalty springs and " };
@@ -165,6 +173,7 @@ fn half_space(summary: &Value, key: &str) -> Option<f64> {
 fn energy(out: &mut String, summary: &Value) {
     let at = |key: &str| number(summary, &format!("/energy/{key}"));
     heading(out, "Energy at the end");
+    let without = ["kinetic", "hourglass", "contact_stored", "damping_dissipated"];
     for (label, key) in [
         ("kinetic", "kinetic"),
         ("internal", "internal"),
@@ -174,6 +183,9 @@ fn energy(out: &mut String, summary: &Value) {
         ("dissipated by damping", "damping_dissipated"),
         ("external work", "external_work"),
     ] {
+        if of_half_spaces(summary) && without.contains(&key) {
+            continue;
+        }
         let remark = match (key, at("hourglass"), at("internal")) {
             ("hourglass", Some(hourglass), Some(internal)) if internal > 0.0 => {
                 format!("{:.2} % of internal", 100.0 * hourglass / internal)
@@ -191,8 +203,9 @@ fn speed(out: &mut String, summary: &Value) {
     let stage = |name: &str| at(&format!("/stages/{name}"));
     heading(out, "Speed");
     let rate = at("/element_steps_per_s").filter(|rate| *rate > 0.0);
-    row(out, "element and step", &digits(rate.map(|rate| 1e9 / rate), 3), "ns", "");
-    row(out, "element-steps", &digits(scaled(rate, 1e-6), 3), "M/s", "");
+    let part = if of_half_spaces(summary) { "point" } else { "element" };
+    row(out, &format!("{part} and step"), &digits(rate.map(|rate| 1e9 / rate), 3), "ns", "");
+    row(out, &format!("{part}-steps"), &digits(scaled(rate, 1e-6), 3), "M/s", "");
     let Some(rolling) = stage("rolling").filter(|s| *s > 0.0) else {
         return;
     };
@@ -330,6 +343,18 @@ mod tests {
             "{page}"
         );
         assert!(!page.contains("spring"), "{page}");
+    }
+
+    #[test]
+    fn half_spaces_are_not_said_to_have_elements_or_springs() {
+        let mut rolled = summary();
+        rolled["model"] = json!("half-space");
+        rolled["mesh_mode"] = Value::Null;
+        let page = text(&rolled, Path::new("x"));
+        for absent in ["element", "spring", "hourglass", "kinetic"] {
+            assert!(!page.contains(absent), "{absent}: {page}");
+        }
+        assert!(page.contains("half-spaces, ") && page.contains("point and step"), "{page}");
     }
 
     #[test]

@@ -104,7 +104,7 @@ fn run_check_report_and_sweep_give_one_number_for_each_mean_over_one_window() {
         let traction = value("/contact/traction_coefficient");
         shows(&page, "<td>traction coefficient</td>", 2, traction);
         shows(&page, "<td>normal force</td>", 2, 1e-3 * value("/contact/normal_force"));
-        shows(&page, "<td>area</td>", 2, 1e6 * value("/contact/patch_area"));
+        shows(&page, "<td>area (nodes)</td>", 2, 1e6 * value("/contact/patch_area"));
         shows(&page, "<td>peak pressure (fit)</td>", 2, 1e-6 * value("/contact/peak_pressure"));
         let mu = if i == 0 { "<tr><td class=\"n\">0.2<" } else { "<tr><td class=\"n\">0.3<" };
         shows(&sweep_page, mu, under("T/N"), traction);

@@ -235,7 +235,7 @@ fn with_mortar_rows_mu_is_made_again_and_a_wrong_one_ends_with_1() {
 }
 
 #[test]
-fn with_two_passes_of_springs_the_mu_of_every_law_is_made_again_and_a_wrong_one_ends_with_1() {
+fn with_two_passes_of_springs_the_mu_of_every_law_is_recomputed_and_a_wrong_one_ends_with_1() {
     laws_are_followed(&LAWS, &["contact.enforcement='penalty'"], 5e-5);
 }
 
@@ -255,7 +255,7 @@ fn between_records_of_many_steps_a_law_with_memory_is_known_as_far_as_it_is_blur
     let blur = blurred["sides"]["disk"]["blur_rms"].as_f64().unwrap();
     assert!(blur > 1e-3 && blur < 0.5, "{blur}");
     let notes = found["notes"].to_string();
-    assert!(notes.contains("not all recorded"), "{notes}");
+    assert!(notes.contains("not every step since contact began is recorded"), "{notes}");
     // beyond the blur a coefficient is found all the same
     let copy = folder.path().join("copy");
     plant(&run, &copy, &["mu"], 1.5);

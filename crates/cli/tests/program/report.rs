@@ -77,7 +77,7 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
         "violating_fraction",
         "Dimensionless numbers",
         "How to reproduce",
-        "No node is pulled.",
+        "No node is under tension.",
         "figure-4-bound",
         "contact-maps",
         "creepage run case.toml",

@@ -37,6 +37,7 @@ struct Canvas<'a> {
     colours: Vec<[u8; 3]>,
     depths: Vec<f64>,
     key: &'a Key,
+    lit: bool,
     /// Half the width of a mesh line (fine pixels).
     half_line: f64,
 }
@@ -50,6 +51,7 @@ pub(super) fn draw(pane: &Pane, key: &Key, size: [u32; 2], unit: f64) -> Vec<u8>
         colours: vec![[255; 3]; count],
         depths: vec![f64::INFINITY; count],
         key,
+        lit: pane.lit,
         half_line: 0.3 * unit * FINER as f64,
     };
     let scale = fine[0].min(fine[1]) as f64 / pane.camera.span();
@@ -81,7 +83,9 @@ impl Canvas<'_> {
         // the side that is seen faces the viewer
         let facing = if normal[2] > 0.0 { -1.0 } else { 1.0 };
         let cosine: f64 = normal.iter().zip(LIGHT).map(|(n, l)| facing * n * l).sum();
-        let light = if length > 0.0 {
+        let light = if !self.lit {
+            1.0
+        } else if length > 0.0 {
             SHADE + (1.0 - SHADE) * (RISE * cosine / length).clamp(0.0, 1.0)
         } else {
             SHADE
@@ -210,8 +214,12 @@ mod tests {
         }
         let values = [[1.0; 4], [0.0; 4]].concat();
         let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0);
-        let pane =
-            Pane { title: String::new(), camera, surface: Surface { points, quads, values } };
+        let pane = Pane {
+            title: String::new(),
+            camera,
+            surface: Surface { points, quads, values },
+            lit: true,
+        };
         draw(&pane, &key(), [100, 100], 1.0)
     }
 
@@ -235,7 +243,7 @@ mod tests {
             values: vec![f64::NAN; 4],
         };
         let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1e-3);
-        let pane = Pane { title: String::new(), camera, surface };
+        let pane = Pane { title: String::new(), camera, surface, lit: true };
         assert!(draw(&pane, &key(), [40, 30], 1.0).iter().all(|byte| *byte == 255));
     }
 }

@@ -8,9 +8,9 @@ const COLOURS: [[u8; 3]; 6] =
     [colour::BLACK, colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE];
 
 /// Mean in time as a line, one standard deviation to either side dashed.
-pub(super) fn figure(names: &[&str], lines: &[RunLine], [from, to]: [f64; 2]) -> Figure {
+pub(super) fn figure(labels: &[String], lines: &[RunLine], [from, to]: [f64; 2]) -> Figure {
     let mut series = Vec::new();
-    for (k, (name, line)) in names.iter().zip(lines).enumerate() {
+    for (k, (label, line)) in labels.iter().zip(lines).enumerate() {
         let colour = COLOURS[k % COLOURS.len()];
         let profile = profile(&line.line.slip, &line.weights);
         let curve = |sign: f64| -> Vec<[f64; 2]> {
@@ -19,7 +19,7 @@ pub(super) fn figure(names: &[&str], lines: &[RunLine], [from, to]: [f64; 2]) ->
             };
             profile.iter().enumerate().map(at).collect()
         };
-        let label = (*name).to_owned();
+        let label = label.clone();
         series.push(Series { label, points: curve(0.0), draw: Draw::Line(colour) });
         for sign in [-1.0, 1.0] {
             let draw = Draw::Dashed(colour);

@@ -22,8 +22,8 @@ const MEANINGS: [(&str, &str, &str); 8] = [
     (
         "n1",
         "N1 = dt\u{b2} k_t/m*",
-        "friction spring against the mass of the surface layer, per step squared: the softer the spring, \
-         the more nodes that stick move",
+        "friction spring against the mass of the surface layer, per step squared: with soft springs, \
+         nodes that stick move more",
     ),
     ("f_min", "f_min/p0", "the least shear over pressure at which slip goes on by Eq. (8) alone"),
     ("s_m", "s_m (m/s)", "between rest and this slip speed no state is stable by Eq. (8) alone"),

@@ -74,11 +74,19 @@ fn conditions(checked: &Value) -> (&'static str, String) {
     let beyond = |name: &&str| checked["metrics"][*name]["pass"] == Value::Bool(false);
     let names: Vec<&str> = MEASURES.iter().map(|measure| measure.name).filter(beyond).collect();
     let by = checked["limits_for"].as_str().unwrap_or("its");
+    let share = number(checked, "/metrics/violating_fraction/value")
+        .map(|share| {
+            let share = digits(100.0 * share, 2);
+            format!(
+                "On {share} % of contact area and time, the conditions of contact are violated. "
+            )
+        })
+        .unwrap_or_default();
     (
         "fail",
         format!(
-            "Its contact violates the contact conditions beyond the limits of {by} methods: {}. This is a finding \
-             about the method, not a failure of the run.",
+            "{share}The limits of {by} methods are exceeded by {}. This is a finding about the method, not a failure \
+             of the run.",
             names.join(", ")
         ),
     )

@@ -61,8 +61,8 @@ pub(super) fn verdict(name: &str, metric: &Value) -> String {
             digits(value, 3)
         ),
         "direction_let_slip" => format!(
-            "At nodes that the algorithm lets slip, the shear deviates by {} degrees from that \
-             direction.",
+            "At nodes that the algorithm lets slip, the shear deviates by {} degrees from the \
+             direction opposite to the slip.",
             digits(value, 3)
         ),
         "wrong_direction" => {

@@ -46,6 +46,7 @@ pub(super) struct Shot {
     pub(super) magnify: f64,
     /// Whether there is any: displacements of half-spaces are not recorded.
     deforms: bool,
+    lit: bool,
 }
 
 /// The views of a run.
@@ -80,6 +81,7 @@ fn whole(source: &Source) -> Shot {
         span: f64::NAN,
         magnify: f64::NAN,
         deforms: true,
+        lit: true,
     }
 }
 
@@ -109,6 +111,7 @@ fn near(source: &Source) -> Shot {
         span: NEAR_RADII * 0.5 * (high - low),
         magnify: f64::NAN,
         deforms: true,
+        lit: true,
     }
 }
 
@@ -131,6 +134,8 @@ fn surfaces(source: &Source) -> Vec<Shot> {
             span: f64::NAN,
             magnify: f64::NAN,
             deforms: true,
+            // the colours of the two are to be compared
+            lit: false,
         }
     };
     // the bar first: it is looked at from above
@@ -226,7 +231,7 @@ impl Shot {
             times => format!("{}, deformation × {times}", self.what),
         };
         let camera = Camera::new(self.centre(record), self.toward, self.span);
-        Pane { title, camera, surface: Surface { points, quads, values } }
+        Pane { title, camera, surface: Surface { points, quads, values }, lit: self.lit }
     }
 
     /// Where the camera looks.

@@ -434,7 +434,8 @@ class Run:
         """Draw the run in three dimensions, deformation magnified: a picture, or a film.
 
         Args:
-            out: the file, .png, .gif or .mp4 (which needs ffmpeg) [default: render.png in the run's folder].
+            out: the file, .png, .gif or .mp4 (which needs ffmpeg) [default: in the run's folder render.png, of
+                contact surfaces render-contact.png].
             time: draw the record nearest to this time (s) [default: the last]; a film shows all.
             field: "von_mises", "velocity" or "deformation" of the bodies, "pressure", "shear" or
                 "slip_velocity" of the contact surfaces.
