@@ -43,6 +43,13 @@ fn a_run_is_itself_a_twin_parts_a_little_and_another_friction_differs() {
     assert!(!found["differences"][1]["growth"].is_null());
     assert!(found["differences"][2]["growth"].is_null(), "another friction is no disturbance");
     assert_eq!(found["runs"][0]["side"], "disk");
+    // all are runs of one case, so that their folders tell them apart
+    assert_eq!(found["runs"][1]["name"], found["runs"][3]["name"]);
+    assert_eq!([2, 3].map(|k| &found["runs"][k]["label"]), ["twin", "slippery"]);
+    assert_eq!(
+        [&found["differences"][2]["from"], &found["differences"][2]["to"]],
+        ["twin", "slippery"]
+    );
     // the dense span is not asked for: the window ends with the evaluation window, so many transits long
     let output = creepage(&["check", runs[0], "--transits", "0.1", "--json"]);
     let checked: Value = serde_json::from_slice(&output.stdout).unwrap();

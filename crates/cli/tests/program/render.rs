@@ -77,7 +77,12 @@ fn a_picture_shows_the_last_record_or_the_nearest_to_a_time_and_a_film_shows_all
         let off = found["times"][0].as_f64().unwrap() - times[1];
         assert!(off.abs() < 1e-6, "{found}");
     }
-    assert_eq!(drawn(&run, &["--what", "contact"])["field"], "pressure");
+    // the picture of the bodies stays beside that of the surfaces
+    let bodies = fs::read(&picture).unwrap();
+    let surfaces = drawn(&run, &["--what", "contact"]);
+    assert_eq!(surfaces["field"], "pressure");
+    assert_eq!(surfaces["file"], run.join("render-contact.png").to_str().unwrap());
+    assert_eq!(fs::read(&picture).unwrap(), bodies);
     assert_eq!(drawn(&run, &["--magnify", "7"])["magnifications"], serde_json::json!([7.0, 7.0]));
 }
 

@@ -235,6 +235,23 @@ mod tests {
     }
 
     #[test]
+    fn without_light_a_face_has_the_colour_of_its_value_however_it_is_turned() {
+        let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0);
+        let middle = |slope: f64, lit: bool| {
+            let points = [[-0.4, -0.4], [0.4, -0.4], [0.4, 0.4], [-0.4, 0.4]];
+            let points = points.map(|[x, z]| [x, slope * x, z]).to_vec();
+            let surface = Surface { points, quads: vec![[0, 1, 2, 3]], values: vec![0.5; 4] };
+            let pane = Pane { title: String::new(), camera, surface, lit };
+            let bytes = draw(&pane, &key(), [100, 100], 1.0);
+            let start = 3 * (100 * 50 + 55);
+            [bytes[start], bytes[start + 1], bytes[start + 2]]
+        };
+        let of_value = middle(0.0, false);
+        assert_eq!([-2.0, 2.0].map(|slope| middle(slope, false)), [of_value; 2]);
+        assert_ne!(middle(-2.0, true), middle(2.0, true));
+    }
+
+    #[test]
     fn what_is_not_a_number_or_lies_outside_leaves_the_canvas_white() {
         let points = vec![[f64::NAN; 3], [9.0; 3], [8.0, 9.0, 1.0], [1e300, 0.0, 1e300]];
         let surface = Surface {
