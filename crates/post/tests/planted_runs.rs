@@ -45,10 +45,10 @@ fn a_perfect_run_passes_the_limits_of_exact_methods() {
         is(&found, "switching_rate", 0.0);
         assert_eq!(found.document["pairing"]["records_with_the_other"], 39);
         let notes = found.document["notes"].as_array().unwrap();
-        let not_made_again =
+        let not_recomputed =
             |note: &serde_json::Value| note.as_str().unwrap().contains("no enforced_on");
         assert_eq!(notes.len(), usize::from(friction == FALLING), "{notes:?}");
-        assert!(notes.iter().all(not_made_again), "{notes:?}");
+        assert!(notes.iter().all(not_recomputed), "{notes:?}");
     }
 }
 

@@ -223,12 +223,12 @@ fn laws_are_followed(laws: &[&[&str]], contact: &[&str], limit: f64) {
 }
 
 #[test]
-fn with_exact_enforcement_the_mu_of_every_law_is_made_again_and_a_wrong_one_ends_with_1() {
+fn with_exact_enforcement_the_mu_of_every_law_is_recomputed_and_a_wrong_one_ends_with_1() {
     laws_are_followed(&LAWS, &["contact.enforcement='exact'"], 1e-14);
 }
 
 #[test]
-fn with_mortar_rows_mu_is_made_again_and_a_wrong_one_ends_with_1() {
+fn with_mortar_rows_mu_is_recomputed_and_a_wrong_one_ends_with_1() {
     let contact = ["contact.enforcement='exact'", "contact.rows='mortar'"];
     // with memory, rate and state, pressure
     laws_are_followed(&[LAWS[2], LAWS[5], LAWS[8]], &contact, 1e-14);
