@@ -141,7 +141,6 @@ OF_SMALL = {
 }
 
 
-@pytest.mark.skipif(not SMALL.is_file(), reason="there is no mesh file in meshes")
 @pytest.mark.parametrize("other", ["small.msh", "small-2.2.msh", "small.inp", "small.vtu"])
 def test_a_mesh_through_meshio_is_to_the_bit_that_of_a_file_read_natively(tmp_path, other):
     through = creepage.mesh.from_meshio(SMALL.with_name(other), out=tmp_path / "through.vtu")

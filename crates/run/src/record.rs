@@ -8,7 +8,7 @@ pub(crate) mod row;
 pub(crate) mod surfaces;
 
 pub(crate) use self::basis::RecordBasis;
-use self::contact::{ContactRecord, Pace};
+use self::contact::{ContactRecord, RollingStep};
 use self::row::Whereabouts;
 use self::surfaces::{Surfaces, labels};
 use crate::error::RunError;
@@ -93,8 +93,8 @@ impl Recorder {
         let tables = tables(model, contact);
         let mesh_mode = watched(case, model, contact, &tables, basis)?;
         let surfaces = surfaces(model, contact, tables, &mesh_mode);
-        let pace = Pace { dt: simulation.dt(), effective_radius };
-        let contact = ContactRecord::new(case, surfaces, &pace, basis.hertz_pressure, files)?;
+        let step = RollingStep { dt: simulation.dt(), effective_radius };
+        let contact = ContactRecord::new(case, surfaces, &step, basis.hertz_pressure, files)?;
         let count = contact.nodes().count();
         Ok(Self {
             probes: Probes::new(case, model, simulation, basis)?,

@@ -173,7 +173,7 @@ fn half_space(summary: &Value, key: &str) -> Option<f64> {
 fn energy(out: &mut String, summary: &Value) {
     let at = |key: &str| number(summary, &format!("/energy/{key}"));
     heading(out, "Energy at the end");
-    let without = ["kinetic", "hourglass", "contact_stored", "damping_dissipated"];
+    let of_elements_and_springs = ["kinetic", "hourglass", "contact_stored", "damping_dissipated"];
     for (label, key) in [
         ("kinetic", "kinetic"),
         ("internal", "internal"),
@@ -183,7 +183,7 @@ fn energy(out: &mut String, summary: &Value) {
         ("dissipated by damping", "damping_dissipated"),
         ("external work", "external_work"),
     ] {
-        if of_half_spaces(summary) && without.contains(&key) {
+        if of_half_spaces(summary) && of_elements_and_springs.contains(&key) {
             continue;
         }
         let remark = match (key, at("hourglass"), at("internal")) {

@@ -246,7 +246,7 @@ mod tests {
             let start = 3 * (100 * 50 + 55);
             [bytes[start], bytes[start + 1], bytes[start + 2]]
         };
-        let of_value = middle(0.0, false);
+        let of_value = key().colour(0.5);
         assert_eq!([-2.0, 2.0].map(|slope| middle(slope, false)), [of_value; 2]);
         assert_ne!(middle(-2.0, true), middle(2.0, true));
     }

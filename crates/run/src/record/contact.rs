@@ -25,7 +25,7 @@ const HISTORY_BATCH: usize = 64;
 pub(crate) const LONGEST_HELD: Duration = Duration::from_secs(1);
 
 /// What a run rolls with.
-pub(crate) struct Pace {
+pub(crate) struct RollingStep {
     /// Time step (s).
     pub(crate) dt: f64,
     /// Rolling radius (m) by which creepage is counted.
@@ -86,12 +86,12 @@ impl ContactRecord {
     pub(crate) fn new(
         case: &Case,
         surfaces: Surfaces<'_>,
-        rolling: &Pace,
+        step: &RollingStep,
         hertz_pressure: f64,
         files: RunFiles,
     ) -> Result<Self, RunError> {
         let images = Images::new(surfaces.half, &surfaces.points);
-        let Pace { dt, effective_radius } = *rolling;
+        let RollingStep { dt, effective_radius } = *step;
         let steps_in = |interval: f64| (interval / dt).round().max(1.0) as u64;
         let window = |w: &Window| {
             let step = |t: f64| (t / dt).round() as u64;

@@ -3,7 +3,7 @@
 use crate::error::RunError;
 use crate::means::Means;
 use crate::record::RecordBasis;
-use crate::record::contact::{ContactRecord, Pace};
+use crate::record::contact::{ContactRecord, RollingStep};
 use crate::record::row::Whereabouts;
 use crate::record::surfaces::Surfaces;
 use case::schema::Case;
@@ -69,10 +69,11 @@ impl HalfSpaceRecorder {
             enforced_on: Some(DISK),
             half: false,
         };
-        let pace = Pace { dt: model.rolling.step_length(), effective_radius: case.disk.radius };
+        let step =
+            RollingStep { dt: model.rolling.step_length(), effective_radius: case.disk.radius };
         let files = ContactRecord::files(case, &surfaces, basis, None)?;
         Ok(Self {
-            contact: ContactRecord::new(case, surfaces, &pace, basis.hertz_pressure, files)?,
+            contact: ContactRecord::new(case, surfaces, &step, basis.hertz_pressure, files)?,
             spacing,
             width: model.width,
             travel: 0,
