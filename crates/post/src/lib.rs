@@ -65,7 +65,7 @@ pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
 pub use render::{Drawable, Quantity, RenderError, Rendering, View, Wanted};
 pub use surface::{NO_BODY, Surface, body_name};
 pub use sweep::{
-    ComparedSweep, Sample, SweepVerdict, Trend, Verdict, creep_force_figure, sweep_figures,
-    sweep_verdicts, trend,
+    Asymptote, ComparedSweep, Refinement, Sample, SweepVerdict, Trend, Verdict, creep_force_figure,
+    sweep_figures, sweep_verdicts, trend,
 };
 pub use window::Span;

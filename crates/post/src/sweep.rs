@@ -6,6 +6,7 @@
 mod creep_force;
 mod document;
 mod figures;
+mod fit;
 mod lines;
 mod measures;
 mod profiles;
@@ -15,8 +16,8 @@ mod verdict;
 pub use creep_force::{ComparedSweep, creep_force_figure};
 pub use figures::sweep_figures;
 pub(crate) use trend::RULE;
-pub use trend::{Sample, Trend, Verdict, trend};
+pub use trend::{Asymptote, Refinement, Sample, Trend, Verdict, trend};
 pub use verdict::{SweepVerdict, sweep_verdicts};
 
-pub(crate) use document::{Sweep, value_text};
+pub(crate) use document::{Sweep, steps, value_text};
 pub(crate) use measures::{MEASURES, SweepMeasure};

@@ -54,10 +54,11 @@ fn planted_trends_get_their_verdicts_and_a_failed_run_is_no_point() {
     let sweep = json!({ "parameters": [SPRING], "runs": runs });
     let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
     let of = |measure| verdict(&found, SPRING, measure);
-    let Trend::Reached { limit, exponent } = of("peak pressure (fit)").trend else {
+    let Trend::Reached(limit) = &of("peak pressure (fit)").trend else {
         panic!("{:?}", of("peak pressure (fit)"));
     };
-    assert!((limit - 1230.0).abs() < 0.5 && (exponent - 1.0).abs() < 0.02, "{limit} {exponent}");
+    assert!((limit.value - 1230.0).abs() < 0.5, "{limit:?}");
+    assert!((limit.exponent.unwrap() - 1.0).abs() < 0.02, "{limit:?}");
     assert_eq!(of("peak pressure (fit)").points, 5);
     assert!(matches!(of("creepage").trend, Trend::Flat { .. }));
     assert!(matches!(of("T/N").trend, Trend::Flat { .. }), "from the summary");
@@ -98,10 +99,70 @@ fn two_axes_have_a_map_a_line_for_each_value_of_the_other_and_a_verdict_for_each
     assert_eq!(pressure.len(), 4);
     // h = 2, 1, 0.5 mm: 40, 10, 2.5 MPa away from the limit, power 2; one value has two points only
     assert_eq!(pressure[1].trend.word(), "cannot be told");
-    let Trend::Reached { limit, exponent } = pressure[3].trend else {
+    let Trend::Reached(limit) = &pressure[3].trend else {
         panic!("{:?}", pressure[3]);
     };
-    assert!((limit - 1239.7).abs() < 1e-6 && (exponent - 2.0).abs() < 1e-6, "{limit} {exponent}");
+    assert!((limit.value - 1239.7).abs() < 1e-6, "{limit:?}");
+    assert!((limit.exponent.unwrap() - 2.0).abs() < 1e-6, "{limit:?}");
+}
+
+/// A run with T/N by springs of the stiffness `k` in series with the bodies, in the time step `dt`.
+fn in_series(k: &Value, dt: f64) -> Value {
+    let stiffness = k.as_f64().or(k["stiffness"].as_f64()).unwrap();
+    let traction = 1.0 / (3.0 + 0.1 / stiffness);
+    json!({
+        "parameters": { SPRING: k }, "status": "completed", "run": "none",
+        "summary": { "dt": dt, "contact": { "traction_coefficient": traction },
+                     "window": { "deviation": { "traction_coefficient": 0.02 } } },
+    })
+}
+
+#[test]
+fn springs_in_any_form_are_judged_by_their_series_and_never_two_forms_on_one_axis() {
+    let of = |runs: Vec<Value>| {
+        let sweep = json!({ "parameters": [SPRING], "runs": runs });
+        let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+        let figures = sweep_figures(Path::new("s"), &sweep).unwrap();
+        let label = figures[0].1.panels[0].x.label.clone();
+        (verdict(&found, SPRING, "T/N").clone(), label)
+    };
+    let numbers = [0.1, 1.0, 10.0, 100.0];
+    let factors = || numbers.map(|k| in_series(&json!(k), 1e-7)).to_vec();
+    let stiffnesses = numbers.map(|k| in_series(&json!({ "stiffness": k }), 1e-7)).to_vec();
+    let mut mixed = factors();
+    mixed.push(in_series(&json!({ "stiffness": 5.0 }), 1e-7));
+    let all = [(factors(), "(-)"), (stiffnesses, "(N/m\u{b3})"), (mixed, "(-)")];
+    for (runs, unit) in all {
+        let (found, label) = of(runs);
+        let Trend::Reached(limit) = found.trend else { panic!("{found:?}") };
+        assert!((limit.value - 1.0 / 3.0).abs() < 1e-12, "{limit:?}");
+        assert_eq!((limit.exponent, found.points), (None, 4));
+        assert!(label.ends_with(unit), "{label}");
+    }
+}
+
+#[test]
+fn a_step_that_changes_along_an_axis_is_told_on_the_page_and_beside_the_verdicts() {
+    let page = |dts: [f64; 3], rule: Value| {
+        let runs: Vec<Value> =
+            [0.1, 1.0, 10.0].iter().zip(dts).map(|(k, dt)| in_series(&json!(k), dt)).collect();
+        let sweep = json!({ "parameters": [SPRING], "runs": runs, "step": { "rule": rule } });
+        let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+        let page = sweep_page("kt", Path::new("s/sweep.json"), &sweep).unwrap();
+        (page, verdict(&found, SPRING, "T/N").document()["time_steps"].clone())
+    };
+    let (text, steps) = page([334e-9, 200e-9, 92e-9], json!("bound"));
+    assert_eq!(steps, json!([92e-9, 334e-9]));
+    for part in [
+        "The time step differs from run to run: 92.00 to 334.0 ns",
+        "times the stability limit of each run",
+        "The time step changes along this axis, from 92.00 to 334.0 ns",
+    ] {
+        assert!(text.contains(part), "{part}");
+    }
+    let (text, steps) = page([92e-9; 3], json!("fixed"));
+    assert_eq!(steps, Value::Null);
+    assert!(text.contains("Time step of all runs: 92.00 ns") && !text.contains("changes along"));
 }
 
 #[test]

@@ -54,7 +54,12 @@ fn point(parameters: Map<String, Value>, members: &[&Value]) -> Value {
         // one member alone has no interval
         "status": if completed.len() > 1 { "completed" } else { "failed" },
         "run": completed.first().map(|run| &run["run"]),
-        "summary": { "contact": only_means(&contact), "window": window_means },
+        // the members differ in their step by no more than their disturbance
+        "summary": {
+            "dt": completed.first().map(|run| &run["summary"]["dt"]),
+            "contact": only_means(&contact),
+            "window": window_means,
+        },
         "check": {
             "metrics": of_entries(&completed, "/check/metrics", "value"),
             "patch": of_entries(&completed, "/check/patch", "mean"),
@@ -94,7 +99,8 @@ mod tests {
         json!({
             "name": format!("{seed}-{step}"), "run": format!("runs/{seed}"), "status": "completed",
             "parameters": { "time.factor": step, AXIS: seed },
-            "summary": { "contact": { "traction_coefficient": traction, "creepage": null },
+            "summary": { "dt": 1e-7 * step,
+                         "contact": { "traction_coefficient": traction, "creepage": null },
                          "window": { "torque": 2.0 * traction, "deviation": { "torque": 9.0 } } },
             "check": { "metrics": { "law_error": { "value": 0.1, "limit": 0.02 } }, "patch": {} },
         })
@@ -114,6 +120,7 @@ mod tests {
             );
         };
         close(at(&points[0], "/summary/contact/traction_coefficient"), 0.3);
+        assert_eq!(at(&points[0], "/summary/dt"), Some(0.5e-7));
         let half = 4.303 * 0.1 / 3.0_f64.sqrt();
         close(at(&points[0], "/summary/window/ci95/traction_coefficient"), half);
         close(at(&points[0], "/summary/window/ci95/torque"), 2.0 * half);

@@ -4,7 +4,7 @@ use super::{escape, head};
 use crate::PostError;
 use crate::digits::digits;
 use crate::sweep::{
-    MEASURES, RULE, Sweep, SweepVerdict, sweep_figures, sweep_verdicts, value_text,
+    MEASURES, RULE, Sweep, SweepVerdict, steps, sweep_figures, sweep_verdicts, value_text,
 };
 use serde_json::Value;
 use std::fmt::Write;
@@ -28,6 +28,9 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
         if known.ensemble { "points of an ensemble" } else { "runs" },
         escape(&known.axes.join(", "))
     );
+    if let Some(text) = time_step(&known, &sweep["step"]) {
+        let _ = writeln!(out, "<p>{text}</p>");
+    }
     if known.ensemble {
         out.push_str(
             "<p>Each value is the mean over the members of its point, which differ by a disturbance of the \
@@ -51,6 +54,31 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
     Ok(out)
 }
 
+/// The time step of the runs, in a sentence, with the rule that it follows; `None` where no run has one.
+fn time_step(sweep: &Sweep<'_>, rule: &Value) -> Option<String> {
+    let Some(differing) = steps(sweep.completed()) else {
+        let step = sweep.completed().find_map(|run| run.step())?;
+        return Some(format!("Time step of all runs: {}.", nanoseconds([step, step])));
+    };
+    let why = match rule["rule"].as_str() {
+        Some("bound") => {
+            " (rule \u{201c}bound\u{201d}: time.factor times the stability limit of each run)"
+        }
+        _ => "",
+    };
+    Some(format!("The time step differs from run to run: {}{why}.", nanoseconds(differing)))
+}
+
+/// Time steps (s) in nanoseconds.
+fn nanoseconds([least, most]: [f64; 2]) -> String {
+    let of = |step: f64| digits(1e9 * step, 4);
+    if least == most {
+        format!("{} ns", of(least))
+    } else {
+        format!("{} to {} ns", of(least), of(most))
+    }
+}
+
 /// The verdicts, for each axis and each combination of values of the others.
 fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
     out.push_str("<h2>What settles, and what does not</h2>\n");
@@ -62,14 +90,22 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
     }
     let _ = writeln!(
         out,
-        "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to each measure, r growing as the axis is \
-         refined. {RULE} More: docs/checks.md of Creepage, Verdicts on a sweep.</p>"
+        "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to the last points of each measure, r growing as the \
+         axis is refined; T/N and shear over k<sub>t</sub> by springs in series, 1/v = 1/v\u{221e} + c/k<sub>t</sub>. \
+         {RULE} More: docs/checks.md of Creepage, Verdicts on a sweep.</p>"
     );
     let section = |a: &SweepVerdict, b: &SweepVerdict| a.axis == b.axis && a.others == b.others;
     for verdicts in verdicts.chunk_by(section) {
         let (axis, others) = (escape(&verdicts[0].axis), escape(&verdicts[0].others));
         let others = if others.is_empty() { others } else { format!(", {others}") };
         let _ = writeln!(out, "<h3>{axis}{others}</h3>");
+        if let Some(steps) = verdicts[0].steps {
+            let _ = writeln!(
+                out,
+                "<p>The time step changes along this axis, from {}: the trends may be of either.</p>",
+                nanoseconds(steps)
+            );
+        }
         let most = verdicts.iter().map(|verdict| verdict.points).max().unwrap_or(0);
         if most < 3 {
             let _ = writeln!(out, "<p>Cannot be told: {most} points; three are the least.</p>");

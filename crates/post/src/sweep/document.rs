@@ -68,9 +68,29 @@ impl<'a> Sweep<'a> {
         self.axes.iter().copied().filter(varies).collect()
     }
 
+    /// The form of an axis's numbers: empty, or the word that a table such as `{ stiffness = 3.5e13 }` has. Of several
+    /// forms that of most runs, since numbers of two forms cannot stand on one axis.
+    pub fn form(&self, axis: &str) -> &'a str {
+        let forms: Vec<&str> = self
+            .completed()
+            .filter_map(|run| run.number_in_form(axis))
+            .map(|(form, _)| form)
+            .collect();
+        let count = |form: &str| forms.iter().filter(|other| **other == form).count();
+        // the first of equals: `max_by_key` takes the last
+        forms.iter().rev().copied().max_by_key(|form| count(form)).unwrap_or_default()
+    }
+
+    /// The number that a run has on an axis, in the form of the axis.
+    pub fn number(&self, run: Run<'a>, axis: &str) -> Option<f64> {
+        let (form, number) = run.number_in_form(axis)?;
+        (form == self.form(axis)).then_some(number)
+    }
+
     /// The values of an axis, rising.
     pub fn values(&self, axis: &str) -> Vec<f64> {
-        let mut values: Vec<f64> = self.completed().filter_map(|run| run.number(axis)).collect();
+        let mut values: Vec<f64> =
+            self.completed().filter_map(|run| self.number(run, axis)).collect();
         values.sort_by(f64::total_cmp);
         values.dedup();
         values
@@ -82,7 +102,7 @@ impl<'a> Sweep<'a> {
         let mut groups: Vec<Group<'a>> = Vec::new();
         let mut all = Group { label: String::new(), members: Vec::new() };
         for run in self.completed() {
-            let Some(value) = run.number(axis) else {
+            let Some(value) = self.number(run, axis) else {
                 continue;
             };
             let others = self.axes.iter().filter(|other| **other != axis);
@@ -123,8 +143,17 @@ impl<'a> Run<'a> {
         self.entry["parameters"][key].clone()
     }
 
-    pub fn number(self, key: &str) -> Option<f64> {
-        self.entry["parameters"][key].as_f64().filter(|value| value.is_finite())
+    /// The form of a parameter and its number.
+    fn number_in_form(self, key: &str) -> Option<(&'a str, f64)> {
+        let value = &self.entry["parameters"][key];
+        let only = || value.as_object().filter(|table| table.len() == 1)?.iter().next();
+        let (form, value) = only().map_or(("", value), |(form, value)| (form.as_str(), value));
+        Some((form, value.as_f64().filter(|number| number.is_finite())?))
+    }
+
+    /// Its time step (s).
+    pub fn step(self) -> Option<f64> {
+        self.entry.pointer("/summary/dt")?.as_f64()
     }
 
     /// Its folder, relative to that of the sweep.
@@ -133,12 +162,28 @@ impl<'a> Run<'a> {
     }
 }
 
+/// Smallest and largest time step of runs (s), where they differ by more than rounding.
+pub(crate) fn steps<'a>(runs: impl Iterator<Item = Run<'a>>) -> Option<[f64; 2]> {
+    let [least, most] = runs
+        .filter_map(Run::step)
+        .fold([f64::INFINITY, 0.0], |[a, b], step| [f64::min(a, step), f64::max(b, step)]);
+    (most > (1.0 + SAME_STEP) * least).then_some([least, most])
+}
+
+/// Relative difference of steps that are one: members of an ensemble differ by their disturbance.
+const SAME_STEP: f64 = 1e-6;
+
 /// A parameter's value as text.
 pub(crate) fn value_text(value: &Value) -> String {
     match value {
         Value::Number(n) => n.as_f64().map_or(String::new(), short),
         Value::String(text) => text.clone(),
         Value::Null => "\u{2013}".into(),
+        Value::Object(table) => {
+            let entries: Vec<String> =
+                table.iter().map(|(word, value)| format!("{word} {}", value_text(value))).collect();
+            entries.join(", ")
+        }
         other => other.to_string(),
     }
 }

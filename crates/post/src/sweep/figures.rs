@@ -52,7 +52,7 @@ fn stem(axis: &str) -> String {
 
 /// Every measure over an axis, a line for each group, with bars for its uncertainty.
 fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figure> {
-    let x = axis_over(&label(axis), &sweep.values(axis));
+    let x = axis_over(&label(axis, sweep.form(axis)), &sweep.values(axis));
     let mut panels = Vec::new();
     for measure in &MEASURES {
         let lines: Vec<(&Group<'_>, Vec<(f64, Point)>)> = groups
@@ -168,7 +168,7 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
             .completed()
             .filter_map(|run| {
                 let at = |i: usize| {
-                    let value = run.number(axes[i])?;
+                    let value = sweep.number(run, axes[i])?;
                     values[i].iter().position(|known| *known == value)
                 };
                 Some(([at(0)?, at(1)?], measure.of(run)?.value))
@@ -200,8 +200,8 @@ fn maps(sweep: &Sweep<'_>, axes: [&str; 2]) -> Option<Figure> {
             title: measure.heading(),
             fill: Some(Fill { cells, key }),
             ..Panel::new(
-                axis_over(&label(axes[0]), &values[0]),
-                axis_over(&label(axes[1]), &values[1]),
+                axis_over(&label(axes[0], sweep.form(axes[0])), &values[0]),
+                axis_over(&label(axes[1], sweep.form(axes[1])), &values[1]),
             )
         });
     }

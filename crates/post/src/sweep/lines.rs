@@ -7,9 +7,10 @@ use figure::{Axis, Draw, Series, colour};
 pub(super) const GROUPS: [[u8; 3]; 6] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::BLACK];
 
-/// The label of an axis: its key with the unit.
-pub(super) fn label(axis: &str) -> String {
+/// The label of an axis: its key with the unit of its numbers in a form.
+pub(super) fn label(axis: &str, form: &str) -> String {
     let unit = match axis {
+        _ if form == "stiffness" => "N/m\u{b3}",
         "mesh.zone.size" | "time.roll" | "friction.distance" | "friction.memory.distance" => "m",
         "time.step" | "drive.ramp" | "time.duration" | "damping.kelvin_voigt" => "s",
         "friction.decay" => "s/m",

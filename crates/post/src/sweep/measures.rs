@@ -16,6 +16,8 @@ pub(crate) struct SweepMeasure {
     sources: &'static [Source],
     /// Whether the table of runs shows it.
     pub in_table: bool,
+    /// Whether it is a force of friction, which friction springs carry.
+    pub of_friction: bool,
 }
 
 /// JSON pointers to a value, to half the width of its 95 % confidence interval (the first that is there), and to its
@@ -33,11 +35,6 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// Its uncertainty: the width of its interval, without one its standard deviation.
-    pub fn scatter(&self) -> Option<f64> {
-        self.half.map(|half| 2.0 * half).or(self.deviation)
-    }
-
     /// Length of its bar in a figure to either side: half its interval, without one its standard deviation.
     pub fn bar(&self) -> Option<f64> {
         self.half.or(self.deviation)
@@ -51,7 +48,12 @@ const fn measure(
     in_table: bool,
     sources: &'static [Source],
 ) -> SweepMeasure {
-    SweepMeasure { name, unit, factor, sources, in_table }
+    SweepMeasure { name, unit, factor, sources, in_table, of_friction: false }
+}
+
+/// The measure as one of a force of friction.
+const fn of_friction(measure: SweepMeasure) -> SweepMeasure {
+    SweepMeasure { of_friction: true, ..measure }
 }
 
 /// Source of a measure of the contact conditions.
@@ -118,8 +120,20 @@ pub(crate) const MEASURES: [SweepMeasure; 23] = [
         mean!("contact", "peak_pressure", "peak_pressure"),
     ),
     measure("creepage", "10\u{207b}\u{b3}", 1e3, true, mean!("contact", "creepage", "creepage")),
-    measure("T/N", "", 1.0, true, mean!("contact", "traction_coefficient", "traction_coefficient")),
-    measure("peak shear", "MPa", 1e-6, true, mean!("window", "peak_shear", "peak_shear")),
+    of_friction(measure(
+        "T/N",
+        "",
+        1.0,
+        true,
+        mean!("contact", "traction_coefficient", "traction_coefficient"),
+    )),
+    of_friction(measure(
+        "peak shear",
+        "MPa",
+        1e-6,
+        true,
+        mean!("window", "peak_shear", "peak_shear"),
+    )),
     measure("half length", "mm", 1e3, true, mean!("contact", "patch_half_length", "half_length")),
     measure("stick fraction", "", 1.0, true, mean!("contact", "stick_fraction", "stick_fraction")),
     measure("power of friction", "kW", 1e-3, false, &[patch!("power")]),

@@ -1,8 +1,8 @@
 //! The verdicts of a sweep: every measure along every axis.
 
-use super::document::Sweep;
-use super::measures::MEASURES;
-use super::trend::{Sample, Trend, trend};
+use super::document::{Sweep, steps};
+use super::measures::{MEASURES, Point, SweepMeasure};
+use super::trend::{Refinement, Sample, Trend, trend};
 use crate::PostError;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,6 +20,9 @@ pub struct SweepVerdict {
     pub unit: &'static str,
     /// Number of points.
     pub points: usize,
+    /// Smallest and largest time step of the runs (s), where the step changes along the axis and is not what the
+    /// axis gives.
+    pub steps: Option<[f64; 2]>,
     /// The trend.
     pub trend: Trend,
 }
@@ -33,6 +36,7 @@ impl SweepVerdict {
             "measure": self.measure,
             "unit": self.unit,
             "points": self.points,
+            "time_steps": self.steps,
             "verdict": self.trend.word(),
             "why": self.trend.sentence(self.points, self.unit),
         })
@@ -43,9 +47,23 @@ impl SweepVerdict {
 const TOWARDS_ZERO: [&str; 5] =
     ["mesh.zone.size", "mesh.growth", "mesh.coarsest", "time.factor", "time.step"];
 
+/// Axes that give the time step.
+const OF_THE_STEP: [&str; 2] = ["time.factor", "time.step"];
+
 /// Whether an axis is refined towards zero.
 pub(crate) fn towards_zero(axis: &str) -> bool {
     TOWARDS_ZERO.contains(&axis)
+}
+
+/// The springs that friction forces pass through, in series with the bodies.
+const SPRINGS: &str = "contact.penalty.tangential";
+
+fn refinement(axis: &str, measure: &SweepMeasure) -> Refinement {
+    match axis {
+        SPRINGS if measure.of_friction => Refinement::Springs,
+        _ if towards_zero(axis) => Refinement::TowardsZero,
+        _ => Refinement::Upwards,
+    }
 }
 
 /// The verdicts on all measures that the runs of a sweep have, along each axis of numbers; values of the axis that
@@ -58,6 +76,8 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
     let mut verdicts = Vec::new();
     for axis in sweep.numeric_axes() {
         for group in sweep.groups(axis) {
+            let steps = steps(group.members.iter().map(|(_, run)| *run));
+            let steps = steps.filter(|_| !OF_THE_STEP.contains(&axis));
             for measure in &MEASURES {
                 let samples: Vec<Sample> = group
                     .members
@@ -65,9 +85,8 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
                     // a value of zero has no place on the fitted trend
                     .filter(|(x, _)| *x > 0.0)
                     .filter_map(|(x, run)| {
-                        let point = measure.of(*run)?;
-                        let scatter = point.scatter().unwrap_or(0.0);
-                        Some(Sample { x: *x, value: point.value, scatter })
+                        let Point { value, half, deviation } = measure.of(*run)?;
+                        Some(Sample { x: *x, value, half, deviation })
                     })
                     .collect();
                 if !samples.is_empty() {
@@ -77,7 +96,8 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
                         measure: measure.name,
                         unit: measure.unit,
                         points: samples.len(),
-                        trend: trend(&samples, towards_zero(axis)),
+                        steps,
+                        trend: trend(&samples, refinement(axis, measure)),
                     });
                 }
             }
