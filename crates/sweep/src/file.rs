@@ -161,25 +161,31 @@ impl Sweep {
             );
             return refuse(&format!("axis[{i}].key"), &message, "give all axes the same number");
         }
-        let by_axis = self.axes.iter().any(|axis| axis.key.starts_with("time."));
-        let stated = self.step.is_some() || by_axis || taken.contains(&"time.step");
+        let by_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
+        let given = taken.contains(&"time.step");
         let moves = self.axes.iter().position(|axis| moves_the_limit(&axis.key));
         if let Some(i) = moves
-            && !stated
+            && self.step.is_none()
+            && !given
         {
             let message = format!(
                 "{} changes the stability limit: the file must say what the time step does",
                 self.axes[i].key
             );
-            let remedy = "add [[derive]] with key = \"time.step\" and rule = \"bound\" (each run a \
-                          fraction of its own limit) or \"fixed\" (all runs the same step, by the \
-                          smallest limit)";
+            let remedy = "add [[derive]] with key = \"time.step\" and rule = \"fixed\" (all runs the same step, by the \
+                          smallest limit) or \"bound\" (each run a fraction of its own limit), or [set] with time.step";
             return refuse(&format!("axis[{i}].key"), &message, remedy);
         }
-        if self.step.is_some() && (by_axis || taken.contains(&"time.step")) {
-            let at = format!("derive[{}].key", self.derive_of("time.step"));
-            let message = "time.step is derived, but an axis or [set] gives the time itself";
+        let at = format!("derive[{}].key", self.derive_of("time.step"));
+        if self.step.is_some() && given {
+            let message = "time.step is derived, but an axis, [set] or another [[derive]] gives it";
             return refuse(&at, message, "leave out the rule or the other");
+        }
+        if self.step == Some(StepRule::Fixed) && by_axis("time.factor") {
+            let message =
+                "rule = \"fixed\" gives all runs the same step, but an axis varies time.factor";
+            let remedy = "write rule = \"bound\": each run takes its time.factor of its own limit; or leave out that axis";
+            return refuse(&at, message, remedy);
         }
         Ok(())
     }

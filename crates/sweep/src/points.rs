@@ -6,11 +6,11 @@ use serde_json::{Map, Value as Json, json};
 use sha2::{Digest, Sha256};
 use toml::Value;
 
-use crate::file::{Mode, Sweep};
+use crate::file::{Axis, Mode, Sweep};
 use case::error::CaseError;
-use case::forms::float;
+use case::forms::{Stiffness, float};
 use case::name;
-use case::schema::Case;
+use case::schema::{Case, Enforcement};
 use output::hexadecimal;
 use scenario::{Remedy, ScenarioError};
 
@@ -87,9 +87,30 @@ impl Sweep {
         }
         sets.push(format!("name=\"{name}\""));
         let case = Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
+        self.keep_springs(&case)?;
         let parameters =
             chosen.iter().map(|(key, value)| ((*key).to_owned(), json!(value))).collect();
         Ok(Point { name, parameters, case, elements: 0, indices })
+    }
+
+    /// Refuses to vary the time step where a spring is a fraction of what the step bears: it would vary as well.
+    fn keep_springs(&self, case: &Case) -> Result<(), CaseError> {
+        let of_the_step = |axis: &Axis| ["time.factor", "time.step"].contains(&axis.key.as_str());
+        let Some(i) = self.axes.iter().position(of_the_step) else { return Ok(()) };
+        let penalty = &case.contact.penalty;
+        let springs = [("normal", penalty.normal), ("tangential", penalty.tangential)];
+        let tied = |(_, spring): &(&str, Stiffness)| matches!(spring, Stiffness::Stability(_));
+        let Some((name, _)) = springs.into_iter().find(tied) else { return Ok(()) };
+        if case.contact.enforcement == Enforcement::Exact {
+            return Ok(());
+        }
+        let message = format!(
+            "{} varies the time step, and contact.penalty.{name} is a fraction of the stability limit: the spring would \
+             vary with the step",
+            self.axes[i].key
+        );
+        let remedy = "give the spring as a scale factor (0.1) or an areal stiffness ({ stiffness = 3.5e13 })";
+        Err(CaseError::Key(Box::new(self.layers.error_at(&self.axis_place(i), &message, remedy))))
     }
 
     /// Sets [`Point::elements`] of every run by making its mesh; equal meshes are made once.

@@ -109,6 +109,46 @@ fn a_rule_for_the_step_replaces_an_absolute_step_of_the_base() {
     assert_eq!(step(Sweep::load(&path).unwrap()), Step::Fraction(0.67));
 }
 
+const KT: &str = "[[axis]]\nkey = \"contact.penalty.tangential\"\nvalues = [0.1, 1.0]\n";
+
+#[test]
+fn beside_an_axis_that_changes_the_limit_no_key_of_the_time_but_the_step_says_what_the_step_does() {
+    let with = |more: &str| sweep(&format!("{KT}{more}")).1;
+    let factor = "[[axis]]\nkey = \"time.factor\"\nvalues = [0.3, 0.6]\n";
+    let roll = "[[axis]]\nkey = \"time.roll\"\nvalues = [0.01, 0.02]\n";
+    for more in [factor, roll, "[set]\ntime.factor = 0.5\n"] {
+        let error = with(more).unwrap_err().to_string();
+        assert!(
+            error.contains("contact.penalty.tangential changes the stability limit"),
+            "{error}"
+        );
+    }
+    let bound = "[[derive]]\nkey = \"time.step\"\nrule = \"bound\"\n";
+    let steps: Vec<Step> =
+        cases(&format!("{KT}{factor}{bound}")).iter().map(|case| case.step()).collect();
+    assert_eq!(steps, [0.3, 0.6, 0.3, 0.6].map(Step::Fraction));
+    assert_eq!(cases(&format!("{KT}{roll}{bound}")).len(), 4);
+    let fixed = bound.replace("bound", "fixed");
+    let error = with(&format!("{factor}{fixed}")).unwrap_err().to_string();
+    assert!(error.contains("all runs the same step, but an axis varies time.factor"), "{error}");
+    let step = "[[axis]]\nkey = \"time.step\"\nvalues = [1e-8, 2e-8]\n";
+    assert_eq!(cases(&format!("{KT}{step}")).len(), 4);
+}
+
+#[test]
+fn a_spring_that_is_a_fraction_of_the_limit_is_no_constant_of_a_sweep_of_the_step() {
+    let set = "[set]\ncontact.penalty.tangential = { stability = 0.5 }\n";
+    for (key, values) in [("time.factor", "0.2, 0.4"), ("time.step", "1e-8, 2e-8")] {
+        let axis = format!("[[axis]]\nkey = \"{key}\"\nvalues = [{values}]\n");
+        let (_dir, tied) = sweep(&format!("{set}{axis}"));
+        let error = tied.unwrap().points().unwrap_err().to_string();
+        assert!(error.contains("contact.penalty.tangential is a fraction"), "{error}");
+        assert_eq!(cases(&axis).len(), 2);
+        let exact = format!("{set}contact.enforcement = \"exact\"\n{axis}");
+        assert_eq!(cases(&exact).len(), 2, "there is no spring");
+    }
+}
+
 #[test]
 fn a_step_and_its_fraction_take_one_another_back_and_are_refused_together() {
     let both = format!("{SHORT}time.step = 1e-7\ntime.factor = 0.5\n");

@@ -42,6 +42,14 @@ pub fn text(sweep: &Value, folder: &Path, page: &Path) -> String {
             let _ = writeln!(out, "{}: {reason}", word(run, "/name"));
         }
     }
+    let steps = runs.iter().filter_map(|run| number(run, "/summary/dt"));
+    let [least, most] =
+        steps.fold([f64::INFINITY, 0.0], |[a, b], step| [f64::min(a, step), f64::max(b, step)]);
+    // members of an ensemble differ by their disturbance
+    if most > least * (1.0 + 1e-6) {
+        let [least, most] = [least, most].map(|step| digits(Some(1e9 * step), 4));
+        let _ = writeln!(out, "\nThe time step differs from run to run: {least} to {most} ns");
+    }
     let completed = runs.iter().filter(|run| run["status"] == "completed").count();
     let _ = writeln!(
         out,

@@ -103,6 +103,10 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
         (after_axis("values = [0.1"), &["sweep.toml:5", "TOML"]),
         (KT.into(), &["sweep.toml:3", "stability limit", "[[derive]]"]),
         (
+            format!("{KT}[[axis]]\nkey = \"time.factor\"\nvalues = [0.3, 0.6]\n"),
+            &["sweep.toml:3", "stability limit", "rule = \"fixed\"", "[set] with time.step"],
+        ),
+        (
             format!("{KT}[[derive]]\nkey = \"time.step\"\nrule = \"both\"\n"),
             &["sweep.toml:7", "\"bound\" or \"fixed\""],
         ),
