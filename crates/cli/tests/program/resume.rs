@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use output::{CHECKPOINTS, Checkpoint, HistoryFile};
 use runs::kill::{BUSY, EXACT_WITH_MEMORY, KillLoop, python};
-use runs::{results, timeless};
+use runs::{heeding_signals, results, timeless};
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
 
 fn creepage(out: &Path, more: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    let mut command = heeding_signals(env!("CARGO_BIN_EXE_creepage"));
     command.args(["run", CASE, "--threads", "2", "--out"]).arg(out).args(more);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
