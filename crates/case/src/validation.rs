@@ -7,7 +7,7 @@ mod sideways;
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
 use crate::friction_law;
-use crate::hertz::hertz;
+use crate::hertz::{dundurs_beta, hertz};
 use crate::key::number;
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
@@ -697,6 +697,14 @@ pub fn warnings(case: &Case) -> Vec<String> {
             1e3 * size,
             1e3 * patch.a,
             1e3 * patch.b
+        ),
+    );
+    let beta = dundurs_beta(case);
+    warn(
+        beta.abs() > 1e-6,
+        format!(
+            "the materials of disk and bar differ (Dundurs' beta {beta:.3}): creepage 0 is not free rolling, and creep-force \
+             curves are shifted by the creepage that a run with drive.torque = 0 finds"
         ),
     );
     warn(

@@ -2,6 +2,7 @@
 
 mod any_input;
 mod half_space;
+mod materials;
 mod refusals;
 mod schema;
 
