@@ -114,8 +114,9 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     let radius = 0.5 * span(&tread, 0);
     if !close(radius, disk.radius) {
         let expected = disk.radius;
-        let unit = Unit::ALL.into_iter().filter(|u| *u != Unit::Metre);
-        let mut unit = unit.filter(|u| close(u.metres(radius), expected));
+        let written = radius / imported.unit.metres(1.0);
+        let unit = Unit::ALL.into_iter().filter(|u| *u != imported.unit);
+        let mut unit = unit.filter(|u| close(u.metres(written), expected));
         return Err(match unit.next() {
             Some(unit) => Fault::Unit { found: digits(radius), expected, unit },
             None => size(Parameter::DiskRadius, radius, expected),
