@@ -13,7 +13,7 @@ use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
 use crate::schema::{BodyModel, Case, Enforcement, LoadMode, PreloadMethod, Stiffness, Window};
-use crate::units::mistaken;
+use crate::units::{digits, mistaken};
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
@@ -447,7 +447,7 @@ fn check_length(case: &Case, found: &mut Findings) {
             format!(
                 "the run of {} s needs about {steps:.1e} time steps, more than {MOST_STEPS:.0e}: \
                  at a millisecond each that is {:.0} days",
-                number(case.duration()),
+                digits(case.duration()),
                 steps * 1e-3 / 86400.0
             )
         },
@@ -593,10 +593,10 @@ fn check_path(case: &Case, found: &mut Findings) {
         &["mesh.zone.start", "load.normal", "material.young"],
         || {
             format!(
-                "mesh.zone.start = {} m must be at most {:.5} m: the patch at the start reaches \
+                "mesh.zone.start = {} m must be at most {} m: the patch at the start reaches \
                  back so far",
                 number(zone.start),
-                rear
+                digits(rear)
             )
         },
         &help("start the fine zone further back, or reduce the load"),
@@ -614,9 +614,10 @@ fn check_path(case: &Case, found: &mut Findings) {
         ],
         || {
             format!(
-                "the patch (half length {:.2} mm) ends at x = {front:.5} m after rolling {} m, \
+                "the patch (half length {} mm) ends at x = {} m after rolling {} m, \
                  but the fine zone ends at {} m",
-                1e3 * patch.a,
+                digits(1e3 * patch.a),
+                digits(front),
                 number(round(case.rolled())),
                 number(round(end))
             )
@@ -630,11 +631,11 @@ fn check_path(case: &Case, found: &mut Findings) {
         &["mesh.window", "mesh.zone.size", "load.normal", "material.young"],
         || {
             format!(
-                "mesh.window = {} m must be at least {:.5} m: the patch (half length {:.2} mm) with room to move on by one \
+                "mesh.window = {} m must be at least {} m: the patch (half length {} mm) with room to move on by one \
                  element",
                 number(case.mesh.window.unwrap_or_default()),
-                case.shortest_window(),
-                1e3 * patch.a
+                digits(case.shortest_window()),
+                digits(1e3 * patch.a)
             )
         },
         &help("lengthen the window: three patches are sensible"),
@@ -644,9 +645,9 @@ fn check_path(case: &Case, found: &mut Findings) {
         &["mesh.zone.width", "load.normal", "material.young"],
         || {
             format!(
-                "mesh.zone.width = {} m must be at least the patch's width, {:.5} m",
+                "mesh.zone.width = {} m must be at least the patch's width, {} m",
                 number(zone.width),
-                2.0 * patch.b
+                digits(2.0 * patch.b)
             )
         },
         &help("widen the fine zone, reduce the load, or give the bar a smaller crown_radius"),
@@ -693,10 +694,10 @@ pub fn warnings(case: &Case) -> Vec<String> {
     warn(
         size > 0.5 * least,
         format!(
-            "mesh.zone.size = {} mm is coarse for a patch of half axes {:.2} and {:.2} mm",
-            1e3 * size,
-            1e3 * patch.a,
-            1e3 * patch.b
+            "mesh.zone.size = {} mm is coarse for a patch of half axes {} and {} mm",
+            digits(1e3 * size),
+            digits(1e3 * patch.a),
+            digits(1e3 * patch.b)
         ),
     );
     let beta = dundurs_beta(case);
@@ -710,9 +711,9 @@ pub fn warnings(case: &Case) -> Vec<String> {
     warn(
         case.drive.ramp > case.evaluation_window()[0],
         format!(
-            "the evaluation window begins at {:.3} ms, before the drive's ramp ends at {:.3} ms",
-            1e3 * case.evaluation_window()[0],
-            1e3 * case.drive.ramp
+            "the evaluation window begins at {} ms, before the drive's ramp ends at {} ms",
+            digits(1e3 * case.evaluation_window()[0]),
+            digits(1e3 * case.drive.ramp)
         ),
     );
     for (key, stiffness) in
@@ -731,7 +732,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
             format!(
                 "an output window begins at {} s, after the end of the run at {} s",
                 number(window.from),
-                number(case.duration())
+                digits(case.duration())
             ),
         );
     }

@@ -7,7 +7,7 @@ use super::order::along_curve;
 use super::parts::Parts;
 use super::unit::Unit;
 use crate::check::boundary;
-use crate::error::MAX_ELEMENTS;
+use crate::error::{MAX_ELEMENTS, digits};
 use crate::grid::nodes_of;
 use crate::near::{duplicates, hanging};
 use crate::quality::scaled_jacobian;
@@ -322,7 +322,8 @@ fn check_body(imported: &Imported, index: usize) -> Result<Vec<Face>, ImportErro
         // in the order of the file's numbers
         let (a, b) = if nodes.id(a) <= nodes.id(b) { (a, b) } else { (b, a) };
         let (first, second) = (nodes.id(a), nodes.id(b));
-        let fault = Fault::Coincident { first, second, body: name, point: mesh.nodes[b] };
+        let fault =
+            Fault::Coincident { first, second, body: name, point: mesh.nodes[b].map(digits) };
         return Err(nodes.fault(b, fault));
     }
     let outside = boundary(mesh, body).map_err(|error| match error {

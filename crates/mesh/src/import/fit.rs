@@ -4,6 +4,7 @@ use super::bodies::Imported;
 use super::error::{Fault, ImportError, SetRole};
 use super::unit::Unit;
 use crate::check::boundary;
+use crate::error::digits;
 use crate::grid::nodes_of;
 use crate::{
     Bar, Disk, Face, FineZone, Mesh, Parameter, SmoothSurface, Surface, quad_corner_areas,
@@ -165,11 +166,6 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
 
 fn size(parameter: Parameter, found: f64, expected: f64) -> Fault {
     Fault::Size { parameter, found: digits(found), expected }
-}
-
-/// A measured length rounded to six digits, for messages.
-fn digits(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
 }
 
 struct Extent {

@@ -209,7 +209,7 @@ impl Reader {
             }
             "NSET" => {
                 let set = self.needed_set(&mut keyword, "NSET")?;
-                self.node_sets.entry(set.clone()).or_default();
+                self.node_set(&set);
                 if let Some(of) = keyword.value("ELSET")? {
                     keyword.end(&HARMLESS)?;
                     self.nodes_of_elements(&set, Name::of(&of), at);
@@ -222,6 +222,7 @@ impl Reader {
             }
             "ELSET" => {
                 let set = self.needed_set(&mut keyword, "ELSET")?;
+                self.element_set(&set);
                 let generate = keyword.flag("GENERATE")?;
                 keyword.end(&HARMLESS)?;
                 Ok(Block::ElementSet { set, generate })
