@@ -160,10 +160,10 @@ impl Form {
                     factor.1, areal.1, stability.1
                 )
             }
-            Form::Curve => {
-                "the path of a CSV file or a list of pairs [slip velocity, coefficient]".into()
-            }
-            Points => format!("a list of pairs of numbers between -10 and 10{unit}"),
+            Form::Curve(speed, mu) => format!(
+                "the path of a CSV file or a list of pairs [slip velocity {speed} m/s, coefficient {mu}]"
+            ),
+            Points(range) => format!("a list of pairs of numbers {range}{unit}"),
         }
     }
 }

@@ -461,6 +461,33 @@ fn check_records(case: &Case, found: &mut Findings) {
     let steps = steps(case);
     let (duration, output) = (case.duration(), &case.output);
     let step = duration / steps;
+    let rolled = if case.time.duration.is_some() { "time.duration" } else { "time.roll" };
+    found.require(
+        duration >= SHORTEST * step,
+        &[rolled],
+        || {
+            format!(
+                "{rolled} makes a run of {} s, far below the time step, which is about {step:.0e} s",
+                number(duration)
+            )
+        },
+        "roll further: 0.06 m, or 1.5e-3 s",
+    );
+    let [from, to] = case.evaluation_window();
+    let window =
+        if case.evaluate.transits.is_some() { "evaluate.transits" } else { "evaluate.last" };
+    found.require(
+        to - from >= SHORTEST * step.min(duration),
+        &[window],
+        || {
+            format!(
+                "{window} makes an evaluation window of {} s, far below the time step, which is about {step:.0e} s: \
+                 no step ends in it, and no mean has a value",
+                number(to - from)
+            )
+        },
+        "take the means over a longer stretch: evaluate.last = 0.02",
+    );
     let intervals = [
         ("output.fields_interval", Some(case.fields_interval())),
         ("output.contact_interval", Some(output.contact_interval)),
@@ -523,10 +550,18 @@ fn check_records(case: &Case, found: &mut Findings) {
     }
 }
 
-/// Warnings about intervals that are shorter than the time step `dt` (s), one sentence each. The default interval of
-/// a very short run gives none.
+/// Warnings about intervals and an evaluation window that are shorter than the time step `dt` (s), one sentence each. The
+/// default interval of a very short run gives none.
 pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
     let default = case.duration() / Case::SNAPSHOTS;
+    let [from, to] = case.evaluation_window();
+    let window = (to - from < dt).then(|| {
+        format!(
+            "the evaluation window of {:.2e} s is shorter than the time step, {dt:.2e} s: it may hold no step, and the \
+             means then have no value",
+            to - from
+        )
+    });
     [
         ("output.fields_interval", Some(case.fields_interval())),
         ("output.contact_interval", Some(case.output.contact_interval)),
@@ -541,6 +576,7 @@ pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
             number(interval)
         )
     })
+    .chain(window)
     .collect()
 }
 
@@ -579,7 +615,18 @@ fn units(case: &Case) -> Vec<String> {
     found
 }
 
-/// The patch, by Hertz, must stay inside the fine zone while rolling from x = 0.
+/// A length in millimetres.
+fn mm(x: f64) -> String {
+    digits(1e3 * x)
+}
+
+/// The shorter half axis of the patch (m) that elements must resolve; a slice has none across.
+fn least_half_axis(case: &Case) -> f64 {
+    let patch = hertz(case);
+    if case.mesh.plane_strain { patch.a } else { patch.a.min(patch.b) }
+}
+
+/// The patch, by Hertz, must not be lost in one element, and must stay inside the fine zone while rolling from x = 0.
 fn check_path(case: &Case, found: &mut Findings) {
     // a wrong unit is the likely cause of an absurd patch
     let units = units(case).into_iter().map(|unit| format!("; {unit}")).collect::<String>();
@@ -588,6 +635,27 @@ fn check_path(case: &Case, found: &mut Findings) {
     let patch = hertz(case);
     let (rear, front) = (-patch.a, case.rolled() + patch.a);
     let follows = case.mesh.window.is_some();
+    let least = least_half_axis(case);
+    // half-spaces count points in the patch; a disk that falls presses harder than its load
+    let rests = !case.is_half_space() && case.preload.method != PreloadMethod::None;
+    found.require(
+        !rests || zone.size <= 2.0 * least,
+        &["load.normal", "mesh.zone.size", "material.young"],
+        || {
+            format!(
+                "mesh.zone.size = {} mm is larger than the patch of load.normal = {} N, {} by {} mm by Hertz: no more \
+                 than a node touches, and its force is that of the node's place and not the load",
+                mm(zone.size),
+                number(case.load.normal),
+                mm(2.0 * patch.a),
+                mm(2.0 * patch.b)
+            )
+        },
+        &help(&format!(
+            "raise load.normal, or set mesh.zone.size = {} or less, a quarter of the patch",
+            digits(0.5 * least)
+        )),
+    );
     found.require(
         follows || zone.start <= rear,
         &["mesh.zone.start", "load.normal", "material.young"],
@@ -689,15 +757,13 @@ pub fn warnings(case: &Case) -> Vec<String> {
     );
     let patch = hertz(case);
     let size = case.mesh.zone.size;
-    // a slice is not resolved across
-    let least = if case.mesh.plane_strain { patch.a } else { patch.a.min(patch.b) };
     warn(
-        size > 0.5 * least,
+        size > 0.5 * least_half_axis(case),
         format!(
             "mesh.zone.size = {} mm is coarse for a patch of half axes {} and {} mm",
-            digits(1e3 * size),
-            digits(1e3 * patch.a),
-            digits(1e3 * patch.b)
+            mm(size),
+            mm(patch.a),
+            mm(patch.b)
         ),
     );
     let beta = dundurs_beta(case);

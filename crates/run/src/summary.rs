@@ -128,7 +128,7 @@ pub(crate) fn summary(
         ("stability", json!(facts.stability)),
         ("rolling_radius", rolling_radius(case, facts, means)),
         ("half_space", half_space),
-        ("window", window(case, means)),
+        ("window", window(case, means, ending.status)),
         ("mesh_mode", means.mesh_mode.json(case)),
         ("checks", checks),
         ("exact_contact", json!(exact)),
@@ -222,8 +222,10 @@ pub(crate) fn contact_means(means: &Means) -> Contact {
 
 /// The section `window`: the span of the evaluation window (s), means that the section `contact` does not hold, and
 /// standard deviations.
-pub(crate) fn window(case: &Case, means: &Means) -> serde_json::Value {
+pub(crate) fn window(case: &Case, means: &Means, status: Status) -> serde_json::Value {
     let [from, to] = case.evaluation_window();
+    let misses = Some(means).filter(|_| status == Status::Completed);
+    let misses = misses.and_then(|means| means.load_warning(case));
     json!({
         "from": from,
         "to": to,
@@ -233,6 +235,7 @@ pub(crate) fn window(case: &Case, means: &Means) -> serde_json::Value {
         "torque": means.torque.mean(),
         "max_penetration": means.penetration.mean(),
         "hourglass_share": means.hourglass_share.mean(),
+        "warnings": misses.as_slice(),
         "deviation": {
             "normal_force": means.force[2].deviation(),
             "tangential_force": means.force[0].deviation(),

@@ -153,7 +153,7 @@ fn mesh_mode(out: &mut String, summary: &Value) {
             energy.unwrap_or_default()
         );
     }
-    let warnings = ["/mesh_mode/warnings", "/exact_contact/warnings"];
+    let warnings = ["/window/warnings", "/mesh_mode/warnings", "/exact_contact/warnings"];
     let warnings = warnings.iter().filter_map(|list| summary.pointer(list)?.as_array());
     for warning in warnings.flatten().filter_map(Value::as_str) {
         let _ = writeln!(out, "  warning: {warning}");
