@@ -135,7 +135,8 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         (
             "load.normal=1",
             vec![
-                "mesh.zone.size = 1 mm is larger than the patch of load.normal = 1 N, 0.3086 by 0.2321 mm",
+                "mesh.zone.size = 1 mm is more than twice the shorter axis of the patch of load.normal = 1 N",
+                "0.3086 by 0.2321 mm",
                 "mesh.zone.size = 5.803e-5 or less",
             ],
         ),
