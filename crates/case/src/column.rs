@@ -32,8 +32,8 @@ pub(crate) fn unit_size(heading: &str, unit: &str) -> Result<f64, String> {
         _ => String::new(),
     };
     let ends = [ratio.as_str(), word].into_iter().filter(|end| end.len() < heading.len());
-    // a single letter is a symbol, such as s of the slip velocity
-    let named = ends.filter(|end| *end == "%" || end.chars().count() > 1);
+    // a single letter is a symbol, such as s of the slip velocity, and min a minimum
+    let named = ends.filter(|end| *end == "%" || (end.chars().count() > 1 && *end != "min"));
     match named.into_iter().find(|end| is_unit(end)) {
         Some(end) => size(end).ok_or_else(|| end.to_owned()),
         None => Ok(1.0),
@@ -69,6 +69,7 @@ mod tests {
             ("slip mm per s", "m/s", 1e-3),
             ("s", "m/s", 1.0),
             ("slip velocity", "m/s", 1.0),
+            ("slip_min", "m/s", 1.0),
             ("mu (-)", "-", 1.0),
             ("mu (%)", "-", 1e-2),
             ("friction %", "-", 1e-2),

@@ -12,8 +12,9 @@ use crate::quantity::rounded;
 const KEY: &str = "friction.table";
 
 /// What the file of a friction table is.
-pub const REMEDY: &str = "two columns: slip velocity, rising from 0, and coefficient, with a comma between and decimal points; in m/s and \
-     without a unit, or in the units that a heading names: `slip (mm/s), mu (%)`; lines that start with # are passed over";
+pub const REMEDY: &str = "two columns: slip velocity, rising from 0, and coefficient, with a comma between and \
+                          decimal points; in m/s and without a unit, or in the units that a heading names: \
+                          `slip (mm/s), mu (%)`; lines that start with # are passed over";
 
 /// The units of the columns in the law.
 const UNITS: [&str; 2] = ["m/s", "-"];

@@ -286,7 +286,10 @@ impl Remedy for StaticsError {
             Self::Inverted { .. } | Self::Flat { .. } => remedy!(
                 "lower load.normal; `creepage mesh` tells what Hertz's contact expects of it"
             ),
-            Self::Open { .. } => remedy!("give a load.normal that presses the disk on the bar"),
+            Self::Open { .. } => remedy!(
+                "give a load.normal that presses the disk on the bar, or, with penalty contact, stiffen the springs \
+                 (contact.penalty.normal)"
+            ),
             Self::Interrupted => INTERRUPTED.into(),
             _ => soften(),
         }
