@@ -13,7 +13,7 @@ pub struct Range {
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Whether zero, which then stands for none, is allowed below the lower end.
+    /// Whether zero is allowed below the lower end, and stands for none.
     pub or_zero: bool,
 }
 
@@ -26,8 +26,7 @@ impl Range {
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let zero = if self.or_zero { "0, or " } else { "" };
-        write!(f, "{zero}at least {} and at most {}", number(self.low), number(self.high))
+        write!(f, "at least {} and at most {}", number(self.low), number(self.high))
     }
 }
 

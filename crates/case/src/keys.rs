@@ -144,7 +144,10 @@ impl Form {
             unit => format!(" {unit}"),
         };
         match self {
-            Number(range) => format!("a number {range}{unit}"),
+            Number(range) => {
+                let none = if range.or_zero { "0, or " } else { "" };
+                format!("{none}a number {range}{unit}")
+            }
             Count(low, high) => format!("a whole number from {low} to {high}"),
             Flag => "true or false".into(),
             Word(words) => {

@@ -516,7 +516,7 @@ section! {
         /// Interval in simulated time (s). Default: none.
         time: Option<f64> => INTERVAL;
         /// Interval in wall-clock time (min); 0 for none. Default 5.
-        wall_minutes: f64 = 5.0 => key(Number(none_or_within(1e-3, 1e5)), "min", "give minutes, 0 for none: 5");
+        wall_minutes: f64 = 5.0 => key(Number(none_or_within(1e-5, 1e5)), "min", "give minutes, 0 for none: 5");
     }
 }
 
