@@ -175,7 +175,9 @@ mod tests {
         let case = Case::from_text(text, "a.toml".as_ref(), &[]).unwrap();
         let wave = |size: f64| move |passed: f64| size * libm::sin(400.0 * passed);
         let said = pressed(|t| 6e3 + wave(1e3)(t)).load_warning(&case).unwrap_or_default();
-        for words in ["6.00", "94 % off load.normal = 100000 N", "95 % interval is only", "time.roll"] {
+        for words in
+            ["6.00", "94 % off load.normal = 100000 N", "95 % interval is only", "time.roll"]
+        {
             assert!(said.contains(words), "{said}");
         }
         assert!(pressed(|_| 6e3).load_warning(&held).is_none());

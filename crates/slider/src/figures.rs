@@ -33,7 +33,12 @@ pub fn drawable(p: &Parameters) -> Result<(), ParameterError> {
     if map_end(p) / SMALLEST_STEP > MOST_MAPPED {
         let allowed = "at most 50 s for the map of the time step, unless the block breaks loose \
                        before";
-        return Err(ParameterError { key: "t_end", value: p.end, unit: "s", allowed: allowed.into() });
+        return Err(ParameterError {
+            key: "t_end",
+            value: p.end,
+            unit: "s",
+            allowed: allowed.into(),
+        });
     }
     Ok(())
 }

@@ -219,7 +219,9 @@ mod tests {
             "x0" => p.x0 = value,
             "v0" => p.v0 = value,
             "mu_static" => p.law = SteadyLaw::Exponential(Exponential { mu_static: value, ..law }),
-            "mu_dynamic" => p.law = SteadyLaw::Exponential(Exponential { mu_dynamic: value, ..law }),
+            "mu_dynamic" => {
+                p.law = SteadyLaw::Exponential(Exponential { mu_dynamic: value, ..law })
+            }
             "decay" => p.law = SteadyLaw::Exponential(Exponential { decay: value, ..law }),
             other => panic!("{other}"),
         }

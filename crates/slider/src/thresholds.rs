@@ -70,7 +70,12 @@ pub fn thresholds(p: &Parameters) -> Result<Thresholds, ParameterError> {
     if p.reach() / p.belt.abs() > MOST_STEPS * shortest {
         let allowed = "larger: the block would stick for so many steps that the bisection would \
                        take hours";
-        return Err(ParameterError { key: "spring", value: p.spring, unit: "N/m", allowed: allowed.into() });
+        return Err(ParameterError {
+            key: "spring",
+            value: p.spring,
+            unit: "N/m",
+            allowed: allowed.into(),
+        });
     }
     let threshold = |formula: f64, above: fn(&Parameters, f64) -> bool| Threshold {
         formula,

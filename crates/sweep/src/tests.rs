@@ -44,9 +44,7 @@ fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
 
 #[test]
 fn a_whole_number_may_be_written_with_an_exponent() {
-    let axis = |values: &str| {
-        format!("[[axis]]\nkey = \"output.history_interval\"\n{values}\n")
-    };
+    let axis = |values: &str| format!("[[axis]]\nkey = \"output.history_interval\"\n{values}\n");
     for values in ["values = [1e2, 200]", "linear = { from = 1e2, to = 2e2, n = 2.0 }"] {
         let intervals: Vec<u64> =
             cases(&axis(values)).iter().map(|case| case.output.history_interval).collect();

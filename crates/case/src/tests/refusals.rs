@@ -141,8 +141,14 @@ fn wrong_values_are_refused_with_key_value_and_range() {
             ],
         ),
         ("disk.hub_radius=1e-6", vec!["disk.hub_radius = 1e-6 m", "disk.radius", "needles"]),
-        ("element.hourglass=1e-9", vec!["hourglass = 1e-9", "must be 0, or a number at least 1e-6"]),
-        ("checkpoint.wall_minutes=5e-324", vec!["wall_minutes = 5e-324", "must be 0, or a number at least 1e-5"]),
+        (
+            "element.hourglass=1e-9",
+            vec!["hourglass = 1e-9", "must be 0, or a number at least 1e-6"],
+        ),
+        (
+            "checkpoint.wall_minutes=5e-324",
+            vec!["wall_minutes = 5e-324", "must be 0, or a number at least 1e-5"],
+        ),
         ("time.duration=1e-14", vec!["time.duration makes a run of 1e-14 s", "the time step"]),
         ("evaluate.last=1e-9", vec!["evaluate.last makes an evaluation window", "the time step"]),
         ("evaluate.transits=1e-9", vec!["evaluate.transits = 1e-9", "at least 0.001"]),

@@ -228,7 +228,10 @@ fn a_mean_normal_force_that_misses_the_load_is_told_and_kept() {
     };
     // the patch is shorter than an element, and the disk rides on the nodes
     let list = warned("load.normal=100");
-    has(&list[0].to_string(), &["mean normal force", "% off load.normal = 100 N", "mesh.zone.size"]);
+    has(
+        &list[0].to_string(),
+        &["mean normal force", "% off load.normal = 100 N", "mesh.zone.size"],
+    );
     assert!(warned("load.normal=10e3").is_empty());
 }
 

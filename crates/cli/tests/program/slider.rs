@@ -102,7 +102,9 @@ fn a_friction_table_is_read_and_its_mistakes_are_shown_at_their_line() {
     std::fs::write(&path, "# measured\nslip speed, mu\n0, 0.5\n1, 0.4\n").unwrap();
     let slid = |text: &str| {
         std::fs::write(&path, text).unwrap();
-        json(&slider(&["--json", "--table", &options(&path), "--t-end", "2"]))["x_max"].as_f64().unwrap()
+        json(&slider(&["--json", "--table", &options(&path), "--t-end", "2"]))["x_max"]
+            .as_f64()
+            .unwrap()
     };
     let metres = slid("# measured\nslip speed, mu\n0, 0.5\n1, 0.4\n");
     assert_eq!(slid("slip speed (mm/s), mu (%)\n0, 50\n1000, 40\n"), metres);
