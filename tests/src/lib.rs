@@ -9,12 +9,24 @@ pub mod trace;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::atomic::AtomicBool;
 
 use case::Case;
 use output::{GridFile, HistoryFile};
 use run::RunOptions;
 use serde_json::Value;
+
+/// The program, to be called with the system's own reactions to the signals that end it: what a script starts in the
+/// background ignores some, and so does what that starts.
+pub fn heeding_signals(program: &str) -> Command {
+    if !cfg!(target_os = "linux") {
+        return Command::new(program);
+    }
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT,HUP,TERM", program]);
+    command
+}
 
 /// What a run left.
 pub struct Results {

@@ -12,6 +12,7 @@ mod friction_laws;
 mod half_model;
 mod half_space;
 mod line_contact;
+mod nearly_incompressible;
 mod physics;
 mod plane_strain;
 mod preload;

@@ -2,7 +2,7 @@
 
 use crate::forms::Crown;
 use crate::key::Form::{Number, Text};
-use crate::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, over, within, word};
+use crate::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, within, word};
 use crate::section::section;
 use crate::words::words;
 
@@ -311,7 +311,7 @@ section! {
     optional Zone ["mesh.zone."] {
         /// Element size in the fine zone (m); the one key that refines everything. Default 1e-3.
         size: f64 = 1e-3
-            => key(Number(over(0.0, 0.1)), "m", "give the element size in metres: 1e-3 for 1 mm");
+            => key(Number(within(1e-9, 0.1)), "m", "give the element size in metres: 1e-3 for 1 mm");
         /// Length in x (m). Default 0.08.
         length: f64 = 0.08 => LENGTH;
         /// Width in y, centred on y = 0 (m). Default 0.02.

@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 
 use crate::error::{CaseError, KeyError};
-use crate::forms::float;
+use crate::forms::{float, whole};
 use crate::key::{Form, Key, STIFFNESS, number};
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, get, join, key_error_in};
@@ -165,8 +165,8 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
             float(value).is_some_and(|x| range.holds(x))
         }
         (Form::Crown(_), Value::String(word)) => word == "flat",
-        (Form::Count(low, high), Value::Integer(n)) => {
-            u64::try_from(*n).is_ok_and(|n| (*low..=*high).contains(&n))
+        (Form::Count(low, high), value) => {
+            whole(value).is_some_and(|n| (*low..=*high).contains(&n))
         }
         (Form::Flag, Value::Boolean(_)) | (Form::Text, Value::String(_)) => true,
         (Form::Word(words), Value::String(word)) => words.contains(&word.as_str()),
@@ -177,19 +177,25 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
                 })
         }
         (Form::Stiffness, value) => float(value).is_some_and(|x| STIFFNESS[0].1.holds(x)),
-        (Form::Points, Value::Array(points)) => points.iter().all(|point| {
-            point.as_array().is_some_and(|pair| {
-                pair.len() == 2
-                    && pair.iter().all(|x| float(x).is_some_and(|x| (-10.0..=10.0).contains(&x)))
-            })
-        }),
-        (Form::Curve, Value::Array(points)) => match crate::table::points(points) {
-            None => false,
-            Some(points) => match friction::Table::new(points) {
+        (Form::Points(range), Value::Array(points)) => crate::table::points(points)
+            .is_some_and(|points| points.iter().flatten().all(|x| range.holds(*x))),
+        (Form::Curve(speeds, coefficients), Value::Array(points)) => {
+            let Some(points) = crate::table::points(points) else { return not_allowed() };
+            let beyond =
+                |[speed, mu]: &[f64; 2]| !(speeds.holds(*speed) && coefficients.holds(*mu));
+            if let Some(at) = points.iter().position(beyond) {
+                let ([speed, mu], point) = (points[at].map(number), at + 1);
+                return Some(format!(
+                    "{}: point {point}, slip velocity {speed} m/s and coefficient {mu}: the first must be {speeds} m/s, \
+                     the second {coefficients}",
+                    show(value)
+                ));
+            }
+            match friction::Table::new(points) {
                 Ok(_) => true,
                 Err(error) => return Some(format!("{}: {error}", show(value))),
-            },
-        },
+            }
+        }
         _ => false,
     };
     if fine { None } else { not_allowed() }

@@ -131,3 +131,15 @@ pub fn float(value: &Value) -> Option<f64> {
         _ => None,
     }
 }
+
+/// The number that a value holds, if it is whole and at least 0, written as an integer or as a float such as `1e2`; none
+/// for any other value.
+pub fn whole(value: &Value) -> Option<u64> {
+    /// Every whole number up to this is a float.
+    const LARGEST: f64 = 9_007_199_254_740_992.0;
+    match value {
+        Value::Integer(n) => u64::try_from(*n).ok(),
+        Value::Float(x) if x.fract() == 0.0 && (0.0..=LARGEST).contains(x) => Some(*x as u64),
+        _ => None,
+    }
+}

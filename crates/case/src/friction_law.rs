@@ -2,7 +2,7 @@
 
 use crate::hertz::hertz;
 use crate::key::Form::{Curve, Number, Text};
-use crate::key::{Key, key, needed, over, within, word};
+use crate::key::{Key, key, needed, within, word};
 use crate::schema::Case;
 use crate::section::rows;
 use friction::{Domain, Expression, LawError, NodeFriction, OwnLaw, USES};
@@ -16,17 +16,17 @@ rows! {
     "friction.dynamic" => key(Number(within(0.0, 5.0)), "-", "give a coefficient of friction: 0.32");
     "friction.decay" => key(Number(within(0.0, 1e4)), "s/m", "give the decay in s/m: 6.0");
     "friction.distance"
-        => key(Number(over(0.0, 10.0)), "m",
+        => key(Number(within(1e-12, 10.0)), "m",
             "give the slip over which friction changes, in metres: `distance = 10e-6`");
-    "friction.relaxation_speed" => key(Number(over(0.0, 1e3)), "m/s", "give V* of the law in m/s: 1.0");
-    "friction.reference" => key(Number(over(0.0, 5.0)), "-", "give a coefficient of friction: 0.6");
-    "friction.reference_speed" => key(Number(over(0.0, 100.0)), "m/s", "give V_0 in m/s: 1e-6");
+    "friction.relaxation_speed" => key(Number(within(1e-9, 1e3)), "m/s", "give V* of the law in m/s: 1.0");
+    "friction.reference" => key(Number(within(1e-3, 5.0)), "-", "give a coefficient of friction: 0.6");
+    "friction.reference_speed" => key(Number(within(1e-12, 100.0)), "m/s", "give V_0 in m/s: 1e-6");
     "friction.direct" => key(Number(within(1e-4, 1.0)), "-", "give the direct effect a: 0.008");
     "friction.evolution" => key(Number(within(0.0, 1.0)), "-", "give the effect b: 0.012");
     "friction.state" => word(&["ageing", "slip"]);
-    "friction.age" => key(Number(over(0.0, 1e12)), "s", "give the state theta in seconds: 10");
+    "friction.age" => key(Number(within(1e-14, 1e13)), "s", "give the state theta in seconds: 10");
     "friction.table"
-        => key(Curve, "",
+        => key(Curve(within(0.0, 1e4), within(0.0, 100.0)), "",
             "give the path of a CSV file, relative to this one, or pairs of slip velocity (m/s), rising from 0, \
          and coefficient: `table = [[0, 0.5], [1, 0.32]]`");
     "friction.expression"
@@ -34,10 +34,10 @@ rows! {
     "friction.source" => key(Text, "", "give the source of the function in quotes");
     "friction.mode" => word(&["lagged", "exact"]);
     "friction.memory.distance"
-        => key(Number(over(0.0, 1.0)), "m",
+        => key(Number(within(1e-12, 1.0)), "m",
             "give the slip over which friction adapts, in metres: 10e-6 for 10 micrometres");
     "friction.memory.floor"
-        => key(Number(over(0.0, 100.0)), "m/s", "give the slip speed below which friction adapts in time: 10e-3");
+        => key(Number(within(1e-12, 100.0)), "m/s", "give the slip speed below which friction adapts in time: 10e-3");
 }
 
 /// The words of `friction.law`.

@@ -59,6 +59,21 @@ pub fn hertz(case: &Case) -> Hertz {
     if gap_x <= gap_y { ellipse } else { Hertz { a: ellipse.b, b: ellipse.a, ..ellipse } }
 }
 
+/// Dundurs' constant beta of a case's disk and bar (dimensionless), zero for like materials (Johnson 1985, Eq 5.3):
+///
+/// beta = 1/2 ((1 - 2 nu_1)/G_1 - (1 - 2 nu_2)/G_2)/((1 - nu_1)/G_1 + (1 - nu_2)/G_2)
+///
+/// It couples slip to pressure: with beta, bodies have shear tractions in free rolling (Bufler 1959; Bentall and
+/// Johnson 1967). The disk is body 1.
+pub fn dundurs_beta(case: &Case) -> f64 {
+    let parts = |m: crate::schema::Material| {
+        let shear = m.young / (2.0 * (1.0 + m.poisson));
+        [(1.0 - 2.0 * m.poisson) / shear, (1.0 - m.poisson) / shear]
+    };
+    let ([disk, a], [bar, b]) = (parts(case.disk_material()), parts(case.bar_material()));
+    0.5 * (disk - bar) / (a + b)
+}
+
 /// Line contact (Johnson 1985, section 4.2): a^2 = 4 P R/(pi E*), p0 = 2 P/(pi a), P per width.
 fn line(load_per_width: f64, curvature: f64, modulus: f64, width: f64) -> Hertz {
     let a = (4.0 * load_per_width / (PI * curvature * modulus)).sqrt();

@@ -3,7 +3,7 @@
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
-use crate::key::{End, Form, Key, Range};
+use crate::key::{Form, Key, Range, STIFFNESS};
 use crate::keys::KEYS;
 use crate::schema::Case;
 use friction::USES;
@@ -51,12 +51,19 @@ fn annotate(schema: &mut Map<String, Value>, key: &Key) {
     if !key.unit.is_empty() {
         schema.insert("x-unit".into(), json!(key.unit));
     }
-    if let Form::Number(range) = key.form {
-        limit(schema, range);
-    }
-    if let Form::Count(low, high) = key.form {
-        schema.insert("minimum".into(), json!(low));
-        schema.insert("maximum".into(), json!(high));
+    match key.form {
+        Form::Number(range) => limit(schema, range),
+        Form::Count(low, high) => {
+            schema.insert("minimum".into(), json!(low));
+            schema.insert("maximum".into(), json!(high));
+        }
+        Form::Crown(range) => limit_form(schema, 0, "", range),
+        Form::Stiffness => {
+            for (form, (name, range, _)) in STIFFNESS.into_iter().enumerate() {
+                limit_form(schema, form, name, range);
+            }
+        }
+        _ => {}
     }
     let said = schema.get("description").and_then(Value::as_str).unwrap_or_default();
     let mut description = format!("{said}\nAllowed: {}.", key.form.allowed(key.unit));
@@ -67,14 +74,25 @@ fn annotate(schema: &mut Map<String, Value>, key: &Key) {
 }
 
 fn limit(schema: &mut Map<String, Value>, range: Range) {
-    match range.low {
-        End::Closed(end) => schema.insert("minimum".into(), json!(end)),
-        End::Open(end) => schema.insert("exclusiveMinimum".into(), json!(end)),
+    if range.or_zero {
+        let none_or = json!([{ "const": 0.0 }, { "minimum": range.low }]);
+        schema.insert("anyOf".into(), none_or);
+    } else {
+        schema.insert("minimum".into(), json!(range.low));
+    }
+    schema.insert("maximum".into(), json!(range.high));
+}
+
+/// Limits one of the forms of a value, or the key `name` of it.
+fn limit_form(schema: &mut Map<String, Value>, form: usize, name: &str, range: Range) {
+    let at = schema.get_mut("oneOf").and_then(|forms| forms.get_mut(form));
+    let at = match name {
+        "" => at,
+        name => at.and_then(|at| at.pointer_mut(&format!("/properties/{name}"))),
     };
-    match range.high {
-        End::Closed(end) => schema.insert("maximum".into(), json!(end)),
-        End::Open(end) => schema.insert("exclusiveMaximum".into(), json!(end)),
-    };
+    if let Some(at) = at.and_then(Value::as_object_mut) {
+        limit(at, range);
+    }
 }
 
 /// Keys that a case must have may come from the file that it extends.

@@ -1,51 +1,32 @@
 //! A key of a case file: what it may hold, its unit, and what to do where its value is refused.
 
+use crate::forms::whole;
 use crate::model::BodyModel;
 use std::fmt;
+use toml::Value;
 
-/// One end of a range.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
-    /// The value itself is allowed.
-    Closed(f64),
-    /// The value itself is not allowed.
-    Open(f64),
-}
-
-/// A range of numbers.
+/// A range of numbers, both ends included. Its ends are finite, and above zero where zero has no meaning: a number that is
+/// merely above zero may be too small to be reckoned with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// Lower end.
-    pub low: End,
+    pub low: f64,
     /// Upper end.
-    pub high: End,
+    pub high: f64,
+    /// Whether zero is allowed below the lower end, and stands for none.
+    pub or_zero: bool,
 }
 
 impl Range {
     /// Whether `x` lies in the range; NaN lies in none.
     pub fn holds(&self, x: f64) -> bool {
-        let low = match self.low {
-            End::Closed(end) => x >= end,
-            End::Open(end) => x > end,
-        };
-        let high = match self.high {
-            End::Closed(end) => x <= end,
-            End::Open(end) => x < end,
-        };
-        low && high
+        (self.low..=self.high).contains(&x) || (self.or_zero && x == 0.0)
     }
 }
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self.low {
-            End::Closed(end) => write!(f, "at least {}", number(end))?,
-            End::Open(end) => write!(f, "greater than {}", number(end))?,
-        }
-        match self.high {
-            End::Closed(end) => write!(f, " and at most {}", number(end)),
-            End::Open(end) => write!(f, " and less than {}", number(end)),
-        }
+        write!(f, "at least {} and at most {}", number(self.low), number(self.high))
     }
 }
 
@@ -72,11 +53,11 @@ pub enum Form {
     Crown(Range),
     /// A penalty stiffness in one of its three forms.
     Stiffness,
-    /// A list of pairs of numbers.
-    Points,
-    /// A curve: pairs of numbers at least 0, the first of them rising from 0. In a file it may be the
-    /// path of another file.
-    Curve,
+    /// A list of pairs of numbers in the range.
+    Points(Range),
+    /// A curve: pairs of numbers in the first and in the second range, the first of them rising from 0. In a file it may
+    /// be the path of another file.
+    Curve(Range, Range),
 }
 
 /// What a number usually is, and the other units in which people think of it.
@@ -148,6 +129,14 @@ impl Key {
         Self { usual: Some(Usual { range, also_in }), ..self }
     }
 
+    /// A value that is allowed for the key, as the case holds it: a whole number is an integer also where it was written
+    /// as `1e2`.
+    pub fn held(&self, value: &Value) -> Value {
+        let count = matches!(self.form, Form::Count(..));
+        let integer = whole(value).filter(|_| count).and_then(|n| i64::try_from(n).ok());
+        integer.map_or_else(|| value.clone(), Value::Integer)
+    }
+
     /// Whether it has meaning for a model.
     pub fn has_meaning_for(&self, model: BodyModel) -> bool {
         self.model.is_none_or(|only| only == model)
@@ -166,17 +155,17 @@ pub(crate) const OF_SPEED: &[(&str, f64)] = &[("km/h", 1.0 / 3.6)];
 
 /// The three forms of a penalty stiffness: name (empty for the plain number), range, unit.
 pub const STIFFNESS: [(&str, Range, &str); 3] = [
-    ("", over(0.0, 100.0), "-"),
-    ("stiffness", over(0.0, 1e18), "N/m^3"),
-    ("stability", over(0.0, 2.0), "-"),
+    ("", within(1e-4, 100.0), "-"),
+    ("stiffness", within(1.0, 1e18), "N/m^3"),
+    ("stability", within(1e-4, 2.0), "-"),
 ];
 
-pub(crate) const fn over(low: f64, high: f64) -> Range {
-    Range { low: End::Open(low), high: End::Closed(high) }
+pub(crate) const fn within(low: f64, high: f64) -> Range {
+    Range { low, high, or_zero: false }
 }
 
-pub(crate) const fn within(low: f64, high: f64) -> Range {
-    Range { low: End::Closed(low), high: End::Closed(high) }
+pub(crate) const fn none_or_within(low: f64, high: f64) -> Range {
+    Range { or_zero: true, ..within(low, high) }
 }
 
 /// A row of the table of keys, without its path.
@@ -208,13 +197,13 @@ use Form::{Crown, Flag, Number, Stiffness, Text, Word};
 
 pub(crate) const FLAG: Key = key(Flag, "", "give true or false, without quotes");
 pub(crate) const LENGTH: Key =
-    key(Number(over(0.0, 10.0)), "m", "give the length in metres: 0.06 for 60 mm");
+    key(Number(within(1e-8, 10.0)), "m", "give the length in metres: 0.06 for 60 mm");
 pub(crate) const CROWN: Key =
-    key(Crown(over(0.0, 1e4)), "m", "give the radius in metres, or \"flat\"");
+    key(Crown(within(1e-8, 1e4)), "m", "give the radius in metres, or \"flat\"");
 pub(crate) const YOUNG: Key =
     key(Number(within(1e3, 1e13)), "Pa", "give Young's modulus in pascal: 210e9 for steel");
 pub(crate) const POISSON: Key = key(
-    Number(Range { low: End::Closed(0.0), high: End::Open(0.5) }),
+    Number(within(0.0, 0.49999)),
     "-",
     "an explicit solid needs a finite wave speed: steel has 0.3, rubber-like bodies up to 0.49",
 );
@@ -223,7 +212,7 @@ pub(crate) const DENSITY: Key =
 pub(crate) const SET: Key =
     key(Text, "", "give the name of a set of the mesh file in quotes").only_with("mesh.file", &[]);
 pub(crate) const INTERVAL: Key = key(
-    Number(over(0.0, 10.0)),
+    Number(within(1e-15, 10.0)),
     "s",
     "give a positive time in seconds: 5.7e-6 for 5.7 microseconds",
 );

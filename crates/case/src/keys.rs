@@ -144,7 +144,10 @@ impl Form {
             unit => format!(" {unit}"),
         };
         match self {
-            Number(range) => format!("a number {range}{unit}"),
+            Number(range) => {
+                let none = if range.or_zero { "0, or " } else { "" };
+                format!("{none}a number {range}{unit}")
+            }
             Count(low, high) => format!("a whole number from {low} to {high}"),
             Flag => "true or false".into(),
             Word(words) => {
@@ -160,10 +163,10 @@ impl Form {
                     factor.1, areal.1, stability.1
                 )
             }
-            Form::Curve => {
-                "the path of a CSV file or a list of pairs [slip velocity, coefficient]".into()
-            }
-            Points => format!("a list of pairs of numbers between -10 and 10{unit}"),
+            Form::Curve(speed, mu) => format!(
+                "the path of a CSV file or a list of pairs [slip velocity {speed} m/s, coefficient {mu}]"
+            ),
+            Points(range) => format!("a list of pairs of numbers {range}{unit}"),
         }
     }
 }

@@ -11,6 +11,7 @@
 
 mod bodies;
 pub mod check;
+mod column;
 mod contact_layers;
 pub mod error;
 mod excerpt;
@@ -30,7 +31,7 @@ mod naming;
 mod quantity;
 pub mod schema;
 mod section;
-mod table;
+pub mod table;
 #[cfg(test)]
 mod tests;
 mod units;

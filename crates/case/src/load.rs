@@ -7,7 +7,8 @@ use sha2::{Digest, Sha256};
 
 use crate::check;
 use crate::error::CaseError;
-use crate::layers::{Layers, get};
+use crate::keys;
+use crate::layers::{Layers, get, join};
 use crate::left_out::{keep_meaningful, leave_out};
 use crate::mesh_file;
 use crate::name;
@@ -18,7 +19,7 @@ use crate::table;
 use crate::units::with_units;
 use crate::validation;
 use output::hexadecimal;
-use toml::Table;
+use toml::{Table, Value};
 
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
@@ -125,6 +126,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     table::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
     check::keys(&layers)?;
+    hold(&mut layers.table, "");
     let mut case = Case::deserialize(layers.table.clone()).map_err(|error| {
         let message = error.message().replace('\n', "; ");
         let remedy = "see `creepage schema` for the keys and their forms";
@@ -138,6 +140,22 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     validation::check(&case, &layers)?;
     write_defaults(&mut case);
     Ok(case)
+}
+
+/// Replaces values by those that the case holds, below the section or list `pattern`.
+fn hold(table: &mut Table, pattern: &str) {
+    for (name, value) in table {
+        let pattern = join(pattern, name);
+        match (keys::find(&pattern), value) {
+            (Some(key), value) => *value = key.held(value),
+            (None, Value::Table(section)) => hold(section, &pattern),
+            (None, Value::Array(sections)) => {
+                let sections = sections.iter_mut().filter_map(Value::as_table_mut);
+                sections.for_each(|section| hold(section, &format!("{pattern}[]")));
+            }
+            _ => {}
+        }
+    }
 }
 
 /// The choices that follow from which keys are given.

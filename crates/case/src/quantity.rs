@@ -19,7 +19,11 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("us", "s", 1e-6),
     ("µs", "s", 1e-6),
     ("ns", "s", 1e-9),
+    ("cm/s", "m/s", 1e-2),
     ("mm/s", "m/s", 1e-3),
+    ("um/s", "m/s", 1e-6),
+    ("µm/s", "m/s", 1e-6),
+    ("nm/s", "m/s", 1e-9),
     ("kN", "N", 1e3),
     ("MN", "N", 1e6),
     ("Nm", "N m", 1.0),
@@ -49,11 +53,24 @@ pub(crate) fn in_unit(text: &str, unit: &str) -> Option<f64> {
     let (x, written) =
         splits.find_map(|(x, written)| Some((x.trim().parse::<f64>().ok()?, written.trim())))?;
     let size = if [unit, ""].contains(&written) { 1.0 } else { size_of(written, unit)? };
-    Some(x * size).filter(|x| x.is_finite()).and_then(|x| format!("{x:.9e}").parse().ok())
+    Some(x * size).filter(|x| x.is_finite()).map(rounded)
+}
+
+/// A number to ten digits.
+pub(crate) fn rounded(x: f64) -> f64 {
+    format!("{x:.9e}").parse().unwrap_or(x)
+}
+
+/// Whether a text is a unit that people write, or one of a key.
+pub(crate) fn is_unit(text: &str) -> bool {
+    let of_keys = UNITS.iter().map(|(_, of, _)| *of);
+    let written = UNITS.iter().map(|(written, ..)| *written);
+    let unnamed = OF_SPEED.iter().chain(OF_A_HUNDRED).map(|(written, _)| *written);
+    of_keys.chain(written).chain(unnamed).any(|unit| unit == text)
 }
 
 /// The size of a unit in another.
-fn size_of(written: &str, unit: &str) -> Option<f64> {
+pub(crate) fn size_of(written: &str, unit: &str) -> Option<f64> {
     let unnamed = match unit {
         "m/s" => OF_SPEED,
         "-" => OF_A_HUNDRED,

@@ -11,7 +11,7 @@ pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
 use crate::key::Form::{Count, Number, Points, Text};
 use crate::key::{
-    FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, over, within, word,
+    FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, none_or_within, within, word,
 };
 pub use crate::model::{BodyModel, LeftOut};
 use crate::section::section;
@@ -115,7 +115,7 @@ section! {
         /// Flanagan-Belytschko hourglass stiffness coefficient of the one-point element
         /// (dimensionless). Default 0.05.
         hourglass: f64 = 0.05
-            => key(Number(within(0.0, 1.0)), "-", "0.05 is usual; 0.01 to 0.1 is the sensible range")
+            => key(Number(none_or_within(1e-6, 1.0)), "-", "0.05 is usual; 0.01 to 0.1 is the sensible range")
                 .finite_elements_only();
         /// Integration of the elements below the fine zone of each contact surface: `"full"` (2x2x2
         /// points, no hourglass modes, two to three times the time of each such element), or
@@ -163,7 +163,7 @@ section! {
     required Load ["load."] {
         /// Force pressing the disk down on the bar (N), positive. Required.
         normal: f64
-            => needed(Number(over(0.0, 1e8)), "N",
+            => needed(Number(within(1e-12, 1e8)), "N",
                 "give the force that presses the disk down, positive, in newtons: `normal = 100e3`; a \
          load upwards would lift the disk off the bar");
         /// `"load"`: the force is prescribed while rolling; `"height"`: the hub is held at the
@@ -194,8 +194,8 @@ section! {
     required Drive ["drive."] {
         /// Rolling speed V in +x (m/s). Required.
         speed: f64
-            => needed(Number(over(0.0, 500.0)), "m/s", "give the rolling speed in +x in m/s: `speed = 38.89`")
-                .usually(over(0.0, 120.0), OF_SPEED);
+            => needed(Number(within(1e-9, 500.0)), "m/s", "give the rolling speed in +x in m/s: `speed = 38.89`")
+                .usually(within(0.0, 120.0), OF_SPEED);
         /// `"creepage"`: the angular velocity is prescribed as (1 + creepage) V/R_eff; `"torque"`: the
         /// torque about the hub is. Default: `"torque"` where `drive.torque` is given, else
         /// `"creepage"`.
@@ -348,7 +348,7 @@ section! {
         /// `"static"`, the kinetic over the internal energy with `"relaxation"`. Default 1e-9 with
         /// `"static"`, 1e-8 with `"relaxation"`.
         tolerance: Option<f64>
-            => key(Number(over(0.0, 1e-2)), "-",
+            => key(Number(within(1e-20, 1e-2)), "-",
                 "give the residual over the load (static) or the ratio of kinetic to internal energy: 1e-9")
                 .finite_elements_only();
         /// The preload gives up after so many iterations (dimensionless). Default 100 of Newton's with
@@ -360,7 +360,7 @@ section! {
         /// 1 + r disturbance in each direction, r drawn from -1 to 1. In half-spaces it multiplies the pressure of every
         /// point of the material instead. Two runs that differ in it alone show how fast small differences grow; of half a model only those that its plane mirrors. Default: none.
         disturbance: Option<f64>
-            => key(Number(over(0.0, 1e-3)), "-", "give a small part, such as 1e-9")
+            => key(Number(within(1e-16, 1e-3)), "-", "give a small part, such as 1e-9")
                 .only_with("preload.method", &["static", "relaxation"]);
         /// What the draws of `disturbance` begin with (dimensionless). Default 1 with it, refused without.
         seed: Option<u64>
@@ -397,13 +397,13 @@ section! {
         /// Default without `step`: 0.67 with `contact.enforcement = "penalty"`, whose springs stiffen the assembly as
         /// nodes close, 0.95 with `"exact"`, which has none, and 0.5 with `model = "half-space"`, 0.1 without inertia.
         factor: Option<f64>
-            => key(Number(over(0.0, 2.0)), "-",
+            => key(Number(within(1e-4, 2.0)), "-",
                 "up to 1 is stable, up to 2 is accepted to show a blow-up").instead_of("time.step");
         /// Longest time step (s), whatever the stability limit; refused above that limit with explicit steps. Runs whose
         /// stability limits differ then have the same step. Give this or `factor`, not both.
         /// Default: none.
         step: Option<f64>
-            => key(Number(over(0.0, 1e-3)), "s", "give the step in seconds: 1.5e-7").instead_of("time.factor");
+            => key(Number(within(1e-15, 1e-3)), "s", "give the step in seconds: 1.5e-7").instead_of("time.factor");
         /// `"explicit"`: central difference, or `"implicit"`: the theta method on velocities, with exact contact and
         /// friction at the end of each step of `time.step`. Default `"explicit"`.
         integrator: Option<Integrator> => word(Integrator::WORDS).finite_elements_only();
@@ -414,11 +414,11 @@ section! {
                 .only_with("time.integrator", &["implicit"]).finite_elements_only();
         /// Rolled distance (m). Give this or `duration`, not both. Default 0.060.
         roll: Option<f64>
-            => key(Number(over(0.0, 10.0)), "m",
+            => key(Number(within(1e-9, 10.0)), "m",
                 "give the rolled distance in metres: 0.06").instead_of("time.duration");
         /// Duration of rolling (s). Give this or `roll`, not both. Default: `roll / drive.speed`.
         duration: Option<f64>
-            => key(Number(over(0.0, 10.0)), "s", "give the time in seconds: 1.5e-3").instead_of("time.roll");
+            => key(Number(within(1e-15, 10.0)), "s", "give the time in seconds: 1.5e-3").instead_of("time.roll");
     }
 }
 
@@ -479,12 +479,12 @@ section! {
         /// Rolled distance at the end of the run over which means are taken (m). Default 0.020, or
         /// the last third of a run shorter than 0.060 m.
         last: Option<f64>
-            => key(Number(over(0.0, 10.0)), "m",
+            => key(Number(within(1e-9, 10.0)), "m",
                 "give the rolled distance in metres: 0.02").instead_of("evaluate.transits");
         /// The same distance in contact transits (dimensionless), instead of `last`: a transit is 2a with a Hertz's half axis
         /// along the rolling direction. Where slip fluctuates a mean needs several. Default: none.
         transits: Option<f64>
-            => key(Number(over(0.0, 1e4)), "-", "give contact transits 2a: 4").instead_of("evaluate.last");
+            => key(Number(within(1e-3, 1e4)), "-", "give contact transits 2a: 4").instead_of("evaluate.last");
     }
 }
 
@@ -516,7 +516,7 @@ section! {
         /// Interval in simulated time (s). Default: none.
         time: Option<f64> => INTERVAL;
         /// Interval in wall-clock time (min); 0 for none. Default 5.
-        wall_minutes: f64 = 5.0 => key(Number(within(0.0, 1e5)), "min", "give minutes, 0 for none: 5");
+        wall_minutes: f64 = 5.0 => key(Number(none_or_within(1e-5, 1e5)), "min", "give minutes, 0 for none: 5");
     }
 }
 
@@ -526,21 +526,21 @@ section! {
         /// Hourglass energy over strain energy (dimensionless), reckoned with the usual coefficient 0.05
         /// where `element.hourglass` is smaller. Default 0.5.
         hourglass: f64 = 0.5
-            => key(Number(over(0.0, 1e6)), "-", "give a share of the strain energy: 0.5")
+            => key(Number(within(1e-6, 1e6)), "-", "give a share of the strain energy: 0.5")
                 .finite_elements_only();
         /// Largest penetration in element sizes `mesh.zone.size` (dimensionless). Default 0.5: the search for
         /// contact looks half a face deep.
         penetration: f64 = 0.5
-            => key(Number(over(0.0, 1e6)), "-", "give element sizes: 0.5 for half a one")
+            => key(Number(within(1e-6, 1e6)), "-", "give element sizes: 0.5 for half a one")
                 .finite_elements_only();
         /// Longest time without contact once there was contact (s). Default 1e-4 after a preload; none with
         /// `preload.method = "none"`, where the disk may bounce.
         parted: Option<f64>
-            => key(Number(over(0.0, 10.0)), "s", "give a time in seconds: 1e-4")
+            => key(Number(within(1e-9, 10.0)), "s", "give a time in seconds: 1e-4")
                 .finite_elements_only();
         /// Largest coefficient of friction that the law may give (dimensionless). Default 5; none with
         /// `friction.law = "prakash_clifton"`, whose friction lags behind a pressure that may go to zero.
-        friction: Option<f64> => key(Number(over(0.0, 1e12)), "-", "give a coefficient of friction: 5");
+        friction: Option<f64> => key(Number(within(1e-3, 1e12)), "-", "give a coefficient of friction: 5");
     }
 }
 
@@ -550,7 +550,7 @@ section! {
         /// Start of the window (s of rolling). Required.
         from: f64 => needed(Number(within(0.0, 10.0)), "s", "give the start in seconds");
         /// End of the window (s of rolling). Required.
-        to: f64 => needed(Number(over(0.0, 10.0)), "s", "give the end in seconds");
+        to: f64 => needed(Number(within(1e-15, 10.0)), "s", "give the end in seconds");
         /// Interval inside the window (steps). Default 1.
         #[serde(default = "Window::every_step")]
         every: u64 => key(Count(1, 1_000_000), "steps", "give a whole number: 1");
@@ -568,12 +568,12 @@ section! {
     optional Probes ["output.probes."] {
         /// Points [x, y] on the bar's top (m). Default: none.
         bar: Vec<[f64; 2]>
-            => key(Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
+            => key(Points(within(-10.0, 10.0)), "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
                 .finite_elements_only();
         /// Points [s, y] on the disk's tread (m), s the arc length from the first point of contact,
         /// positive towards +x. Default: none.
         disk: Vec<[f64; 2]>
-            => key(Points, "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
+            => key(Points(within(-10.0, 10.0)), "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
                 .finite_elements_only();
     }
 }

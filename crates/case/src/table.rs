@@ -1,15 +1,23 @@
-//! A friction table in a file of its own, read into the case.
+//! A friction table in a file of its own, and how it is read into the case.
 
 use files::input;
 use friction::{Table, TableError};
 use toml::Value;
 
+use crate::column::unit_size;
 use crate::error::CaseError;
 use crate::layers::{Layers, Source, get, key_error_at, key_error_in, read_text};
+use crate::quantity::rounded;
 
 const KEY: &str = "friction.table";
-const REMEDY: &str = "two columns: slip velocity (m/s), rising from 0, and coefficient, with a comma between; \
-                      a heading and lines that start with # are passed over";
+
+/// What the file of a friction table is.
+pub const REMEDY: &str = "two columns: slip velocity, rising from 0, and coefficient, with a comma between and \
+                          decimal points; in m/s and without a unit, or in the units that a heading names: \
+                          `slip (mm/s), mu (%)`; lines that start with # are passed over";
+
+/// The units of the columns in the law.
+const UNITS: [&str; 2] = ["m/s", "-"];
 
 /// Replaces a path in `friction.table` by the points of that file: slip velocity (m/s) and coefficient. The path is
 /// relative to the case file that holds it; of an option, to the working directory.
@@ -43,7 +51,7 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
             key_error_at(&source, span, KEY, &message, REMEDY)
         }))
     })?;
-    let value = points.map(|point| Value::from(point.to_vec())).collect::<Vec<_>>();
+    let value: Vec<_> = points.points().iter().map(|point| Value::from(point.to_vec())).collect();
     if let Some(Value::Table(friction)) = layers.table.get_mut("friction") {
         friction.insert("table".into(), Value::Array(value));
     }
@@ -68,49 +76,115 @@ fn line_span(text: &str, line: usize) -> std::ops::Range<usize> {
 }
 
 /// A mistake in a table, at a line counted from 1.
-struct Mistake {
-    line: usize,
-    problem: String,
+#[derive(Clone, Debug)]
+pub struct Mistake {
+    /// The line.
+    pub line: usize,
+    /// What is wrong.
+    pub problem: String,
     /// Whether points stand before it: then the file is meant as a table, and may be quoted.
-    points: bool,
+    pub points: bool,
 }
 
-/// The points of a CSV file.
-fn read(text: &str) -> Result<impl Iterator<Item = [f64; 2]>, Mistake> {
+/// The friction table in a text: lines of two numbers with a comma between. Columns whose heading names a unit are
+/// converted.
+///
+/// # Errors
+/// A line of another kind, a unit that cannot be converted, points that are no friction law.
+pub fn read(text: &str) -> Result<Table, Mistake> {
     let mut points = Vec::new();
     let mut lines = Vec::new();
-    let mut headed = false;
-    for (i, line) in text.lines().enumerate() {
-        // a byte order mark is no part of the heading
-        let row = line.trim_start_matches('\u{feff}').trim();
-        if row.is_empty() || row.starts_with('#') {
+    let mut heading = None;
+    let mut comments = Vec::new();
+    let mut in_one = [1.0; 2];
+    // a byte order mark is no part of the heading
+    for (line, row) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+        let row = row.trim();
+        if row.is_empty() {
             continue;
         }
-        let numbers: Vec<Option<f64>> =
-            row.split(',').map(|field| field.trim().parse().ok()).collect();
+        if let Some(comment) = row.strip_prefix('#') {
+            comments.push((line, fields(comment)));
+            continue;
+        }
+        let row_fields = fields(row);
+        let numbers: Vec<Option<f64>> = row_fields.iter().map(|field| field.parse().ok()).collect();
         match numbers[..] {
             [Some(speed), Some(mu)] => {
-                points.push([speed, mu]);
-                lines.push(i + 1);
+                if points.is_empty() {
+                    // only now is the file known to be a table, of which a message may quote the heading
+                    in_one = units_in_one(heading.as_ref(), &comments)?;
+                }
+                // 9 mm/s divided by 1000 are 0.009 m/s, times 1e-3 a bit more
+                points.push([speed / in_one[0], mu / in_one[1]]);
+                lines.push(line);
             }
-            [None, None] if points.is_empty() && !headed => headed = true,
+            [None, None] if points.is_empty() && heading.is_none() => {
+                heading = Some((line, row_fields));
+            }
             _ => {
                 let points = !points.is_empty();
                 let what = if points { format!("'{row}'") } else { "this line".into() };
-                let problem = format!("{what} is not a slip velocity and a coefficient");
-                return Err(Mistake { line: i + 1, problem, points });
+                let problem = match row.contains([';', '\t']) {
+                    true => format!("{what} has semicolons or tabs, where a comma must stand"),
+                    false => format!("{what} is not a slip velocity and a coefficient"),
+                };
+                return Err(Mistake { line, problem, points });
             }
         }
     }
-    let table = Table::new(points).map_err(|error| {
+    Table::new(points).map_err(|error| {
         let number = match error {
             TableError::Range { number, .. } | TableError::Order { number, .. } => number,
             TableError::Start { .. } | TableError::Empty => 1,
         };
         let line = lines.get(number - 1).copied().unwrap_or(1);
         Mistake { line, problem: error.to_string(), points: !lines.is_empty() }
-    })?;
-    Ok(table.points().to_vec().into_iter())
+    })
+}
+
+/// The fields of a line, of which those in quotes may hold commas.
+fn fields(row: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let outside = |c: char| {
+        quoted ^= c == '"';
+        c == ',' && !quoted
+    };
+    row.split(outside).map(|field| field.trim().trim_matches('"').trim()).collect()
+}
+
+type Heading<'a> = (usize, Vec<&'a str>);
+
+/// How many units of each column are one of the law.
+fn units_in_one(heading: Option<&Heading>, comments: &[Heading]) -> Result<[f64; 2], Mistake> {
+    let mistake = |line: usize, problem: String| Err(Mistake { line, problem, points: true });
+    if let Some((line, names)) = heading {
+        let mut in_one = [1.0; 2];
+        for ((in_one, name), unit) in in_one.iter_mut().zip(names).zip(UNITS) {
+            match unit_size(name, unit) {
+                Ok(size) => *in_one = rounded(1.0 / size),
+                Err(other) => {
+                    let wanted =
+                        if unit == "-" { "coefficient of friction" } else { "slip velocity" };
+                    let problem = format!("'{name}': '{other}' is no known unit of a {wanted}");
+                    return mistake(*line, problem);
+                }
+            }
+        }
+        return Ok(in_one);
+    }
+    // a heading behind a # is passed over, and so would be its unit
+    for (line, names) in comments {
+        let [slip, coefficient] = names[..] else { continue };
+        for (name, unit) in [(slip, UNITS[0]), (coefficient, UNITS[1])] {
+            if unit_size(name, unit).is_ok_and(|size| size != 1.0) {
+                let problem =
+                    format!("'{name}' names a unit, but stands in a line that starts with #");
+                return mistake(*line, problem);
+            }
+        }
+    }
+    Ok([1.0; 2])
 }
 
 #[cfg(test)]
@@ -118,7 +192,8 @@ mod tests {
     use super::*;
 
     fn points_of(text: &str) -> Vec<[f64; 2]> {
-        read(text).map(Iterator::collect).unwrap_or_else(|m| panic!("{}", m.problem))
+        let table = read(text).unwrap_or_else(|m| panic!("{}", m.problem));
+        table.points().to_vec()
     }
 
     fn mistake(text: &str) -> (usize, String) {
@@ -143,9 +218,51 @@ mod tests {
             ("s,mu\nspeed,mu\n", 2, "this line is not"),
             ("\n\n1,0.5\n", 3, "starts at"),
             ("", 1, "empty"),
+            ("s,mu\n0;0.5\n", 2, "semicolons or tabs"),
+            ("s;mu\n0;0,5\n", 1, "semicolons or tabs"),
+            ("0\t0.5\n", 1, "semicolons or tabs"),
+            ("0,0,0,5\n", 1, "this line is not"),
         ] {
             let (at, problem) = mistake(text);
             assert!(at == line && problem.contains(words), "{text}: {at} {problem}");
         }
+    }
+
+    #[test]
+    fn columns_are_converted_from_the_units_in_their_heading() {
+        let expected = [[0.0, 0.5], [0.009, 0.32]];
+        for text in [
+            "slip (m/s),mu (-)\n0,0.5\n0.009,0.32\n",
+            "slip (mm/s),mu\n0,0.5\n9,0.32\n",
+            "\u{feff}\"slip, rms [\u{b5}m/s]\",\"mu (%)\"\n0,50\n9000,32\n",
+        ] {
+            assert_eq!(points_of(text), expected, "{text}");
+        }
+        for text in [
+            "v in km/h,mu\n0,0.5\n36,0.3\n",
+            "# measured (cold), dry\nslip_cm_s,mu(s)\n0,0.5\n1000,0.3\n",
+        ] {
+            assert_eq!(points_of(text), [[0.0, 0.5], [10.0, 0.3]], "{text}");
+        }
+    }
+
+    #[test]
+    fn a_unit_that_cannot_be_converted_is_refused_by_its_name() {
+        for (text, line, words) in [
+            ("slip (mm),mu\n0,0.5\n", 1, "'slip (mm)': 'mm' is no known unit of a slip velocity"),
+            ("slip (knots),mu\n0,0.5\n", 1, "'knots'"),
+            ("# a\ns,shear (MPa)\n0,0.5\n", 2, "'MPa' is no known unit of a coefficient"),
+            ("mu,slip (m/s)\n0.5,0\n", 1, "'m/s' is no known unit of a coefficient"),
+            ("# slip (mm/s),mu\n0,0.5\n9,0.3\n", 1, "starts with #"),
+        ] {
+            let (at, problem) = mistake(text);
+            assert!(at == line && problem.contains(words), "{text}: {at} {problem}");
+        }
+    }
+
+    #[test]
+    fn nothing_of_a_file_without_a_point_is_quoted() {
+        let (_, problem) = mistake("secret (key),word\nmore,of it\n");
+        assert!(!problem.contains("secret") && !problem.contains("key"), "{problem}");
     }
 }

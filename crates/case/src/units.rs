@@ -75,8 +75,8 @@ pub(crate) fn meant(key: &Key, value: &Value) -> Option<String> {
     (!told.is_empty()).then(|| told.join(" or "))
 }
 
-/// A number with four digits.
-fn digits(x: f64) -> String {
+/// A computed number with at most four digits, in messages.
+pub(crate) fn digits(x: f64) -> String {
     let rounded = format!("{x:.3e}").parse().unwrap_or(x);
     number(rounded)
 }

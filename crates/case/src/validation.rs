@@ -7,13 +7,13 @@ mod sideways;
 use crate::check::raise;
 use crate::error::{CaseError, KeyError};
 use crate::friction_law;
-use crate::hertz::hertz;
+use crate::hertz::{dundurs_beta, hertz};
 use crate::key::number;
 use crate::keys::{self, KEYS};
 use crate::layers::{Layers, Origin, get, key_error_in};
 use crate::name;
 use crate::schema::{BodyModel, Case, Enforcement, LoadMode, PreloadMethod, Stiffness, Window};
-use crate::units::mistaken;
+use crate::units::{digits, mistaken};
 use friction::Expression;
 use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
 use toml::{Table, Value};
@@ -36,6 +36,10 @@ const MOST_NUMBERS: f64 = 1e11;
 /// number; every window is looked at in every step.
 const MOST_PROBES: usize = 1000;
 const MOST_WINDOWS: usize = 1000;
+
+/// Elements longer than this many half axes of the patch leave it without a node most of the time: the mean normal force
+/// then misses the load by up to all of it.
+const LARGEST_ELEMENT: f64 = 4.0;
 
 /// A formula is evaluated at every node in contact in every step, and some 200,000 times before.
 const LONGEST_FORMULA: usize = 4000;
@@ -447,7 +451,7 @@ fn check_length(case: &Case, found: &mut Findings) {
             format!(
                 "the run of {} s needs about {steps:.1e} time steps, more than {MOST_STEPS:.0e}: \
                  at a millisecond each that is {:.0} days",
-                number(case.duration()),
+                digits(case.duration()),
                 steps * 1e-3 / 86400.0
             )
         },
@@ -461,6 +465,33 @@ fn check_records(case: &Case, found: &mut Findings) {
     let steps = steps(case);
     let (duration, output) = (case.duration(), &case.output);
     let step = duration / steps;
+    let rolled = if case.time.duration.is_some() { "time.duration" } else { "time.roll" };
+    found.require(
+        duration >= SHORTEST * step,
+        &[rolled],
+        || {
+            format!(
+                "{rolled} makes a run of {} s, far below the time step, which is about {step:.0e} s",
+                number(duration)
+            )
+        },
+        "roll further: 0.06 m, or 1.5e-3 s",
+    );
+    let [from, to] = case.evaluation_window();
+    let window =
+        if case.evaluate.transits.is_some() { "evaluate.transits" } else { "evaluate.last" };
+    found.require(
+        to - from >= SHORTEST * step.min(duration),
+        &[window],
+        || {
+            format!(
+                "{window} makes an evaluation window of {} s, far below the time step, which is about {step:.0e} s: \
+                 no step ends in it, and no mean has a value",
+                number(to - from)
+            )
+        },
+        "take the means over a longer stretch: evaluate.last = 0.02",
+    );
     let intervals = [
         ("output.fields_interval", Some(case.fields_interval())),
         ("output.contact_interval", Some(output.contact_interval)),
@@ -523,10 +554,18 @@ fn check_records(case: &Case, found: &mut Findings) {
     }
 }
 
-/// Warnings about intervals that are shorter than the time step `dt` (s), one sentence each. The default interval of
-/// a very short run gives none.
+/// Warnings about intervals and an evaluation window that are shorter than the time step `dt` (s), one sentence each. The
+/// default interval of a very short run gives none.
 pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
     let default = case.duration() / Case::SNAPSHOTS;
+    let [from, to] = case.evaluation_window();
+    let window = (to - from < dt).then(|| {
+        format!(
+            "the evaluation window of {:.2e} s is shorter than the time step, {dt:.2e} s: it may hold no step, and the \
+             means then have no value",
+            to - from
+        )
+    });
     [
         ("output.fields_interval", Some(case.fields_interval())),
         ("output.contact_interval", Some(case.output.contact_interval)),
@@ -541,6 +580,7 @@ pub fn below_the_step(case: &Case, dt: f64) -> Vec<String> {
             number(interval)
         )
     })
+    .chain(window)
     .collect()
 }
 
@@ -579,7 +619,18 @@ fn units(case: &Case) -> Vec<String> {
     found
 }
 
-/// The patch, by Hertz, must stay inside the fine zone while rolling from x = 0.
+/// A length in millimetres.
+fn mm(x: f64) -> String {
+    digits(1e3 * x)
+}
+
+/// The shorter half axis of the patch (m) that elements must resolve; a slice has none across.
+fn least_half_axis(case: &Case) -> f64 {
+    let patch = hertz(case);
+    if case.mesh.plane_strain { patch.a } else { patch.a.min(patch.b) }
+}
+
+/// The patch, by Hertz, must not be lost in one element, and must stay inside the fine zone while rolling from x = 0.
 fn check_path(case: &Case, found: &mut Findings) {
     // a wrong unit is the likely cause of an absurd patch
     let units = units(case).into_iter().map(|unit| format!("; {unit}")).collect::<String>();
@@ -588,15 +639,36 @@ fn check_path(case: &Case, found: &mut Findings) {
     let patch = hertz(case);
     let (rear, front) = (-patch.a, case.rolled() + patch.a);
     let follows = case.mesh.window.is_some();
+    let least = least_half_axis(case);
+    // half-spaces count points in the patch; a disk that falls presses harder than its load
+    let rests = !case.is_half_space() && case.preload.method != PreloadMethod::None;
+    found.require(
+        !rests || zone.size <= LARGEST_ELEMENT * least,
+        &["load.normal", "mesh.zone.size", "material.young"],
+        || {
+            format!(
+                "mesh.zone.size = {} mm is more than twice the shorter axis of the patch of load.normal = {} N, {} \
+                 by {} mm by Hertz: one node or none touches, and its force does not balance the load",
+                mm(zone.size),
+                number(case.load.normal),
+                mm(2.0 * patch.a),
+                mm(2.0 * patch.b)
+            )
+        },
+        &help(&format!(
+            "raise load.normal, or set mesh.zone.size = {} or less, a quarter of the patch",
+            digits(0.5 * least)
+        )),
+    );
     found.require(
         follows || zone.start <= rear,
         &["mesh.zone.start", "load.normal", "material.young"],
         || {
             format!(
-                "mesh.zone.start = {} m must be at most {:.5} m: the patch at the start reaches \
+                "mesh.zone.start = {} m must be at most {} m: the patch at the start reaches \
                  back so far",
                 number(zone.start),
-                rear
+                digits(rear)
             )
         },
         &help("start the fine zone further back, or reduce the load"),
@@ -614,9 +686,10 @@ fn check_path(case: &Case, found: &mut Findings) {
         ],
         || {
             format!(
-                "the patch (half length {:.2} mm) ends at x = {front:.5} m after rolling {} m, \
+                "the patch (half length {} mm) ends at x = {} m after rolling {} m, \
                  but the fine zone ends at {} m",
-                1e3 * patch.a,
+                digits(1e3 * patch.a),
+                digits(front),
                 number(round(case.rolled())),
                 number(round(end))
             )
@@ -630,11 +703,11 @@ fn check_path(case: &Case, found: &mut Findings) {
         &["mesh.window", "mesh.zone.size", "load.normal", "material.young"],
         || {
             format!(
-                "mesh.window = {} m must be at least {:.5} m: the patch (half length {:.2} mm) with room to move on by one \
+                "mesh.window = {} m must be at least {} m: the patch (half length {} mm) with room to move on by one \
                  element",
                 number(case.mesh.window.unwrap_or_default()),
-                case.shortest_window(),
-                1e3 * patch.a
+                digits(case.shortest_window()),
+                digits(1e3 * patch.a)
             )
         },
         &help("lengthen the window: three patches are sensible"),
@@ -644,9 +717,9 @@ fn check_path(case: &Case, found: &mut Findings) {
         &["mesh.zone.width", "load.normal", "material.young"],
         || {
             format!(
-                "mesh.zone.width = {} m must be at least the patch's width, {:.5} m",
+                "mesh.zone.width = {} m must be at least the patch's width, {} m",
                 number(zone.width),
-                2.0 * patch.b
+                digits(2.0 * patch.b)
             )
         },
         &help("widen the fine zone, reduce the load, or give the bar a smaller crown_radius"),
@@ -688,23 +761,29 @@ pub fn warnings(case: &Case) -> Vec<String> {
     );
     let patch = hertz(case);
     let size = case.mesh.zone.size;
-    // a slice is not resolved across
-    let least = if case.mesh.plane_strain { patch.a } else { patch.a.min(patch.b) };
     warn(
-        size > 0.5 * least,
+        size > 0.5 * least_half_axis(case),
         format!(
-            "mesh.zone.size = {} mm is coarse for a patch of half axes {:.2} and {:.2} mm",
-            1e3 * size,
-            1e3 * patch.a,
-            1e3 * patch.b
+            "mesh.zone.size = {} mm is coarse for a patch of half axes {} and {} mm",
+            mm(size),
+            mm(patch.a),
+            mm(patch.b)
+        ),
+    );
+    let beta = dundurs_beta(case);
+    warn(
+        beta.abs() > 1e-6,
+        format!(
+            "the materials of disk and bar differ (Dundurs' beta {beta:.3}): creepage 0 is not free rolling, and creep-force \
+             curves are shifted by the creepage that a run with drive.torque = 0 finds"
         ),
     );
     warn(
         case.drive.ramp > case.evaluation_window()[0],
         format!(
-            "the evaluation window begins at {:.3} ms, before the drive's ramp ends at {:.3} ms",
-            1e3 * case.evaluation_window()[0],
-            1e3 * case.drive.ramp
+            "the evaluation window begins at {} ms, before the drive's ramp ends at {} ms",
+            digits(1e3 * case.evaluation_window()[0]),
+            digits(1e3 * case.drive.ramp)
         ),
     );
     for (key, stiffness) in
@@ -723,7 +802,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
             format!(
                 "an output window begins at {} s, after the end of the run at {} s",
                 number(window.from),
-                number(case.duration())
+                digits(case.duration())
             ),
         );
     }

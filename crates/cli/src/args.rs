@@ -1,13 +1,13 @@
 //! The options that all commands share.
 
 use std::ffi::OsString;
-use std::io::Write;
 
 use clap::ArgAction;
 use serde_json::Value;
 
 use crate::report;
 use crate::stop::Stop;
+use crate::terminal;
 
 // No doc comment here: clap would show it as the help of the whole program.
 #[derive(Debug, clap::Args)]
@@ -39,16 +39,14 @@ impl Args {
         if self.json {
             report::print_json(document);
         } else if !self.quiet {
-            // A reader that closed the pipe wants no more.
-            let _ = write!(std::io::stdout(), "{}", page());
+            terminal::print(page().as_bytes());
         }
     }
 
     /// Says a remark beside the results.
     pub fn say(&self, line: &str) {
         if !self.quiet {
-            // A closed standard error is no reason to panic.
-            let _ = writeln!(std::io::stderr(), "{line}");
+            terminal::message(line);
         }
     }
 }

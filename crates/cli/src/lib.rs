@@ -10,6 +10,7 @@ mod progress;
 mod report;
 mod run;
 mod stop;
+mod terminal;
 #[cfg(feature = "verify")]
 mod verify;
 #[cfg(not(feature = "verify"))]
@@ -17,7 +18,6 @@ mod verify;
 mod verify;
 
 use std::ffi::OsString;
-use std::io::Write;
 #[cfg(unix)]
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -47,18 +47,32 @@ pub fn main(words: impl IntoIterator<Item = OsString>, program: Vec<OsString>) -
         line.args.stop = stop;
         commands::dispatch(&line)
     });
-    match done {
-        Ok(code) => code,
-        Err(error) => {
-            if json {
-                report::print_json(&failure::document(&error));
-            }
-            let code = error.exit_code();
-            // A closed standard error is no reason to panic.
-            let _ = writeln!(std::io::stderr(), "{:?}", Report::new(error));
-            code
+    printed(done.unwrap_or_else(|error| {
+        if json {
+            report::print_json(&failure::document(&error));
         }
-    }
+        told(error)
+    }))
+}
+
+/// Shows an error and returns its exit code.
+fn told(error: Error) -> u8 {
+    let code = error.exit_code();
+    terminal::message(&format!("{:?}", Report::new(error)));
+    code
+}
+
+/// The exit code of a command that ended with `code`, by whether standard output took what it printed.
+fn printed(code: u8) -> u8 {
+    let Some(cause) = terminal::failure() else { return code };
+    let failed = told(Error::Option {
+        problem: format!("standard output cannot be written: {cause}"),
+        help: Some(
+            "make room where it goes, and print again; files that the command wrote are complete"
+                .into(),
+        ),
+    });
+    if code == 0 { failed } else { code }
 }
 
 /// A file that reaches the limit of a file's size (`ulimit -f`) is one that cannot be written, as on a full
@@ -83,8 +97,12 @@ fn usage(error: &clap::Error, words: &[OsString]) -> u8 {
     if error.use_stderr() && wanted {
         report::print_json(&failure::usage(&error.render().to_string()));
     }
-    let _ = error.print();
-    if error.use_stderr() { BAD_INPUT } else { 0 }
+    let printed_error = error.print();
+    if error.use_stderr() {
+        return BAD_INPUT;
+    }
+    terminal::note(printed_error);
+    printed(0)
 }
 
 fn set_up_messages(args: &Args) {
@@ -101,7 +119,7 @@ fn set_up_messages(args: &Args) {
     };
     tracing_subscriber::fmt()
         .with_max_level(level)
-        .with_writer(std::io::stderr)
+        .with_writer(|| terminal::Messages)
         .with_target(false)
         .without_time()
         .init();

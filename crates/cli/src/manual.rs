@@ -1,7 +1,6 @@
 //! What an installed program gives a shell and `man`: completions and manual pages.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use clap::CommandFactory;
@@ -9,6 +8,7 @@ use clap_complete::Shell;
 use creepage::Error;
 
 use crate::commands::Line;
+use crate::terminal::print;
 
 /// Prints the completions for `shell`.
 pub fn completions(shell: Shell) {
@@ -55,9 +55,4 @@ pub fn pages(folder: &Path) -> Result<(), Error> {
             problem: format!("the pages cannot be written to {}: {error}", folder.display()),
             help: None,
         })
-}
-
-fn print(text: &[u8]) {
-    // a reader that closed the pipe wants no more
-    let _ = std::io::stdout().write_all(text);
 }

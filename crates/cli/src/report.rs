@@ -12,13 +12,13 @@ pub mod sweep;
 #[cfg(feature = "verify")]
 pub mod verify;
 
-use std::io::Write;
-
 use serde_json::Value;
+
+use crate::terminal;
 
 /// Prints one JSON document on standard output.
 pub fn print_json(document: &Value) {
-    // Pretty-printing a value cannot fail; a reader that closed the pipe wants no more.
+    // Pretty-printing a value cannot fail.
     let text = serde_json::to_string_pretty(document).unwrap_or_default();
-    let _ = writeln!(std::io::stdout(), "{text}");
+    terminal::print(format!("{text}\n").as_bytes());
 }

@@ -1,13 +1,12 @@
 //! `creepage run`.
 
-use std::io::Write;
-
 use creepage::{Error, INTERRUPTED, RunOptions};
 
 use crate::args::Args;
 use crate::progress::RunWatch;
 use crate::report;
 use crate::stop::Stop;
+use crate::terminal;
 
 /// Options of `run`.
 #[derive(Debug, clap::Args)]
@@ -27,7 +26,7 @@ pub fn command(args: &Args, RunArgs { options, leash }: &RunArgs) -> Result<u8, 
     let done = creepage::run(options, &mut RunWatch::new(args, *leash))?;
     args.show(&done.document, || report::run::text(&done.document, &done.folder));
     if let Some(diagnosis) = done.diagnosis() {
-        let _ = writeln!(std::io::stderr(), "stopped: {diagnosis}");
+        terminal::message(&format!("stopped: {diagnosis}"));
     }
     if done.interrupted() {
         args.say("interrupted: --resume goes on");

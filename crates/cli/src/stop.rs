@@ -1,18 +1,22 @@
-//! Ctrl-C and SIGTERM, in one place.
+//! Ctrl-C, SIGTERM and SIGHUP, in one place.
 //!
 //! A command that holds nothing half-done ends at the first. One that ends in order, as `run` does, is asked
 //! to, and ended too where it has not heard within some seconds: what takes long before a run
 //! rolls (meshes, preloads, the creation of its files) leaves nothing that a kill could damage.
 
-use std::io::Write;
+#[cfg(unix)]
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use creepage::{Error, INTERRUPTED};
+#[cfg(unix)]
+use files::input;
 
 use crate::failure::failure;
 use crate::report;
+use crate::terminal;
 
 /// How long a command has to hear that it is asked to end.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -34,7 +38,7 @@ impl Stop {
     pub fn listening(json: bool) -> Result<Self, Error> {
         let stop = Self { json, ..Self::default() };
         let heard = stop.clone();
-        ctrlc::set_handler(move || heard.ask()).map_err(|error| {
+        listen(move || heard.ask()).map_err(|error| {
             Error::System(format!("the handler of Ctrl-C cannot be set: {error}"))
         })?;
         Ok(stop)
@@ -56,16 +60,14 @@ impl Stop {
         if !self.in_order.load(Ordering::SeqCst) || self.asked.swap(true, Ordering::SeqCst) {
             self.end();
         }
-        // A closed standard error is no reason to panic.
-        let _ = writeln!(
-            std::io::stderr(),
-            "\nstopping: results so far are being written (Ctrl-C again ends at once)"
+        terminal::message(
+            "\nstopping: results so far are being written (Ctrl-C again ends at once)",
         );
         let this = self.clone();
         let waits = std::thread::Builder::new().spawn(move || {
             std::thread::sleep(PATIENCE);
             if !this.hears.load(Ordering::SeqCst) {
-                let _ = writeln!(std::io::stderr(), "stopped: there were no results to write yet");
+                terminal::message("stopped: there were no results to write yet");
                 this.end();
             }
         });
@@ -81,4 +83,32 @@ impl Stop {
         }
         std::process::exit(INTERRUPTED.into());
     }
+}
+
+/// Calls `ask` at every signal that asks the program to end.
+///
+/// A signal that was ignored when the program started stays ignored: this is how `nohup`, `trap '' HUP` and a script's
+/// `command &` protect what they start.
+#[cfg(unix)]
+fn listen(ask: impl Fn() + Send + 'static) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let ignored = ignored();
+    let signals = [SIGHUP, SIGINT, SIGTERM].into_iter();
+    let heeded = signals.filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    let mut heard = signal_hook::iterator::Signals::new(heeded)?;
+    let listener = std::thread::Builder::new().spawn(move || heard.forever().for_each(|_| ask()));
+    listener.map(drop)
+}
+
+/// The signals that this process ignores, number n as bit n - 1; none where the system does not tell.
+#[cfg(unix)]
+fn ignored() -> u64 {
+    let status = input::text(Path::new("/proc/self/status"), input::LOG).unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
+}
+
+#[cfg(not(unix))]
+fn listen(ask: impl FnMut() + Send + 'static) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(ask)
 }

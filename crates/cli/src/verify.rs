@@ -1,11 +1,10 @@
 //! `creepage verify` at the command line.
 
-use std::io::Write;
-
 use creepage::{Error, Listener, Problem, Row, VerifyOptions};
 
 use crate::args::Args;
 use crate::report::verify::{rows, text};
+use crate::terminal;
 
 /// The options of the command.
 pub type VerifyArgs = VerifyOptions;
@@ -27,7 +26,7 @@ impl Listener for VerifyWatch<'_> {
 
     fn verified(&mut self, problem: &Problem, found: &[Row], seconds: f64) {
         if !self.0.json && !self.0.quiet {
-            let _ = write!(std::io::stdout(), "{}", rows(problem, found, seconds));
+            terminal::print(rows(problem, found, seconds).as_bytes());
         }
     }
 }

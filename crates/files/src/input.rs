@@ -1,5 +1,6 @@
 //! Opening a file that is to be read: regular and bounded, as bytes or as text.
 
+use std::borrow::Cow;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -63,6 +64,8 @@ pub enum Fault {
     TooLarge,
     /// The operating system refuses to open or read it.
     Unreadable(io::Error),
+    /// It is text in UTF-16.
+    Utf16,
     /// It is not UTF-8 text; where the first invalid byte is.
     NotText {
         /// Line, counted from 1.
@@ -83,6 +86,7 @@ impl InputError {
                 format!("is larger than {}, the most that {what} may have", size(self.kind.most))
             }
             Fault::Unreadable(cause) => format!("cannot be read: {cause}"),
+            Fault::Utf16 => "is text in UTF-16, not in UTF-8".into(),
             Fault::NotText { line, byte } => {
                 format!("is not UTF-8 text (line {line}, byte {byte})")
             }
@@ -100,7 +104,7 @@ impl InputError {
             }
             Fault::TooLarge => format!("name {what}"),
             Fault::Unreadable(_) => "check that you may read it".into(),
-            Fault::NotText { .. } => format!("{what} is text, saved as UTF-8"),
+            Fault::Utf16 | Fault::NotText { .. } => format!("{what} is text, saved as UTF-8"),
         }
     }
 
@@ -190,16 +194,45 @@ pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, InputError> {
     if read as u64 > kind.most { Err(refuse(Fault::TooLarge)) } else { Ok(bytes) }
 }
 
-/// A whole file as UTF-8 text.
+/// A whole file as UTF-8 text. Letters of Latin-1 may stand where they change nothing: after a `#`, and in a [`TABLE`],
+/// whose values are numbers.
 ///
 /// # Errors
-/// As [`bytes`]; also [`Fault::NotText`].
+/// As [`bytes`]; also [`Fault::Utf16`] and [`Fault::NotText`].
 pub fn text(path: &Path, kind: Kind) -> Result<String, InputError> {
-    String::from_utf8(bytes(path, kind)?).map_err(|error| {
-        let byte = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..byte].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        InputError { path: path.to_path_buf(), kind, fault: Fault::NotText { line, byte } }
+    let bytes = bytes(path, kind)?;
+    let refuse = |fault| InputError { path: path.to_path_buf(), kind, fault };
+    // a mark, or the zero of a letter of ASCII
+    if matches!(bytes[..], [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, _, ..] | [_, 0, ..]) {
+        return Err(refuse(Fault::Utf16));
+    }
+    String::from_utf8(bytes).or_else(|error| {
+        let mut text = String::with_capacity(error.as_bytes().len());
+        let mut start = 0;
+        for (number, line) in (1..).zip(error.as_bytes().split_inclusive(|&b| b == b'\n')) {
+            let comment = match kind {
+                TABLE => Some(0),
+                CASE => line.iter().position(|&b| b == b'#'),
+                _ => None,
+            };
+            let (code, comment) = line.split_at(comment.unwrap_or(line.len()));
+            text += str::from_utf8(code).map_err(|error| {
+                let byte = start + error.valid_up_to();
+                refuse(Fault::NotText { line: number, byte })
+            })?;
+            text += &decoded(comment);
+            start += line.len();
+        }
+        Ok(text)
     })
+}
+
+/// Text in UTF-8, or else in Latin-1, where each byte is the character of its number.
+pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    match str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(_) => bytes.iter().copied().map(char::from).collect(),
+    }
 }
 
 /// Longest line that [`by_line`] lets through (bytes).
@@ -316,5 +349,29 @@ mod tests {
         fs::write(file.path(), b"a = 1\nb = \xff\n").unwrap();
         let error = text(file.path(), CASE).unwrap_err();
         assert!(error.to_string().contains("line 2, byte 10"), "{error}");
+    }
+
+    #[test]
+    fn letters_of_latin_1_are_read_in_comments_and_in_the_heading_of_a_table() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let read = |bytes: &[u8], kind| {
+            fs::write(file.path(), bytes).unwrap();
+            text(file.path(), kind)
+        };
+        assert_eq!(read(b"# Gr\xf6\xdfe\na = 1 # \xb5\n", CASE).unwrap(), "# Größe\na = 1 # µ\n");
+        // what stands before a comment stays UTF-8
+        assert_eq!(read(b"\"\xc3\xa9\" = 1 # \xb5", CASE).unwrap(), "\"é\" = 1 # µ");
+        assert_eq!(read(b"s (m/s),\xb5\n0,0.5\n", TABLE).unwrap(), "s (m/s),µ\n0,0.5\n");
+        assert!(read(b"{\"#\xb5\": 1}", DOCUMENT).is_err());
+    }
+
+    #[test]
+    fn utf_16_is_called_so() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        for bytes in [&b"\xff\xfea\0"[..], b"\xfe\xff\0a", b"a\0=\0", b"\0a\0="] {
+            fs::write(file.path(), bytes).unwrap();
+            let error = text(file.path(), CASE).unwrap_err();
+            assert!(error.to_string().contains("UTF-16"), "{error}");
+        }
     }
 }

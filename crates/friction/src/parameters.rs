@@ -77,8 +77,8 @@ pub struct Parameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub age: Option<f64>,
     /// Coefficient against slip velocity for `law = "table"`: a CSV file, relative to this one, with
-    /// the columns slip velocity (m/s), rising from 0, and coefficient; or a list of such pairs, which
-    /// the resolved case holds. Linear in between, constant beyond the last. Required with this law,
+    /// the columns slip velocity (m/s, unless a heading names another unit), rising from 0, and coefficient; or a list
+    /// of such pairs, which the resolved case holds. Linear in between, constant beyond the last. Required with this law,
     /// refused with others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "file_or_points")]

@@ -9,6 +9,9 @@ pub struct Table {
     points: Vec<[f64; 2]>,
 }
 
+/// Least difference of the slip speeds of neighbouring points (m/s): the slope between closer ones is round-off.
+const LEAST_RISE: f64 = 1e-12;
+
 /// Why points define no friction law.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum TableError {
@@ -37,7 +40,8 @@ pub enum TableError {
     },
     /// Slip speeds do not rise.
     #[error(
-        "point {number} of the friction table has the slip speed {speed} m/s, which must be above that of the point before, {before} m/s"
+        "point {number} of the friction table has the slip speed {speed} m/s, which must be above that of the point before, {before} m/s, by {:e} m/s or more",
+        LEAST_RISE
     )]
     Order {
         /// Number of the point, from 1.
@@ -63,7 +67,7 @@ impl Table {
             if !(speed >= 0.0 && mu >= 0.0 && speed.is_finite() && mu.is_finite()) {
                 return Err(TableError::Range { number, speed, mu });
             }
-            if i > 0 && speed <= points[i - 1][0] {
+            if i > 0 && speed < points[i - 1][0] + LEAST_RISE {
                 return Err(TableError::Order { number, speed, before: points[i - 1][0] });
             }
         }
@@ -115,6 +119,8 @@ mod tests {
         assert_eq!(Table::new(vec![[0.1, 0.5]]), Err(TableError::Start { speed: 0.1 }));
         let order = TableError::Order { number: 3, speed: 1.0, before: 1.0 };
         assert_eq!(Table::new(vec![[0.0, 0.5], [1.0, 0.4], [1.0, 0.3]]), Err(order));
+        let order = TableError::Order { number: 2, speed: 1e-300, before: 0.0 };
+        assert_eq!(Table::new(vec![[0.0, 0.5], [1e-300, 0.3]]), Err(order));
         let nan = Table::new(vec![[0.0, 0.5], [1.0, f64::NAN]]);
         assert!(matches!(nan, Err(TableError::Range { number: 2, .. })));
     }

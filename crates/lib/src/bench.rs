@@ -7,14 +7,14 @@ use serde_json::Value;
 
 #[cfg(feature = "clap")]
 use crate::values::words::{element, kernels};
-use crate::values::{EDGE, KERNELS, THREADS, all_cores};
+use crate::values::{EDGE, KERNELS, ONE_PER_CORE, THREADS, all_cores};
 use crate::{CaseSource, Error};
 
 /// What to measure.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct BenchOptions {
-    /// Number of threads [default: one per core]
+    /// Number of threads, at most one per core [default: one per core]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = |n: &str| THREADS.read(n)))]
     pub threads: Option<usize>,
     /// Instruction set of the element kernels [default: the best of this machine]
@@ -41,6 +41,7 @@ pub struct BenchOptions {
 /// A key of the reference case that cannot be used; kernels that this machine cannot run.
 pub fn bench(options: &BenchOptions) -> Result<Value, Error> {
     THREADS.check("--threads", options.threads.as_ref())?;
+    ONE_PER_CORE.check("--threads", options.threads.as_ref())?;
     EDGE.check("--block", options.block.as_ref())?;
     KERNELS.check("--kernels", options.kernels.as_ref())?;
     let threads = options.threads.unwrap_or_else(all_cores);

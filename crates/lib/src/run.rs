@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::error::{INTERRUPTED, STOPPED_BY_GUARD};
-use crate::values::{THREADS, all_cores};
+use crate::values::{THREADS, threads};
 use crate::{CaseSource, Error, Listener};
 
 /// What to run, and how.
@@ -22,7 +22,7 @@ pub struct RunOptions {
     /// The case.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub case: CaseSource,
-    /// Number of threads [default: one per core]
+    /// Number of threads, at most one per core [default: one per core]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = |n: &str| THREADS.read(n)))]
     pub threads: Option<usize>,
     /// Take the kernels whose bits every processor can give, at some cost in speed; the same as
@@ -90,7 +90,7 @@ pub fn run(options: &RunOptions, listener: &mut dyn Listener) -> Result<Ran, Err
     let folder = options.out.clone().unwrap_or_else(|| ::run::folder::default_folder(&case));
     let how = ::run::RunOptions {
         out: folder.clone(),
-        threads: options.threads.unwrap_or_else(all_cores),
+        threads: threads(options.threads, listener),
         force: options.force,
         resume: options.resume,
         preload_cache: options.preload_cache.clone(),

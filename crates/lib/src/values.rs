@@ -7,7 +7,7 @@ use ::run::Level;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use crate::Error;
+use crate::{Error, Listener};
 
 /// What a value must be.
 pub struct Rule<T> {
@@ -18,6 +18,9 @@ pub struct Rule<T> {
 /// Threads, or runs at a time.
 pub const THREADS: Rule<usize> =
     Rule { holds: |n| (1..=1024).contains(n), wanted: "a whole number from 1 to 1024 is needed" };
+/// Threads of a measurement.
+pub const ONE_PER_CORE: Rule<usize> =
+    Rule { holds: |n| *n <= all_cores(), wanted: "one thread per core at most is needed" };
 /// Edge of a block, in elements.
 pub const EDGE: Rule<usize> =
     Rule { holds: |n| (1..=400).contains(n), wanted: "a whole number from 1 to 400 is needed" };
@@ -95,6 +98,19 @@ pub fn exclude(option: (&str, bool), others: &[(&str, bool)]) -> Result<(), Erro
 /// As many threads as there are cores.
 pub fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, |n| n.get())
+}
+
+/// The number of threads of a run: as many as `asked` for, else one per core. More than one per core would only wait for
+/// one another, and with hundreds the waiting takes minutes: they are left out, which the listener hears.
+pub fn threads(asked: Option<usize>, listener: &mut dyn Listener) -> usize {
+    let cores = all_cores();
+    if let Some(asked) = asked.filter(|asked| *asked > cores) {
+        let (s, are) = if cores == 1 { ("", "is") } else { ("s", "are") };
+        listener.remark(&format!(
+            "--threads {asked}: this process has {cores} core{s}, and {cores} thread{s} {are} used"
+        ));
+    }
+    asked.map_or(cores, |asked| asked.min(cores))
 }
 
 /// Reads a value from its text.
@@ -225,6 +241,25 @@ mod tests {
         refused(crate::check(&check), "--window: the window ends before it begins");
         check.span.window = Some([f64::NAN, 1.0]);
         refused(crate::check(&check), "--window");
+    }
+
+    #[test]
+    fn a_run_takes_no_more_threads_than_there_are_cores_and_says_so() {
+        struct Heard(Vec<String>);
+        impl crate::Listener for Heard {
+            fn remark(&mut self, line: &str) {
+                self.0.push(line.to_owned());
+            }
+        }
+        let (cores, mut heard) = (super::all_cores(), Heard(Vec::new()));
+        assert_eq!([None, Some(cores)].map(|n| super::threads(n, &mut heard)), [cores; 2]);
+        assert_eq!(super::threads(Some(1), &mut heard), 1);
+        assert!(heard.0.is_empty(), "{:?}", heard.0);
+        assert_eq!(super::threads(Some(1024), &mut heard), cores);
+        assert!(heard.0[0].starts_with("--threads 1024: this process has"), "{:?}", heard.0);
+        // a measurement with another number of threads than was asked for would mislead
+        let bench = BenchOptions { threads: Some(1024), ..BenchOptions::default() };
+        refused(crate::bench(&bench), "--threads: one thread per core at most is needed");
     }
 
     #[test]

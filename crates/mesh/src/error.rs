@@ -99,17 +99,25 @@ pub enum Allowed {
     Ascending,
 }
 
+/// A computed number rounded to six digits, for messages.
+pub(crate) fn digits(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
 impl fmt::Display for Allowed {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Positive => f.write_str("a positive, finite number"),
             Self::Finite => f.write_str("a finite number"),
             Self::Growth => f.write_str("above 1 and at most 3"),
-            Self::AtLeast(least, what) => write!(f, "at least {least}, {what}"),
-            Self::AtMost(most, what) => write!(f, "at most {most}, {what}"),
+            Self::AtLeast(least, what) => write!(f, "at least {}, {what}", digits(*least)),
+            Self::AtMost(most, what) => write!(f, "at most {}, {what}", digits(*most)),
             Self::Below(end, what) => write!(f, "below {end}, {what}"),
-            Self::Between(low, high, why) => write!(f, "from {low} to {high}, {why}"),
+            Self::Between(low, high, why) => {
+                write!(f, "from {} to {}, {why}", digits(*low), digits(*high))
+            }
             Self::Falls { fall, most } => {
+                let (fall, most) = (digits(*fall), digits(*most));
                 write!(
                     f,
                     "large enough that the surface falls by less than {most} m over the width; it falls by {fall} m"

@@ -243,6 +243,15 @@ fn numbers_are_read_in_either_order_of_their_bytes() {
 }
 
 #[test]
+fn the_name_of_a_group_in_a_binary_file_may_be_in_latin_1() {
+    for mut file in [cube_4(false, 8, 1), cube_2(true, 8, 1)] {
+        let at = file.windows(8).position(|bytes| bytes == b"the disk").unwrap();
+        file[at..at + 8].copy_from_slice(b"R\xe4der 20");
+        assert_eq!(Format::Gmsh.read(&file).unwrap().sets["R\u{e4}der 20"].hexes, [0]);
+    }
+}
+
+#[test]
 fn a_wrong_order_of_bytes_and_counts_that_lie_are_refused() {
     let mut wrong = cube_4(true, 8, 1);
     wrong[20..24].copy_from_slice(&1i32.to_le_bytes());

@@ -336,10 +336,19 @@ fn millimetres_where_metres_are_expected_are_named_and_the_unit_mends_them() {
     assert!(error.to_string().contains("are in mm"), "{error}");
     assert!(matches!(error.fault, Fault::Unit { unit: Unit::Millimetre, .. }));
     import_in(&mesh, Unit::Millimetre).unwrap();
-    assert!(matches!(
-        import_in(&foreign(), Unit::Millimetre).unwrap_err().fault,
-        Fault::Size { parameter: Parameter::DiskRadius, .. }
-    ));
+}
+
+#[test]
+fn a_wrong_unit_is_told_as_such_with_the_one_that_fits() {
+    for fits in Unit::ALL {
+        let mut mesh = foreign();
+        mesh.points.iter_mut().flatten().for_each(|x| *x /= fits.metres(1.0));
+        for wrong in Unit::ALL.into_iter().filter(|unit| *unit != fits) {
+            let error = import_in(&mesh, wrong).unwrap_err();
+            let Fault::Unit { unit, .. } = error.fault else { panic!("{wrong:?}: {error}") };
+            assert_eq!(unit, fits, "read in {wrong:?}");
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Mesh files: the formats give the same mesh, and what is wrong is told with its line.
 #![allow(clippy::unwrap_used)]
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use mesh::import::{
     Fault, Foreign, Format, ImportError, Place, Set, SetNames, Shape, Unit, bodies, fit,
 };
@@ -333,4 +335,237 @@ fn a_mesh_written_for_gmsh_reads_back_with_the_same_bits_and_sets() {
     };
     assert_eq!(sizes(&first), sizes(&again));
     same_bits(&import(&first).unwrap(), &import(&again).unwrap());
+}
+
+/// A cube for Abaqus, and what comes after it.
+fn inp(rest: &str) -> String {
+    format!(
+        "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n\
+         *ELEMENT, TYPE=C3D8, ELSET=cube\n11,1,2,3,4,5,6,7,8\n{rest}"
+    )
+}
+
+#[track_caller]
+fn sets(rest: &str) -> Foreign {
+    read_abaqus(inp(rest).as_bytes()).unwrap()
+}
+
+#[test]
+fn a_keyword_line_that_ends_with_a_comma_goes_on_in_the_next() {
+    for (lines, nodes) in [
+        ("*NSET, NSET=s,\nGENERATE\n2, 8, 3\n", &[1, 4, 7][..]),
+        ("*nset,\n** a comment\n\n nset = s , \n internal,\n unsorted\n3, 1\n", &[0, 2]),
+        ("*NSET,\nNSET=s,\nELSET=cube\n*NSET, NSET=t\n1\n", &[0, 1, 2, 3, 4, 5, 6, 7]),
+        ("*N SET, N SET=s,\nGENER ATE\n1, 2,\n", &[0, 1]),
+        // no parameter begins with a digit
+        ("*NSET, NSET=s,\n1, 2, 3\n", &[0, 1, 2]),
+        ("*NSET, NSET=\"s\",\n*NSET, NSET=s\n5\n", &[4]),
+    ] {
+        assert_eq!(sets(lines).sets["s"].nodes, nodes, "{lines}");
+    }
+    let cube = inp("*ELSET,\nELSET=s\n11\n*SURFACE, TYPE=ELEMENT,\nNAME=f\ncube, S2\n");
+    let cube =
+        cube.replace("TYPE=C3D8, ELSET", "TYPE=C3D8,\nELSET").replace("*NODE", "*NODE,\nNSET=n");
+    let cube = read_abaqus(cube.as_bytes()).unwrap();
+    assert_eq!((&cube.sets["s"].hexes[..], &cube.sets["cube"].hexes[..]), (&[0][..], &[0][..]));
+    assert_eq!(cube.sets["n"].nodes.len(), 8);
+    assert_eq!(cube.sets["f"].faces, [[4, 5, 6, 7]]);
+    let error = read_abaqus(inp("*NSET, NSET=s,\nhub, 3\n").as_bytes()).unwrap_err();
+    assert_eq!((error.place, error.to_string().contains("HUB")), (Some(Place::Line(12)), true));
+}
+
+#[test]
+fn names_in_quotes_are_found_in_data_lines_whatever_they_hold() {
+    for name in ["my set", "a, b", "12", "Straße"] {
+        let lines = format!(
+            "*NSET, NSET=\"{name}\"\n1, 2\n*NSET, NSET=s\n\"{name}\", 8\n*ELSET, ELSET=\"{name}\"\n11\n\
+             *SURFACE, NAME=f\n\"{name}\", S1\n*SURFACE, TYPE=NODE, NAME=g\n\"{name}\", 0.5\n"
+        );
+        let read = sets(&lines).sets;
+        assert_eq!(read["s"].nodes, [0, 1, 7], "{name}");
+        assert_eq!((&read[name].nodes[..], &read[name].hexes[..]), (&[0, 1][..], &[0][..]));
+        assert_eq!((read["f"].faces.len(), &read["g"].nodes[..]), (1, &[0, 1][..]));
+    }
+    // without quotes neither blanks nor letter case tell names apart
+    assert_eq!(sets("*NSET, NSET=My Set\n1\n*NSET, NSET=s\nMYSET, 2\n").sets["s"].nodes, [0, 1]);
+    let two = inp("*NSET, NSET=\"Hub\"\n1\n*NSET, NSET=\"hub\"\n2\n");
+    let error = read_abaqus(two.as_bytes()).unwrap_err();
+    assert!(error.to_string().contains("`hub` beside a set `Hub`"), "{error}");
+}
+
+#[test]
+fn what_a_keyword_says_is_used_or_harmless_or_refused_by_name() {
+    sets("*ELSET, ELSET=s, INTERNAL, UNSORTED\n11\n*SURFACE, NAME=f, TRIM=NO, INTERNAL\n11, S1\n");
+    for (lines, word) in [
+        ("*NSET, NSET=s, GEN\n1, 2\n", "*NSET with GEN "),
+        ("*NSET, NSET=s, GENERATE=NO\n1, 2\n", "GENERATE=NO"),
+        ("*NSET, NSET=s, NSET=t\n1, 2\n", "NSET=t"),
+        ("*NSET, NSET=s, INSTANCE=wheel-1\n1, 2\n", "INSTANCE=wheel-1"),
+        ("*NSET, NSET=s, ELSET=cube, GENERATE\n", "GENERATE"),
+        ("*NSET, NSET=s, ELSET=cube\n1\n", "a keyword that starts with *"),
+        ("*NSET, NSET=\n1\n", "*NSET needs NSET="),
+        ("*NSET, NSET=\"s\n1\n", "not closed"),
+        ("*NSET NSET=s\n1\n", "a comma is expected"),
+        ("*ELSET, ELSET=s, COMBINE=UNION\n11\n", "COMBINE=UNION"),
+        ("*ELEMENT, TYPE=C3D8, OFFSET=100\n", "OFFSET=100"),
+        ("*SURFACE, NAME=f, COMBINE=INTERSECTION\ncube, s\n", "COMBINE=INTERSECTION"),
+        ("*SURFACE, NAME=f\ncube, S7\n", "found `S7`"),
+        ("*ELEMENT, TYPE=CAX4, ELSET=q\n12, 1, 2, 3, 4\n*SURFACE, NAME=f\nq, S1\n", "found `S1`"),
+        ("*ELEM, TYPE=C3D8\n", "*ELEM, which may stand for *ELEMENT,"),
+        ("*NCOP, CHANGE NUMBER=8\n", "*NCOPY"),
+        ("*SYMMETRIC MODEL GENERATION, PERIODIC\n", "*SYMMETRICMODELGENERATION"),
+        ("*INCLUDE,\nINPUT=a.inp\n", "*INCLUDE"),
+        ("*NSET, NSET=s, GENERATE\n1, 8, 3\n", "first, last and increment"),
+        ("*NSET, NSET=s, GENERATE\n1, 8, 0\n", "first, last and increment"),
+        ("*NSET, NSET=s, GENERATE\n8, 1\n", "first, last and increment"),
+        ("*NSET, NSET=s, GENERATE\n1, 2, 1, 4\n", "first, last and increment"),
+        ("*NODE\n9, 0.5, 0.2,\n10\n", "node 9 ends with a comma"),
+    ] {
+        let error = read_abaqus(inp(lines).as_bytes()).unwrap_err();
+        assert!(error.to_string().contains(word), "{lines}{error}");
+        assert!(matches!(error.place, Some(Place::Line(12..))), "{error:?}");
+    }
+}
+
+#[test]
+fn a_set_of_the_case_that_names_what_is_not_there_is_refused() {
+    let small = String::from_utf8(bytes("small.inp")).unwrap();
+    let end = small.lines().count();
+    for (lines, line, word) in [
+        ("*NSET, NSET=clamp\n1, 99999\n", 2, "set `clamp` names node 99999"),
+        ("*NSET, NSET=clamp, GENERATE\n99000, 99999\n", 2, "set `clamp` names node 99000"),
+        ("*NSET, NSET=clamp\nrail foot\n", 2, "set `clamp` names the node set `rail foot`"),
+        ("*NSET, NSET=clamp, ELSET=foot\n", 1, "set `clamp` names the element set `foot`"),
+        ("*NSET, NSET=a\n99999\n*NSET, NSET=clamp\na\n", 2, "set `a` names node 99999"),
+        ("*ELSET, ELSET=disk\n99999\n", 2, "set `disk` names element 99999"),
+        ("*SURFACE, NAME=tread\n99999, S1\n", 2, "set `tread` names element 99999"),
+        ("*ELSET, ELSET=a\n99999\n*SURFACE, NAME=tread\na, S1\n", 2, "set `a` names element 99999"),
+    ] {
+        let read = read_abaqus(format!("{small}\n{lines}").as_bytes()).unwrap();
+        let error = import(&read).unwrap_err();
+        assert!(error.to_string().contains(word), "{lines}{error}");
+        assert!(matches!(error.place, Some(Place::Line(n)) if n + 1 >= end + line), "{error:?}");
+    }
+    // of other sets the case knows nothing
+    let other = format!("{small}\n*NSET, NSET=other, GENERATE\n1, 99999\n");
+    import(&read_abaqus(other.as_bytes()).unwrap()).unwrap();
+}
+
+#[test]
+fn letters_of_latin_1_in_comments_headings_and_names_are_read() {
+    let latin_1 = |text: &str| text.chars().map(|c| u8::try_from(c).unwrap()).collect::<Vec<_>>();
+    let lines = "** geändert am 3. März\n*HEADING\nRad auf Schiene, 20 °C\n*NSET, NSET=räder\n1\n\
+                 *NSET, NSET=s\nRÄDER, 2\n";
+    let cube = read_abaqus(&latin_1(&inp(lines))).unwrap();
+    assert_eq!(cube, sets(lines));
+    assert_eq!((&cube.sets["räder"].nodes[..], &cube.sets["s"].nodes[..]), (&[0][..], &[0, 1][..]));
+
+    let named = CUBE_2.replace("the disk", "räder");
+    let named = format!("{named}$Comments\n20 °C\n$EndComments\n");
+    let read = read_gmsh(&latin_1(&named)).unwrap();
+    assert_eq!(read, read_gmsh(named.as_bytes()).unwrap());
+    assert_eq!(read.sets["räder"].hexes, [0]);
+
+    let grid = vtu("0 1 2 3 4 5 6 7", "8", "12").replace("\"hub\"", "\"räder\"");
+    let grid = grid.replace("?>\n", " encoding=\"ISO-8859-1\"?>\n<!-- 20 °C -->\n");
+    assert_eq!(read_vtu(&latin_1(&grid)).unwrap().sets["räder"].nodes, [0, 7]);
+}
+
+#[test]
+fn a_file_in_utf_16_is_called_so() {
+    let text = inp("");
+    let wide: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let marked: Vec<u8> =
+        [0xfe, 0xff].into_iter().chain(text.encode_utf16().flat_map(u16::to_be_bytes)).collect();
+    for bytes in [wide, marked] {
+        for read in [read_abaqus, read_gmsh, read_vtu] {
+            let error = read(&bytes).unwrap_err();
+            assert!(error.to_string().contains("UTF-16"), "{error}");
+        }
+    }
+}
+
+/// An array in base64, the header of `word` bytes with the data or apart from them.
+fn base64(data: &[u8], word: usize, apart: bool) -> String {
+    let header = &(data.len() as u64).to_le_bytes()[..word];
+    if apart {
+        STANDARD.encode(header) + &STANDARD.encode(data)
+    } else {
+        STANDARD.encode([header, data].concat())
+    }
+}
+
+/// The grid of [`vtu`] with one hexahedron, its arrays in base64 by `encode`, inline or appended.
+fn vtu_in_base64(word: usize, appended: bool, encode: impl Fn(&[u8]) -> String) -> Vec<u8> {
+    let points = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1".split(' ');
+    let points: Vec<u8> = points.flat_map(|x| x.parse::<f64>().unwrap().to_le_bytes()).collect();
+    let nodes: Vec<u8> = (0..8i64).flat_map(i64::to_le_bytes).collect();
+    let mut section = String::new();
+    let mut array = |name: &str, kind: &str, data: &[u8]| {
+        let head = format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=");
+        if !appended {
+            return format!("{head}\"binary\">\n{}\n</DataArray>", encode(data));
+        }
+        let offset = section.len();
+        section += &encode(data);
+        format!("{head}\"appended\" offset=\"{offset}\"/>")
+    };
+    let text = format!(
+        "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt{}\"><UnstructuredGrid><Piece>\
+         <PointData>{}{}</PointData><Points>{}</Points><Cells>{}{}{}</Cells></Piece></UnstructuredGrid>",
+        8 * word,
+        array("hub", "UInt8", &[1, 0, 0, 0, 0, 0, 0, 1]),
+        array("none", "String", &[]),
+        array("Points", "Float64", &points),
+        array("connectivity", "Int64", &nodes),
+        array("offsets", "Int64", &8i64.to_le_bytes()),
+        // a header and one byte more, which ends with a sign = too
+        array("types", "UInt8", &[12]),
+    );
+    let section = format!("<AppendedData encoding=\"base64\">\n_{section}\n</AppendedData>");
+    format!("{text}{}</VTKFile>", if appended { section } else { String::new() }).into_bytes()
+}
+
+#[test]
+fn the_header_of_base64_data_may_be_encoded_with_them_or_apart() {
+    let expected = read_vtu(vtu("0 1 2 3 4 5 6 7", "8", "12").as_bytes()).unwrap();
+    for (word, appended, apart, wrapped) in
+        (0..16).map(|i| (4 << (i & 1), i & 2 > 0, i & 4 > 0, i & 8 > 0))
+    {
+        let encode = |data: &[u8]| {
+            let text = base64(data, word, apart);
+            // lines of a length that no header ends at
+            let lines = text.as_bytes().chunks(if wrapped { 7 } else { usize::MAX });
+            lines.map(|line| str::from_utf8(line).unwrap()).collect::<Vec<_>>().join("\n")
+        };
+        let file = vtu_in_base64(word, appended, encode);
+        let read = read_vtu(&file).unwrap();
+        assert_eq!(read, expected, "{word} {appended} {apart} {wrapped}");
+        // a header that says more than there is
+        let long = vtu_in_base64(word, appended, |data| {
+            let more = base64(&[data, &[0]].concat(), word, apart);
+            let header = if apart { word.div_ceil(3) * 4 } else { 0 };
+            if apart {
+                more[..header].to_owned() + &STANDARD.encode(data)
+            } else {
+                more[..more.len() - 4].into()
+            }
+        });
+        assert!(read_vtu(&long).is_err(), "{word} {appended} {apart}");
+    }
+}
+
+#[test]
+fn an_empty_array_may_have_a_header_or_none() {
+    for none in ["", "AAAAAA==", "\n AAAA AA== \n"] {
+        let text = vtu("0 1 2 3 4 5 6 7", "8", "12").replace(
+            "<Cells>",
+            &format!(
+                "<FieldData/><CellData><DataArray type=\"UInt8\" NumberOfComponents=\"1\" Name=\"e\" \
+                 format=\"binary\">{none}</DataArray></CellData><Cells>"
+            ),
+        );
+        let error = read_vtu(text.as_bytes()).unwrap_err();
+        assert!(error.to_string().contains("e has 0 values, not 1"), "{error}");
+    }
 }

@@ -55,7 +55,12 @@ const QUANTITIES: &[Quantity] = &[
     ("stability.dt_limit", "s", "longest stable time step"),
     ("stability.factor", "1", "time step over that limit"),
     ("rolling_radius.nominal", "m", "radius of the undeformed disk"),
-    ("rolling_radius.effective", "m", "R_eff, speed over angular velocity of free rolling"),
+    (
+        "rolling_radius.effective",
+        "m",
+        "R_eff, V over the omega at which the slip averaged over the preloaded patch is zero",
+    ),
+    ("rolling_radius.free", "m", "V over the omega of free rolling, where drive.torque = 0"),
     ("preload.hub_displacement", "m", ""),
     ("preload.normal_force", "N", ""),
     ("preload.", "1", ""),

@@ -89,11 +89,14 @@ pub struct RunPaths {
     pub case: PathBuf,
 }
 
-/// Refuses a file in TOML in the place of a run.
+/// Refuses what can be no run: a path where nothing is, or a file in TOML.
 ///
 /// # Errors
-/// [`PostError::NotYetRun`].
-pub(crate) fn no_case(run: &Path) -> Result<(), PostError> {
+/// [`PostError::NoSuchRun`], [`PostError::NotYetRun`].
+pub(crate) fn may_be_run(run: &Path) -> Result<(), PostError> {
+    if !run.exists() {
+        return Err(PostError::NoSuchRun { path: run.into() });
+    }
     if run.is_file() && run.extension().is_some_and(|extension| extension == "toml") {
         return Err(PostError::NotYetRun { path: run.into() });
     }
@@ -104,16 +107,25 @@ impl RunPaths {
     /// The files of the run at `run`, its folder or its contact history.
     ///
     /// # Errors
-    /// [`PostError::NotYetRun`] for a file in TOML, [`PostError::NoContactFile`] for any other path that is neither.
+    /// [`PostError::NoSuchRun`] where there is nothing, [`PostError::NotYetRun`] for a file in TOML,
+    /// [`PostError::NoContactFile`] for any other path that is neither.
     pub fn of(run: &Path) -> Result<Self, PostError> {
-        no_case(run)?;
+        may_be_run(run)?;
         let none = || PostError::NoContactFile { path: run.into() };
         let folder = if run.is_dir() { run } else { run.parent().ok_or_else(none)? };
+        // that of a file in the working directory is empty
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let contact = if run.is_dir() { run.join(file::CONTACT) } else { run.into() };
         if !contact.is_file() {
             return Err(none());
         }
         Ok(Self { folder: folder.into(), contact, case: folder.join(file::CASE) })
+    }
+
+    /// The name of the folder, also where its path ends in none, as `.` and `..`.
+    pub fn name(&self) -> String {
+        let folder = self.folder.canonicalize().unwrap_or_else(|_| self.folder.clone());
+        folder.file_name().map_or_else(|| "run".into(), |name| name.to_string_lossy().into_owned())
     }
 }
 
@@ -129,10 +141,7 @@ impl Basis {
         let case = read_toml(&paths.case)?;
         let summary = read_summary(&paths.folder)?;
         let mut basis = Self {
-            name: paths
-                .folder
-                .file_name()
-                .map_or_else(|| "run".to_owned(), |name| name.to_string_lossy().into_owned()),
+            name: paths.name(),
             law: None,
             friction: Err(String::new()),
             bound: Bound::Used,

@@ -109,8 +109,7 @@ fn labels(runs: &[Compared]) -> Vec<String> {
     let label = |run: &Compared| {
         let name = &run.basis.name;
         let alike = runs.iter().filter(|other| other.basis.name == *name).count();
-        let folder = run.paths.folder.file_name().filter(|_| alike > 1);
-        folder.map_or_else(|| name.clone(), |folder| folder.to_string_lossy().into_owned())
+        if alike > 1 { run.paths.name() } else { name.clone() }
     };
     runs.iter().map(label).collect()
 }

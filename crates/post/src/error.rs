@@ -7,6 +7,12 @@ pub enum PostError {
     /// A file of the run cannot be read or written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// There is nothing at the path of a run.
+    #[error("{}: there is no such file or folder", path.display())]
+    NoSuchRun {
+        /// The path that was given.
+        path: PathBuf,
+    },
     /// There is no contact history.
     #[error(
         "{} holds no contact.vtkhdf: give the folder of a run, or a file of that layout",

@@ -226,8 +226,8 @@ impl Table {
         let file: Box<dyn Read> = Box::new(input::by_line(file));
         let mut reader =
             csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(file);
-        let names = reader.headers().map_err(|error| failed(error.to_string()))?;
-        let names = names.iter().map(str::to_owned).collect();
+        let names = reader.byte_headers().map_err(|error| failed(error.to_string()))?;
+        let names = names.iter().map(|name| input::decoded(name).into_owned()).collect();
         Ok(Self { path: path.into(), names, rows: reader.into_records(), line: 1 })
     }
 

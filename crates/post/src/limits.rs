@@ -159,6 +159,11 @@ impl Limits {
         }
         let limit = if measure.name == "roughness_ratio" {
             let end = value.max(1.0 / value);
+            if end.is_infinite() {
+                return Err(PostError::Asked(format!(
+                    "the limit {name}={value} must be a number above 0: it is one end of a range from 1/x to x"
+                )));
+            }
             Limit::Between(1.0 / end, end)
         } else {
             Limit::Most(value)

@@ -84,7 +84,7 @@ pub fn run_page(
     let shown = |stem: &&str| PATCH_FIGURES.contains(stem) || CONDITION_FIGURES.contains(stem);
     let rest: Vec<&str> = figures.iter().map(|named| named.stem).filter(|s| !shown(s)).collect();
     drawn(&mut out, figures, &rest)?;
-    reproduce(&mut out, basis, folder);
+    reproduce(&mut out, basis);
     overview::data(&mut out, checked);
     end(&mut out);
     Ok(out)
@@ -331,13 +331,12 @@ fn energy(out: &mut String, basis: &Basis) {
     }
 }
 
-fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
-    let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy();
-    let run = format!("runs/{}", escape(&name));
+fn reproduce(out: &mut String, basis: &Basis) {
     let _ = write!(
         out,
-        "<h3 id=\"reproduce\">How to reproduce</h3>\n<pre>creepage run case.toml --out {run}\ncreepage check {run}\n\
-         creepage plot {run}\ncreepage report {run}</pre>\n<p>Made by Creepage {}. Running the \
+        "<h3 id=\"reproduce\">How to reproduce</h3>\n<p>In the folder of the run, or where the case below is saved as \
+         case.toml:</p>\n<pre>creepage run case.toml --out again\ncreepage check again\ncreepage plot again\n\
+         creepage report again</pre>\n<p>Made by Creepage {}. Running the \
          resolved case again gives the same bits on the same kind of processor.</p>\n",
         env!("CARGO_PKG_VERSION")
     );

@@ -12,7 +12,7 @@ mod source;
 pub use error::RenderError;
 pub use quantity::{Drawable, Quantity};
 
-use crate::basis::{no_case, read_toml};
+use crate::basis::{may_be_run, read_toml};
 use figure::{Key, Picture, Scale};
 use output::layout::file;
 use shot::{Bounds, Shot};
@@ -76,7 +76,7 @@ impl Rendering {
     /// # Errors
     /// A case in the place of the folder; files that are not there, cannot be read or lack what is to be shown.
     pub fn open(folder: &Path, wanted: &Wanted) -> Result<Self, RenderError> {
-        no_case(folder)?;
+        may_be_run(folder)?;
         let what = wanted.what.or(wanted.quantity.map(Quantity::of)).unwrap_or(Drawable::Fields);
         let source = Source::open(folder, what)?;
         let first = what.quantities().find(|quantity| source.shows(*quantity));

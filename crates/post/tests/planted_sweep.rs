@@ -277,6 +277,33 @@ fn curves_of_several_methods_stand_in_one_panel_for_each_law() {
 }
 
 #[test]
+fn a_creep_force_curve_through_zero_tells_the_creepage_of_free_rolling_and_shows_it_all() {
+    // a polymer wheel on steel: T/N -.053 at creepage 0
+    let mut sweep = creep_sweep(0.3);
+    let of = |creepage: f64, traction: f64| {
+        let mut run = creep(1e-3, 1e-5, 0.3);
+        run["parameters"][CREEPAGE] = json!(creepage);
+        run["summary"]["contact"]["traction_coefficient"] = json!(traction);
+        run
+    };
+    sweep["runs"] = json!([of(-1e-3, -0.149), of(0.0, -0.053), of(1e-3, 0.043)]);
+    let compared = [ComparedSweep { name: "".into(), folder: Path::new("s"), document: &sweep }];
+    let (_, figure) = creep_force_figure(&compared).unwrap().unwrap();
+    // 53/96 of the way, by hand
+    assert!(
+        figure.caption.contains("T = 0, by interpolation, at creepage 0.552e-3"),
+        "{}",
+        figure.caption
+    );
+    let panel = &figure.panels[0];
+    assert!(panel.x.range.unwrap()[0] <= -1.0 && panel.y.range.unwrap()[0] <= -0.149);
+    // none where the curve has one sign
+    let compared =
+        [ComparedSweep { name: "".into(), folder: Path::new("s"), document: &creep_sweep(0.3) }];
+    assert!(!creep_force_figure(&compared).unwrap().unwrap().1.caption.contains("T = 0"));
+}
+
+#[test]
 fn a_sweep_without_creepage_has_no_creep_force_curve() {
     let sweep = json!({ "parameters": [SPRING], "runs": [run(1.0, 1e-3), run(10.0, 1e-3)] });
     let compared = [ComparedSweep { name: "kt".into(), folder: Path::new("s"), document: &sweep }];

@@ -1,8 +1,10 @@
 """Runs: the command line's own, by another door."""
 
 import json
+import signal
 import subprocess
 import sys
+import time
 
 import creepage
 import h5py
@@ -134,6 +136,25 @@ try:
 except KeyboardInterrupt as caught:
     print(caught.code, caught.run.summary["status"], (caught.run.path / "checkpoint.h5").exists())
 """
+
+
+def test_ctrl_c_ends_the_command_line_in_order_and_raises_nothing(tmp_path):
+    out = tmp_path / "run"
+    words = ["run", SMALL, "--out", out, "--threads", "1", "--set", "drive.speed=0.5"]
+    under_way = subprocess.Popen(
+        [sys.executable, "-m", "creepage", *map(str, words)],
+        stderr=subprocess.PIPE,
+        text=True,
+        # a shell's background jobs ignore it
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    while not (out / "history.h5").exists():
+        assert under_way.poll() is None, under_way.stderr.read()
+        time.sleep(0.02)
+    under_way.send_signal(signal.SIGINT)
+    said = under_way.communicate()[1]
+    assert under_way.returncode == 130 and "KeyboardInterrupt" not in said, said
+    assert creepage.Run(out).summary["status"] == "interrupted"
 
 
 def test_ctrl_c_raises_after_a_checkpoint_and_the_run_goes_on_to_the_same_bits(tmp_path):

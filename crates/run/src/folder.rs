@@ -44,12 +44,17 @@ pub const RUN_FILES: [&str; 10] = [
 pub enum FolderError {
     /// There is a run, or something else, in the folder.
     #[error("{} already holds {}", path.display(), if *run { "a run" } else { "other files" })]
-    #[diagnostic(help("choose another folder with --out DIR, or replace the run with --force"))]
+    #[diagnostic(help(
+        "{}choose another folder with --out DIR, or replace the run with --force",
+        if *goes_on { "go on with it with --resume, which keeps its results; or " } else { "" }
+    ))]
     Taken {
         /// The folder.
         path: PathBuf,
         /// Whether files of a run are among its content.
         run: bool,
+        /// Whether it holds a checkpoint, from which the run can go on.
+        goes_on: bool,
     },
     /// What is to be replaced is no run of this program.
     #[error(
@@ -208,7 +213,9 @@ pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
             fs::read_dir(folder).map_err(unwritable)?;
             let content = content(folder);
             if matches!(content, Content::Run | Content::Other) && !force {
-                return Err(FolderError::Taken { path: path(), run: content == Content::Run });
+                let run = content == Content::Run;
+                let goes_on = run && CHECKPOINTS.iter().any(|name| folder.join(name).exists());
+                return Err(FolderError::Taken { path: path(), run, goes_on });
             }
             prove_writable(folder).map_err(unwritable)
         }

@@ -1,8 +1,16 @@
 //! Means over the evaluation window.
 
 use crate::mesh_mode::MeshModeSums;
+use case::key::number;
 use case::remedy;
+use case::schema::{Case, LoadMode};
+use output::confidence;
 use serde::{Deserialize, Serialize};
+
+/// Parts of the evaluation window, one after the other, of which the normal force has a mean each.
+const PARTS: usize = 20;
+/// A mean normal force nearer to the load than this part of it is as good as meshes and springs are.
+const NEAR: f64 = 0.01;
 
 /// Running mean and standard deviation.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -43,6 +51,9 @@ impl Mean {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Means {
     pub(crate) force: [Mean; 3],
+    /// The normal force in parts of the window.
+    #[serde(default)]
+    pub(crate) normal_force_in_parts: [Mean; PARTS],
     pub(crate) traction: Mean,
     pub(crate) creepage: Mean,
     pub(crate) torque: Mean,
@@ -73,6 +84,40 @@ pub(crate) struct Means {
 }
 
 impl Means {
+    /// Adds the normal force (N) at a time that has `passed` so much of the evaluation window, from 0 to 1.
+    pub(crate) fn add_normal_force(&mut self, force: f64, passed: f64) {
+        let part = ((passed * PARTS as f64) as usize).min(PARTS - 1);
+        self.normal_force_in_parts[part].add(force);
+    }
+
+    /// The warning about a mean normal force that misses the prescribed load by more than its 95 % interval, for a run
+    /// that reached its end.
+    pub(crate) fn load_warning(&self, case: &Case) -> Option<String> {
+        let load = case.load.normal;
+        let mean = self.force[2].mean()?;
+        let miss = (mean - load).abs();
+        let parts = self.normal_force_in_parts.map(|part| part.mean().unwrap_or(f64::NAN));
+        let interval = confidence::of_series(&[1.0; PARTS], &parts);
+        let is_far = miss > NEAR * load && !interval.is_ok_and(|half| miss <= half);
+        if case.load.mode != LoadMode::Load || !is_far {
+            return None;
+        }
+        let interval = match interval {
+            Ok(half) => format!("and its 95 % interval is only +- {half:.2e} N"),
+            Err(why) => format!("and has no interval ({why})"),
+        };
+        Some(format!(
+            "the mean normal force of the evaluation window, {mean:.4e} N, is {:.0} % off load.normal = {} N, {interval}: \
+             the disk has not come to rest on the bar, and its inertia bears the difference; {}",
+            100.0 * miss / load,
+            number(load),
+            remedy!(
+                "roll further (time.roll), evaluate later (evaluate.last), or refine mesh.zone.size until the patch has \
+                 several elements"
+            )
+        ))
+    }
+
     /// Counts a step whose last sweep changed a force by `change` of the largest, where it did not converge.
     pub(crate) fn add_unconverged(&mut self, change: f64) {
         if change > 0.0 {
@@ -98,6 +143,7 @@ impl Means {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]
@@ -108,5 +154,37 @@ mod tests {
         assert_eq!(means.unconverged, (2, 3e-5));
         let said = means.unconverged_warning().unwrap_or_default();
         assert!(said.contains("in 2 steps") && said.contains("3.0e-5"), "{said}");
+    }
+
+    /// Means of a normal force over the evaluation window.
+    fn pressed(force: impl Fn(f64) -> f64) -> Means {
+        let mut means = Means::default();
+        for step in 0..1000 {
+            let passed = f64::from(step) / 1000.0;
+            let force = force(passed);
+            means.force[2].add(force);
+            means.add_normal_force(force, passed);
+        }
+        means
+    }
+
+    #[test]
+    fn a_mean_normal_force_that_misses_the_load_by_more_than_its_interval_is_told() {
+        let text = "load.normal = 1e5\ndrive.speed = 38.89\ndrive.creepage = 2e-3\nfriction.static = 0.5\n";
+        let held = Case::from_text(text, "a.toml".as_ref(), &["load.mode=height".into()]).unwrap();
+        let case = Case::from_text(text, "a.toml".as_ref(), &[]).unwrap();
+        let wave = |size: f64| move |passed: f64| size * libm::sin(400.0 * passed);
+        let said = pressed(|t| 6e3 + wave(1e3)(t)).load_warning(&case).unwrap_or_default();
+        for words in
+            ["6.00", "94 % off load.normal = 100000 N", "95 % interval is only", "time.roll"]
+        {
+            assert!(said.contains(words), "{said}");
+        }
+        assert!(pressed(|_| 6e3).load_warning(&held).is_none());
+        assert!(pressed(|t| 100.4e3 + wave(300.0)(t)).load_warning(&case).is_none());
+        // a bounce as slow as the window has no interval
+        let said = pressed(|t| 2e5 * t * t).load_warning(&case).unwrap_or_default();
+        assert!(said.contains("33 % off") && said.contains("no interval (it drifts"), "{said}");
+        assert!(Means::default().load_warning(&case).is_none());
     }
 }

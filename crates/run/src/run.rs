@@ -217,6 +217,9 @@ fn conclude(
     log: &mut Log,
 ) -> Result<serde_json::Value, RunError> {
     ending.means.unconverged_warning().iter().try_for_each(|line| log.warn(line))?;
+    if ending.status == Status::Completed {
+        ending.means.load_warning(case).iter().try_for_each(|line| log.warn(line))?;
+    }
     ending.means.mesh_mode.warnings(case).iter().try_for_each(|line| log.warn(line))?;
     let mut summary = summary(case, simulation, facts, &hertz(case), ending);
     if let Some(points) = options.law.as_deref().and_then(friction::sampled) {

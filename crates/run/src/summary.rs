@@ -5,16 +5,14 @@ use std::time::{Duration, Instant};
 use crate::error::RunError;
 use crate::means::Means;
 use case::hertz::Hertz;
-use case::schema::{Case, Enforcement};
+use case::schema::{Case, DriveMode, Enforcement};
 use dynamics::{Energies, Simulation};
 use output::layout::{attribute, file};
 use output::summary::{Contact, Energy, Files, Status, Summary};
 use output::{Provenance, quantities};
-use scenario::Facts;
-use scenario::Model;
-use scenario::PreloadError;
 use scenario::memory::peak_rss_mb;
 use scenario::remedy::Remedy;
+use scenario::{Facts, Model, PreloadError, RollingRadius};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -46,6 +44,14 @@ fn implicit(case: &Case, simulation: &Simulation) -> serde_json::Value {
         json!({ "theta": theta, "solved": effort.solved, "cut": effort.cut,
             "iterations": effort.iterations, "products": effort.products })
     }))
+}
+
+/// The rolling radii (m); that of free rolling is known where no torque acts, and null elsewhere.
+fn rolling_radius(case: &Case, facts: &Facts, means: &Means) -> serde_json::Value {
+    let RollingRadius { nominal, effective } = facts.radius;
+    let rolls_freely = case.drive.mode == DriveMode::Torque && case.drive.torque == Some(0.0);
+    let free = means.creepage.mean().filter(|_| rolls_freely).map(|xi| effective / (1.0 + xi));
+    json!({ "nominal": nominal, "effective": effective, "free": free })
 }
 
 /// The summary of a run that rolled.
@@ -120,9 +126,9 @@ pub(crate) fn summary(
         ("symmetry", json!(case.mesh.symmetry)),
         ("kernels", json!(simulation.solid().level().name())),
         ("stability", json!(facts.stability)),
-        ("rolling_radius", json!(facts.radius)),
+        ("rolling_radius", rolling_radius(case, facts, means)),
         ("half_space", half_space),
-        ("window", window(case, means)),
+        ("window", window(case, means, ending.status)),
         ("mesh_mode", means.mesh_mode.json(case)),
         ("checks", checks),
         ("exact_contact", json!(exact)),
@@ -216,8 +222,10 @@ pub(crate) fn contact_means(means: &Means) -> Contact {
 
 /// The section `window`: the span of the evaluation window (s), means that the section `contact` does not hold, and
 /// standard deviations.
-pub(crate) fn window(case: &Case, means: &Means) -> serde_json::Value {
+pub(crate) fn window(case: &Case, means: &Means, status: Status) -> serde_json::Value {
     let [from, to] = case.evaluation_window();
+    let misses = Some(means).filter(|_| status == Status::Completed);
+    let misses = misses.and_then(|means| means.load_warning(case));
     json!({
         "from": from,
         "to": to,
@@ -227,6 +235,7 @@ pub(crate) fn window(case: &Case, means: &Means) -> serde_json::Value {
         "torque": means.torque.mean(),
         "max_penetration": means.penetration.mean(),
         "hourglass_share": means.hourglass_share.mean(),
+        "warnings": misses.as_slice(),
         "deviation": {
             "normal_force": means.force[2].deviation(),
             "tangential_force": means.force[0].deviation(),

@@ -65,7 +65,9 @@ pub enum ScenarioError {
         "the run of {elements} elements needs about {} GB of memory, more than the {} GB that are free: \
          enlarge mesh.zone.size or shrink the zone", gigabytes(*needed_gb), gigabytes(*free_gb)
     )]
-    #[diagnostic(help("`creepage mesh` tells what a mesh needs; `ulimit -v` limits what is free"))]
+    #[diagnostic(help(
+        "`creepage mesh` tells what a mesh needs; `ulimit -v`, or the limit of a container or batch job, bounds what is free"
+    ))]
     Memory {
         /// Elements of both bodies.
         elements: usize,

@@ -2,6 +2,7 @@
 
 use crate::draw::{draw, seed};
 use crate::error::ScenarioError;
+use crate::numbers::three;
 use case::friction_law;
 use case::hertz::hertz;
 use case::schema::{Case, DriveMode};
@@ -142,10 +143,10 @@ fn warnings(case: &Case, setup: &Setup) -> Vec<String> {
             let length = friction::nucleation_length(&law, memory.distance, &at);
             let few = length < POINTS_PER_NUCLEATION * h;
             let text = format!(
-                "the friction law's nucleation length is {:.3} mm, {:.1} spacings: below {POINTS_PER_NUCLEATION} what \
+                "the friction law's nucleation length is {} mm, {} spacings: below {POINTS_PER_NUCLEATION} what \
                  slips fast depends on the grid; take mesh.zone.size = {:.1e} or less, or a longer friction.memory.distance",
-                1e3 * length,
-                length / h,
+                three(1e3 * length),
+                three(length / h),
                 length / POINTS_PER_NUCLEATION
             );
             few.then_some(text).into_iter().collect()

@@ -1,5 +1,7 @@
 //! Memory: what a run needs, what the machine has free, what this process used.
 
+mod control_groups;
+
 use std::path::Path;
 
 use files::input;
@@ -57,10 +59,11 @@ fn fits(elements: usize, bytes_per_element: f64, free_mb: f64) -> Result<(), Sce
     Ok(())
 }
 
-/// Memory that the machine has free for this process (MB); infinite where the system does not report it.
+/// Memory that the machine has free for this process (MB), within the limits of its control groups and of its address
+/// space; infinite where the system does not report it.
 pub fn free_mb() -> f64 {
     let free = entry("/proc/meminfo", "MemAvailable:").unwrap_or(f64::INFINITY);
-    free.min(address_space_mb())
+    free.min(control_groups::free_mb(Path::new("/"))).min(address_space_mb())
 }
 
 /// Address space that threads reserve and the mesh takes before its size is known (MB). A refusal by the system

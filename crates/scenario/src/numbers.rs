@@ -89,13 +89,17 @@ impl DimensionlessNumbers {
     pub fn line(&self) -> Option<String> {
         let f = self.falling?;
         let mut line =
-            format!("falling friction at {:.0} MPa: R {}", self.at.pressure * 1e-6, three(f.r));
+            format!("falling friction at {} MPa: R {}", three(self.at.pressure * 1e-6), three(f.r));
         if let Some(n1) = self.n1 {
             line += &format!(", N1 {}", three(n1));
         }
         line += &format!(", N2 {}", three(f.n2));
         if let (Some(least), Some(s_m), Some(jump)) = (f.f_min, f.s_m, f.s_jump) {
-            line += &format!(", f_min/p {least:.4}, s_m {s_m:.3} m/s, jump to {jump:.2} m/s");
+            line += &format!(
+                ", f_min/p {least:.4}, s_m {} m/s, jump to {} m/s",
+                three(s_m),
+                three(jump)
+            );
         }
         if let (Some(length), Some(gamma)) = (self.nucleation, self.gamma()) {
             line += &format!(", h_n {} mm, Gamma {}", three(1e3 * length), three(gamma));
@@ -149,7 +153,7 @@ impl DimensionlessNumbers {
 }
 
 /// A number with three significant digits and no exponent.
-fn three(x: f64) -> String {
+pub(crate) fn three(x: f64) -> String {
     let after = (2.0 - libm::log10(x.abs()).floor()).clamp(0.0, 9.0);
     format!("{x:.0$}", after as usize)
 }

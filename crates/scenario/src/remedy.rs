@@ -160,6 +160,12 @@ impl Remedy for Fault {
             Self::Axis { axis, .. } => {
                 format!("turn the mesh so that its {axis} becomes y: {FRAME}")
             }
+            // no disk of a case that was meant is ten times as large or as small
+            Self::Size { parameter: Parameter::DiskRadius, found, expected }
+                if !(0.1..=10.0).contains(&(found / expected)) =>
+            {
+                remedy!("give the unit of the file as mesh.unit, or mesh the body in its size")
+            }
             Self::Size { parameter, found, .. } => match key_of(*parameter) {
                 Some(key) => format!("set {key} = {found}, or mesh the body in its size"),
                 None => "mesh the body in its size".into(),
@@ -280,7 +286,10 @@ impl Remedy for StaticsError {
             Self::Inverted { .. } | Self::Flat { .. } => remedy!(
                 "lower load.normal; `creepage mesh` tells what Hertz's contact expects of it"
             ),
-            Self::Open { .. } => remedy!("give a load.normal that presses the disk on the bar"),
+            Self::Open { .. } => remedy!(
+                "give a load.normal that presses the disk on the bar, or, with penalty contact, stiffen the springs \
+                 (contact.penalty.normal)"
+            ),
             Self::Interrupted => INTERRUPTED.into(),
             _ => soften(),
         }

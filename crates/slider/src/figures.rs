@@ -28,12 +28,17 @@ const MOST_MAPPED: f64 = 5e8;
 pub fn drawable(p: &Parameters) -> Result<(), ParameterError> {
     if p.end / p.dt > MOST_DRAWN {
         let allowed = "at least t_end/2e7 for figures: they keep every step in memory";
-        return Err(ParameterError { key: "dt", value: p.dt, unit: "s", allowed });
+        return Err(ParameterError { key: "dt", value: p.dt, unit: "s", allowed: allowed.into() });
     }
     if map_end(p) / SMALLEST_STEP > MOST_MAPPED {
         let allowed = "at most 50 s for the map of the time step, unless the block breaks loose \
                        before";
-        return Err(ParameterError { key: "t_end", value: p.end, unit: "s", allowed });
+        return Err(ParameterError {
+            key: "t_end",
+            value: p.end,
+            unit: "s",
+            allowed: allowed.into(),
+        });
     }
     Ok(())
 }

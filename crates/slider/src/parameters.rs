@@ -63,8 +63,8 @@ impl Default for Parameters {
 pub const MOST_STEPS: f64 = 1e10;
 
 /// A parameter outside its range.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{key} = {value} {unit} is out of range: it must be {allowed}")]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{key} = {} {unit} is out of range: it must be {allowed}", short(*value))]
 pub struct ParameterError {
     /// Name of the parameter, as in a parameter file.
     pub key: &'static str,
@@ -73,62 +73,81 @@ pub struct ParameterError {
     /// Its unit.
     pub unit: &'static str,
     /// What is allowed.
-    pub allowed: &'static str,
+    pub allowed: String,
 }
 
-const POSITIVE: &str = "a finite number above 0";
-const NOT_NEGATIVE: &str = "a finite number of at least 0";
+/// A number with or without an exponent, whichever is shorter.
+fn short(x: f64) -> String {
+    let [plain, power] = [format!("{x}"), format!("{x:e}")];
+    if power.len() < plain.len() { power } else { plain }
+}
+
+/// The ranges of the parameters, both ends included: key, unit, least and largest value.
+const RANGES: [(&str, &str, f64, f64); 16] = [
+    ("belt", "m/s", -1e4, 1e4),
+    ("normal_force", "N", 0.0, 1e8),
+    ("mass", "kg", 1e-12, 1e6),
+    ("spring", "N/m", 0.0, 1e12),
+    ("damping", "N s/m", 0.0, 1e9),
+    ("adhesion", "m/s", 1e-12, 100.0),
+    ("stiffness", "N/m", 1e-6, 1e15),
+    ("memory_distance", "m", 1e-12, 1.0),
+    ("memory_floor", "m/s", 0.0, 100.0),
+    ("dt", "s", 1e-12, 10.0),
+    ("t_end", "s", 1e-12, 1e6),
+    ("x0", "m", -1e4, 1e4),
+    ("v0", "m/s", -1e4, 1e4),
+    ("mu_static", "", 0.0, 5.0),
+    ("mu_dynamic", "", 0.0, 5.0),
+    ("decay", "s/m", 0.0, 1e4),
+];
 
 impl Parameters {
+    /// A parameter by its key; none where the law has another.
+    fn get(&self, key: &str) -> Option<f64> {
+        Some(match (key, &self.law) {
+            ("belt", _) => self.belt,
+            ("normal_force", _) => self.normal_force,
+            ("mass", _) => self.mass,
+            ("spring", _) => self.spring,
+            ("damping", _) => self.damping,
+            ("adhesion", _) => self.adhesion,
+            ("stiffness", _) => self.stiffness,
+            ("memory_distance", _) => self.memory.distance,
+            ("memory_floor", _) => self.memory.floor,
+            ("dt", _) => self.dt,
+            ("t_end", _) => self.end,
+            ("x0", _) => self.x0,
+            ("v0", _) => self.v0,
+            ("mu_static", SteadyLaw::Coulomb(law)) => law.mu,
+            ("mu_static", SteadyLaw::Exponential(law)) => law.mu_static,
+            ("mu_dynamic", SteadyLaw::Exponential(law)) => law.mu_dynamic,
+            ("decay", SteadyLaw::Exponential(law)) => law.decay,
+            // tables and expressions were checked when they were constructed
+            _ => return None,
+        })
+    }
+
     /// The parameters, if every one is within its range.
     ///
     /// # Errors
-    /// The first parameter that is out of range, or `dt` if the run would take more than [`MOST_STEPS`].
+    /// The first parameter that is out of range; `dt` if it is longer than the run, or if that would take more than
+    /// [`MOST_STEPS`].
     pub fn checked(self) -> Result<Self, ParameterError> {
-        let positive = [
-            ("dt", self.dt, "s"),
-            ("mass", self.mass, "kg"),
-            ("adhesion", self.adhesion, "m/s"),
-            ("t_end", self.end, "s"),
-            ("stiffness", self.stiffness, "N/m"),
-            ("memory_distance", self.memory.distance, "m"),
-        ];
-        let mut not_negative = vec![
-            ("normal_force", self.normal_force, "N"),
-            ("spring", self.spring, "N/m"),
-            ("damping", self.damping, "N s/m"),
-            ("memory_floor", self.memory.floor, "m/s"),
-        ];
-        match &self.law {
-            SteadyLaw::Coulomb(law) => not_negative.push(("mu_static", law.mu, "")),
-            SteadyLaw::Exponential(law) => not_negative.extend([
-                ("mu_static", law.mu_static, ""),
-                ("mu_dynamic", law.mu_dynamic, ""),
-                ("decay", law.decay, "s/m"),
-            ]),
-            // checked when they were constructed
-            SteadyLaw::Table(_) | SteadyLaw::Expression(_) => {}
-        }
-        for (key, value, unit) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ParameterError { key, value, unit, allowed: POSITIVE });
+        for (key, unit, low, high) in RANGES {
+            if let Some(value) = self.get(key).filter(|value| !(low..=high).contains(value)) {
+                let allowed = format!("from {} to {}", short(low), short(high));
+                return Err(ParameterError { key, value, unit, allowed });
             }
         }
-        for (key, value, unit) in not_negative {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(ParameterError { key, value, unit, allowed: NOT_NEGATIVE });
-            }
-        }
-        for (key, value, unit) in
-            [("belt", self.belt, "m/s"), ("x0", self.x0, "m"), ("v0", self.v0, "m/s")]
-        {
-            if !value.is_finite() {
-                return Err(ParameterError { key, value, unit, allowed: "a finite number" });
-            }
-        }
-        if self.end / self.dt > MOST_STEPS {
-            let allowed = "at least t_end/1e10: more steps would take too long";
-            return Err(ParameterError { key: "dt", value: self.dt, unit: "s", allowed });
+        let steps = self.end / self.dt;
+        if !(1.0..=MOST_STEPS).contains(&steps) {
+            let allowed = match steps < 1.0 {
+                true => "at most t_end: a longer step passes the end",
+                false => "at least t_end/1e10: more steps would take too long",
+            };
+            let (value, allowed) = (self.dt, allowed.into());
+            return Err(ParameterError { key: "dt", value, unit: "s", allowed });
         }
         Ok(self)
     }
@@ -173,5 +192,62 @@ impl Parameters {
     /// spring.
     pub fn reach(&self) -> f64 {
         self.mu_static() * self.normal_force / self.spring
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// The parameters with one other value.
+    fn with(key: &str, value: f64) -> Parameters {
+        let mut p = Parameters::default();
+        let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+        match key {
+            "belt" => p.belt = value,
+            "normal_force" => p.normal_force = value,
+            "mass" => p.mass = value,
+            "spring" => p.spring = value,
+            "damping" => p.damping = value,
+            "adhesion" => p.adhesion = value,
+            "stiffness" => p.stiffness = value,
+            "memory_distance" => p.memory.distance = value,
+            "memory_floor" => p.memory.floor = value,
+            "dt" => p.dt = value,
+            "t_end" => p.end = value,
+            "x0" => p.x0 = value,
+            "v0" => p.v0 = value,
+            "mu_static" => p.law = SteadyLaw::Exponential(Exponential { mu_static: value, ..law }),
+            "mu_dynamic" => {
+                p.law = SteadyLaw::Exponential(Exponential { mu_dynamic: value, ..law })
+            }
+            "decay" => p.law = SteadyLaw::Exponential(Exponential { decay: value, ..law }),
+            other => panic!("{other}"),
+        }
+        p
+    }
+
+    #[test]
+    fn every_parameter_has_a_finite_range_and_no_value_beyond_it_is_taken() {
+        for (key, unit, low, high) in RANGES {
+            let absurd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300];
+            for value in absurd {
+                let error = with(key, value).checked().unwrap_err();
+                assert!(error.key == key && error.unit == unit, "{key} = {value}: {error}");
+                let range = format!("from {} to {}", short(low), short(high));
+                assert!(error.to_string().contains(&range), "{error}");
+            }
+            // what must be above zero must be large enough to be reckoned with
+            assert_eq!(with(key, 5e-324).checked().is_ok(), low <= 0.0, "{key}");
+            assert_eq!(with(key, low).get(key), Some(low));
+        }
+    }
+
+    #[test]
+    fn a_step_is_no_longer_than_the_run() {
+        let error = with("t_end", 1e-6).checked().unwrap_err();
+        assert_eq!(error.key, "dt");
+        assert!(error.to_string().contains("at most t_end"), "{error}");
     }
 }

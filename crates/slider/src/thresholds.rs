@@ -63,14 +63,19 @@ pub fn thresholds(p: &Parameters) -> Result<Thresholds, ParameterError> {
         if value == 0.0 {
             let allowed = "other than 0: the thresholds are those of a block that sticks to a \
                            moving belt until its spring pulls it off";
-            return Err(ParameterError { key, value, unit, allowed });
+            return Err(ParameterError { key, value, unit, allowed: allowed.into() });
         }
     }
     let shortest = collapse_step(p).unwrap_or(f64::INFINITY).min(10.0 * chatter_step(p));
     if p.reach() / p.belt.abs() > MOST_STEPS * shortest {
         let allowed = "larger: the block would stick for so many steps that the bisection would \
                        take hours";
-        return Err(ParameterError { key: "spring", value: p.spring, unit: "N/m", allowed });
+        return Err(ParameterError {
+            key: "spring",
+            value: p.spring,
+            unit: "N/m",
+            allowed: allowed.into(),
+        });
     }
     let threshold = |formula: f64, above: fn(&Parameters, f64) -> bool| Threshold {
         formula,

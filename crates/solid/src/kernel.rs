@@ -9,7 +9,7 @@
 //! * S = lambda tr(E) I + 2 G E, P = (I + H) S (St. Venant–Kirchhoff),
 //! * f_I = P B_I + K_h sum_a q_a gamma_aI with the hourglass shapes
 //!   gamma_aI = Gamma_aI - B_I . (X Gamma_a)/V, amplitudes q_a = sum u_I gamma_aI and
-//!   K_h = kappa (lambda + 2G) B_iI B_iI/(24 V).
+//!   K_h = kappa M B_iI B_iI/(24 V), M of [`crate::Material::hourglass_modulus`].
 //!
 //! The modes are plain sums, without the factor 1/8; the constants contain it. With A_k and G_a the plain sums,
 //! V = W/64 and B_I = 1/64 (sum of the signs of corner I times b_k and c_a).
@@ -27,7 +27,7 @@ pub(crate) struct Constants {
     pub(crate) lambda: f64,
     /// G/w (Pa)
     pub(crate) shear: f64,
-    /// kappa (lambda + 2G)/192 (Pa); of the one-point element only
+    /// kappa M/192 (Pa), M the hourglass modulus; of the one-point element only
     pub(crate) hourglass: f64,
     /// Kelvin–Voigt time eta (s): S_v = eta C : dE/dt
     pub(crate) kelvin_voigt: f64,

@@ -67,6 +67,13 @@ impl Material {
         self.lame() + 2.0 * self.shear()
     }
 
+    /// The modulus that scales the hourglass stiffness of one-point elements (Pa): lambda + 2G (Flanagan and Belytschko
+    /// 1981), which is 3.5 G at nu = 0.3, and 3.5 G above. Hourglass modes keep the mean volume, so their stiffness
+    /// must not grow without bound as a material becomes incompressible (Belytschko and Bindeman 1993).
+    pub fn hourglass_modulus(&self) -> f64 {
+        if self.poisson <= 0.3 { self.p_modulus() } else { 3.5 * self.shear() }
+    }
+
     /// Dilatational wave speed c_p = sqrt((lambda + 2G)/rho) (m/s).
     pub fn c_p(&self) -> f64 {
         (self.p_modulus() / self.density).sqrt()
@@ -88,6 +95,21 @@ mod tests {
         assert!((steel.c_p() - 6001.0).abs() < 0.5, "{}", steel.c_p());
         assert!((steel.c_s() - 3208.0).abs() < 0.5, "{}", steel.c_s());
         assert!((steel.bulk() - 175e9).abs() < 1.0);
+    }
+
+    #[test]
+    fn hourglass_stiffness_follows_the_p_modulus_to_steel_and_the_shear_modulus_beyond() {
+        let of = |poisson| Material { young: 210e9, poisson, density: 7850.0 };
+        for poisson in [-0.5, 0.0, 0.25, 0.3] {
+            assert_eq!(of(poisson).hourglass_modulus(), of(poisson).p_modulus());
+        }
+        // continuous where the rule changes
+        let [below, above] = [0.3, 0.3 + 1e-12].map(|poisson| of(poisson).hourglass_modulus());
+        assert!((above / below - 1.0).abs() < 1e-11, "{below} {above}");
+        // and bounded where lambda + 2G is not
+        let rubber = of(0.4999);
+        assert!((rubber.hourglass_modulus() / rubber.shear() - 3.5).abs() < 1e-12);
+        assert!(rubber.p_modulus() > 1000.0 * rubber.shear());
     }
 
     #[test]

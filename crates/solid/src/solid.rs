@@ -163,7 +163,7 @@ impl Solid {
         let constants = |m: &Material, w: f64| Constants {
             lambda: m.lame() / w,
             shear: m.shear() / w,
-            hourglass: hourglass * m.p_modulus() / 192.0,
+            hourglass: hourglass * m.hourglass_modulus() / 192.0,
             kelvin_voigt: viscosity.kelvin_voigt,
             bulk_linear: viscosity.bulk_linear * m.density * m.c_p() / w,
             bulk_quadratic: viscosity.bulk_quadratic.powi(2) * m.density / w,

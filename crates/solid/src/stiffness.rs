@@ -26,7 +26,7 @@ pub fn element_stiffness(
 /// + delta_ij K_h sum_a gamma_aI gamma_aJ
 ///
 /// with B_I = dV/dx_I, the hourglass shapes gamma_aI = Gamma_aI - B_I.(X Gamma_a)/V and
-/// K_h = kappa (lambda + 2G) B_iI B_iI/(24 V): the linear part of the force of [`crate::Solid`]
+/// K_h = kappa M B_iI B_iI/(24 V), M of [`Material::hourglass_modulus`]: the linear part of the force of [`crate::Solid`]
 /// (Flanagan and Belytschko 1981).
 fn one_point_stiffness(
     x: &[[f64; 3]; 8],
@@ -36,7 +36,7 @@ fn one_point_stiffness(
     let (volume, b) = mean_gradient(x);
     let (lambda, shear) = (material.lame() / volume, material.shear() / volume);
     let squares: f64 = b.iter().map(|b| dot(*b, *b)).sum();
-    let hourglass = element.hourglass * material.p_modulus() * squares / (24.0 * volume);
+    let hourglass = element.hourglass * material.hourglass_modulus() * squares / (24.0 * volume);
     let shapes = hourglass_shapes(x, volume, &b);
     let mut k = [[0.0; 24]; 24];
     for a in 0..8 {

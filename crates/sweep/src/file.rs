@@ -7,14 +7,14 @@ use toml::{Table, Value};
 use crate::ensemble;
 use case::check::{self, raise};
 use case::error::{CaseError, KeyError};
-use case::forms::float;
-use case::key::{Form, Key};
+use case::forms::{float, whole};
+use case::key::Key;
 use case::keys;
 use case::layers::{Layers, get, join};
 use case::name;
 
 /// A `log` or `linear` axis with more points than this is taken for a typing mistake.
-const MOST_POINTS: i64 = 1000;
+const MOST_POINTS: usize = 1000;
 
 /// Keys that cannot be swept: they name the case. Nor can those in a list of sections.
 const NO_AXIS: [&str; 3] = ["name", "title", "extends"];
@@ -371,6 +371,18 @@ impl Reading<'_> {
         number
     }
 
+    /// A whole number from `low` to [`MOST_POINTS`].
+    fn count(&mut self, at: &str, value: &Value, low: usize, remedy: &str) -> Option<usize> {
+        let n = whole(value).map(|n| n as usize).filter(|n| (low..=MOST_POINTS).contains(n));
+        if n.is_none() {
+            let shown = check::show(value);
+            let message =
+                format!("{at} = {shown} must be a whole number from {low} to {MOST_POINTS}");
+            self.refuse(at, &message, remedy);
+        }
+        n
+    }
+
     /// The tables of an array of tables.
     fn list<'t>(&mut self, table: &'t Table, name: &str) -> Vec<&'t Table> {
         let remedy = format!("write sections [[{name}]] with a key each");
@@ -423,28 +435,17 @@ impl Reading<'_> {
                 "an ensemble repeats every point, but mode = \"zip\" takes values together";
             self.refuse("ensemble", message, "use mode = \"grid\"");
         }
-        let mut whole = |name: &str, default: Option<i64>, low: i64| {
-            let at = join("ensemble", name);
-            match (section.get(name), default) {
-                (Some(Value::Integer(n)), _) if (low..=MOST_POINTS).contains(n) => Some(*n),
-                (None, Some(default)) => Some(default),
-                (found, _) => {
-                    let shown = found.map_or("nothing".into(), check::show);
-                    let message = format!(
-                        "{at} = {shown} must be a whole number from {low} to {MOST_POINTS}"
-                    );
-                    self.refuse(
-                        if found.is_some() { &at } else { "ensemble" },
-                        &message,
-                        "members = 8",
-                    );
-                    None
-                }
-            }
+        if !section.contains_key("members") {
+            let message =
+                "ensemble.members is missing: it must be the number of runs at each point";
+            self.refuse("ensemble", message, "members = 8");
+        }
+        let mut count = |name: &str, low: usize| {
+            section.get(name).map(|n| self.count(&join("ensemble", name), n, low, "members = 8"))
         };
-        let (members, seed) = (whole("members", None, 2), whole("seed", Some(1), 0));
-        let (members, seed) = (members?, seed?);
-        let values = (seed..seed + members).map(Value::Integer).collect();
+        let (members, seed) = (count("members", 2), count("seed", 0).unwrap_or(Some(1)));
+        let (members, seed) = (members??, seed? as i64);
+        let values = (seed..seed + members as i64).map(Value::Integer).collect();
         Some(Axis { key: ensemble::AXIS.into(), values })
     }
 
@@ -497,7 +498,7 @@ impl Reading<'_> {
                 self.refuse(&place, &message, "put the values in brackets: values = [0.1, 1.0]");
                 return None;
             }
-            (_, Value::Table(span)) => self.span(&place, span, form == "log", key?)?,
+            (_, Value::Table(span)) => self.span(&place, span, form == "log")?,
             (_, other) => {
                 self.not_a_section(&place, other);
                 return None;
@@ -508,6 +509,7 @@ impl Reading<'_> {
             self.refuse(&place, &message, "give at least one value, or leave the axis out");
         }
         let key = key?;
+        let values: Vec<Value> = values.iter().map(|value| key.held(value)).collect();
         for (i, value) in values.iter().enumerate() {
             let item = format!("{place}[{i}]");
             let item = if self.layers.origins.contains_key(&item) { item } else { place.clone() };
@@ -520,24 +522,15 @@ impl Reading<'_> {
     }
 
     /// `n` values from `from` to `to`, the ends to the bit.
-    fn span(&mut self, at: &str, table: &Table, log: bool, key: &Key) -> Option<Vec<Value>> {
+    fn span(&mut self, at: &str, table: &Table, log: bool) -> Option<Vec<Value>> {
         self.known(at, table, &SPAN);
         for name in SPAN.iter().filter(|name| !table.contains_key(**name)) {
             self.refuse(at, &format!("{at}.{name} is missing"), "give from, to and n");
         }
         let (from, to) = (self.number(table, at, "from"), self.number(table, at, "to"));
-        let n = match table.get("n") {
-            Some(Value::Integer(n @ 2..=MOST_POINTS)) => Some(*n as usize),
-            Some(other) => {
-                let message = format!(
-                    "{at}.n = {} must be a whole number from 2 to {MOST_POINTS}",
-                    check::show(other)
-                );
-                self.refuse(&join(at, "n"), &message, "give the number of values");
-                None
-            }
-            None => None,
-        };
+        let n = table
+            .get("n")
+            .and_then(|n| self.count(&join(at, "n"), n, 2, "give the number of values"));
         let (from, to, n) = (from?, to?, n?);
         if log && !(from > 0.0 && to > 0.0) {
             let message = format!("{at}: a logarithmic axis needs positive ends");
@@ -553,11 +546,7 @@ impl Reading<'_> {
                 _ => from + (to - from) * part,
             }
         };
-        let whole = matches!(key.form, Form::Count(..));
-        let form = |x: f64| {
-            if whole && x.fract() == 0.0 { Value::Integer(x as i64) } else { Value::Float(x) }
-        };
-        Some((0..n).map(|i| form(value(i))).collect())
+        Some((0..n).map(|i| Value::Float(value(i))).collect())
     }
 
     fn derive(

@@ -43,6 +43,27 @@ fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
 }
 
 #[test]
+fn a_whole_number_may_be_written_with_an_exponent() {
+    let axis = |values: &str| format!("[[axis]]\nkey = \"output.history_interval\"\n{values}\n");
+    for values in ["values = [1e2, 200]", "linear = { from = 1e2, to = 2e2, n = 2.0 }"] {
+        let intervals: Vec<u64> =
+            cases(&axis(values)).iter().map(|case| case.output.history_interval).collect();
+        assert_eq!(intervals, [100, 200], "{values}");
+    }
+    assert_eq!(cases(&format!("{}[ensemble]\nmembers = 2.0\n", axis("values = [1e1]"))).len(), 2);
+    for (values, words) in [
+        ("values = [100, 1e2]", "100 stands twice"),
+        ("values = [1.5]", "1.5 must be a whole number"),
+        ("values = [1e300]", "1e300 must be a whole number"),
+        ("linear = { from = 1, to = 2, n = 1.5 }", "n = 1.5 must be a whole number"),
+    ] {
+        let (_dir, refused) = sweep(&axis(values));
+        let said = refused.map(|_| ()).unwrap_err().to_string();
+        assert!(said.contains(words), "{values}: {said}");
+    }
+}
+
+#[test]
 fn a_zip_takes_the_values_together() {
     let zip = format!("mode = \"zip\"\n{}", TWO.replace(", 4e-3", ""));
     let pairs: Vec<_> = cases(&zip)

@@ -2,6 +2,7 @@
 
 mod any_input;
 mod half_space;
+mod materials;
 mod refusals;
 mod schema;
 
@@ -158,6 +159,21 @@ fn a_speed_in_km_h_and_a_ratio_in_per_cent_are_told_with_what_was_likely_meant()
 }
 
 #[test]
+fn a_whole_number_may_be_written_with_an_exponent_or_a_point() {
+    let plain = set(&["output.history_interval=100", "output.window=[{from=0,to=1e-5,every=2}]"]);
+    let float = set(&["output.history_interval=1e2", "output.window=[{from=0,to=1e-5,every=2.0}]"]);
+    let (plain, float) = (plain.unwrap(), float.unwrap());
+    assert!(float.to_toml().contains("history_interval = 100\n"), "{}", float.to_toml());
+    assert_eq!((&float, float.hash()), (&plain, plain.hash()));
+    let text = format!("{SHORT}[output]\nhistory_interval = 1e2\n");
+    assert_eq!(read(&text).unwrap().output.history_interval, 100);
+    assert_eq!(
+        set(&["preload.disturbance=1e-9", "preload.seed=-0.0"]).unwrap().preload.seed,
+        Some(0)
+    );
+}
+
+#[test]
 fn the_hash_tells_cases_apart() {
     assert_ne!(set(&[]).unwrap().hash(), set(&["load.normal=100001"]).unwrap().hash());
 }
@@ -274,7 +290,7 @@ fn an_error_in_an_extended_file_names_that_file_and_line() {
     fs::write(dir.path().join("base.toml"), format!("{SHORT}[disk]\nradius = -1\n")).unwrap();
     let top = dir.path().join("top.toml");
     fs::write(&top, "extends = \"base.toml\"\n").unwrap();
-    refused(Case::load(&top, &[]), &["base.toml:6:", "disk.radius = -1", "greater than 0"]);
+    refused(Case::load(&top, &[]), &["base.toml:6:", "disk.radius = -1", "at least 1e-8"]);
 }
 
 #[test]
@@ -296,6 +312,15 @@ fn a_cycle_of_extends_is_refused() {
 fn an_unstable_step_is_accepted_with_a_warning() {
     let case = set(&["time.factor=1.6"]).unwrap();
     assert!(case.warnings().iter().any(|w| w.contains("UNSTABLE")), "{:?}", case.warnings());
+}
+
+#[test]
+fn computed_sizes_in_warnings_have_four_digits_and_are_never_zero() {
+    // Hertz's patch of 100 kN, 7.162 mm by 5.387 mm, shrinks by the cube root of the load
+    let warnings = set(&["load.normal=1e-4", "mesh.zone.size=2.00003e-3"]).unwrap().warnings();
+    let coarse =
+        "mesh.zone.size = 2 mm is coarse for a patch of half axes 0.007162 and 0.005387 mm";
+    assert!(warnings.iter().any(|warning| warning == coarse), "{warnings:?}");
 }
 
 #[test]
@@ -346,6 +371,11 @@ fn a_table_is_read_beside_the_file_that_names_it_and_kept_in_the_case() {
     let base = format!("{rest}[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n");
     fs::write(dir.path().join("base/base.toml"), base).unwrap();
     fs::write(dir.path().join("top.toml"), "extends = \"base/base.toml\"\n").unwrap();
-    let case = Case::load(&dir.path().join("top.toml"), &[]).unwrap();
-    assert_eq!(case.friction.table, Some(vec![[0.0, 0.5], [1.0, 0.32]]));
+    let load = || Case::load(&dir.path().join("top.toml"), &[]);
+    assert_eq!(load().unwrap().friction.table, Some(vec![[0.0, 0.5], [1.0, 0.32]]));
+    let mm = "slip (mm/s),mu (%)\n0,50\n1000,32\n";
+    fs::write(dir.path().join("base/mu.csv"), mm).unwrap();
+    assert_eq!(load().unwrap().friction.table, Some(vec![[0.0, 0.5], [1.0, 0.32]]));
+    fs::write(dir.path().join("base/mu.csv"), mm.replace("mm/s", "mm")).unwrap();
+    refused(load(), &["mu.csv:1:", "'mm' is no known unit of a slip velocity", "mm/s"]);
 }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::check::refused;
 use crate::json_schema;
-use crate::key::Form;
+use crate::key::{Form, Range, STIFFNESS};
 use crate::keys::KEYS;
 
 /// Paths of all keys in the JSON Schema.
@@ -53,10 +54,95 @@ fn every_key_of_the_schema_tells_unit_default_and_range() {
         if key.form != Form::Stiffness {
             assert!(text.contains(unit), "{} lacks {unit}: {text}", key.path);
         }
-        if let Form::Number(_) = key.form {
+        if let Form::Number(range) = key.form {
             assert_eq!(at.get("type"), Some(&Value::from("number")), "{}", key.path);
+            let low = at.get("minimum").or(at.pointer("/anyOf/1/minimum"));
+            assert_eq!(low, Some(&Value::from(range.low)), "{}", key.path);
+            assert_eq!(at.get("maximum"), Some(&Value::from(range.high)), "{}", key.path);
         }
     }
+}
+
+/// The ranges of the numbers of a key.
+fn ranges(form: Form) -> Vec<Range> {
+    match form {
+        Form::Number(range) | Form::Crown(range) | Form::Points(range) => vec![range],
+        Form::Curve(first, second) => vec![first, second],
+        Form::Stiffness => STIFFNESS.map(|(_, range, _)| range).to_vec(),
+        Form::Count(low, high) => {
+            vec![Range { low: low as f64, high: high as f64, or_zero: false }]
+        }
+        Form::Flag | Form::Word(_) | Form::Text => Vec::new(),
+    }
+}
+
+#[test]
+fn every_number_has_a_finite_range_that_holds_no_number_too_small_to_matter() {
+    // what may be zero passes into it without a jump: a load of friction, damping, drive or mass, a place, a time
+    const TO_ZERO: [&str; 22] = [
+        "bar.material.poisson",
+        "contact.penalty.damping",
+        "damping.bulk_linear",
+        "damping.bulk_quadratic",
+        "damping.kelvin_voigt",
+        "damping.mass",
+        "disk.lift",
+        "disk.material.poisson",
+        "drive.creepage",
+        "drive.lateral_creepage",
+        "drive.ramp",
+        "drive.spin",
+        "drive.torque",
+        "friction.decay",
+        "friction.dynamic",
+        "friction.evolution",
+        "friction.static",
+        "friction.table",
+        "load.hub_mass",
+        "material.poisson",
+        "output.window[].from",
+        "preload.seed",
+    ];
+    const PLACES: [&str; 4] =
+        ["bar.start", "mesh.zone.start", "output.probes.bar", "output.probes.disk"];
+    let mut numbers = 0;
+    for key in KEYS {
+        for Range { low, high, or_zero } in ranges(key.form) {
+            numbers += 1;
+            assert!(low.is_finite() && high.is_finite() && low < high, "{}", key.path);
+            let listed = TO_ZERO.contains(&key.path) || PLACES.contains(&key.path);
+            assert_eq!(low <= 0.0, listed, "{}: its range begins at {low}", key.path);
+            assert!(!(or_zero && listed), "{}", key.path);
+            assert!(low <= 0.0 || low >= 1e-20, "{}", key.path);
+        }
+    }
+    assert!(numbers > 80, "{numbers}");
+}
+
+#[test]
+fn no_number_beyond_its_range_is_taken_and_the_refusal_tells_range_and_unit() {
+    let mut tried = 0;
+    for key in KEYS.iter().filter(|key| !ranges(key.form).is_empty()) {
+        for absurd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 1e30, -1e30] {
+            let value = match key.form {
+                Form::Points(_) => toml::Value::from(vec![vec![0.0, absurd]]),
+                Form::Curve(..) => toml::Value::from(vec![vec![0.0, absurd]]),
+                _ => toml::Value::Float(absurd),
+            };
+            let problem = refused(key, &value).unwrap_or_default();
+            let range = match key.form {
+                Form::Count(low, high) => format!("from {low} to {high}"),
+                Form::Curve(_, range) => range.to_string(),
+                _ => ranges(key.form)[0].to_string(),
+            };
+            assert!(problem.contains(&range), "{} = {absurd}: {problem}", key.path);
+            let unit = if key.unit == "-" || key.form == Form::Stiffness { "" } else { key.unit };
+            let counted = matches!(key.form, Form::Count(..) | Form::Curve(..));
+            assert!(counted || problem.contains(unit), "{} = {absurd}: {problem}", key.path);
+            tried += 1;
+        }
+    }
+    assert!(tried > 500, "{tried}");
 }
 
 #[test]

@@ -7,6 +7,9 @@ use crate::schema::{Case, Crown, Grading, PreloadMethod, Symmetry};
 /// More elements than this in the fine zones are taken for a typing mistake.
 const MOST_ELEMENTS: f64 = 2e8;
 
+/// The least radius of a hub over that of its disk.
+const SMALLEST_HUB: f64 = 1e-3;
+
 const NOT_INSIDE: &str = "the fine zone must lie inside both bodies: make it smaller";
 
 /// Checks the sizes of the bodies and of the fine zone.
@@ -68,6 +71,20 @@ fn check_disk(case: &Case, found: &mut Findings<'_>) {
             )
         },
         "the hub is the rigid core of the disk: make it smaller",
+    );
+    let least = SMALLEST_HUB * disk.radius;
+    found.require(
+        case.mesh.file.is_some() || disk.hub_radius >= least,
+        &["disk.hub_radius", "disk.radius"],
+        || {
+            format!(
+                "disk.hub_radius = {} m must be at least {SMALLEST_HUB} of disk.radius, {} m: the elements around a \
+                 smaller one are needles",
+                number(disk.hub_radius),
+                number(round(least))
+            )
+        },
+        "make the hub larger: a tenth of the disk is as good as none",
     );
     let rim = disk.radius - disk.hub_radius;
     found.require(

@@ -4,6 +4,7 @@ use super::Findings;
 use crate::hertz::{hertz, patch_shape};
 use crate::key::number;
 use crate::schema::{Case, Symmetry};
+use crate::units::digits;
 use contact::patch::PatchShape;
 
 /// The keys that move the disk sideways, what they say, and their unit.
@@ -69,12 +70,12 @@ pub(super) fn check_drift(case: &Case, found: &mut Findings<'_>) {
         &[key, "drive.spin", "mesh.zone.width", "time.roll"],
         || {
             format!(
-                "the disk drifts by up to {:.2} mm (drive.lateral_creepage, drive.spin), so that the patch (half width {:.2} mm) \
-                 reaches {:.2} mm to the side, but half of mesh.zone.width is {:.2} mm",
-                1e3 * drift,
-                1e3 * b,
-                1e3 * reach,
-                1e3 * half
+                "the disk drifts by up to {} mm (drive.lateral_creepage, drive.spin), so that the patch (half width {} mm) \
+                 reaches {} mm to the side, but half of mesh.zone.width is {} mm",
+                digits(1e3 * drift),
+                digits(1e3 * b),
+                digits(1e3 * reach),
+                digits(1e3 * half)
             )
         },
         "widen the fine zone (mesh.zone.width), roll less (time.roll), or reduce drive.lateral_creepage or drive.spin",

@@ -122,6 +122,9 @@ fn contact(out: &mut String, summary: &Value) {
         share("/contact/stick_fraction"),
         share("/contact/slip_fraction")
     );
+    if at("/rolling_radius/free").is_some() {
+        let _ = writeln!(out, "  without torque: this creepage is that of free rolling");
+    }
     mesh_mode(out, summary);
     if at("/half_space/peak_pressure").is_some() && !of_half_spaces(summary) {
         // only a run with exact enforcement, which has no springs, counts what that takes
@@ -150,7 +153,7 @@ fn mesh_mode(out: &mut String, summary: &Value) {
             energy.unwrap_or_default()
         );
     }
-    let warnings = ["/mesh_mode/warnings", "/exact_contact/warnings"];
+    let warnings = ["/window/warnings", "/mesh_mode/warnings", "/exact_contact/warnings"];
     let warnings = warnings.iter().filter_map(|list| summary.pointer(list)?.as_array());
     for warning in warnings.flatten().filter_map(Value::as_str) {
         let _ = writeln!(out, "  warning: {warning}");
@@ -310,6 +313,19 @@ mod tests {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
         }
         assert!(!page.contains("null") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn a_run_without_torque_tells_the_creepage_of_free_rolling() {
+        let mut rolled = summary();
+        rolled["rolling_radius"] = json!({ "effective": 0.46, "free": null });
+        assert!(!text(&rolled, Path::new("x")).contains("free rolling"));
+        rolled["rolling_radius"]["free"] = json!(0.4597);
+        let page = text(&rolled, Path::new("x"));
+        assert!(
+            page.contains("\n  without torque: this creepage is that of free rolling\n"),
+            "{page}"
+        );
     }
 
     #[test]

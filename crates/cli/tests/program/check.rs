@@ -96,6 +96,9 @@ fn wrong_names_and_values_are_refused_with_the_names_that_exist() {
     refused(&["check", run, "--limit", "law=1"], &["no measure 'law'", "law_error"]);
     refused(&["check", run, "--limit", "cone"], &["a name and a number"]);
     refused(&["check", run, "--limit", "cone=-1"], &["at least 0"]);
+    for limit in ["roughness_ratio=0", "roughness_ratio=5e-324"] {
+        refused(&["check", run, "--limit", limit], &["above 0", "from 1/x to x"]);
+    }
     refused(&["check", run, "--scale", "p0=1"], &["no scale 'p0'", "peak_pressure"]);
     refused(&["check", run, "--scale", "approach=0"], &["greater than 0"]);
     refused(&["check", run, "--case", "no.toml"], &["no.toml", "no such file"]);

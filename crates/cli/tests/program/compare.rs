@@ -75,7 +75,7 @@ fn one_run_a_window_without_records_and_a_figure_of_another_kind_are_refused() {
         (&["check", run, "--transits", "0"], "greater than 0"),
         (&["check", run, "--transits", "1", "--window", "0:1"], "cannot be used with"),
         (&["compare", run, run, "--plot", "slip.pdf"], "must end in .svg or .png"),
-        (&["compare", run, "nowhere"], "no contact.vtkhdf"),
+        (&["compare", run, "nowhere"], "nowhere: there is no such file or folder"),
     ] {
         let output = creepage(args);
         let said = String::from_utf8_lossy(&output.stderr);

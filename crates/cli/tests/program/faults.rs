@@ -201,6 +201,41 @@ fn material_in_other_units() {
 }
 
 #[test]
+fn a_load_whose_patch_is_half_an_element() {
+    let words = [
+        "mesh.zone.size = 0.8 mm is more than twice the shorter axis of the patch of load.normal = 1 N",
+        "0.1685 by 0.1391 mm",
+        "mesh.zone.size = 3.478e-5 or less",
+    ];
+    refused(&["load.normal=1"], &words);
+    refused(&["load.normal=5e-324"], &["load.normal = 5e-324", "at least 1e-12 and at most 1e8 N"]);
+}
+
+#[test]
+fn a_mean_normal_force_that_misses_the_load_is_told_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let warned = |load: &str| {
+        let sets = [load, "time.roll=4e-4"];
+        let output = run(Path::new(CASE), &out, &sets, &["--force"]);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let summary: Value =
+            serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        let list = summary["window"]["warnings"].as_array().unwrap().clone();
+        let told = list.iter().all(|line| said(&output).contains(line.as_str().unwrap()));
+        assert!(told, "{list:?} {}", said(&output));
+        list
+    };
+    // the patch is shorter than an element, and the disk rides on the nodes
+    let list = warned("load.normal=100");
+    has(
+        &list[0].to_string(),
+        &["mean normal force", "% off load.normal = 100 N", "mesh.zone.size"],
+    );
+    assert!(warned("load.normal=10e3").is_empty());
+}
+
+#[test]
 fn limits_may_be_raised_when_a_stopped_run_is_resumed() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");

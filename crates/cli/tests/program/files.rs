@@ -104,6 +104,13 @@ fn pipes_and_devices_are_no_inputs_and_are_not_waited_for() {
         place.refused(args, &["is a pipe"]);
     }
     place.refused(&["check", "raw"], &["holds no contact.vtkhdf"]);
+    for words in [&["check"][..], &["plot"], &["report"], &["render"], &["compare", "raw"]] {
+        for gone in ["rums/quick", "run/contact.vtkhfd", "gone/contact.vtkhdf"] {
+            let wanted = format!("{gone}: there is no such file or folder");
+            let order = [&words[..1], &[gone], &words[1..]].concat();
+            place.refused(&order, &[&wanted]);
+        }
+    }
     for args in [
         &["run", "/dev/zero"][..],
         &["sweep", "/dev/zero"],

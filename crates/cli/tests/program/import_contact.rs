@@ -63,3 +63,17 @@ fn wrong_tables_are_refused_with_file_line_and_reason() {
         assert!(said.contains(words) && said.contains(table), "{words:?} is not in:\n{said}");
     }
 }
+
+#[test]
+fn the_heading_of_a_table_may_be_in_latin_1() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["nodes", "faces", "values"] {
+        let text = fs::read_to_string(example().join(format!("{name}.csv"))).unwrap();
+        let (heading, rows) = text.trim_end().split_once('\n').unwrap();
+        let rows = rows.replace('\n', ",0\n");
+        let bytes = [heading.as_bytes(), b",\xb5\n", rows.as_bytes(), b",0\n"].concat();
+        fs::write(folder.path().join(format!("{name}.csv")), bytes).unwrap();
+    }
+    let output = import(folder.path(), &folder.path().join("out.vtkhdf"));
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}

@@ -32,6 +32,8 @@ mod stopped;
 mod summary;
 #[cfg(unix)]
 mod sweep;
+#[cfg(unix)]
+mod terminal;
 
 #[allow(dead_code)]
 #[path = "../../../post/tests/planted/mod.rs"]

@@ -107,13 +107,56 @@ fn a_bad_mesh_ends_with_code_2_file_line_element_or_set_and_remedy() {
         "m.msh",
         msh.as_bytes(),
         "unit = \"mm\"",
-        &["radius of the disk", "not 0.1 m", "set disk.radius"],
+        &["coordinates are in m", "not 0.1 m", "set mesh.unit = \"m\""],
     );
+    // a disk of 100 km fits no unit, and is not to be put into the case
+    let large = small_scaled(&msh, 1e6);
+    refused("m.msh", large.as_bytes(), "", &["radius of the disk", "as mesh.unit"]);
     let binary = fs::read(meshes().join("formats/gmsh-4.1.msh")).unwrap();
     refused("m.msh", &binary[..3000], "", &["m.msh, byte 3000", "the file ends where"]);
     let no_sets = fs::read(meshes().join("formats/no-sets.msh")).unwrap();
     refused("m.msh", &no_sets, "", &["the file has no sets", "meshio keeps cell_sets"]);
     refused("m.stl", b"solid", "", &["case.toml", "mesh.file", ".msh, .inp"]);
+}
+
+/// A mesh of Gmsh 2.2 whose coordinates are multiplied by a factor.
+fn small_scaled(msh: &str, factor: f64) -> String {
+    let (before, rest) = msh.split_once("$Nodes\n").unwrap();
+    let (nodes, after) = rest.split_once("$EndNodes").unwrap();
+    let mut lines = nodes.lines();
+    let mut scaled = format!("{}\n", lines.next().unwrap());
+    for line in lines {
+        let mut words = line.split(' ');
+        scaled += words.next().unwrap();
+        for x in words {
+            scaled += &format!(" {}", factor * x.parse::<f64>().unwrap());
+        }
+        scaled += "\n";
+    }
+    format!("{before}$Nodes\n{scaled}$EndNodes{after}")
+}
+
+#[test]
+fn a_clamp_whose_keyword_goes_on_in_the_next_line_holds_every_node_of_it() {
+    let small = fs::read_to_string(meshes().join("small.inp")).unwrap();
+    let (before, clamp) = small.split_once("*ELSET, ELSET=clamp\n").unwrap();
+    let clamped = |mesh: &str| {
+        let (_dir, path) = folder("m.inp", mesh.as_bytes(), "");
+        let output = creepage(&["mesh", &path, "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        (found["bodies"][1]["sets"]["bottom"].as_u64().unwrap(), found["notes"].clone())
+    };
+    let continued = format!("{before}*ELSET,\nELSET=clamp, UNSORTED,\nINTERNAL\n{clamp}");
+    assert_eq!(clamped(&continued), (69, Value::Array(Vec::new())));
+    let gone = format!("{before}*ELSET, ELSET=clamp\n9999999, {clamp}");
+    let line = format!("m.inp:{}", before.lines().count() + 2);
+    refused("m.inp", gone.as_bytes(), "", &[&line, "set `clamp` names element 9999999"]);
+    let latin_1 = [b"** ge\xe4ndert\n", small.as_bytes()].concat();
+    let (_dir, path) = folder("m.inp", &latin_1, "");
+    assert_eq!(creepage(&["mesh", &path, "--quiet"]).status.code(), Some(0));
+    let wide: Vec<u8> = small.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    refused("m.inp", &wide, "", &["a text in UTF-16 is not read", "save the file as UTF-8"]);
 }
 
 #[test]

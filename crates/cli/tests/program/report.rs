@@ -95,6 +95,51 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
 }
 
 #[test]
+fn the_commands_with_which_a_page_says_to_reproduce_its_run_work_as_printed() {
+    let place = tempfile::tempdir().unwrap();
+    let program = |words: &[&str], folder: &std::path::Path| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+        let output = command.args(words).current_dir(folder).output().unwrap();
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{words:?}: {output:?}");
+    };
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
+    let short =
+        ["--set", "time.roll=0.0005", "--set", "drive.ramp=1e-6", "--set", "title='a \"b\"'"];
+    program(&[&["run", case, "--out", "a run"][..], &short].concat(), place.path());
+    let run = place.path().join("a run");
+    program(&["report", "."], &run);
+    let page = fs::read_to_string(run.join("report.html")).unwrap();
+    let commands = page.split("How to reproduce").nth(2).unwrap();
+    let commands = commands.split_once("<pre>").unwrap().1.split_once("</pre>").unwrap().0;
+    assert_eq!(commands.lines().count(), 4, "{commands}");
+    for line in commands.lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        assert_eq!(words[0], "creepage");
+        program(&words[1..], &run);
+    }
+    assert!(run.join("again/report.html").exists());
+    let of = |folder: &std::path::Path| {
+        let text = fs::read(folder.join("summary.json")).unwrap();
+        serde_json::from_slice::<serde_json::Value>(&text).unwrap()["contact"].clone()
+    };
+    assert_eq!(of(&run), of(&run.join("again")));
+}
+
+#[test]
+fn a_warning_about_the_files_beside_a_history_names_their_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    write(&run, FALLING, "penalty", 20, |x, step| perfect(FALLING, x, step));
+    let _ = fs::remove_file(run.join("summary.json"));
+    for words in [["check", "contact.vtkhdf"], ["report", "contact.vtkhdf"], ["check", "."]] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+        let output = command.args(words).current_dir(&run).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(said.contains("nothing proves that the files in . are whole"), "{words:?}: {said}");
+    }
+}
+
+#[test]
 fn the_page_of_a_sweep_holds_its_table_and_figures() {
     let folder = tempfile::tempdir().unwrap();
     let run = |size: f64, pass: bool| {

@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use output::{CHECKPOINTS, Checkpoint, HistoryFile};
 use runs::kill::{BUSY, EXACT_WITH_MEMORY, KillLoop, python};
-use runs::{results, timeless};
+use runs::{heeding_signals, results, timeless};
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
 
 fn creepage(out: &Path, more: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    let mut command = heeding_signals(env!("CARGO_BIN_EXE_creepage"));
     command.args(["run", CASE, "--threads", "2", "--out"]).arg(out).args(more);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
@@ -56,6 +56,15 @@ fn sigterm_and_ctrl_c_write_a_checkpoint_and_the_resumed_run_has_the_same_bits()
         let output = signalled(&out, signal, &[&LONG[..], more].concat());
         assert_eq!(output.status.code(), Some(130), "{}", said(&output));
         assert!(said(&output).contains("--resume goes on"), "{}", said(&output));
+        // without a word it is neither replaced nor is that the first advice
+        let taken = creepage(&out, &LONG).output().unwrap();
+        let advice =
+            "help: go on with it with --resume, which keeps its results; or choose another folder";
+        assert!(
+            taken.status.code() == Some(2) && said(&taken).contains(advice),
+            "{}",
+            said(&taken)
+        );
         let kept = Checkpoint::read(&out.join(CHECKPOINTS[0])).unwrap();
         assert_eq!(results(&out).number("/steps"), kept.step as f64);
     }
@@ -65,6 +74,9 @@ fn sigterm_and_ctrl_c_write_a_checkpoint_and_the_resumed_run_has_the_same_bits()
     assert_eq!(whole.differing(&found), Vec::<&str>::new());
     assert_eq!(timeless(&whole.summary), timeless(&found.summary));
 
+    // a run that is complete
+    let taken = creepage(&out, &LONG).output().unwrap();
+    assert!(!said(&taken).contains("--resume"), "{}", said(&taken));
     let again = done(&out, &resume);
     assert!(said(&again).contains("is complete: nothing to resume"), "{}", said(&again));
 }

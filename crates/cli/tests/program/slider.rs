@@ -34,14 +34,17 @@ fn bad_parameters_exit_2_and_are_named() {
         (["--dt", "nan"], "dt = NaN"),
         (["--mass", "-1"], "mass = -1"),
         (["--damping", "-0.1"], "damping = -0.1"),
-        (["--dt", "1e-300"], "dt = "),
+        (["--dt", "1e-300"], "dt = 1e-300 s is out of range: it must be from 1e-12 to 10"),
+        (["--mass", "5e-324"], "mass = 5e-324 kg is out of range: it must be from 1e-12 to"),
+        (["--belt", "1e300"], "belt = 1e300 m/s is out of range"),
+        (["--dt", "6"], "dt = 6 s is out of range: it must be at most t_end"),
         (["--method", "foo"], "foo"),
         (["--csv", "/proc/none/slider.csv"], "slider.csv"),
         (["--plot", "/proc/none"], "/proc/none"),
         (["--mu-dynamic", "0.6"], "mu_dynamic = 0.6"),
         (["--law", "table"], "--table"),
         (["--belt", "inf"], "belt = inf"),
-        (["--plot=figures", "--dt=1e-8"], "dt = 0.00000001"),
+        (["--plot=figures", "--dt=1e-8"], "dt = 1e-8"),
     ] {
         let output = slider(&options);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
@@ -97,8 +100,14 @@ fn a_friction_table_is_read_and_its_mistakes_are_shown_at_their_line() {
     let path = folder.path().join("mu.csv");
     let options = |path: &std::path::Path| path.display().to_string();
     std::fs::write(&path, "# measured\nslip speed, mu\n0, 0.5\n1, 0.4\n").unwrap();
-    let good = slider(&["--table", &options(&path), "--t-end", "0.1"]);
-    assert_eq!(good.status.code(), Some(0), "{}", String::from_utf8_lossy(&good.stderr));
+    let slid = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        json(&slider(&["--json", "--table", &options(&path), "--t-end", "2"]))["x_max"]
+            .as_f64()
+            .unwrap()
+    };
+    let metres = slid("# measured\nslip speed, mu\n0, 0.5\n1, 0.4\n");
+    assert_eq!(slid("slip speed (mm/s), mu (%)\n0, 50\n1000, 40\n"), metres);
     for (text, word) in [
         ("0, 0.5\n0, 0.4\n", "mu.csv:2"),
         ("0, 0.5\n1, many\n", "mu.csv:2"),
@@ -106,6 +115,9 @@ fn a_friction_table_is_read_and_its_mistakes_are_shown_at_their_line() {
         ("0.1, 0.5\n", "at 0"),
         ("", "empty"),
         ("0, 0.3\n1, 0.4\n", "rises"),
+        ("slip (mm), mu\n0, 0.5\n", "mu.csv:1: 'slip (mm)': 'mm' is no known unit"),
+        ("s, shear (MPa)\n0, 0.5\n", "mu.csv:1: 'shear (MPa)': 'MPa' is no known unit"),
+        ("s;mu\n0;0,5\n", "semicolons or tabs"),
     ] {
         std::fs::write(&path, text).unwrap();
         let output = slider(&["--table", &options(&path)]);

@@ -6,12 +6,13 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use output::{GridFile, HistoryFile, OutputError};
+use runs::heeding_signals;
 use serde_json::Value;
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
 
 fn start(out: &Path, more: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_creepage"))
+    heeding_signals(env!("CARGO_BIN_EXE_creepage"))
         .args(["run", CASE, "--threads", "1", "--out"])
         .arg(out)
         .args(more)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use runs::heeding_signals;
 use serde_json::Value;
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
@@ -30,7 +31,7 @@ impl Place {
 
     /// `creepage sweep sweep.toml` in the folder.
     fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(PROGRAM);
+        let mut command = heeding_signals(PROGRAM);
         command.current_dir(self.dir.path()).args(["sweep", "sweep.toml"]).args(args);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command

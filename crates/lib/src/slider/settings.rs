@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use case::Excerpt;
+use case::{Excerpt, table};
 use files::{input, printable};
 use friction::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
 use miette::{Diagnostic, SourceSpan};
@@ -371,8 +371,7 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// A friction law from a CSV file of slip speed (m/s) and mu, with lines of # as comments and
-/// perhaps a heading.
+/// The friction law in the file of a friction table.
 fn read_table(path: &Path) -> Result<Table, Box<SettingError>> {
     let name = path.display().to_string();
     let failed = |message: String| {
@@ -380,48 +379,11 @@ fn read_table(path: &Path) -> Result<Table, Box<SettingError>> {
             message: printable(&message),
             source_code: None,
             span: None,
-            help: "two columns: slip speed (m/s), rising from 0, and mu; a heading and lines that \
-               start with # are passed over"
-                .into(),
+            help: table::REMEDY.into(),
         })
     };
     let text = input::text(path, input::TABLE)
         .map_err(|e| failed(format!("{name}: cannot read the friction table: {}", e.problem())))?;
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let mut points = Vec::new();
-    let mut lines = Vec::new();
-    for (row, record) in reader.records().enumerate() {
-        let record = record.map_err(|cause| failed(format!("{name}: {cause}")))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let numbers: Vec<Option<f64>> = record.iter().map(|field| field.parse().ok()).collect();
-        match numbers[..] {
-            [Some(speed), Some(mu)] => {
-                points.push([speed, mu]);
-                lines.push(line);
-            }
-            [None, None] if row == 0 => {}
-            _ => {
-                let fields = record.iter().collect::<Vec<_>>().join(", ");
-                // a file without a point may be any that can be read: nothing of it is shown
-                let what =
-                    if points.is_empty() { "this line".into() } else { format!("'{fields}'") };
-                let message = format!("{name}:{line}: {what} is not a slip speed and a mu");
-                return Err(failed(message));
-            }
-        }
-    }
-    Table::new(points).map_err(|error| {
-        let number = match error {
-            friction::TableError::Range { number, .. }
-            | friction::TableError::Order { number, .. } => number,
-            friction::TableError::Start { .. } | friction::TableError::Empty => 1,
-        };
-        let line = lines.get(number - 1).copied().unwrap_or(1);
-        failed(format!("{name}:{line}: {error}"))
-    })
+    table::read(&text)
+        .map_err(|mistake| failed(format!("{name}:{}: {}", mistake.line, mistake.problem)))
 }

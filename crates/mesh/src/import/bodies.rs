@@ -7,7 +7,7 @@ use super::order::along_curve;
 use super::parts::Parts;
 use super::unit::Unit;
 use crate::check::boundary;
-use crate::error::MAX_ELEMENTS;
+use crate::error::{MAX_ELEMENTS, digits};
 use crate::grid::nodes_of;
 use crate::near::{duplicates, hanging};
 use crate::quality::scaled_jacobian;
@@ -58,6 +58,8 @@ pub struct Imported {
     pub notes: Vec<String>,
     /// Names of the sets in the file.
     pub(super) names: SetNames,
+    /// Unit in which its coordinates were read.
+    pub(super) unit: Unit,
     /// Numbers and lines in the file of the mesh's nodes.
     pub(super) nodes: Labels,
     /// Numbers and lines in the file of the mesh's elements.
@@ -151,20 +153,24 @@ fn check_arrays(foreign: &Foreign) -> Result<(), ImportError> {
 /// A set by its name; letter case matters only where two names differ by nothing else.
 fn set<'a>(foreign: &'a Foreign, role: SetRole, name: &str) -> Result<&'a Set, ImportError> {
     let sets = &foreign.sets;
-    let alike: Vec<&Set> =
-        sets.iter().filter(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, set)| set).collect();
-    match (sets.get(name), &alike[..]) {
-        (Some(set), _) => Ok(set),
-        (None, &[set]) => Ok(set),
-        _ if sets.is_empty() => Err(Fault::NoSets { role, name: name.into() }.nowhere()),
+    let alike: Vec<(&String, &Set)> =
+        sets.iter().filter(|(n, _)| n.eq_ignore_ascii_case(name)).collect();
+    let found = match (sets.get_key_value(name), &alike[..]) {
+        (Some(found), _) => found,
+        (None, &[found]) => found,
+        _ if sets.is_empty() => return Err(Fault::NoSets { role, name: name.into() }.nowhere()),
         _ => {
             let there: Vec<_> = sets.keys().take(30).map(|n| format!("`{n}`")).collect();
             let there = match there.len() {
                 n if n < sets.len() => format!("{} and others", there.join(", ")),
                 _ => there.join(", "),
             };
-            Err(Fault::MissingSet { role, name: name.into(), there }.nowhere())
+            return Err(Fault::MissingSet { role, name: name.into(), there }.nowhere());
         }
+    };
+    match foreign.incomplete.get(found.0) {
+        Some(error) => Err(error.clone()),
+        None => Ok(found.1),
     }
 }
 
@@ -226,6 +232,7 @@ fn renumbered(
         mesh: Mesh::default(),
         notes: foreign.notes.clone(),
         names: names.clone(),
+        unit,
         nodes: Labels::default(),
         elements: Labels::default(),
     };
@@ -315,7 +322,8 @@ fn check_body(imported: &Imported, index: usize) -> Result<Vec<Face>, ImportErro
         // in the order of the file's numbers
         let (a, b) = if nodes.id(a) <= nodes.id(b) { (a, b) } else { (b, a) };
         let (first, second) = (nodes.id(a), nodes.id(b));
-        let fault = Fault::Coincident { first, second, body: name, point: mesh.nodes[b] };
+        let fault =
+            Fault::Coincident { first, second, body: name, point: mesh.nodes[b].map(digits) };
         return Err(nodes.fault(b, fault));
     }
     let outside = boundary(mesh, body).map_err(|error| match error {

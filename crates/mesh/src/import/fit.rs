@@ -4,6 +4,7 @@ use super::bodies::Imported;
 use super::error::{Fault, ImportError, SetRole};
 use super::unit::Unit;
 use crate::check::boundary;
+use crate::error::digits;
 use crate::grid::nodes_of;
 use crate::{
     Bar, Disk, Face, FineZone, Mesh, Parameter, SmoothSurface, Surface, quad_corner_areas,
@@ -114,8 +115,9 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     let radius = 0.5 * span(&tread, 0);
     if !close(radius, disk.radius) {
         let expected = disk.radius;
-        let unit = Unit::ALL.into_iter().filter(|u| *u != Unit::Metre);
-        let mut unit = unit.filter(|u| close(u.metres(radius), expected));
+        let written = radius / imported.unit.metres(1.0);
+        let unit = Unit::ALL.into_iter().filter(|u| *u != imported.unit);
+        let mut unit = unit.filter(|u| close(u.metres(written), expected));
         return Err(match unit.next() {
             Some(unit) => Fault::Unit { found: digits(radius), expected, unit },
             None => size(Parameter::DiskRadius, radius, expected),
@@ -164,11 +166,6 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
 
 fn size(parameter: Parameter, found: f64, expected: f64) -> Fault {
     Fault::Size { parameter, found: digits(found), expected }
-}
-
-/// A measured length rounded to six digits, for messages.
-fn digits(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
 }
 
 struct Extent {

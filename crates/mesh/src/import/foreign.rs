@@ -13,6 +13,8 @@ pub struct Foreign {
     pub hexes: Vec<[u32; 8]>,
     /// The sets by their names.
     pub sets: BTreeMap<String, Set>,
+    /// Sets that name nodes or elements which the file does not have, with the first of these.
+    pub incomplete: BTreeMap<String, ImportError>,
     /// Numbers and lines of the nodes in the file; empty where they have none.
     pub nodes: Labels,
     /// Numbers and lines of the hexahedra in the file; empty where they have none.

@@ -1,6 +1,7 @@
 //! Words, numbers and lines of a text file.
 
 use super::error::{Fault, ImportError};
+use std::borrow::Cow;
 use std::str::FromStr;
 
 /// A text that is read from beginning to end, by lines or by words.
@@ -15,9 +16,8 @@ pub(super) struct Text<'a> {
 }
 
 impl<'a> Text<'a> {
-    pub(super) fn new(bytes: &'a [u8]) -> Result<Self, ImportError> {
-        let rest = utf8(bytes)?;
-        Ok(Self { rest: rest.strip_prefix('\u{feff}').unwrap_or(rest), rest_of_line: "", line: 0 })
+    pub(super) fn new(text: &'a str) -> Self {
+        Self { rest: text.strip_prefix('\u{feff}').unwrap_or(text), rest_of_line: "", line: 0 }
     }
 
     /// The next line, trimmed; what is left of the current one is dropped.
@@ -59,12 +59,25 @@ impl<'a> Text<'a> {
     }
 }
 
-/// Bytes as UTF-8 text, or the error at the first line that is none.
-pub(super) fn utf8(bytes: &[u8]) -> Result<&str, ImportError> {
-    str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
-        Fault::Syntax { what: "the line is not UTF-8 text".into() }.at(line)
+/// Bytes as text: a line that is not UTF-8, such as a comment or a heading of an older program, is in Latin-1.
+pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, ImportError> {
+    // a mark, or the zero of a letter of ASCII
+    if matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, _, ..] | [_, 0, ..]) {
+        let (what, remedy) = ("a text in UTF-16".into(), "save the file as UTF-8");
+        return Err(Fault::Unsupported { what, remedy }.at(1));
+    }
+    Ok(match str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(_) => bytes.split_inclusive(|&b| b == b'\n').map(line).collect::<String>().into(),
     })
+}
+
+/// The text of a line in UTF-8, or else in Latin-1, where each byte is the character of its number.
+pub(super) fn line(bytes: &[u8]) -> Cow<'_, str> {
+    match str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(_) => bytes.iter().copied().map(char::from).collect(),
+    }
 }
 
 /// A word as a number; `what` says in the error what was expected.

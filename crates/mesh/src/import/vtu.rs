@@ -12,7 +12,7 @@ use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
 use super::nesting::{DEEPEST, too_deep};
 use super::set_arrays::{Cell, SetArray, SetsOfArrays};
-use super::text::{number, utf8};
+use super::text::{decoded, number};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use roxmltree::{Document, Node};
@@ -31,20 +31,15 @@ const MOST_ARRAYS: usize = 200;
 /// several pieces and for compressors other than zlib.
 pub fn read_vtu(bytes: &[u8]) -> Result<Foreign, ImportError> {
     let (head, appended) = split(bytes);
-    let head = utf8(head)?;
-    let closed;
-    let head = match appended {
-        Some(_) => {
-            closed = format!("{head}</VTKFile>");
-            &closed
-        }
-        None => head,
-    };
-    if let Some(line) = too_deep(head) {
+    let mut head = decoded(head)?;
+    if appended.is_some() {
+        head += "</VTKFile>";
+    }
+    if let Some(line) = too_deep(&head) {
         let what = format!("elements of the file lie more than {DEEPEST} deep in one another");
         return Err(Fault::Syntax { what }.at(line));
     }
-    let document = Document::parse(head).map_err(|error| {
+    let document = Document::parse(&head).map_err(|error| {
         Fault::Syntax { what: format!("the file is no well-formed XML: {error}") }
             .at(error.pos().row as usize)
     })?;
@@ -272,9 +267,12 @@ impl<'a> File<'a> {
                 });
             }
             Some("binary") => {
-                let packed: Vec<u8> =
-                    text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
-                self.unpack(array, Packed::Base64(&packed))?
+                // an empty array may lack its header too
+                if text.trim().is_empty() {
+                    Vec::new()
+                } else {
+                    self.unpack(array, Packed::Base64(text.as_bytes()))?
+                }
             }
             Some("appended") => {
                 let offset = array.attribute("offset").and_then(|o| o.trim().parse::<usize>().ok());
@@ -318,6 +316,8 @@ impl<'a> File<'a> {
     ///
     /// Uncompressed, a header with the number of bytes precedes them. Compressed, a header with the number of
     /// blocks, the size of a block, that of the last block and the compressed size of each precedes the blocks.
+    /// In base64 the header of compressed data is encoded by itself; that of others may be, and then ends with the
+    /// sign `=`, or is encoded with its data.
     fn unpack(&self, array: Node, packed: Packed) -> Result<Vec<u8>, ImportError> {
         let cut_short = || syntax(array, "an array ends before its header says");
         let word = |bytes: &[u8], i: usize| {
@@ -329,16 +329,24 @@ impl<'a> File<'a> {
             }
             usize::try_from(u64::from_le_bytes(padded)).ok()
         };
-        let start = packed.bytes(self.word, array)?;
+        let start = packed.header(self.word, array)?;
         let first = word(&start, 0).ok_or_else(cut_short)?;
+        if first == 0 {
+            return Ok(Vec::new());
+        }
         if !self.zlib {
-            let end = self.word.checked_add(first).ok_or_else(cut_short)?;
-            let all = packed.bytes(end, array)?;
-            return Ok(all.get(self.word..end).ok_or_else(cut_short)?.to_vec());
+            let apart = start.len() == self.word;
+            let bytes = if apart {
+                packed.part(self.word, first, array)?
+            } else {
+                let end = self.word.checked_add(first).ok_or_else(cut_short)?;
+                packed.part(0, end, array)?.split_off(self.word)
+            };
+            return if bytes.len() < first { Err(cut_short()) } else { Ok(bytes) };
         }
         let words = first.checked_add(3).ok_or_else(cut_short)?;
         let header = words.checked_mul(self.word).ok_or_else(cut_short)?;
-        let header = packed.bytes(header, array)?;
+        let header = packed.part(0, header, array)?;
         if header.len() < words * self.word {
             return Err(cut_short());
         }
@@ -350,7 +358,7 @@ impl<'a> File<'a> {
         }
         let total = sizes.iter().try_fold(0usize, |sum, size| sum.checked_add(*size));
         let total = total.ok_or_else(cut_short)?;
-        let body = packed.after(header.len(), total, array)?;
+        let body = packed.part(header.len(), total, array)?;
         let (mut bytes, mut at) = (Vec::new(), 0);
         for (i, &size) in sizes.iter().enumerate() {
             let block = if i + 1 == sizes.len() && last > 0 { last } else { block };
@@ -379,35 +387,44 @@ enum Packed<'a> {
 }
 
 impl Packed<'_> {
-    /// The first `count` decoded bytes, or all if there are fewer.
-    fn bytes(&self, count: usize, array: Node) -> Result<Vec<u8>, ImportError> {
+    /// The bytes of a header of `count` bytes, and of what is encoded with its last.
+    fn header(&self, count: usize, array: Node) -> Result<Vec<u8>, ImportError> {
         match self {
-            Self::Raw(data) => Ok(data[..count.min(data.len())].to_vec()),
-            Self::Base64(data) => {
-                let mut bytes = decode(data, count.div_ceil(3).saturating_mul(4), array)?;
-                bytes.truncate(count);
-                Ok(bytes)
-            }
+            Self::Raw(_) => self.part(0, count, array),
+            Self::Base64(data) => decode(data, 0, characters(count), array),
         }
     }
 
-    /// `count` decoded bytes after a header of `header` bytes, which is encoded in base64 by itself.
-    fn after(&self, header: usize, count: usize, array: Node) -> Result<Vec<u8>, ImportError> {
+    /// `count` decoded bytes, or all if there are fewer, after a header of `header` bytes that is encoded by itself.
+    fn part(&self, header: usize, count: usize, array: Node) -> Result<Vec<u8>, ImportError> {
         match self {
             Self::Raw(data) => {
                 let data = data.get(header..).unwrap_or_default();
                 Ok(data[..count.min(data.len())].to_vec())
             }
             Self::Base64(data) => {
-                let data = data.get(header.div_ceil(3) * 4..).unwrap_or_default();
-                Self::Base64(data).bytes(count, array)
+                let mut bytes = decode(data, characters(header), characters(count), array)?;
+                bytes.truncate(count);
+                Ok(bytes)
             }
         }
     }
 }
 
-fn decode(data: &[u8], characters: usize, array: Node) -> Result<Vec<u8>, ImportError> {
-    let data = &data[..characters.min(data.len())];
+/// How many characters of base64 so many bytes have.
+fn characters(bytes: usize) -> usize {
+    bytes.div_ceil(3).saturating_mul(4)
+}
+
+/// Decodes so many characters of base64 after the first `skipped`; blanks and line ends do not count.
+fn decode(
+    data: &[u8],
+    skipped: usize,
+    characters: usize,
+    array: Node,
+) -> Result<Vec<u8>, ImportError> {
+    let data = data.iter().filter(|byte| !byte.is_ascii_whitespace());
+    let data: Vec<u8> = data.skip(skipped).take(characters).copied().collect();
     STANDARD.decode(data).map_err(|_| syntax(array, "the base64 data of an array are damaged"))
 }
 

@@ -79,9 +79,34 @@ pub(super) fn creep_force(sweeps: &[(String, &Sweep<'_>)]) -> Option<Figure> {
     let caption = format!(
         "Tangential over normal force over the creepage, {lines}; bars: the 95 % confidence interval \
          of the mean, where there is none the standard deviation over the records of the \
-         evaluation window."
+         evaluation window.{}",
+        free_rolling(&curves)
     );
     Some(Figure { size, columns: panels.len().min(3), panels, caption })
+}
+
+/// At which creepage the bodies roll freely, for each curve that passes through T = 0, as a sentence of the caption.
+fn free_rolling(curves: &[Curve]) -> String {
+    let found = curves.iter().filter_map(|curve| {
+        let names = [curve.sweep.as_str(), curve.others.as_str()];
+        let name = names.into_iter().filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", ");
+        let name = if name.is_empty() { name } else { format!(" ({name})") };
+        curve.without_force().map(|creepage| format!("{creepage:.3}e-3{name}"))
+    });
+    match found.collect::<Vec<_>>() {
+        found if found.is_empty() => String::new(),
+        found => format!(" T = 0, by interpolation, at creepage {}.", found.join("; ")),
+    }
+}
+
+impl Curve {
+    /// The creepage (10⁻³) at which T/N changes its sign, between two of its points that are neighbours.
+    fn without_force(&self) -> Option<f64> {
+        self.points.windows(2).find_map(|pair| {
+            let [(x, a), (y, b)] = [pair[0], pair[1]].map(|(x, point)| (x, point.value));
+            (a < 0.0 && b >= 0.0).then(|| x - a * (y - x) / (b - a))
+        })
+    }
 }
 
 /// The names of curves, each once, in the order of the curves.
@@ -104,8 +129,8 @@ fn panel(
     legend: bool,
 ) -> Panel {
     let points = || all.iter().flat_map(|curve| &curve.points);
-    let right = points().map(|(x, _)| *x).fold(0.0, f64::max);
-    let top = points().map(|(_, point)| point.value).fold(0.0, f64::max);
+    let [left, right] = ends(points().map(|(x, _)| *x), 0.03);
+    let [bottom, top] = ends(points().map(|(_, point)| point.value), 0.08);
     let names = distinct(all, name);
     let series = shown.iter().flat_map(|curve| {
         let place = names.iter().position(|known| known == name(curve)).unwrap_or(0);
@@ -116,10 +141,16 @@ fn panel(
         title,
         series: series.collect(),
         ..Panel::new(
-            Axis::linear("creepage (10\u{207b}\u{b3})").over(0.0, 1.03 * right),
-            Axis::linear("T/N").over(0.0, 1.08 * top),
+            Axis::linear("creepage (10\u{207b}\u{b3})").over(left, right),
+            Axis::linear("T/N").over(bottom, top),
         )
     }
+}
+
+/// The ends of an axis that holds zero and `values`, with this part of the largest to spare beyond the values.
+fn ends(values: impl Iterator<Item = f64>, spare: f64) -> [f64; 2] {
+    let [low, high] = values.fold([0.0f64; 2], |[low, high], x| [low.min(x), high.max(x)]);
+    [low * (1.0 + spare), high * (1.0 + spare)]
 }
 
 /// The curves of a sweep.

@@ -1,5 +1,6 @@
 """The command line: ``python -m creepage run CASE.toml``."""
 
+import signal
 import sys
 
 from . import _creepage
@@ -8,6 +9,9 @@ from ._execute import PROGRAM
 
 def main() -> None:
     """Run the command line and end with its exit code."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        # Python's own would raise KeyboardInterrupt after the program has ended in order
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(_creepage.main(["creepage", *sys.argv[1:]], PROGRAM))
 
 

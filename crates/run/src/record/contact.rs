@@ -181,8 +181,10 @@ impl ContactRecord {
     /// Adds a step to the means.
     pub(crate) fn add_step(&mut self, report: &StepReport) -> StepRecord {
         let resultants = Resultants::of(report, self.effective_radius, self.speed, self.half);
-        let inside = (self.evaluate[0]..=self.evaluate[1]).contains(&report.time);
-        self.means.add_step(report, &resultants, inside);
+        let [from, to] = self.evaluate;
+        let inside = (from..=to).contains(&report.time);
+        let passed = inside.then(|| (report.time - from) / (to - from));
+        self.means.add_step(report, &resultants, passed);
         StepRecord { resultants, inside }
     }
 

@@ -53,8 +53,14 @@ pub(crate) struct PatchMeasures {
 }
 
 impl Means {
-    /// Adds a step: to the extremes and counts always, to the means where it lies `inside` the evaluation window.
-    pub(super) fn add_step(&mut self, report: &StepReport, resultants: &Resultants, inside: bool) {
+    /// Adds a step: to the extremes and counts always, to the means where it lies inside the evaluation window, of which so
+    /// much has `passed`, from 0 to 1.
+    pub(super) fn add_step(
+        &mut self,
+        report: &StepReport,
+        resultants: &Resultants,
+        passed: Option<f64>,
+    ) {
         let contact = &report.contact;
         if contact.closed > 0 {
             self.worst_mismatch = self.worst_mismatch.max(resultants.mismatch);
@@ -66,8 +72,9 @@ impl Means {
         for (most, now) in self.steepness.iter_mut().zip(contact.steepness) {
             *most = most.max(now);
         }
-        if inside {
+        if let Some(passed) = passed {
             let Resultants { tangential, lateral, normal, .. } = *resultants;
+            self.add_normal_force(normal, passed);
             for (mean, f) in self.force.iter_mut().zip([tangential, lateral, normal]) {
                 mean.add(f);
             }

@@ -51,8 +51,8 @@ fn worse(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
 
-/// K_h/2 sum q_a . q_a (J) with the amplitudes q_a = sum u_I gamma_aI and K_h = kappa (lambda + 2G)
-/// B_iI B_iI/(24 V); `modulus` is kappa (lambda + 2G) (Pa).
+/// K_h/2 sum q_a . q_a (J) with the amplitudes q_a = sum u_I gamma_aI and K_h = kappa M
+/// B_iI B_iI/(24 V); `modulus` is kappa M (Pa), M of [`crate::Material::hourglass_modulus`].
 fn hourglass_energy(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8], modulus: f64) -> f64 {
     let (volume, b) = mean_gradient(x);
     let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
@@ -105,7 +105,7 @@ impl Solid {
                 return 0.0;
             }
             let (x, u) = self.corners(displacement, body, element);
-            hourglass_energy(&x, &u, coefficient * self.bodies[body].1.p_modulus())
+            hourglass_energy(&x, &u, coefficient * self.bodies[body].1.hourglass_modulus())
         };
         exact_sum::sum((0..self.elements()).map(of))
     }
@@ -170,7 +170,7 @@ impl Solid {
         }
         let (h, volume) = displacement_gradient(&x, &u);
         let e = green(&h);
-        let modulus = self.one_point.hourglass * material.p_modulus();
+        let modulus = self.one_point.hourglass * material.hourglass_modulus();
         ElementState {
             volume_ratio: determinant(&deformation(&h)),
             corner_ratio,

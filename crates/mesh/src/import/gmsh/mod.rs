@@ -13,8 +13,9 @@ pub use write::{GMSH_MARK, write_gmsh};
 
 use super::error::{Fault, ImportError, Place};
 use super::foreign::Foreign;
+use super::text::decoded;
 use std::collections::{BTreeMap, HashMap};
-use values::Values;
+use values::{Values, is_binary};
 
 /// Most physical groups that one entity may belong to.
 const MOST_GROUPS: u64 = 100;
@@ -26,8 +27,9 @@ const MOST_GROUPS: u64 = 100;
 /// [`Fault::Cell`] for cells other than hexahedra with 8 nodes, points, lines and quadrangles, and
 /// [`Fault::Unsupported`] for other versions.
 pub fn read_gmsh(bytes: &[u8]) -> Result<Foreign, ImportError> {
+    let text = if is_binary(bytes) { None } else { Some(decoded(bytes)?) };
     let mut reader = Reader {
-        values: Values::new(bytes)?,
+        values: text.as_deref().map_or_else(|| Values::binary(bytes), Values::text),
         version: 0,
         foreign: Foreign::default(),
         names: BTreeMap::new(),
@@ -146,9 +148,9 @@ impl Reader<'_> {
     fn physical_names(&mut self) -> Result<(), ImportError> {
         let count = self.values.written("the number of names")?;
         for _ in 0..count {
-            let line = self.values.next_line()?;
+            let line = self.values.named_line();
             let line = line.ok_or_else(|| self.values.ends("a physical name"))?;
-            let (dimension, rest) = first_word(line);
+            let (dimension, rest) = first_word(&line);
             let (number, name) = first_word(rest);
             let name = name.trim().trim_matches('"');
             let (Ok(dimension), Ok(number)) = (dimension.parse(), number.parse()) else {
@@ -264,7 +266,7 @@ impl Reader<'_> {
         let count = self.values.written("the number of elements")?;
         let mut read = 0u64;
         while read < count {
-            if self.values.binary() {
+            if self.values.are_binary() {
                 // a block of elements alike
                 let kind = self.values.int("the type of elements")?;
                 let number: u32 = self.values.small("the number of elements")?;

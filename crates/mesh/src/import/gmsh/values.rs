@@ -1,12 +1,23 @@
 //! The values of an MSH file one after another: words of a text, or numbers in binary form.
 
 use super::super::error::{Fault, ImportError, Place};
-use super::super::text::{Text, number};
+use super::super::text::{Text, line, number};
+use std::borrow::Cow;
 
 /// An MSH file that is read from beginning to end.
 pub(super) enum Values<'a> {
     Text(Text<'a>),
     Binary(Binary<'a>),
+}
+
+/// Whether a file is binary, by its first lines, which are text.
+pub(super) fn is_binary(bytes: &[u8]) -> bool {
+    let mut lines = bytes[..bytes.len().min(200)].split(|&b| b == b'\n');
+    lines.next().is_some_and(|l| l.trim_ascii() == b"$MeshFormat")
+        && lines
+            .next()
+            .and_then(|l| str::from_utf8(l).ok())
+            .is_some_and(|l| l.split_whitespace().nth(1) == Some("1"))
 }
 
 /// A binary MSH file: its sections begin and end with lines of text, and hold numbers between them.
@@ -20,19 +31,12 @@ pub(super) struct Binary<'a> {
 }
 
 impl<'a> Values<'a> {
-    /// The values of a file, whose first lines, which are text, say whether it is binary.
-    pub(super) fn new(bytes: &'a [u8]) -> Result<Self, ImportError> {
-        let mut lines = bytes[..bytes.len().min(200)].split(|&b| b == b'\n');
-        let binary = lines.next().is_some_and(|l| l.trim_ascii() == b"$MeshFormat")
-            && lines
-                .next()
-                .and_then(|l| str::from_utf8(l).ok())
-                .is_some_and(|l| l.split_whitespace().nth(1) == Some("1"));
-        Ok(if binary {
-            Self::Binary(Binary { bytes, next: 0, last: 0, big_endian: false })
-        } else {
-            Self::Text(Text::new(bytes)?)
-        })
+    pub(super) fn text(text: &'a str) -> Self {
+        Self::Text(Text::new(text))
+    }
+
+    pub(super) fn binary(bytes: &'a [u8]) -> Self {
+        Self::Binary(Binary { bytes, next: 0, last: 0, big_endian: false })
     }
 
     /// Where the value that was read last stands.
@@ -64,6 +68,14 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// The next line, which holds a name; `None` at the end of the file.
+    pub(super) fn named_line(&mut self) -> Option<Cow<'a, str>> {
+        match self {
+            Self::Text(text) => text.next_line().map(Cow::Borrowed),
+            Self::Binary(binary) => binary.bytes_of_line().map(line),
+        }
+    }
+
     /// The next word of text, on this line or a later one; `None` at the end of the file.
     pub(super) fn word(&mut self) -> Result<Option<&'a str>, ImportError> {
         match self {
@@ -88,7 +100,7 @@ impl<'a> Values<'a> {
     }
 
     /// Whether the file is binary.
-    pub(super) fn binary(&self) -> bool {
+    pub(super) fn are_binary(&self) -> bool {
         matches!(self, Self::Binary(_))
     }
 
@@ -175,33 +187,42 @@ impl<'a> Binary<'a> {
         Ok(word)
     }
 
-    /// The next `length` bytes as text, and `after` bytes passed over after them.
-    fn text(&mut self, length: usize, after: usize) -> Result<&'a str, ImportError> {
-        let (text, _) = self.rest().split_at(length);
+    /// The next `length` bytes, and `after` bytes passed over after them.
+    fn pass(&mut self, length: usize, after: usize) -> &'a [u8] {
+        let (bytes, _) = self.rest().split_at(length);
         (self.last, self.next) = (self.next, self.next + length + after);
-        str::from_utf8(text).map(str::trim).map_err(|_| {
+        bytes
+    }
+
+    fn text(&self, bytes: &'a [u8]) -> Result<&'a str, ImportError> {
+        str::from_utf8(bytes).map(str::trim).map_err(|_| {
             let what = "a line of text is expected: numbers before it are too many or too few";
             Fault::Syntax { what: what.into() }.at(Place::Byte(self.last))
         })
     }
 
-    fn next_line(&mut self) -> Result<Option<&'a str>, ImportError> {
+    fn bytes_of_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.rest();
-        if rest.is_empty() {
-            return Ok(None);
-        }
         match rest.iter().position(|&b| b == b'\n') {
-            Some(length) => self.text(length, 1),
-            None => self.text(rest.len(), 0),
+            Some(length) => Some(self.pass(length, 1)),
+            None if rest.is_empty() => None,
+            None => Some(self.pass(rest.len(), 0)),
         }
-        .map(Some)
+    }
+
+    fn next_line(&mut self) -> Result<Option<&'a str>, ImportError> {
+        self.bytes_of_line().map(|bytes| self.text(bytes)).transpose()
     }
 
     fn word(&mut self) -> Result<Option<&'a str>, ImportError> {
         let white = self.rest().iter().take_while(|b| b.is_ascii_whitespace()).count();
         self.next += white;
         let length = self.rest().iter().take_while(|b| !b.is_ascii_whitespace()).count();
-        if length == 0 { Ok(None) } else { self.text(length, 0).map(Some) }
+        if length == 0 {
+            return Ok(None);
+        }
+        let bytes = self.pass(length, 0);
+        self.text(bytes).map(Some)
     }
 
     fn skip(&mut self, end: &str) -> Result<(), ImportError> {

@@ -45,6 +45,9 @@ pub(super) fn conclude(
     log: &mut Log,
 ) -> Result<Value, RunError> {
     ended.means.unconverged_warning().iter().try_for_each(|line| log.warn(line))?;
+    if ended.status == Status::Completed {
+        ended.means.load_warning(case).iter().try_for_each(|line| log.warn(line))?;
+    }
     let mut summary = summary(case, options, model, &ended);
     if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
         summary.extra.insert(output::SAMPLED_LAW.into(), json!(points));
@@ -83,7 +86,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         ("symmetry", json!(case.mesh.symmetry)),
         ("half_space", half_space),
         ("spectral", spectral),
-        ("window", window(case, means)),
+        ("window", window(case, means, ended.status)),
         (
             "checks",
             json!({ "cone_excess": means.worst_cone,

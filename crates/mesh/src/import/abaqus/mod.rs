@@ -6,10 +6,13 @@
 //!
 //! No Rust library for this format was found.
 
+mod keyword;
+
 use super::error::{Fault, ImportError};
 use super::foreign::Foreign;
-use super::text::{Text, number};
+use super::text::{Text, decoded, number};
 use crate::HEX_FACES;
+use keyword::{Keyword, Name, fields, goes_on};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Reads an Abaqus input file. Elements of the C3D8 family are hexahedra; quadrangles in an element set or a
@@ -17,18 +20,21 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 ///
 /// # Errors
 /// [`Fault::Syntax`], [`Fault::Repeated`] or [`Fault::Unknown`] for a file that does not follow the format,
-/// [`Fault::Cell`] for other elements, and [`Fault::Unsupported`] for keywords that make or move nodes.
+/// [`Fault::Cell`] for other elements, and [`Fault::Unsupported`] for keywords that make or move nodes and for
+/// parameters that are not read.
 pub fn read_abaqus(bytes: &[u8]) -> Result<Foreign, ImportError> {
     let mut reader = Reader::default();
-    let mut text = Text::new(bytes)?;
+    let text = decoded(bytes)?;
+    let mut text = Text::new(&text);
     while let Some(line) = text.next_line() {
         reader.line(line, text.line)?;
     }
+    reader.end_keyword()?;
     reader.end_block(text.line)?;
     Ok(reader.finish())
 }
 
-/// What the data lines after a keyword hold.
+/// What the data lines after a keyword hold; sets and surfaces by their keys.
 #[derive(Clone, Debug, Default, PartialEq)]
 enum Block {
     #[default]
@@ -45,18 +51,18 @@ enum Block {
         kind: String,
     },
     NodeSet {
-        name: String,
+        set: String,
         generate: bool,
     },
     ElementSet {
-        name: String,
+        set: String,
         generate: bool,
     },
     ElementSurface {
-        name: String,
+        set: String,
     },
     NodeSurface {
-        name: String,
+        set: String,
     },
 }
 
@@ -88,26 +94,34 @@ struct SurfaceMembers {
 struct Reader {
     foreign: Foreign,
     block: Block,
+    /// The keyword line, without its `*`, that goes on in the next line, and where it begins.
+    open: Option<(String, usize)>,
     /// Numbers read so far of an element that continues over several lines, and the line on which it began.
     pending: Vec<u64>,
     began: usize,
     /// Indices of nodes by their numbers.
     nodes: HashMap<u64, u32>,
     cells: HashMap<u64, Cell>,
-    /// Sets by their names in capitals, since Abaqus ignores letter case; `spelling` has the name as first written.
+    /// Sets by the keys of their names; `spelling` has the name as first written, and whether it stood in quotes.
     node_sets: BTreeMap<String, BTreeSet<u32>>,
     element_sets: BTreeMap<String, BTreeSet<u64>>,
     surfaces: BTreeMap<String, SurfaceMembers>,
-    spelling: BTreeMap<String, String>,
+    spelling: BTreeMap<String, (String, bool)>,
     /// Keywords that were ignored.
     ignored: BTreeSet<String>,
-    /// Sets that name nodes or elements which the file does not have.
-    incomplete: BTreeSet<String>,
+    /// Sets that name members which the file does not have, with the first of these.
+    incomplete: BTreeMap<String, ImportError>,
 }
+
+/// Keywords that are read.
+const READ: [&str; 5] = ["NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
+
+/// Parameters of sets that say nothing of their members.
+const HARMLESS: [&str; 2] = ["INTERNAL", "UNSORTED"];
 
 /// Keywords that would make, move or copy nodes and elements.
 const MAKERS: &[(&str, &str)] = &[
-    ("INCLUDE", "put the included lines into the file itself"),
+    ("INCLUDE", INCLUDED),
     ("PART", FLAT),
     ("ASSEMBLY", FLAT),
     ("INSTANCE", FLAT),
@@ -118,7 +132,11 @@ const MAKERS: &[(&str, &str)] = &[
     ("NMAP", WRITTEN_OUT),
     ("ELGEN", WRITTEN_OUT),
     ("ELCOPY", WRITTEN_OUT),
+    ("IMPORT", WRITTEN_OUT),
+    ("IMPERFECTION", WRITTEN_OUT),
+    ("SYMMETRICMODELGENERATION", WRITTEN_OUT),
 ];
+const INCLUDED: &str = "put the included lines into the file itself";
 const FLAT: &str = "write a flat input file: in Abaqus/CAE, Model > Edit Attributes > Do not use \
                     parts and assemblies in input files";
 const WRITTEN_OUT: &str = "write every node and element out";
@@ -132,10 +150,19 @@ impl Reader {
             return Ok(());
         }
         if let Some(keyword) = line.strip_prefix('*') {
+            self.end_keyword()?;
             self.end_block(at)?;
-            self.block = self.keyword(keyword, at)?;
-            return Ok(());
+            self.open = Some((keyword.to_owned(), at));
+            return if goes_on(keyword) { Ok(()) } else { self.end_keyword() };
         }
+        // no parameter begins with a digit
+        if let Some((keyword, _)) = &mut self.open
+            && !line.starts_with(|c: char| c.is_ascii_digit())
+        {
+            *keyword += line;
+            return if goes_on(line) { Ok(()) } else { self.end_keyword() };
+        }
+        self.end_keyword()?;
         // Taken out for the borrow checker; data lines do not change it.
         let block = std::mem::take(&mut self.block);
         let done = self.data(&block, line, at);
@@ -143,60 +170,99 @@ impl Reader {
         done
     }
 
-    fn keyword(&mut self, line: &str, at: usize) -> Result<Block, ImportError> {
-        let mut words = line.split(',').map(str::trim);
-        let name = words.next().unwrap_or_default().to_uppercase();
+    /// Reads the keyword whose lines have ended.
+    fn end_keyword(&mut self) -> Result<(), ImportError> {
+        if let Some((line, at)) = self.open.take() {
+            self.block = self.keyword(Keyword::of(&line, at)?)?;
+        }
+        Ok(())
+    }
+
+    fn keyword(&mut self, mut keyword: Keyword) -> Result<Block, ImportError> {
+        let Keyword { name, at, .. } = &keyword;
+        let (name, at) = (name.clone(), *at);
         if let Some((_, remedy)) = MAKERS.iter().find(|(maker, _)| *maker == name) {
             return Err(Fault::Unsupported { what: format!("*{name}"), remedy }.at(at));
         }
-        let mut parameters = BTreeMap::new();
-        for word in words.filter(|word| !word.is_empty()) {
-            let (key, value) = word.split_once('=').unwrap_or((word, ""));
-            let value = value.trim().trim_matches('"').to_owned();
-            parameters.insert(key.trim().to_uppercase(), value);
+        let known = READ.into_iter().chain(MAKERS.iter().map(|(maker, _)| *maker));
+        if let Some(long) = known.filter(|k| *k != name).find(|k| k.starts_with(&name)) {
+            let what = format!("*{name}, which may stand for *{long},");
+            return Err(Fault::Unsupported { what, remedy: "write the keyword in full" }.at(at));
         }
-        let need = |key: &str| {
-            let found = parameters.get(key).filter(|name| !name.is_empty()).cloned();
-            found.ok_or_else(|| Fault::Syntax { what: format!("*{name} needs {key}=") }.at(at))
-        };
-        let generate = parameters.contains_key("GENERATE");
-        if parameters.contains_key("INPUT") {
-            let what = format!("*{name} with INPUT=");
-            return Err(Fault::Unsupported { what, remedy: MAKERS[0].1 }.at(at));
-        }
-        Ok(match name.as_str() {
+        match name.as_str() {
             "NODE" => {
-                if parameters.get("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R"))
-                {
-                    let what = "*NODE with SYSTEM=".into();
-                    let remedy = "give rectangular coordinates";
-                    return Err(Fault::Unsupported { what, remedy }.at(at));
+                let set = self.set_of(&mut keyword, "NSET")?;
+                if let Some(system) = keyword.word("SYSTEM")?.filter(|system| system != "R") {
+                    return Err(keyword.refused("SYSTEM", Some(&system)));
                 }
-                Block::Node { set: parameters.get("NSET").cloned() }
+                keyword.end(&[])?;
+                Ok(Block::Node { set })
             }
             "ELEMENT" => {
-                let kind = need("TYPE")?;
-                match cell_type_of(&kind) {
-                    Some(shape) => Block::Element { shape, set: parameters.get("ELSET").cloned() },
+                let kind = keyword.word("TYPE")?.ok_or_else(|| keyword.lacks("TYPE"))?;
+                let set = self.set_of(&mut keyword, "ELSET")?;
+                keyword.end(&[])?;
+                Ok(match cell_type_of(&kind) {
+                    Some(shape) => Block::Element { shape, set },
                     None => Block::Refused { kind },
-                }
+                })
             }
-            "NSET" => Block::NodeSet { name: need("NSET")?, generate },
-            "ELSET" => Block::ElementSet { name: need("ELSET")?, generate },
+            "NSET" => {
+                let set = self.needed_set(&mut keyword, "NSET")?;
+                self.node_set(&set);
+                if let Some(of) = keyword.value("ELSET")? {
+                    keyword.end(&HARMLESS)?;
+                    self.nodes_of_elements(&set, Name::of(&of), at);
+                    // no data follow
+                    return Ok(Block::Outside);
+                }
+                let generate = keyword.flag("GENERATE")?;
+                keyword.end(&HARMLESS)?;
+                Ok(Block::NodeSet { set, generate })
+            }
+            "ELSET" => {
+                let set = self.needed_set(&mut keyword, "ELSET")?;
+                self.element_set(&set);
+                let generate = keyword.flag("GENERATE")?;
+                keyword.end(&HARMLESS)?;
+                Ok(Block::ElementSet { set, generate })
+            }
             "SURFACE" => {
-                let kind = parameters.get("TYPE").map_or("ELEMENT", String::as_str).to_uppercase();
-                match kind.as_str() {
-                    "ELEMENT" => Block::ElementSurface { name: need("NAME")? },
-                    "NODE" => Block::NodeSurface { name: need("NAME")? },
-                    _ => Block::Ignored,
+                let kind = keyword.word("TYPE")?.unwrap_or_else(|| "ELEMENT".into());
+                let nodes = kind == "NODE";
+                if !nodes && kind != "ELEMENT" {
+                    self.ignored.insert(format!("*SURFACE, TYPE={kind}"));
+                    return Ok(Block::Ignored);
                 }
+                let set = self.needed_set(&mut keyword, "NAME")?;
+                // faces that are listed are not trimmed
+                keyword.end(&["INTERNAL", "TRIM", "MAXRATIO"])?;
+                Ok(if nodes { Block::NodeSurface { set } } else { Block::ElementSurface { set } })
             }
-            "HEADING" => Block::Ignored,
+            "HEADING" => Ok(Block::Ignored),
             _ => {
                 self.ignored.insert(format!("*{name}"));
-                Block::Ignored
+                Ok(Block::Ignored)
             }
-        })
+        }
+    }
+
+    /// Takes the name of a set from a parameter; returns its key.
+    fn set_of(&mut self, keyword: &mut Keyword, key: &str) -> Result<Option<String>, ImportError> {
+        let Some(value) = keyword.value(key)? else { return Ok(None) };
+        let name = Name::of(&value);
+        let spelling = (name.text.to_owned(), name.quoted);
+        let (first, quoted) = self.spelling.entry(name.key()).or_insert(spelling);
+        if (name.quoted || *quoted) && first != name.text {
+            let what = format!("a set `{}` beside a set `{first}`", name.text);
+            let remedy = "give the sets names that differ by more than letter case";
+            return Err(Fault::Unsupported { what, remedy }.at(keyword.at));
+        }
+        Ok(Some(name.key()))
+    }
+
+    fn needed_set(&mut self, keyword: &mut Keyword, key: &str) -> Result<String, ImportError> {
+        self.set_of(keyword, key)?.ok_or_else(|| keyword.lacks(key))
     }
 
     fn data(&mut self, block: &Block, line: &str, at: usize) -> Result<(), ImportError> {
@@ -214,40 +280,49 @@ impl Reader {
             }
             Block::Node { set } => self.node(set.as_deref(), line, at),
             Block::Element { shape, set } => self.part_of_element(*shape, set.as_deref(), line, at),
-            Block::NodeSet { name, generate: true } => {
-                let steps = self.generated(line, at)?;
-                let nodes = within(&steps, &self.nodes);
-                self.node_set(name).extend(nodes.into_iter().map(|(_, index)| index));
+            Block::NodeSet { set, generate: true } => {
+                let steps = generated(line, at)?;
+                let found = within(&steps, &self.nodes);
+                self.lacks_generated(set, "node", &steps, found.iter().map(|node| node.0), at);
+                self.node_set(set).extend(found.into_iter().map(|(_, index)| index));
                 Ok(())
             }
-            Block::NodeSet { name, generate: false } => {
-                for word in words(line) {
-                    let members = self.named_nodes(word);
-                    let members = self.found(members, "nodes", name, at);
-                    self.node_set(name).extend(members);
+            Block::NodeSet { set, generate: false } => {
+                for word in fields(line).filter(|word| !word.is_empty()).map(Name::of) {
+                    match self.named_nodes(word) {
+                        Some(members) => self.node_set(set).extend(members),
+                        None => self.lacks(set, member("node", word), at),
+                    }
+                    self.lacks_as(set, word);
                 }
                 Ok(())
             }
-            Block::ElementSet { name, generate: true } => {
-                let steps = self.generated(line, at)?;
-                let ids: Vec<u64> = within(&steps, &self.cells).into_iter().map(|c| c.0).collect();
-                self.element_set(name).extend(ids);
+            Block::ElementSet { set, generate: true } => {
+                let steps = generated(line, at)?;
+                let found: Vec<u64> =
+                    within(&steps, &self.cells).into_iter().map(|c| c.0).collect();
+                self.lacks_generated(set, "element", &steps, found.iter().copied(), at);
+                self.element_set(set).extend(found);
                 Ok(())
             }
-            Block::ElementSet { name, generate: false } => {
-                for word in words(line) {
-                    let members = self.named_elements(word);
-                    let members = self.found(members, "elements", name, at);
-                    self.element_set(name).extend(members);
+            Block::ElementSet { set, generate: false } => {
+                for word in fields(line).filter(|word| !word.is_empty()).map(Name::of) {
+                    match self.named_elements(word) {
+                        Some(members) => self.element_set(set).extend(members),
+                        None => self.lacks(set, member("element", word), at),
+                    }
+                    self.lacks_as(set, word);
                 }
                 Ok(())
             }
-            Block::ElementSurface { name } => self.sides(name, line, at),
-            Block::NodeSurface { name } => {
-                let word = line.split(',').next().unwrap_or_default().trim();
-                let nodes =
-                    self.named_nodes(word).ok_or_else(|| unknown("node", word, name, at))?;
-                self.surface(name).nodes.extend(nodes);
+            Block::ElementSurface { set } => self.sides(set, line, at),
+            Block::NodeSurface { set } => {
+                let word = Name::of(fields(line).next().unwrap_or_default());
+                match self.named_nodes(word) {
+                    Some(nodes) => self.surface(set).nodes.extend(nodes),
+                    None => self.lacks(set, member("node", word), at),
+                }
+                self.lacks_as(set, word);
                 Ok(())
             }
         }
@@ -259,6 +334,10 @@ impl Reader {
         let mut words = line.split(',').map(str::trim);
         let first = words.next().unwrap_or_default();
         let id = number(first, "the number of a node").map_err(bare)?;
+        if line.ends_with(',') && line.matches(',').count() < 4 {
+            let what = format!("node {id} ends with a comma before its three coordinates");
+            return Err(bare(Fault::Syntax { what }));
+        }
         let mut point = [0.0; 3];
         for x in &mut point {
             match words.next().unwrap_or_default() {
@@ -305,26 +384,33 @@ impl Reader {
         Ok(())
     }
 
-    /// Faces of a surface: an element or a set of them, and the face S1 to S6.
-    fn sides(&mut self, name: &str, line: &str, at: usize) -> Result<(), ImportError> {
-        let mut words = line.split(',').map(str::trim);
-        let word = words.next().unwrap_or_default();
-        let members =
-            self.named_elements(word).ok_or_else(|| unknown("element", word, name, at))?;
+    /// Faces of a surface: an element or a set of them, and which of its faces.
+    fn sides(&mut self, surface: &str, line: &str, at: usize) -> Result<(), ImportError> {
+        let mut words = fields(line);
+        let word = Name::of(words.next().unwrap_or_default());
         let side = words.next().unwrap_or_default().to_uppercase();
+        let number = side.strip_prefix('S').and_then(|s| s.parse().ok());
+        let Some(members) = self.named_elements(word) else {
+            self.lacks(surface, member("element", word), at);
+            return Ok(());
+        };
+        self.lacks_as(surface, word);
         let mut sides = Vec::new();
         for id in members {
-            let number = side.strip_prefix('S').and_then(|s| s.parse().ok());
-            match (self.cells.get(&id), number) {
-                (Some(Cell::Hex(_)), Some(side @ 1..=6)) => sides.push((id, side)),
-                (Some(Cell::Hex(_)), _) => {
-                    let what = "a face S1 to S6 of the elements is expected".into();
+            let side = match (self.cells.get(&id), number, side.as_str()) {
+                (Some(Cell::Hex(_)), Some(side @ 1..=6), _) => side,
+                (Some(Cell::Quad(_)), _, "" | "SPOS" | "SNEG") => 0,
+                _ => {
+                    let what = format!(
+                        "a face of element {id} is expected, found `{side}`: S1 to S6 of a hexahedron, SPOS or SNEG \
+                         of a quadrangle"
+                    );
                     return Err(Fault::Syntax { what }.at(at));
                 }
-                _ => sides.push((id, 0)),
-            }
+            };
+            sides.push((id, side));
         }
-        self.surface(name).sides.extend(sides);
+        self.surface(surface).sides.extend(sides);
         Ok(())
     }
 
@@ -367,80 +453,99 @@ impl Reader {
         Ok(())
     }
 
-    fn node_set(&mut self, name: &str) -> &mut BTreeSet<u32> {
-        let key = self.key(name);
-        self.node_sets.entry(key).or_default()
+    fn node_set(&mut self, key: &str) -> &mut BTreeSet<u32> {
+        self.node_sets.entry(key.to_owned()).or_default()
     }
 
-    fn element_set(&mut self, name: &str) -> &mut BTreeSet<u64> {
-        let key = self.key(name);
-        self.element_sets.entry(key).or_default()
+    fn element_set(&mut self, key: &str) -> &mut BTreeSet<u64> {
+        self.element_sets.entry(key.to_owned()).or_default()
     }
 
-    fn surface(&mut self, name: &str) -> &mut SurfaceMembers {
-        let key = self.key(name);
-        self.surfaces.entry(key).or_default()
-    }
-
-    /// The key of a name in the maps of sets; keeps its spelling.
-    fn key(&mut self, name: &str) -> String {
-        let key = name.to_uppercase();
-        self.spelling.entry(key.clone()).or_insert_with(|| name.to_owned());
-        key
+    fn surface(&mut self, key: &str) -> &mut SurfaceMembers {
+        self.surfaces.entry(key.to_owned()).or_default()
     }
 
     /// A node by its number, or the nodes of a set.
-    fn named_nodes(&self, word: &str) -> Option<Vec<u32>> {
-        match word.parse::<u64>() {
-            Ok(id) => self.nodes.get(&id).map(|&index| vec![index]),
-            Err(_) => self.node_sets.get(&word.to_uppercase()).map(|s| s.iter().copied().collect()),
+    fn named_nodes(&self, name: Name) -> Option<Vec<u32>> {
+        match name.number() {
+            Some(id) => self.nodes.get(&id).map(|&index| vec![index]),
+            None => self.node_sets.get(&name.key()).map(|s| s.iter().copied().collect()),
         }
     }
 
     /// An element by its number, or the elements of a set.
-    fn named_elements(&self, word: &str) -> Option<Vec<u64>> {
-        match word.parse::<u64>() {
-            Ok(id) => self.cells.contains_key(&id).then(|| vec![id]),
-            Err(_) => {
-                self.element_sets.get(&word.to_uppercase()).map(|s| s.iter().copied().collect())
-            }
+    fn named_elements(&self, name: Name) -> Option<Vec<u64>> {
+        match name.number() {
+            Some(id) => self.cells.contains_key(&id).then(|| vec![id]),
+            None => self.element_sets.get(&name.key()).map(|s| s.iter().copied().collect()),
         }
     }
 
-    /// The members that a word of a set names. A set may name some that the file does not have: a note says so.
-    fn found<T>(&mut self, named: Option<Vec<T>>, what: &str, set: &str, at: usize) -> Vec<T> {
-        if named.is_none() && self.incomplete.insert(set.to_uppercase()) {
-            let note = format!("set `{set}` names {what} that are not there (line {at}); left out");
-            self.foreign.notes.push(note);
-        }
-        named.unwrap_or_default()
-    }
-
-    /// First number, last number and increment of a data line with `GENERATE`.
-    fn generated(&self, line: &str, at: usize) -> Result<[u64; 3], ImportError> {
-        let mut steps = [0, 0, 1];
-        let mut words = line.split(',').map(str::trim).filter(|word| !word.is_empty());
-        for (i, step) in steps.iter_mut().enumerate() {
-            match words.next() {
-                Some(word) => {
-                    *step = number(word, "first, last and increment").map_err(|f| f.at(at))?;
-                }
-                None if i == 2 => {}
-                None => {
-                    let what = "first, last and increment are expected".into();
-                    return Err(Fault::Syntax { what }.at(at));
-                }
+    /// Puts the nodes of the elements of a set into a node set.
+    fn nodes_of_elements(&mut self, set: &str, of: Name, at: usize) {
+        let Some(elements) = self.element_sets.get(&of.key()) else {
+            return self.lacks(set, member("element", of), at);
+        };
+        let mut nodes = BTreeSet::new();
+        for id in elements {
+            match self.cells.get(id) {
+                Some(Cell::Hex(hex)) => nodes.extend(self.foreign.hexes[*hex as usize]),
+                Some(Cell::Quad(corners)) => nodes.extend(corners),
+                Some(Cell::Line(ends)) => nodes.extend(ends),
+                None => {}
             }
         }
-        Ok(steps)
+        self.node_set(set).extend(nodes);
+        self.lacks_as(set, of);
+    }
+
+    /// Notes that a set names something which the file does not have.
+    fn lacks(&mut self, set: &str, what: String, at: usize) {
+        let from = format!("set `{}`", self.spelling.get(set).map_or(set, |(name, _)| name));
+        let fault = Fault::Unknown { from, what };
+        self.incomplete.entry(set.to_owned()).or_insert_with(|| fault.at(at));
+    }
+
+    /// Notes that a set lacks what another lacks that it names.
+    fn lacks_as(&mut self, set: &str, other: Name) {
+        if other.number().is_none()
+            && let Some(error) = self.incomplete.get(&other.key()).cloned()
+        {
+            self.incomplete.entry(set.to_owned()).or_insert(error);
+        }
+    }
+
+    /// Notes the first number of a generated set that none of those `found`, in order, has.
+    fn lacks_generated(
+        &mut self,
+        set: &str,
+        kind: &str,
+        [first, last, step]: &[u64; 3],
+        mut found: impl Iterator<Item = u64>,
+        at: usize,
+    ) {
+        let mut all = (*first..=*last).step_by(usize::try_from(*step).unwrap_or(usize::MAX));
+        if let Some(id) = all.find(|id| found.next() != Some(*id)) {
+            self.lacks(set, format!("{kind} {id}"), at);
+        }
     }
 
     /// Puts sets and surfaces under their names; node set, element set and surface of one name become one set.
     fn finish(self) -> Foreign {
         let Self {
-            mut foreign, node_sets, element_sets, surfaces, spelling, cells, ignored, ..
+            mut foreign,
+            node_sets,
+            element_sets,
+            surfaces,
+            spelling,
+            cells,
+            ignored,
+            incomplete,
+            ..
         } = self;
-        let name = |key: &String| spelling.get(key).unwrap_or(key).clone();
+        let name = |key: &String| spelling.get(key).map_or(key, |(name, _)| name).clone();
+        foreign.incomplete =
+            incomplete.into_iter().map(|(key, error)| (name(&key), error)).collect();
         for (key, nodes) in &node_sets {
             foreign.set(&name(key)).nodes.extend(nodes);
         }
@@ -515,23 +620,42 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(',').map(str::trim).filter(|word| !word.is_empty())
 }
 
-fn unknown(what: &str, word: &str, surface: &str, at: usize) -> ImportError {
-    let word: String = word.chars().take(40).collect();
-    let from = format!("surface `{surface}`");
-    Fault::Unknown { from, what: format!("{what} or set `{word}`") }.at(at)
+/// A member of a set: by its number, or the set of a name.
+fn member(kind: &str, name: Name) -> String {
+    match name.number() {
+        Some(id) => format!("{kind} {id}"),
+        None => format!("the {kind} set `{}`", name.text.chars().take(40).collect::<String>()),
+    }
+}
+
+/// First number, last number and increment of a data line with `GENERATE`.
+fn generated(line: &str, at: usize) -> Result<[u64; 3], ImportError> {
+    let mut steps: Vec<u64> = Vec::new();
+    for word in words(line) {
+        steps.push(number(word, "first, last and increment").map_err(|fault| fault.at(at))?);
+    }
+    let [first, last, step] = match steps[..] {
+        [first, last] => [first, last, 1],
+        [first, last, step] => [first, last, step],
+        _ => [1, 0, 0],
+    };
+    if step == 0 || first > last || !(last - first).is_multiple_of(step) {
+        let what = "first, last and increment are expected, which leads from the first to the last";
+        return Err(Fault::Syntax { what: what.into() }.at(at));
+    }
+    Ok([first, last, step])
 }
 
 /// The entries of `all` whose numbers are first, first + increment, and so on up to last, in order.
 fn within<T: Copy>([first, last, step]: &[u64; 3], all: &HashMap<u64, T>) -> Vec<(u64, T)> {
-    let step = (*step).max(1);
     // few numbers are looked up, not looked for
-    if last.saturating_sub(*first) / step < all.len() as u64 {
-        let ids = (*first..=*last).step_by(usize::try_from(step).unwrap_or(usize::MAX));
+    if (last - first) / step < all.len() as u64 {
+        let ids = (*first..=*last).step_by(usize::try_from(*step).unwrap_or(usize::MAX));
         return ids.filter_map(|id| Some((id, *all.get(&id)?))).collect();
     }
     let mut found: Vec<(u64, T)> = all
         .iter()
-        .filter(|(id, _)| (*first..=*last).contains(id) && (*id - first).is_multiple_of(step))
+        .filter(|(id, _)| (*first..=*last).contains(id) && (*id - first).is_multiple_of(*step))
         .map(|(id, value)| (*id, *value))
         .collect();
     found.sort_unstable_by_key(|(id, _)| *id);
