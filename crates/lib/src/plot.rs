@@ -119,6 +119,10 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
 fn compared(options: &PlotOptions, document: &Value) -> Result<(String, figure::Figure), Error> {
     let mut others = Vec::new();
     for folder in &options.with {
+        if !folder.exists() {
+            let problem = format!("--with {}: there is no such file or folder", folder.display());
+            return Err(Error::plain(problem));
+        }
         let Some(other) = sweep::read(folder)? else {
             return Err(Error::option(
                 format!("--with: {} is no sweep", folder.display()),

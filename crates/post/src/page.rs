@@ -14,6 +14,7 @@ use crate::figures::Named;
 use crate::limits::MEASURES;
 use crate::patch_series::{PATCH_TABLE, PatchLine};
 use files::output::PAGE_MARK;
+use output::layout::file;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -84,7 +85,7 @@ pub fn run_page(
     let shown = |stem: &&str| PATCH_FIGURES.contains(stem) || CONDITION_FIGURES.contains(stem);
     let rest: Vec<&str> = figures.iter().map(|named| named.stem).filter(|s| !shown(s)).collect();
     drawn(&mut out, figures, &rest)?;
-    reproduce(&mut out, basis);
+    reproduce(&mut out, basis, folder);
     overview::data(&mut out, checked);
     end(&mut out);
     Ok(out)
@@ -331,15 +332,28 @@ fn energy(out: &mut String, basis: &Basis) {
     }
 }
 
-fn reproduce(out: &mut String, basis: &Basis) {
-    let _ = write!(
-        out,
-        "<h3 id=\"reproduce\">How to reproduce</h3>\n<p>In the folder of the run, or where the case below is saved as \
-         case.toml:</p>\n<pre>creepage run case.toml --out again\ncreepage check again\ncreepage plot again\n\
-         creepage report again</pre>\n<p>Made by Creepage {}. Running the \
-         resolved case again gives the same bits on the same kind of processor.</p>\n",
-        env!("CARGO_PKG_VERSION")
-    );
+fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
+    out.push_str("<h3 id=\"reproduce\">How to reproduce</h3>\n");
+    let friction = basis.case.as_ref().and_then(|case| case.get("friction"));
+    // every run writes its history; records of another program have none
+    if basis.summary.is_none() && !output::is_ours(&folder.join(file::HISTORY)) {
+        out.push_str(
+            "<p>The records are of another program, which alone can make them again.</p>\n",
+        );
+    } else if friction.and_then(|f| f.get("law")).is_some_and(|law| law.as_str() == Some("python"))
+    {
+        out.push_str(
+            "<p>In Python, with the friction law of the run: <code>creepage.run(case, law=law)</code>, where case is \
+             the one below.</p>\n",
+        );
+    } else {
+        out.push_str(
+            "<p>In the folder of the run, or where the case below is saved as case.toml:</p>\n<pre>creepage run \
+             case.toml --out again\ncreepage check again\ncreepage plot again\ncreepage report again</pre>\n\
+             <p>Running the resolved case again gives the same bits on the same kind of processor.</p>\n",
+        );
+    }
+    let _ = writeln!(out, "<p>Made by Creepage {}.</p>", env!("CARGO_PKG_VERSION"));
     if let Some(text) = basis.case.as_ref().and_then(|case| toml::to_string_pretty(case).ok()) {
         let _ = writeln!(
             out,

@@ -12,6 +12,7 @@ mod source;
 pub use error::RenderError;
 pub use quantity::{Drawable, Quantity};
 
+use crate::PostError;
 use crate::basis::{may_be_run, read_toml};
 use figure::{Key, Picture, Scale};
 use output::layout::file;
@@ -77,6 +78,10 @@ impl Rendering {
     /// A case in the place of the folder; files that are not there, cannot be read or lack what is to be shown.
     pub fn open(folder: &Path, wanted: &Wanted) -> Result<Self, RenderError> {
         may_be_run(folder)?;
+        if !folder.is_dir() {
+            let reason = "is a file: give the folder of the run".into();
+            return Err(PostError::Text { path: folder.into(), reason }.into());
+        }
         let what = wanted.what.or(wanted.quantity.map(Quantity::of)).unwrap_or(Drawable::Fields);
         let source = Source::open(folder, what)?;
         let first = what.quantities().find(|quantity| source.shows(*quantity));

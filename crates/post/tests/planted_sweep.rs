@@ -190,9 +190,11 @@ fn profiles_are_read_from_the_runs_and_runs_without_a_file_are_left_out() {
 #[test]
 fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_refused() {
     let runs = [run(0.1, 1e-3), run(1.0, 1e-3), run(10.0, 1e-3), failed(100.0, 1e-3)];
-    let sweep = json!({ "parameters": [SPRING], "runs": runs });
+    let mut sweep = json!({ "parameters": [SPRING], "runs": runs });
+    sweep["runs"][0]["name"] = json!("000-tangential-0.1");
     let page = sweep_page("kt", Path::new("s/sweep.json"), &sweep).unwrap();
     for part in [
+        "creepage run cases/000-tangential-0.1.toml --out again/000-tangential-0.1",
         "4 runs over contact.penalty.tangential; 3 completed",
         "failed: the energy grew &lt;12 times&gt;",
         "<td>settles</td>",

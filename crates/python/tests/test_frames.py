@@ -37,6 +37,9 @@ def test_a_sweep_is_a_sequence_of_its_runs(swept):
         swept["no such run"]
     with pytest.raises(creepage.CaseError, match="no sweep"):
         creepage.Sweep(swept[0].path)
+    for of in (creepage.Sweep, creepage.Run):
+        with pytest.raises(creepage.CaseError, match="gone: there is no such folder"):
+            of(swept.path / "gone")
 
 
 def test_a_sweep_becomes_a_frame_with_units_whose_rows_open_their_runs(swept):

@@ -443,8 +443,8 @@ impl Plan {
     }
 }
 
-/// A word that a POSIX shell takes as it is.
-fn quoted(word: &str) -> String {
+/// A word as a POSIX shell takes it: in quotes where it must be.
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         return word.to_owned();

@@ -51,7 +51,7 @@ pub fn case(document: &Value) -> String {
         let _ = writeln!(page, "  {note}");
     }
     let (case, elements) = (word(document, "/case"), &document["elements"]);
-    page + &format!("{case}: {elements} elements; creepage run {case}\n")
+    page + &format!("{case}: {elements} elements; creepage run {}\n", sweep::plan::quoted(case))
 }
 
 /// The keyword file of `export-k`, and what it says in another way than the case.

@@ -244,7 +244,8 @@ fn stability(out: &mut String, summary: &Value) {
 fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
     let name = |name: &str| word(summary, &format!("/files/{name}"));
     // a run that does not record its bodies shows its surfaces
-    let run = folder.display();
+    let quoted = |path: &Path| sweep::plan::quoted(&path.to_string_lossy());
+    let run = quoted(folder);
     let (grid, look, render) = if name("fields").is_empty() {
         (name("contact"), "colour by pressure, shear, slip_velocity or state", String::new())
     } else {
@@ -259,10 +260,11 @@ fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
   creepage plot {run}      figures
 {render}  creepage check {run}     where the conditions of contact are violated
   paraview {}    Apply; {look}
-  Python: import creepage; creepage.Run(\"{run}\")
+  Python: import creepage; creepage.Run({})
   all numbers: {}
 ",
-        folder.join(grid).display(),
+        quoted(&folder.join(grid)),
+        Value::from(folder.to_string_lossy()),
         folder.join("summary.json").display()
     );
 }
@@ -313,6 +315,19 @@ mod tests {
             assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
         }
         assert!(!page.contains("null") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn the_next_commands_can_be_given_to_a_shell_whatever_the_folder_is_called() {
+        let page = text(&summary(), Path::new("runs/it's \"2\" mm"));
+        for line in [
+            r#"  creepage report 'runs/it'\''s "2" mm'    one page: pictures, numbers, checks"#,
+            r#"  creepage check 'runs/it'\''s "2" mm'     where the conditions of contact are violated"#,
+            r#"  Python: import creepage; creepage.Run("runs/it's \"2\" mm")"#,
+        ] {
+            assert!(page.lines().any(|l| l == line), "{line:?} is not a line of\n{page}");
+        }
+        assert!(page.contains(r#"  paraview 'runs/it'\''s "2" mm/fields.vtkhdf' "#), "{page}");
     }
 
     #[test]

@@ -140,6 +140,19 @@ fn a_warning_about_the_files_beside_a_history_names_their_folder() {
 }
 
 #[test]
+fn a_page_about_the_records_of_another_program_has_no_commands_to_make_them() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), FALLING, "penalty", 20, |x, step| perfect(FALLING, x, step));
+    for of_ours in ["summary.json", "history.h5"] {
+        let _ = fs::remove_file(folder.path().join(of_ours));
+    }
+    assert_eq!(creepage(&["report", folder.path().to_str().unwrap()]).status.code(), Some(0));
+    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("of another program, which alone can make them again"));
+    assert!(!page.contains("creepage run case.toml"));
+}
+
+#[test]
 fn the_page_of_a_sweep_holds_its_table_and_figures() {
     let folder = tempfile::tempdir().unwrap();
     let run = |size: f64, pass: bool| {

@@ -44,6 +44,14 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
         let svg = figure.svg_element()?;
         let _ = writeln!(out, "<figure id=\"{stem}\">{svg}</figure>");
     }
+    if let Some(name) = known.runs.iter().find_map(|run| run.entry["name"].as_str()) {
+        let name = escape(name);
+        let _ = writeln!(
+            out,
+            "<h2>How to reproduce</h2>\n<p>The cases of the runs are in the folder of the sweep, each with all its values. \
+             There, for one of them:</p>\n<pre>creepage run cases/{name}.toml --out again/{name}</pre>"
+        );
+    }
     let _ = writeln!(
         out,
         "<p>Made by Creepage {} from {}.</p>",

@@ -327,6 +327,8 @@ class Run:
 
     def __init__(self, path):
         self.path = Path(path)
+        if not self.path.exists():
+            raise CaseError(f"{self.path}: there is no such folder")
         if not (self.path / _NAMES["case"]).is_file():
             raise CaseError(f"{self.path} holds no run: there is no {_NAMES['case']} in it")
         self._open = {}

@@ -30,6 +30,8 @@ class Sweep(Sequence):
 
     def __init__(self, path):
         self.path = Path(path)
+        if not self.path.exists():
+            raise CaseError(f"{self.path}: there is no such folder")
         if not (self.path / "sweep.json").is_file():
             raise CaseError(f"{self.path} holds no sweep: there is no sweep.json in it")
         self._load()
