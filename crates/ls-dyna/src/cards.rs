@@ -9,6 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{DeckError, Fault, Place, syntax, unsupported};
+use crate::fields::{Field, Layout, Role, Taken, zero};
 use crate::parameters::{NO_PARAMETERS, Parameters};
 
 /// A keyword with its data.
@@ -34,14 +35,23 @@ pub(super) enum Format {
     I10,
 }
 
-/// Cuts a keyword file into its cards, up to `*END`. `format` is that of its cards without a mark of their own.
+/// The name that stands for what follows `*END`.
+pub(super) const AFTER_END: &str = "END";
+
+/// Cuts a keyword file into its cards, up to `*END`; where keywords follow that, the last card is [`AFTER_END`] at the
+/// first of them. `format` is that of the cards without a mark of their own.
 pub(super) fn cards<'a>(
     bytes: &'a [u8],
     file: &Arc<Path>,
     mut format: Format,
 ) -> Result<Vec<Card<'a>>, DeckError> {
     let mut cards: Vec<Card> = Vec::new();
-    for (i, line) in bytes.split(|&b| b == b'\n').enumerate() {
+    let at = |line| Place { file: file.clone(), line };
+    let bytes = without_mark(bytes, &at(1))?;
+    // lines of old Macs end with a carriage return alone
+    let line_end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    let mut ended = false;
+    for (i, line) in bytes.split(|&b| b == line_end).enumerate() {
         let line = line.strip_suffix(b"\r").unwrap_or(line);
         // a comment may hold anything
         if line.first() == Some(&b'$') {
@@ -49,50 +59,90 @@ pub(super) fn cards<'a>(
         }
         // headings are written in any encoding; a number with a letter of one is none
         let text = String::from_utf8_lossy(line);
+        if ended && !text.starts_with('*') {
+            continue;
+        }
+        let place = at(i + 1);
         if let Some(keyword) = text.strip_prefix('*') {
-            let place = Place { file: file.clone(), line: i + 1 };
             let keyword = keyword.trim().to_uppercase();
+            // LS-PrePost writes a remark beside some: (ten nodes format)
+            let (keyword, _) = keyword.split_once('(').unwrap_or((&keyword, ""));
+            let card = |name: &str, format| Card {
+                name: name.to_owned(),
+                place: place.clone(),
+                format,
+                data: Vec::new(),
+                parameters: &NO_PARAMETERS,
+            };
             if keyword == "END" {
+                ended = true;
+                continue;
+            }
+            if ended {
+                cards.push(card(AFTER_END, format));
                 break;
             }
             if keyword.starts_with("KEYWORD") {
-                format = deck_format(&keyword, &place)?.unwrap_or(format);
+                format = deck_format(keyword, &place)?.unwrap_or(format);
             }
-            // LS-PrePost writes a remark beside some: (ten nodes format)
-            let (keyword, _) = keyword.split_once('(').unwrap_or((&keyword, ""));
-            let (name, format) = marked(keyword.trim_end(), format);
-            let name = name.to_owned();
-            cards.push(Card { name, place, format, data: Vec::new(), parameters: &NO_PARAMETERS });
+            let (name, of_card) = marked(keyword.trim_end(), format);
+            cards.push(card(name, of_card));
             continue;
+        }
+        if begins_late(&text) {
+            let what = format!("`{}`, a keyword that does not begin in column 1,", text.trim());
+            let remedy = "take out what stands before the asterisk: LS-DYNA would read the line as data of the card before";
+            return Err(unsupported(&place, what, remedy));
         }
         match cards.last_mut() {
             Some(card) => card.data.push((i + 1, text)),
             None if text.trim().is_empty() => {}
-            None => {
-                let place = Place { file: file.clone(), line: i + 1 };
-                return Err(syntax(&place, "a keyword that starts with * is expected"));
-            }
+            None => return Err(syntax(&place, "a keyword that starts with * is expected")),
         }
     }
     Ok(cards)
 }
 
+/// The text after the byte order mark of UTF-8, if there is one.
+fn without_mark<'a>(bytes: &'a [u8], first: &Place) -> Result<&'a [u8], DeckError> {
+    // a letter of an 8-bit encoding has no zero byte beside it
+    let wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    if wide || bytes.iter().take(4).any(|byte| *byte == 0) {
+        let remedy = "save it as UTF-8 or in an 8-bit encoding, such as Latin-1";
+        return Err(unsupported(first, "text in UTF-16 or UTF-32", remedy));
+    }
+    Ok(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))
+}
+
+/// Whether a line is a keyword after blanks, or after characters that look like none.
+fn begins_late(text: &str) -> bool {
+    let shown = text.trim_start_matches(|c: char| !c.is_ascii_graphic());
+    let keyword = shown.strip_prefix('*').map(str::trim_start);
+    keyword.is_some_and(|keyword| keyword.starts_with(|c: char| c.is_ascii_alphabetic()))
+}
+
 /// The format that `*KEYWORD` gives to all cards after it, if it gives one.
 fn deck_format(keyword: &str, place: &Place) -> Result<Option<Format>, DeckError> {
     let words = keyword.replace(" =", "=").replace("= ", "=");
+    let mut words = words.split([' ', ',']).filter(|word| !word.is_empty());
     let mut format = None;
-    for word in words.split([' ', ',']) {
+    let name = words.next().unwrap_or_default();
+    if !matches!(name.trim_end_matches(['+', '-', '%']), "KEYWORD" | "KEYWORD_ID") {
+        return Err(unsupported(place, format!("*{name}"), "begin the deck with *KEYWORD"));
+    }
+    for word in words {
+        let refused = |remedy| Err(unsupported(place, format!("*KEYWORD with {word}"), remedy));
         match word.split_once('=') {
             Some(("LONG", "Y")) => format = Some(Format::Long),
             // standard input; S is about what LS-DYNA writes
             Some(("LONG", "S")) if format.is_none() => format = Some(Format::Standard),
             Some(("LONG", "S")) => {}
-            Some(("LONG", other)) => {
-                let what = format!("*KEYWORD with LONG={other}");
-                return Err(unsupported(place, what, "use LONG=Y for the long format"));
-            }
+            Some(("LONG", _)) => return refused("use LONG=Y for the long format"),
             Some(("I10", "Y")) => format = Some(Format::I10),
-            _ => {}
+            Some(("I10", "N") | ("MEMORY" | "MEMORY2" | "NCPU", _)) => {}
+            // the memory that LS-DYNA is to take, such as 100M
+            None if word.starts_with(|c: char| c.is_ascii_digit()) => {}
+            _ => return refused("leave the word out, or use LONG=Y, I10=Y"),
         }
     }
     Ok(format)
@@ -140,6 +190,15 @@ impl<'a> Card<'a> {
         Self { parameters, ..self }
     }
 
+    /// Whether the card is about the file itself, and was read with it.
+    pub(super) fn is_of_the_file(&self) -> Result<bool, DeckError> {
+        if self.name.starts_with("KEYWORD") {
+            self.ends_after(0)?;
+            return Ok(true);
+        }
+        Ok(matches!(&*self.name, "INCLUDE" | "PARAMETER"))
+    }
+
     /// All data lines.
     pub(super) fn all_lines(&self) -> impl Iterator<Item = Line<'_>> {
         self.data.iter().map(|(at, text)| Line { card: self, at: *at, text })
@@ -161,10 +220,21 @@ impl<'a> Card<'a> {
             || syntax(&self.place, format!("data line {} of *{} is missing", i + 1, self.name));
         self.all_lines().nth(i).ok_or_else(missing)
     }
-}
 
-/// The usual columns: eight fields of ten.
-pub(super) const TENS: [usize; 8] = [10; 8];
+    /// Data line `i`, counted from 0; a blank one where the card ends before it.
+    pub(super) fn line_or_blank(&self, i: usize) -> Line<'_> {
+        let blank = Line { card: self, at: self.place.line, text: "" };
+        self.all_lines().nth(i).unwrap_or(blank)
+    }
+
+    /// Refuses data lines after the first `count`.
+    pub(super) fn ends_after(&self, count: usize) -> Result<(), DeckError> {
+        let mut further = self.all_lines().skip(count);
+        let Some(line) = further.find(|line| !line.text.trim().is_empty()) else { return Ok(()) };
+        let what = format!("data line {} of *{}", count + 1, self.name);
+        Err(unsupported(&line.place(), what, "leave the line out, or give it to its own card"))
+    }
+}
 
 /// A data line of a card.
 #[derive(Clone, Copy, Debug)]
@@ -179,82 +249,140 @@ impl<'a> Line<'a> {
         Place { file: self.card.place.file.clone(), line: self.at }
     }
 
-    /// The fields, by commas if there are any, or else by columns: of these widths in the standard format.
-    pub(super) fn fields(self, widths: &[usize]) -> Fields<'a> {
-        let words = if self.text.contains(',') {
-            self.text.split(',').map(str::trim).collect()
-        } else {
-            let mut rest = self.text;
-            let cut = |&width: &usize| {
-                let width = match (self.card.format, width) {
-                    (Format::Long, _) => 20,
-                    (Format::I10, 8) => 10,
-                    _ => width,
-                };
-                let end = rest.char_indices().nth(width).map_or(rest.len(), |(end, _)| end);
-                let (field, after) = rest.split_at(end);
-                rest = after;
-                field.trim()
-            };
-            widths.iter().map(cut).collect()
+    /// The numbers of the fields that a case takes, in their order.
+    ///
+    /// # Errors
+    /// A number that is none; a field that is not taken and neither blank nor at its default; text after the last field.
+    pub(super) fn take<const N: usize>(self, layout: &Layout<N>) -> Result<[f64; N], DeckError> {
+        let width = |field: &Field| match (self.card.format, field.width) {
+            (Format::Long, _) => 20,
+            (Format::I10, 8) => 10,
+            (_, width) => width,
         };
-        Fields { line: self, words }
+        let read = if self.card.format == Format::Long { 160 } else { 80 };
+        let mut rest = self.within(read.max(layout.0.iter().map(width).sum()))?;
+        let commas = rest.contains(',');
+        if !commas && rest.trim_end().contains('\t') {
+            let what = "a tab between columns: write blanks, or put commas between the fields";
+            return Err(syntax(&self.place(), what));
+        }
+        let mut taken = [0.0; N];
+        let mut next = taken.iter_mut();
+        for field in layout.0 {
+            let (word, after) = match rest.split_once(',') {
+                Some(parted) if commas => parted,
+                None if commas => (rest, ""),
+                _ => split_at_column(rest, width(field)),
+            };
+            rest = after;
+            let value = self.value(field, word.trim_matches([' ', '\t']))?;
+            if let (Some(value), Some(place)) = (value, value.and_then(|_| next.next())) {
+                *place = value;
+            }
+        }
+        let mut further = rest.split([',', ' ']).filter(|word| !word.trim().is_empty());
+        if further.any(|word| self.number(word).ok() != Some(0.0)) {
+            let last = layout.0.last().map_or("", |field| field.name);
+            let name = &self.card.name;
+            let what = format!(
+                "`{}` stands after the last field of *{name}, {last}; a remark begins with $ on a line of its own",
+                rest.trim()
+            );
+            return Err(syntax(&self.place(), what));
+        }
+        Ok(taken)
+    }
+
+    /// The value of a field where a case takes it.
+    fn value(&self, field: &Field, word: &str) -> Result<Option<f64>, DeckError> {
+        let number = |word: &str| self.number(word).map_err(|fault| fault.at(&self.place()));
+        let whole = |word: &str, least: f64| match number(word)? {
+            x if x.fract() == 0.0 && x >= least && x <= LARGEST => Ok(x),
+            x => {
+                let what = if least == 0.0 { "a number from 1" } else { "a whole number" };
+                let what = format!("{} = {x}: {what} is expected", field.name);
+                Err(syntax(&self.place(), what))
+            }
+        };
+        let refused = |value: String, allowed: String| {
+            let (card, field) = (self.card.name.clone(), field.name);
+            Err(Fault::Field { card, field, value, allowed }.at(&self.place()))
+        };
+        match field.role {
+            Role::Idle => Ok(None),
+            Role::Rests(_) | Role::Says(_) if word.is_empty() => Ok(None),
+            Role::Says(words) if words.contains(&&*word.to_uppercase()) => Ok(None),
+            Role::Says(words) => refused(word.into(), words.join(" or ")),
+            Role::Rests(defaults) => match number(word)? {
+                x if x == 0.0 || defaults.contains(&x) => Ok(None),
+                x => {
+                    let allowed: Vec<_> =
+                        [0.0].iter().chain(defaults).map(|x| x.to_string()).collect();
+                    refused(x.to_string(), allowed.join(" or "))
+                }
+            },
+            Role::Taken(kind) => Ok(Some(match (kind, word) {
+                (Taken::RealOr(default), "") => default,
+                (_, "") => 0.0,
+                (Taken::Real, _) => number(word)?,
+                (Taken::RealOr(default), _) => match number(word)? {
+                    0.0 => default,
+                    x => x,
+                },
+                (Taken::Whole, _) => whole(word, -LARGEST)?,
+                (Taken::Number, _) => whole(word, 0.0)?,
+            })),
+        }
+    }
+
+    /// A word of the line as a number: the value of a parameter, or what stands there.
+    fn number(&self, word: &str) -> Result<f64, Fault> {
+        number(word, self.card.parameters)
+    }
+
+    /// The words of a line of names and numbers in columns of ten.
+    pub(super) fn words(self) -> Result<Vec<&'a str>, DeckError> {
+        let width = if self.card.format == Format::Long { 20 } else { 10 };
+        let mut rest = self.within(8 * width)?;
+        if rest.contains(',') {
+            return Ok(rest.split(',').map(str::trim).collect());
+        }
+        let cut = |_| {
+            let (word, after) = split_at_column(rest, width);
+            rest = after;
+            word.trim()
+        };
+        Ok((0..8).map(cut).collect())
+    }
+
+    /// Refuses the line where its field `i`, counted from 0, is neither blank nor 0.
+    pub(super) fn switched_off(self, i: usize, name: &'static str) -> Result<(), DeckError> {
+        let words = self.words()?;
+        self.value(&zero(name), words.get(i).copied().unwrap_or_default()).map(|_| ())
+    }
+
+    /// What LS-DYNA reads of the line: so many columns. What follows is a remark.
+    fn within(self, columns: usize) -> Result<&'a str, DeckError> {
+        let (text, beyond) = split_at_column(self.text, columns);
+        let of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
+        let cut_through = text.ends_with(of_number) && beyond.starts_with(of_number);
+        let first = beyond.split([',', ' ']).find(|word| !word.is_empty());
+        let goes_on = text.contains(',') && first.is_some_and(|word| self.number(word).is_ok());
+        if cut_through || goes_on {
+            let what = format!("numbers go on past column {columns}, where LS-DYNA stops reading");
+            return Err(syntax(&self.place(), what));
+        }
+        Ok(text)
     }
 }
 
-/// The fields of a data line.
-pub(super) struct Fields<'a> {
-    line: Line<'a>,
-    words: Vec<&'a str>,
-}
+/// The largest whole number of a field: all below it are exact.
+const LARGEST: f64 = 1e15;
 
-impl<'a> Fields<'a> {
-    /// Field `i`, counted from 0, as it stands; empty where it is blank.
-    pub(super) fn word(&self, i: usize) -> &'a str {
-        self.words.get(i).copied().unwrap_or_default()
-    }
-
-    pub(super) fn place(&self) -> Place {
-        self.line.place()
-    }
-
-    /// Field `i`, counted from 0, as a number; `default` where it is blank.
-    pub(super) fn real(&self, i: usize, default: f64) -> Result<f64, DeckError> {
-        match self.word(i) {
-            "" => Ok(default),
-            word => {
-                number(word, self.line.card.parameters).map_err(|fault| fault.at(&self.place()))
-            }
-        }
-    }
-
-    /// Field `i` as a whole number; 0 where it is blank.
-    pub(super) fn whole(&self, i: usize) -> Result<i64, DeckError> {
-        let x = self.real(i, 0.0)?;
-        if x.fract() != 0.0 || x.abs() > 1e15 {
-            return Err(syntax(&self.place(), format!("a whole number is expected, found {x}")));
-        }
-        Ok(x as i64)
-    }
-
-    /// Field `i` as the number of something; 0 where it is blank.
-    pub(super) fn id(&self, i: usize) -> Result<u64, DeckError> {
-        let n = self.whole(i)?;
-        u64::try_from(n)
-            .map_err(|_| syntax(&self.place(), format!("a number from 1 is expected, found {n}")))
-    }
-
-    /// Refuses the line where one of `fields`, by index and name, is neither blank nor 0.
-    pub(super) fn unused(&self, keyword: &str, fields: &[(usize, &str)]) -> Result<(), DeckError> {
-        for &(i, name) in fields {
-            let x = self.real(i, 0.0)?;
-            if x != 0.0 {
-                let what = format!("*{keyword} with {name} = {x}");
-                return Err(unsupported(&self.place(), what, "leave the field blank or 0"));
-            }
-        }
-        Ok(())
-    }
+/// A text before and after a column, in characters.
+fn split_at_column(text: &str, column: usize) -> (&str, &str) {
+    let end = text.char_indices().nth(column).map_or(text.len(), |(end, _)| end);
+    text.split_at(end)
 }
 
 /// A field as a number: the value of a parameter (`&name`, `-&name`), or what stands there.

@@ -4,11 +4,12 @@ use crate::deck::{Contact, Deck, Material};
 use crate::drive::{Drive, Turn};
 use crate::error::{DeckError, lacks, unknown, unsupported};
 use crate::export::NONE;
+use crate::loads;
 use crate::model::{Model, Symmetry};
-use crate::motion::Damping;
+use crate::plausible::Numbers;
 use crate::shape::Shape;
 use crate::units::Units;
-use std::collections::HashMap;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use toml::Value;
 
@@ -41,6 +42,14 @@ pub(crate) struct Settings {
     elements: Elements,
 }
 
+/// Damping by mass and by stiffness, in units of the file.
+struct Damping {
+    /// Relative to the motion of the hub (1/time).
+    relative: Option<f64>,
+    /// Coefficient of the stiffness (time).
+    stiffness: Option<f64>,
+}
+
 /// What holds for the elements of both parts.
 #[derive(Clone, Copy, Debug)]
 struct Elements {
@@ -65,13 +74,14 @@ impl Settings {
         notes: &mut Vec<String>,
     ) -> Result<Self, DeckError> {
         let contact = deck.contact.clone().ok_or_else(|| lacks("contact"))?;
-        let drive = Drive::of(deck, model, shape, units, notes)?;
-        let normal = load(deck, model, units)?;
-        let end = deck.endtim.filter(|t| *t > 0.0).ok_or_else(|| lacks("*CONTROL_TERMINATION"))?;
-        if deck.begins >= end {
-            return Err(lacks("*CONTROL_TERMINATION after the start of the initial velocities"));
+        if contact.ends < deck.end()? {
+            let what = format!("a contact that ends at DT = {}, before ENDTIM,", contact.ends);
+            return Err(unsupported(&contact.place, what, "let it last: leave DT blank"));
         }
-        damps_the_preload_alone(deck)?;
+        loads::kinds(deck)?;
+        let drive = Drive::of(deck, model, shape, units, notes)?;
+        let normal = loads::normal(deck, model, units, notes)?;
+        let damping = Damping::of(deck, model)?;
         let (materials, elements) = parts(deck, model)?;
         if elements.hourglass.is_none() {
             notes.push(
@@ -87,9 +97,14 @@ impl Settings {
                     .into(),
             );
         }
-        // a displacement that ends with the preload hands over to the load
-        let depth = deck.motions.iter().find(|motion| motion.dof == 3);
-        let held = depth.is_some_and(|motion| !motion.ends);
+        let numbers = Numbers {
+            materials: materials.map(|material| [material.density, material.young]),
+            radius: shape.radius / units.length(),
+            speed: drive.speed / units.velocity(),
+        };
+        numbers.fit(units)?;
+        let hub_mass =
+            hub_mass(deck, model, shape, &drive, units, materials[0].density * units.density())?;
         Ok(Self {
             units,
             penalty: deck.slsfac * contact.sf,
@@ -97,10 +112,10 @@ impl Settings {
             tssfac: deck.tssfac,
             drive,
             normal,
-            held,
-            hub_mass: hub_mass(deck, model, units, materials[0].density * units.density()),
-            duration: end - deck.begins,
-            damping: deck.damping.clone(),
+            held: deck.held()?,
+            hub_mass,
+            duration: deck.rolls()?,
+            damping,
             intervals: deck.intervals,
             quiet: !deck.quiet.is_empty(),
             symmetry: model.symmetry,
@@ -112,21 +127,85 @@ impl Settings {
 }
 
 /// The mass of the rigid hub (kg) beyond that of its nodes, of elements of this `density` (kg/m^3).
-fn hub_mass(deck: &Deck, model: &Model, units: Units, density: f64) -> f64 {
-    let Some(all) = deck.hub_mass.map(|mass| model.alike() * mass * units.mass()) else {
-        return 0.0;
-    };
-    let own = all - model.lumped_mass("hub", density);
+///
+/// # Errors
+/// A centre of mass off the axle; a moment of inertia that a hub of this mass does not have, where a torque turns it.
+fn hub_mass(
+    deck: &Deck,
+    model: &Model,
+    shape: &Shape,
+    drive: &Drive,
+    units: Units,
+    density: f64,
+) -> Result<f64, DeckError> {
+    let Some(inertia) = &deck.inertia else { return Ok(0.0) };
+    let node = deck.nodes.iter().find(|node| node.id == inertia.node && inertia.node > 0);
+    let [x, _, z] = node.map_or(inertia.centre, |node| node.point).map(|x| x * units.length());
+    if libm::hypot(x - shape.axle[0], z - shape.axle[1]) > OFF_AXLE * shape.radius {
+        let what = "a hub whose centre of mass (XC, ZC or NODEID) is off the axle";
+        return Err(unsupported(&inertia.place, what, "put it on the axle"));
+    }
+    let all = model.alike() * inertia.mass * units.mass();
+    let [nodes, of_nodes] = model.lumped("hub", density, shape.radius);
     // the rest is what the file's digits leave
-    if own > 1e-5 * all { own } else { 0.0 }
+    let own = if all - nodes > 1e-5 * all { all - nodes } else { 0.0 };
+    let moment = model.alike() * inertia.moment * units.mass() * units.length().powi(2);
+    let expected = of_nodes + 0.5 * own * shape.hub_radius.powi(2);
+    if matches!(drive.turn, Turn::Torque(_)) && (moment - expected).abs() > ALIKE * expected {
+        let [given, of_case] = [moment, expected].map(six);
+        let what = format!("a hub with IYY = {given} kg m^2, where a case has {of_case} kg m^2,");
+        let remedy = "give it the moment of its nodes and, for the rest of TM, that of a cylinder";
+        return Err(unsupported(&inertia.place, what, remedy));
+    }
+    Ok(own)
+}
+
+/// Share of the radius by which a centre of mass may be off the axle.
+const OFF_AXLE: f64 = 1e-4;
+/// Share by which moments of inertia may differ.
+const ALIKE: f64 = 1e-2;
+
+impl Damping {
+    /// The damping of a case: what all parts of both bodies, or all of the disk's, have alike.
+    ///
+    /// # Errors
+    /// Damping of other parts, of parts alone, or relative to another body than the hub.
+    fn of(deck: &Deck, model: &Model) -> Result<Self, DeckError> {
+        damps_the_preload_alone(deck)?;
+        let cards = &deck.damping;
+        let relative = match &cards.relative {
+            Some(relative) => {
+                deck.of_the_hub("DAMPING_RELATIVE", relative.body, &relative.place)?;
+                let set = deck.part_sets.get(&relative.parts);
+                let parts = |set: &Vec<u64>| set.iter().copied().collect::<BTreeSet<_>>();
+                if set.map(parts) != Some(model.parts[0].iter().copied().collect()) {
+                    let what = format!("*DAMPING_RELATIVE of PSID {}", relative.parts);
+                    let remedy = "damp the disk: PSID is the set of all its parts";
+                    return Err(unsupported(&relative.place, what, remedy));
+                }
+                Some(relative.rate)
+            }
+            None => None,
+        };
+        let Some((first, (coefficient, place))) = cards.stiffness.first_key_value() else {
+            return Ok(Self { relative, stiffness: None });
+        };
+        let of_part = |part: &u64| cards.stiffness.get(part).map(|(coefficient, _)| *coefficient);
+        let parts: BTreeSet<_> = model.parts.iter().flatten().copied().collect();
+        if let Some(part) = parts.iter().find(|part| of_part(part) != Some(*coefficient)) {
+            let what = format!("*DAMPING_PART_STIFFNESS of part {first} that part {part} lacks");
+            let remedy = "give all parts of both bodies the same COEF: a case has one";
+            return Err(unsupported(place, what, remedy));
+        }
+        Ok(Self { relative, stiffness: Some(*coefficient) })
+    }
 }
 
 /// Refuses damping of all motion that does not end before the disk rolls.
 fn damps_the_preload_alone(deck: &Deck) -> Result<(), DeckError> {
     let Some((curve, place)) = &deck.damping.global else { return Ok(()) };
-    let points = deck.curves.get(curve);
-    let late = |[t, value]: &[f64; 2]| *t >= deck.begins && *value != 0.0;
-    if points.is_some_and(|points| !points.iter().any(late)) {
+    let course = deck.course(*curve, place)?;
+    if course.last == 0.0 && course.is_constant() {
         return Ok(());
     }
     let what = "*DAMPING_GLOBAL while the disk rolls, which holds it back";
@@ -387,35 +466,6 @@ fn write_elements(t: &mut String, settings: &Settings) {
 }
 
 /// A number of six significant digits at most.
-fn six(x: f64) -> String {
+pub(crate) fn six(x: f64) -> String {
     case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
-}
-
-/// The force that presses the disk down (N): the sum over the loaded nodes and that on the hub, by their curves' last
-/// values.
-fn load(deck: &Deck, model: &Model, units: Units) -> Result<f64, DeckError> {
-    let mut sum = 0.0;
-    let places: HashMap<u64, u32> =
-        model.foreign.nodes.ids.iter().zip(0..).map(|(id, place)| (*id, place)).collect();
-    for load in &deck.loads {
-        let unknown = |what: String| unknown(&load.on.place, "the load", what);
-        let nodes = if load.on.set {
-            let set = deck.node_sets.get(&load.on.id);
-            set.cloned().ok_or_else(|| unknown(format!("node set {}", load.on.id)))?
-        } else {
-            vec![load.on.id]
-        };
-        let on_disk = |id: &u64| places.get(id).is_some_and(|n| model.nodes[0].contains(n));
-        if let Some(id) = nodes.iter().find(|id| !on_disk(id)) {
-            return Err(unknown(format!("node {id}, which is none of the disk's")));
-        }
-        sum += load.factor * deck.last(load.curve, &load.on.place)? * nodes.len() as f64;
-    }
-    for load in deck.rigid_loads.iter().filter(|load| load.dof == 3) {
-        sum += load.factor * deck.last(load.curve, &load.place)?;
-    }
-    if sum >= 0.0 {
-        return Err(lacks("*LOAD_NODE_SET or *LOAD_RIGID_BODY that presses the disk down, in -z"));
-    }
-    Ok(-model.alike() * sum * units.force())
 }

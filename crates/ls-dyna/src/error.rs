@@ -10,12 +10,14 @@ use thiserror::Error;
 
 /// Why a deck is refused, and where the cause stands.
 #[derive(Debug, Error)]
-#[error("{}{fault}", self.prefix())]
+#[error("{}{fault}{}", self.prefix(), self.suffix())]
 pub struct DeckError {
     /// File and line; `None` for what the whole deck lacks.
     pub place: Option<Place>,
     /// What is wrong.
     pub fault: Fault,
+    /// The other cards that are refused, where that is a card.
+    pub others: Vec<DeckError>,
 }
 
 /// A line of one of the deck's files.
@@ -49,6 +51,18 @@ pub enum Fault {
         what: String,
         /// What to do instead.
         remedy: &'static str,
+    },
+    /// A field without a place in a case that is neither blank nor at its default.
+    #[error("*{card} with {field} = {value} is not read")]
+    Field {
+        /// The keyword.
+        card: String,
+        /// The name of the field.
+        field: &'static str,
+        /// What it holds.
+        value: String,
+        /// What it may hold.
+        allowed: String,
     },
     /// A second card where a disk on a bar has one.
     #[error("a second {what} after that of {before} is not read")]
@@ -86,6 +100,24 @@ pub enum Fault {
         /// Its name.
         name: String,
     },
+    /// A model in another frame than that of a case.
+    #[error("the model does not stand in the frame of a case: {what} ({shown})")]
+    Axes {
+        /// Which axis lies otherwise.
+        what: String,
+        /// What in the deck shows it.
+        shown: String,
+    },
+    /// Numbers that make no disk on a bar in the units that were given, but do in others.
+    #[error("--unit {given} is not that of the deck: {shown}")]
+    Unit {
+        /// The units that were given.
+        given: String,
+        /// What in the deck shows it.
+        shown: String,
+        /// The units that fit, with what the numbers are in them.
+        fitting: String,
+    },
     /// The deck or an included file cannot be read.
     #[error(transparent)]
     Input(#[from] InputError),
@@ -118,11 +150,14 @@ impl Fault {
     pub fn remedy(&self) -> String {
         match self {
             Self::Unsupported { remedy, .. } | Self::Second { remedy, .. } => (*remedy).into(),
+            Self::Field { allowed, .. } => format!("leave the field blank, or give it {allowed}"),
             Self::Input(error) => error.remedy(),
             Self::Syntax { .. } | Self::Unknown { .. } | Self::RepeatedNode { .. } => ANEW.into(),
             Self::Lacks { .. } => {
                 "add it; docs/ls-dyna.md lists the cards of a disk on a bar".into()
             }
+            Self::Axes { .. } => "turn the whole deck, with its loads and velocities: x is the rolling direction, y lies along the axle, z points up from the bar to the disk".into(),
+            Self::Unit { fitting, .. } => format!("give --unit {fitting}"),
             Self::Parameter { name } => {
                 format!("define it: *PARAMETER, then the line `R {name}, VALUE`")
             }
@@ -136,11 +171,32 @@ impl Fault {
 
     /// The error of this fault at a place.
     pub(crate) fn at(self, place: &Place) -> DeckError {
-        DeckError { place: Some(place.clone()), fault: self }
+        DeckError { place: Some(place.clone()), ..DeckError::of(self) }
     }
 }
 
+/// How many further errors are told.
+const TOLD: usize = 19;
+
 impl DeckError {
+    /// The error of a fault without a place.
+    pub(crate) fn of(fault: Fault) -> Self {
+        Self { place: None, fault, others: Vec::new() }
+    }
+
+    /// The error with those of other cards.
+    pub(crate) fn with(self, others: Vec<Self>) -> Self {
+        Self { others, ..self }
+    }
+
+    /// How many cards are refused, where that is more than one.
+    fn suffix(&self) -> String {
+        match self.others.len() {
+            0 => String::new(),
+            more => format!(" (the first of {} cards that are refused)", more + 1),
+        }
+    }
+
     fn prefix(&self) -> String {
         self.place.as_ref().map_or(String::new(), |place| format!("{place}: "))
     }
@@ -149,6 +205,11 @@ impl DeckError {
 impl Diagnostic for DeckError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(self.fault.remedy()))
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        let others = self.others.iter().take(TOLD).map(|other| other as &dyn Diagnostic);
+        (!self.others.is_empty()).then(|| Box::new(others) as Box<_>)
     }
 }
 
@@ -175,5 +236,5 @@ pub(crate) fn unknown(at: &Place, from: impl Into<String>, what: impl Into<Strin
 
 /// The error of a deck that lacks what a disk on a bar needs.
 pub(crate) fn lacks(what: &str) -> DeckError {
-    DeckError { place: None, fault: Fault::Lacks { what: what.into() } }
+    DeckError::of(Fault::Lacks { what: what.into() })
 }

@@ -6,24 +6,34 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
+mod axes;
+mod bodies;
 mod cards;
 mod case_file;
+mod contact_card;
 mod contact_surface;
+mod control;
+mod curve;
 mod deck;
 mod drive;
 mod error;
 mod export;
+mod fields;
+mod ignored;
+mod loads;
 mod model;
 mod motion;
 mod parameters;
+mod plausible;
+mod sets;
 mod shape;
 mod sources;
 #[cfg(test)]
 mod tests;
 mod translate;
 mod units;
-mod unread;
 
+pub use deck::Account;
 pub use error::{DeckError, Fault, Place};
 pub use export::{Exported, Rolling, export, unsayable};
 pub use sources::Source;

@@ -1,5 +1,6 @@
 //! The two bodies of a keyword file: their mesh with its sets.
 
+use crate::axes;
 use crate::contact_surface;
 use crate::deck::{Deck, Target};
 use crate::error::{DeckError, Fault, Place, lacks, unknown, unsupported};
@@ -54,6 +55,7 @@ impl Model {
             let set = foreign.sets.entry(["disk", "bar"][body].to_owned()).or_default();
             set.hexes.push(e as u32);
         }
+        axes::stand(deck, &foreign.points, &nodes)?;
         // a node of the axle that bears mass is none of the mesh
         let meshed = |n: &u32| nodes.iter().any(|body| body.contains(n));
         foreign.sets.entry("hub".into()).or_default().nodes =
@@ -93,8 +95,9 @@ impl Model {
         extent
     }
 
-    /// Lumped mass of the nodes of a set (kg), of elements of this `density` (kg/m^3).
-    pub(crate) fn lumped_mass(&self, set: &str, density: f64) -> f64 {
+    /// Lumped mass (kg) of the nodes of a set, of elements of this `density` (kg/m^3), and its moment of inertia (kg m^2)
+    /// about the axis along y at x = 0 and this `height` (m).
+    pub(crate) fn lumped(&self, set: &str, density: f64, height: f64) -> [f64; 2] {
         let Foreign { points, hexes, sets, .. } = &self.foreign;
         let whole = Body {
             name: String::new(),
@@ -110,7 +113,12 @@ impl Model {
             symmetric: false,
         };
         let mass = solid::lumped_mass(&mesh, &[density]);
-        sets.get(set).map_or(0.0, |set| set.nodes.iter().map(|&n| mass[n as usize]).sum())
+        let nodes = sets.get(set).map_or(&[][..], |set| &set.nodes);
+        nodes.iter().map(|n| *n as usize).fold([0.0; 2], |[sum, moment], n| {
+            let [x, _, z] = points[n];
+            let squared = x * x + (z - height) * (z - height);
+            [sum + mass[n], moment + mass[n] * squared]
+        })
     }
 
     /// How many parts alike make up the bodies of which the deck has one.
@@ -163,7 +171,7 @@ pub(crate) struct Indices(HashMap<u64, u32>);
 
 impl Indices {
     /// Index of a node to which `from` refers in a line of the file.
-    fn find(&self, from: &str, node: u64, at: &Place) -> Result<u32, DeckError> {
+    pub(crate) fn find(&self, from: &str, node: u64, at: &Place) -> Result<u32, DeckError> {
         let index = self.0.get(&node).copied();
         index.ok_or_else(|| unknown(at, from, format!("node {node}")))
     }

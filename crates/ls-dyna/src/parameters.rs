@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::cards::{Card, TENS, number};
+use crate::cards::{Card, number};
 use crate::error::{DeckError, Fault, Place, second, syntax, unsupported};
 
 /// Values of parameters by their names in lower case.
@@ -26,9 +26,8 @@ impl Parameters {
     pub(super) fn of(cards: &[Card]) -> Result<Self, DeckError> {
         let mut found = Self::default();
         for line in cards.iter().filter(|card| card.name == "PARAMETER").flat_map(Card::lines) {
-            let fields = line.fields(&TENS);
-            for pair in (0..8).step_by(2) {
-                match (fields.word(pair), fields.word(pair + 1)) {
+            for pair in line.words()?.chunks(2) {
+                match (pair[0], pair.get(1).copied().unwrap_or_default()) {
                     ("", "") => {}
                     (name, value) => found.define(name, value, &line.place())?,
                 }
@@ -55,6 +54,11 @@ impl Parameters {
             return Err(second(place, what, &before.place, "keep one of the two"));
         }
         let value = number(value, self).map_err(|fault| fault.at(place))?;
+        if kind == Some('I') && value.fract() != 0.0 {
+            let what =
+                format!("parameter `{name}` of type I is {value}: a whole number is expected");
+            return Err(syntax(place, what));
+        }
         self.0.insert(name, Defined { value, place: place.clone() });
         Ok(())
     }

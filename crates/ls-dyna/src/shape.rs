@@ -8,6 +8,8 @@ const IN_PLACE: f64 = 1e-9;
 
 /// Shapes that the case gives, measured on the mesh (m).
 pub(crate) struct Shape {
+    /// Where the axle was in the deck (x, z).
+    pub(crate) axle: [f64; 2],
     pub(crate) radius: f64,
     pub(crate) hub_radius: f64,
     pub(crate) disk_width: f64,
@@ -78,6 +80,7 @@ impl Model {
             .map(|&n| [points[n as usize][1], -points[n as usize][2]])
             .collect();
         Shape {
+            axle: [axis, height],
             radius,
             hub_radius: hub.fold(0.0, f64::max),
             disk_width: span(disk[1]),

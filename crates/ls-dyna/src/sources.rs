@@ -66,7 +66,7 @@ struct Reading<'a> {
 impl Reading<'_> {
     /// Reads a file, which a line of the deck names, and those that it includes; returns its index.
     fn file(&mut self, path: &Path, named: Option<&Place>) -> Result<usize, DeckError> {
-        let fail = |fault| DeckError { place: named.cloned(), fault };
+        let fail = |fault| DeckError { place: named.cloned(), ..DeckError::of(fault) };
         let known = path.canonicalize().ok().and_then(|real| self.known.get(&real).copied());
         if let Some(known) = known {
             return Ok(known);
@@ -140,7 +140,7 @@ impl Reading<'_> {
 
 fn too_much() -> DeckError {
     let what = format!("more than {MOST} files or 4 GiB");
-    DeckError { place: None, fault: Fault::Excess { what } }
+    DeckError::of(Fault::Excess { what })
 }
 
 fn canonical(path: &Path) -> Result<PathBuf, Fault> {
@@ -191,9 +191,11 @@ impl Flat<'_> {
                 self.cards.push(card.without_headings());
                 continue;
             }
-            for &next in included.by_ref().take(names(&card)?.len()) {
+            let (count, format) = (names(&card)?.len(), card.format);
+            self.cards.push(card);
+            for &next in included.by_ref().take(count) {
                 // *INCLUDE + says that the file is in the long format
-                self.file(next, card.format)?;
+                self.file(next, format)?;
             }
         }
         Ok(())

@@ -117,6 +117,9 @@ fn a_model_that_begins_elsewhere_is_moved_to_x_0_and_said_so() {
             if line.len() == 56 {
                 let x: f64 = line[8..24].trim().parse().unwrap();
                 format!("{}{:16.6}{}\n", &line[..8], x + 250.0, &line[24..])
+            } else if line.starts_with("       0.0       0.0     100.0") {
+                // the axis about which the disk turns
+                format!("     250.0{}\n", &line[10..])
             } else {
                 format!("{line}\n")
             }
@@ -136,7 +139,7 @@ fn what_is_not_read_is_refused_by_its_line() {
         (
             "         1         4      0.05",
             "         1         6      0.05",
-            at("*HOURGLASS"),
+            at("         1         4      0.05"),
             "IHQ = 6",
         ),
         (
@@ -157,7 +160,12 @@ fn what_is_not_read_is_refused_by_its_line() {
             at("         2         0"),
             "DOFX",
         ),
-        ("       1.0       1.0\n*CON", "       1.0       2.0\n*CON", at("*CONTACT"), "SFM = 2"),
+        (
+            "       1.0       1.0\n*CON",
+            "       1.0       2.0\n*CON",
+            at("       1.0       1.0"),
+            "SFM = 2",
+        ),
         ("   2.1e+05       0.3", "   2.1e+05       abc", at("         1    7.8e-9"), "`abc`"),
     ] {
         let text = DECK.replacen(old, new, 1);

@@ -1,8 +1,8 @@
 //! From a keyword file to a case and its mesh.
 
 use crate::case_file::{self, Settings};
-use crate::deck::Deck;
-use crate::error::DeckError;
+use crate::deck::{Account, Deck};
+use crate::error::{DeckError, Fault};
 use crate::model::Model;
 use crate::parameters::Parameters;
 use crate::sources::{Source, Sources};
@@ -19,6 +19,8 @@ pub struct Translation {
     pub mesh: String,
     /// Cards that were ignored, and choices that were made, one sentence each.
     pub notes: Vec<String>,
+    /// What became of the cards.
+    pub cards: Account,
 }
 
 /// Translates a deck in consistent `units`. `mesh_file` is the value of `mesh.file` in the case.
@@ -30,17 +32,34 @@ pub fn translate(source: &Source, units: Units, mesh_file: &str) -> Result<Trans
     let sources = Sources::read(source)?;
     let cards = sources.cards()?;
     let parameters = Parameters::of(&cards)?;
-    let cards = cards.into_iter().map(|card| card.with(&parameters)).collect();
-    let deck = Deck::read(cards)?;
+    let cards: Vec<_> = cards.into_iter().map(|card| card.with(&parameters)).collect();
+    let deck = Deck::read(&cards)?;
+    deck.names(units)?;
     let mut notes = Vec::new();
     if !deck.passed_over.is_empty() {
         let list = deck.passed_over.join(", ");
         notes.push(format!("passed over: {list}; the case has its own method and output"));
+    }
+    for place in &deck.after_end {
+        notes.push(format!("{place}: what follows *END is not read, as in LS-DYNA"));
     }
     let mut model = Model::new(&deck, units)?;
     let shape = model.place(&mut notes);
     let settings = Settings::of(&deck, &model, &shape, units, &mut notes)?;
     let title = source.file.file_name().unwrap_or_default().to_string_lossy();
     let case = case_file::text(&settings, &shape, [&title, mesh_file]);
-    Ok(Translation { case, mesh: write_abaqus(&model.foreign), notes })
+    Ok(Translation { case, mesh: write_abaqus(&model.foreign), notes, cards: deck.account })
+}
+
+impl Deck {
+    /// Refuses units other than those that the deck itself names.
+    fn names(&self, units: Units) -> Result<(), DeckError> {
+        let Some((place, [length, mass, time])) = &self.units else { return Ok(()) };
+        if units.names() == [*length, *mass, *time] {
+            return Ok(());
+        }
+        let fitting = format!("{length}-{mass}-{time}");
+        let shown = format!("its *CONTROL_UNITS names {fitting}");
+        Err(Fault::Unit { given: units.name(), shown, fitting }.at(place))
+    }
 }

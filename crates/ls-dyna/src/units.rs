@@ -10,25 +10,35 @@ pub struct Units {
     names: [&'static str; 3],
 }
 
+const LENGTHS: [(&str, f64); 4] = [("mm", 1e-3), ("m", 1.0), ("cm", 1e-2), ("in", 0.0254)];
+const MASSES: [(&str, f64); 3] = [("ton", 1e3), ("kg", 1.0), ("g", 1e-3)];
+const TIMES: [(&str, f64); 3] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6)];
+
 impl Units {
     /// Units named as `mm-ton-s`: length (`m`, `cm`, `mm`, `in`), mass (`kg`, `ton`, `g`) and time
     /// (`s`, `ms`, `us`). None for any other text.
     pub fn parse(text: &str) -> Option<Self> {
-        let find = |name: &str, units: &[(&'static str, f64)]| {
-            units.iter().find(|(unit, _)| *unit == name).copied()
+        Self::all().find(|units| units.name() == text)
+    }
+
+    /// All of them, the usual ones of each kind first.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        let of_length = |(length_name, length)| {
+            MASSES.into_iter().flat_map(move |(mass_name, mass)| {
+                TIMES.into_iter().map(move |(time_name, time)| Self {
+                    length,
+                    mass,
+                    time,
+                    names: [length_name, mass_name, time_name],
+                })
+            })
         };
-        let mut names = text.split('-');
-        let length =
-            find(names.next()?, &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("in", 0.0254)])?;
-        let mass = find(names.next()?, &[("kg", 1.0), ("ton", 1e3), ("g", 1e-3)])?;
-        let time = find(names.next()?, &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6)])?;
-        let found = Self {
-            length: length.1,
-            mass: mass.1,
-            time: time.1,
-            names: [length.0, mass.0, time.0],
-        };
-        names.next().is_none().then_some(found)
+        LENGTHS.into_iter().flat_map(of_length)
+    }
+
+    /// Their names, those of length, mass and time.
+    pub(super) fn names(self) -> [&'static str; 3] {
+        self.names
     }
 
     /// Their names, as [`Units::parse`] reads them.

@@ -219,7 +219,7 @@ fn cards_of_the_motion_that_a_case_cannot_say_are_refused_by_their_line() {
     let after = |card: &str, n: usize| n + lines.iter().position(|line| *line == card).unwrap();
     let depth = lines.iter().position(|line| line.starts_with("         5         3         2"));
     let held = lines.iter().rposition(|line| *line == "*BOUNDARY_SPC_SET").unwrap() + 2;
-    let curve = lines.iter().position(|line| *line == "         7").unwrap() + 4;
+    let curve = lines.iter().position(|line| *line == "         7").unwrap() + 7;
     let load = after("*LOAD_NODE_POINT", 2);
     for (at, new, words) in [
         // an acceleration

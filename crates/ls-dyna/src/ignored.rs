@@ -1,29 +1,47 @@
 //! Cards that are not read: those that a case does without, and those that are refused, with what to do instead.
 
-use crate::cards::{Card, TENS};
+use crate::cards::Card;
 use crate::error::{DeckError, unsupported};
 
-/// Begins of keywords that control the method or ask for output, and those among them that change what is computed.
-const PASSED_OVER: [&str; 2] = ["CONTROL_", "DATABASE_"];
-const CHANGING: [&str; 7] = [
-    "CONTROL_ADAP",
-    "CONTROL_COUPLING",
-    "CONTROL_IMPLICIT",
-    "CONTROL_REFINE",
-    "CONTROL_REMESHING",
-    "CONTROL_STAGED",
-    "CONTROL_THERMAL",
+/// Why a case does without a card.
+pub(super) enum Why {
+    /// It is a heading or a remark.
+    Heading,
+    /// It asks for output.
+    Output,
+    /// It says how LS-DYNA computes, or runs on a machine.
+    Method,
+    /// It is about what two bodies of hexahedra on a rigid hub lack: shells, tetrahedra, joints.
+    Absent,
+}
+
+/// Cards that are ignored, by keyword or, where it ends with `_`, by the begin of it.
+pub(super) const IGNORED: [(&str, Why); 17] = [
+    ("TITLE", Why::Heading),
+    ("COMMENT", Why::Heading),
+    ("CONTROL_ACCURACY", Why::Method),
+    ("CONTROL_CPU", Why::Method),
+    ("CONTROL_DEBUG", Why::Output),
+    ("CONTROL_ENERGY", Why::Output),
+    ("CONTROL_LSDA", Why::Output),
+    ("CONTROL_MPP_", Why::Method),
+    ("CONTROL_OUTPUT", Why::Output),
+    ("CONTROL_PARALLEL", Why::Method),
+    ("CONTROL_REQUIRE_REVISION", Why::Method),
+    ("CONTROL_RIGID", Why::Absent),
+    ("CONTROL_SHELL", Why::Absent),
+    ("CONTROL_SOLID", Why::Absent),
+    ("CONTROL_STRUCTURED", Why::Output),
+    ("CONTROL_STRUCTURED_TERM", Why::Output),
+    ("DATABASE_", Why::Output),
 ];
 
-/// Cards that change nothing as long as a field, by index and name, is blank or 0.
+/// Cards that change nothing as long as a field, by its place from 0 and its name, is blank or 0.
 const SWITCHES: [(&str, usize, &str); 3] = [
     ("CONTROL_DYNAMIC_RELAXATION", 7, "IDRFLG"),
     ("CONTROL_IMPLICIT_GENERAL", 0, "IMFLAG"),
     ("CONTROL_SOLUTION", 0, "SOLN"),
 ];
-
-/// Keywords without a word about the model.
-const UNREMARKABLE: [&str; 3] = ["TITLE", "COMMENT", "PARAMETER"];
 
 /// What to do instead of a card, by the begin of its keyword; the first that fits.
 const HINTS: [(&str, &str); 36] = [
@@ -69,23 +87,26 @@ const HINTS: [(&str, &str); 36] = [
 ///
 /// # Errors
 /// A card that switches another method on.
-pub(super) fn passed_over(card: &Card) -> Result<bool, DeckError> {
-    let name = card.name.as_str();
-    if let Some((_, field, word)) = SWITCHES.iter().find(|(switch, ..)| *switch == name) {
-        card.line(0)?.fields(&TENS).unused(name, &[(*field, word)])?;
+pub(super) fn ignored(card: &Card) -> Result<bool, DeckError> {
+    if let Some((_, switch, name)) = SWITCHES.iter().find(|(keyword, ..)| *keyword == card.name) {
+        card.line(0)?.switched_off(*switch, name)?;
         return Ok(true);
     }
-    let begins = |begin: &&str| name.starts_with(begin);
-    Ok(unremarkable(name) || PASSED_OVER.iter().any(begins) && !CHANGING.iter().any(begins))
+    if card.name == "TITLE" {
+        card.ends_after(1)?;
+    }
+    Ok(IGNORED.iter().any(|(keyword, _)| {
+        *keyword == card.name || keyword.ends_with('_') && card.name.starts_with(keyword)
+    }))
 }
 
 /// Whether that need not be said.
-pub(super) fn unremarkable(name: &str) -> bool {
-    name.starts_with("KEYWORD") || UNREMARKABLE.contains(&name)
+pub(super) fn unremarkable(keyword: &str) -> bool {
+    IGNORED.iter().any(|(name, why)| *name == keyword && matches!(why, Why::Heading))
 }
 
 /// The refusal of a card.
-pub(super) fn refused(card: &Card) -> DeckError {
+pub(super) fn refusal(card: &Card) -> DeckError {
     let hint = HINTS.iter().find(|(begin, _)| card.name.starts_with(begin));
     let remedy = hint.map_or(
         "leave the card out if the model does without it; the cards that are read: docs/ls-dyna.md",
