@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use case::Case;
-use ls_dyna::{Source, Units, translate};
+use ls_dyna::{Account, Source, Units, translate};
 use serde_json::{Value, json};
 
 use crate::Error;
@@ -32,7 +32,7 @@ pub struct ImportKOptions {
 }
 
 /// Makes a case and a mesh file of a keyword file, and returns the document of `creepage import-k --json`: case, mesh,
-/// elements, notes.
+/// elements, notes, and cards: how many were used, ignored and refused.
 ///
 /// # Errors
 /// A card that is not known, by its file and line; an included file that must not be read; files that are there already or cannot be written; a case that cannot be run.
@@ -48,11 +48,13 @@ pub fn import_k(options: &ImportKOptions) -> Result<Value, Error> {
     write(&folder, &case, &made.case)?;
     // the case is judged as any other, so that what is wrong is told now
     let found = ::run::mesh_report(&Case::load(&case, &[])?, None)?;
+    let Account { used, ignored, refused } = made.cards;
     Ok(json!({
         "case": case.display().to_string(),
         "mesh": mesh.display().to_string(),
         "elements": found["elements"].as_u64().unwrap_or_default(),
         "notes": made.notes,
+        "cards": { "used": used, "ignored": ignored, "refused": refused },
     }))
 }
 

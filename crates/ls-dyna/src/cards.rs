@@ -317,8 +317,8 @@ impl<'a> Line<'a> {
                 x if x == 0.0 || defaults.contains(&x) => Ok(None),
                 x => {
                     let allowed: Vec<_> =
-                        [0.0].iter().chain(defaults).map(|x| x.to_string()).collect();
-                    refused(x.to_string(), allowed.join(" or "))
+                        [0.0].iter().chain(defaults).map(|x| case::key::number(*x)).collect();
+                    refused(case::key::number(x), allowed.join(" or "))
                 }
             },
             Role::Taken(kind) => Ok(Some(match (kind, word) {

@@ -74,9 +74,10 @@ impl Settings {
         notes: &mut Vec<String>,
     ) -> Result<Self, DeckError> {
         let contact = deck.contact.clone().ok_or_else(|| lacks("contact"))?;
-        if contact.ends < deck.end()? {
-            let what = format!("a contact that ends at DT = {}, before ENDTIM,", contact.ends);
-            return Err(unsupported(&contact.place, what, "let it last: leave DT blank"));
+        let (place, ends) = &contact.ends;
+        if *ends < deck.end()? {
+            let what = format!("*CONTACT with DT = {}, which ends before ENDTIM,", six(*ends));
+            return Err(unsupported(place, what, "let the contact last: leave DT blank"));
         }
         loads::kinds(deck)?;
         let drive = Drive::of(deck, model, shape, units, notes)?;

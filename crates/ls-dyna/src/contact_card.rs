@@ -135,7 +135,7 @@ pub(super) fn read(card: &Card) -> Result<Contact, DeckError> {
         fd,
         dc,
         vdc,
-        ends,
+        ends: (friction.place(), ends),
         sf,
     })
 }

@@ -133,8 +133,8 @@ pub(super) struct Contact {
     pub(super) dc: f64,
     /// Viscous damping in per cent of critical.
     pub(super) vdc: f64,
-    /// `DT`, when it ends.
-    pub(super) ends: f64,
+    /// `DT`, when it ends, and the line that says so.
+    pub(super) ends: (Place, f64),
     /// `SFS` and `SFM`, which are equal.
     pub(super) sf: f64,
 }

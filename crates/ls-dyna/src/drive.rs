@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::case_file::six;
 use crate::curve::Course;
 use crate::deck::{Deck, Initial, Turning};
 use crate::error::{DeckError, Place, lacks, unknown, unsupported};
@@ -217,7 +218,9 @@ fn about_the_axle(
         let [axle_x, axle_z] = shape.axle.map(|x| x / units.length());
         let [x, _, z] = turn.centre;
         let what = format!(
-            "*INITIAL_VELOCITY_GENERATION about the axis at XC = {x}, ZC = {z}, which is not the axle, at {axle_x:.6}, {axle_z:.6},"
+            "*INITIAL_VELOCITY_GENERATION about an axis at XC = {x}, ZC = {z}, off the axle at {}, {},",
+            six(axle_x),
+            six(axle_z)
         );
         let remedy = "put XC and ZC on the axle: about another axis the axle itself moves, with OMEGA times the distance";
         return Err(unsupported(&turn.axis_place, what, remedy));
@@ -283,7 +286,7 @@ impl Deck {
             return Ok(None);
         };
         if motion.death < self.end()? {
-            let what = format!("a prescribed motion of DOF = {dof} with DEATH = {}", motion.death);
+            let what = format!("a prescribed motion of DOF = {dof} with DEATH = {}", six(motion.death));
             let remedy = "let it last to ENDTIM; in z (DOF = 3), and about y (DOF = 6) where a torque follows, it may end when the disk begins to roll";
             return Err(unsupported(&motion.place, what, remedy));
         }

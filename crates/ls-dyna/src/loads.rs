@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::case_file::six;
 use crate::deck::{Deck, Load, Loaded};
 use crate::error::{DeckError, lacks, second, unknown, unsupported};
 use crate::model::Model;
@@ -82,12 +83,15 @@ pub(crate) fn normal(
             }
         };
         let course = deck.course(load.curve, &load.place)?;
-        if !course.ramps_from(0.0) || course.goes_on || course.changes >= deck.rolls()? {
-            let what = format!(
-                "a load whose curve {} changes until ENDTIM or falls again; {} times SF at ENDTIM",
-                load.curve, course.last
-            );
-            let remedy = "let the load rise before the disk rolls, or as it begins, and stay: a case has one load";
+        let goes_on = course.goes_on || course.changes >= deck.rolls()?;
+        if goes_on || !course.ramps_from(0.0) {
+            let (curve, last) = (load.curve, six(course.last));
+            let what = if goes_on {
+                format!("a load that still changes at ENDTIM, where its curve {curve} is at {last},")
+            } else {
+                format!("a load that falls again, as its curve {curve} does before it is at {last},")
+            };
+            let remedy = "let it rise before the disk rolls, or as it begins, and stay: a case has one load";
             return Err(unsupported(&load.place, what, remedy));
         }
         if course.changes > 0.0 && !course.is_constant() {

@@ -44,7 +44,10 @@ fn a_deck_split_into_files_is_the_same_model() {
     let place = files(&[("decks/main.k", &main), ("decks/more/nodes.k", &nodes)]);
     let together = main.replace("*INCLUDE\nmore/nodes.k\n*END\n", &nodes);
     let alone = files(&[("decks/main.k", &together)]);
-    assert_eq!(read(&place, false).unwrap(), read(&alone, false).unwrap());
+    let [split, alone] = [read(&place, false).unwrap(), read(&alone, false).unwrap()];
+    assert_eq!((split.case, split.mesh, split.notes), (alone.case, alone.mesh, alone.notes));
+    // the card that includes
+    assert_eq!(split.cards.used, alone.cards.used + 1);
 }
 
 #[test]

@@ -50,6 +50,8 @@ pub fn case(document: &Value) -> String {
     for note in document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
         let _ = writeln!(page, "  {note}");
     }
+    let [used, ignored] = ["used", "ignored"].map(|fate| &document["cards"][fate]);
+    let _ = writeln!(page, "  cards: {used} used, {ignored} ignored (docs/ls-dyna.md lists which), none refused");
     let (case, elements) = (word(document, "/case"), &document["elements"]);
     page + &format!("{case}: {elements} elements; creepage run {}\n", sweep::plan::quoted(case))
 }
