@@ -286,7 +286,8 @@ impl Deck {
             return Ok(None);
         };
         if motion.death < self.end()? {
-            let what = format!("a prescribed motion of DOF = {dof} with DEATH = {}", six(motion.death));
+            let what =
+                format!("a prescribed motion of DOF = {dof} with DEATH = {}", six(motion.death));
             let remedy = "let it last to ENDTIM; in z (DOF = 3), and about y (DOF = 6) where a torque follows, it may end when the disk begins to roll";
             return Err(unsupported(&motion.place, what, remedy));
         }

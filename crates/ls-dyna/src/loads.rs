@@ -87,11 +87,16 @@ pub(crate) fn normal(
         if goes_on || !course.ramps_from(0.0) {
             let (curve, last) = (load.curve, six(course.last));
             let what = if goes_on {
-                format!("a load that still changes at ENDTIM, where its curve {curve} is at {last},")
+                format!(
+                    "a load that still changes at ENDTIM, where its curve {curve} is at {last},"
+                )
             } else {
-                format!("a load that falls again, as its curve {curve} does before it is at {last},")
+                format!(
+                    "a load that falls again, as its curve {curve} does before it is at {last},"
+                )
             };
-            let remedy = "let it rise before the disk rolls, or as it begins, and stay: a case has one load";
+            let remedy =
+                "let it rise before the disk rolls, or as it begins, and stay: a case has one load";
             return Err(unsupported(&load.place, what, remedy));
         }
         if course.changes > 0.0 && !course.is_constant() {

@@ -51,7 +51,10 @@ pub fn case(document: &Value) -> String {
         let _ = writeln!(page, "  {note}");
     }
     let [used, ignored] = ["used", "ignored"].map(|fate| &document["cards"][fate]);
-    let _ = writeln!(page, "  cards: {used} used, {ignored} ignored (docs/ls-dyna.md lists which), none refused");
+    let _ = writeln!(
+        page,
+        "  cards: {used} used, {ignored} ignored (docs/ls-dyna.md lists which), none refused"
+    );
     let (case, elements) = (word(document, "/case"), &document["elements"]);
     page + &format!("{case}: {elements} elements; creepage run {}\n", sweep::plan::quoted(case))
 }
