@@ -80,7 +80,6 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
         "No node is under tension.",
         "figure-4-bound",
         "contact-maps",
-        "creepage run case.toml",
         "name=\"viewport\"",
         "What happened",
         "download=\"check.json\"",

@@ -33,8 +33,8 @@ pub(super) struct Fit {
     pub spread: f64,
 }
 
-/// Smallest and largest exponent of the search.
-const EXPONENTS: [f64; 2] = [-3.0, 6.0];
+/// Smallest and largest exponent of the search. What falls with the largest is a step, after which nothing changes.
+pub(super) const EXPONENTS: [f64; 2] = [-3.0, 6.0];
 /// Steps of the search per unit of the exponent.
 const STEPS: f64 = 100.0;
 /// Exponents of 1/v with which springs in series are seen; a noisy 1 lies between them.

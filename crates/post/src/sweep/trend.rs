@@ -1,6 +1,6 @@
 //! Whether a measure converges along an axis, by its last points and their intervals.
 
-use super::fit::{Fit, Form, log_slope};
+use super::fit::{EXPONENTS, Fit, Form, log_slope};
 use crate::digits::digits;
 
 /// A measure at one value of the axis.
@@ -122,8 +122,6 @@ const TURN: f64 = 0.05;
 const SETTLES: f64 = 0.25;
 /// Up to this exponent there is none: each decade adds at least 79 % of what the one before did.
 const GOES_ON: f64 = 0.1;
-/// From this exponent on a trend is a step, after which nothing changes.
-const STEP: f64 = 6.0;
 
 /// The trend of a measure along an axis; `samples` in any order.
 ///
@@ -305,9 +303,10 @@ impl Asymptote {
     /// How what is left falls.
     fn way(&self) -> String {
         match self.exponent {
-            None => "1/v falls in proportion to 1/k, as of bodies and springs in series".into(),
-            Some(q) if q < STEP => format!("what is left falls with the power {}", digits(q, 2)),
-            // the largest exponent of the search: a step, and then no change
+            None => "what is left of 1/v falls as 1/k_t: bodies and springs in series".into(),
+            Some(q) if q < EXPONENTS[1] => {
+                format!("what is left falls with the power {}", digits(q, 2))
+            }
             Some(_) => "after the first step nothing is left".into(),
         }
     }
