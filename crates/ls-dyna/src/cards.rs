@@ -89,8 +89,8 @@ pub(super) fn cards<'a>(
             cards.push(card(name, of_card));
             continue;
         }
-        if begins_late(&text) {
-            let what = format!("`{}`, a keyword that does not begin in column 1,", text.trim());
+        if let Some(keyword) = late_keyword(&text) {
+            let what = format!("`{keyword}`, a keyword that does not begin in column 1,");
             let remedy = "take out what stands before the asterisk: LS-DYNA would read the line as data of the card before";
             return Err(unsupported(&place, what, remedy));
         }
@@ -114,11 +114,11 @@ fn without_mark<'a>(bytes: &'a [u8], first: &Place) -> Result<&'a [u8], DeckErro
     Ok(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))
 }
 
-/// Whether a line is a keyword after blanks, or after characters that look like none.
-fn begins_late(text: &str) -> bool {
-    let shown = text.trim_start_matches(|c: char| !c.is_ascii_graphic());
-    let keyword = shown.strip_prefix('*').map(str::trim_start);
-    keyword.is_some_and(|keyword| keyword.starts_with(|c: char| c.is_ascii_alphabetic()))
+/// The keyword of a line that has blanks, or characters that look like none, in front of it.
+fn late_keyword(text: &str) -> Option<&str> {
+    let shown = text.trim_start_matches(|c: char| !c.is_ascii_graphic()).trim_end();
+    let name = shown.strip_prefix('*')?.trim_start();
+    name.starts_with(|c: char| c.is_ascii_alphabetic()).then_some(shown)
 }
 
 /// The format that `*KEYWORD` gives to all cards after it, if it gives one.
@@ -157,6 +157,21 @@ fn marked(keyword: &str, format: Format) -> (&str, Format) {
     found.unwrap_or((keyword, format))
 }
 
+/// Keywords with one card, to which `_TITLE` or `_ID` adds a line.
+const HEADED: [&str; 11] = [
+    "CONSTRAINED_NODAL_RIGID_BODY",
+    "CONSTRAINED_NODAL_RIGID_BODY_INERTIA",
+    "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
+    "CONTACT_SURFACE_TO_SURFACE",
+    "DEFINE_CURVE",
+    "KEYWORD",
+    "SET_NODE",
+    "SET_NODE_LIST",
+    "SET_PART",
+    "SET_PART_LIST",
+    "SET_SEGMENT",
+];
+
 /// Keywords whose cards repeat under one keyword, each with its own line of `_TITLE` or `_ID`.
 const REPEATED: [&str; 7] = [
     "MAT_ELASTIC",
@@ -179,6 +194,8 @@ impl<'a> Card<'a> {
                 heading = !heading;
                 !heading
             });
+        } else if !HEADED.contains(&bare.as_str()) {
+            return self;
         } else if !self.data.is_empty() {
             self.data.remove(0);
         }

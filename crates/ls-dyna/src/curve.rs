@@ -33,6 +33,8 @@ pub(crate) struct Course {
     values: Vec<f64>,
     /// Its value at the end.
     pub(crate) last: f64,
+    /// Whether it is 0 until the disk rolls.
+    pub(crate) rests_before: bool,
     /// How long it changes; all the time where it changes up to the end.
     pub(crate) changes: f64,
     /// Whether it changes up to the end and beyond.
@@ -82,6 +84,12 @@ impl Curve {
         until.map(|[_, value]| value.abs()).fold(0.0, f64::max)
     }
 
+    /// Whether it is 0 from time 0 to `t`.
+    fn rests_until(&self, t: f64) -> bool {
+        let mut before = self.points.iter().filter(|[at, _]| (0.0..t).contains(at));
+        t <= 0.0 || self.at(t) == 0.0 && before.all(|[_, value]| *value == 0.0)
+    }
+
     /// Its course from `begins` to `end`, times in the units of the deck.
     fn course(&self, begins: f64, end: f64) -> Course {
         let last = self.at(end);
@@ -97,6 +105,7 @@ impl Curve {
         Course {
             values: course.iter().map(|[_, value]| *value).collect(),
             last,
+            rests_before: self.rests_until((1.0 - JUMP) * begins),
             changes: settles - begins,
             goes_on: settles >= end && after != last,
         }

@@ -72,6 +72,11 @@ impl Drive {
         let turn = match (loads::torque(deck)?, deck.turned()?) {
             (Some(load), None) => {
                 let course = deck.course(load.curve, &load.place)?;
+                if !course.rests_before {
+                    let what = "a torque before the disk begins to roll";
+                    let remedy = "let its curve be 0 up to STIME";
+                    return Err(unsupported(&load.place, what, remedy));
+                }
                 let of = Ramp { place: &load.place, curve: load.curve, factor: load.factor };
                 ramps.push(of.duration(&course, 0.0, units, notes)?);
                 let unit = model.alike() * units.force() * units.length();
@@ -215,7 +220,10 @@ fn about_the_axle(
     // where the disk begins to roll late, the hub was pressed down before
     let pressed = deck.pressed() * units.length();
     if off > SAME * shape.radius + pressed {
-        let [axle_x, axle_z] = shape.axle.map(|x| x / units.length());
+        // a circle through nodes is as near as their digits
+        let near_zero = |x: f64| x.abs() < 1e-6 * shape.radius;
+        let [axle_x, axle_z] =
+            shape.axle.map(|x| if near_zero(x) { 0.0 } else { x / units.length() });
         let [x, _, z] = turn.centre;
         let what = format!(
             "*INITIAL_VELOCITY_GENERATION about an axis at XC = {x}, ZC = {z}, off the axle at {}, {},",
@@ -291,7 +299,13 @@ impl Deck {
             let remedy = "let it last to ENDTIM; in z (DOF = 3), and about y (DOF = 6) where a torque follows, it may end when the disk begins to roll";
             return Err(unsupported(&motion.place, what, remedy));
         }
-        Ok(Some((motion, self.course(motion.curve, &motion.place)?)))
+        let course = self.course(motion.curve, &motion.place)?;
+        if dof != 3 && !course.rests_before {
+            let what = format!("a prescribed motion of DOF = {dof} before the disk begins to roll");
+            let remedy = "let its curve be 0 up to STIME: the disk is pressed down at rest";
+            return Err(unsupported(&motion.place, what, remedy));
+        }
+        Ok(Some((motion, course)))
     }
 
     /// The prescribed turn about the axle while the disk rolls; none where it ends before and a torque takes its place.

@@ -130,8 +130,13 @@ impl Deck {
             "INITIAL_VELOCITY" => self.initial_velocity(card)?,
             "INITIAL_VELOCITY_GENERATION" => self.generated_velocity(card)?,
             "INITIAL_VELOCITY_GENERATION_START_TIME" => {
-                [self.begins] = card.line(0)?.take(&START_TIME)?;
+                let line = card.line(0)?;
+                [self.begins] = line.take(&START_TIME)?;
                 card.ends_after(1)?;
+                if self.begins < 0.0 {
+                    let what = format!("*{} with STIME = {}", card.name, self.begins);
+                    return Err(unsupported(&line.place(), what, "give a time from 0 on"));
+                }
             }
             "DAMPING_GLOBAL" => {
                 let [curve] = card.line(0)?.take(&GLOBAL_DAMPING)?.map(|id| id as u64);

@@ -58,6 +58,43 @@ fn a_case_that_was_exported_and_imported_runs() {
 }
 
 #[test]
+fn import_tells_how_many_cards_were_used_and_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/small.k");
+    let deck = deck.display().to_string();
+    let out = |name: &str| folder.path().join(name).display().to_string();
+    let args = ["import-k", &deck, "--unit", "mm-ton-s", "--out"];
+    let read = done(&[&args[..], &[&out("a"), "--json"]].concat());
+    assert_eq!(read["cards"], serde_json::json!({ "used": 21, "ignored": 2, "refused": 0 }));
+    let page = creepage(&[&args[..], &[&out("b")]].concat()).stdout;
+    let page = String::from_utf8_lossy(&page).into_owned();
+    assert!(page.contains("cards: 21 used, 2 ignored"), "{page}");
+}
+
+#[test]
+fn units_of_another_deck_are_refused_in_one_message_that_names_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/small.k");
+    let deck = deck.display().to_string();
+    let out = folder.path().join("small").display().to_string();
+    let output = creepage(&["import-k", &deck, "--unit", "m-kg-s", "--out", &out]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("--unit m-kg-s") && said.contains("give --unit mm-ton-s"), "{said}");
+    assert!(!said.contains("case.toml"), "{said}");
+    assert!(!Path::new(&out).exists(), "nothing is written");
+}
+
+#[test]
+fn cards_that_are_refused_are_told_together_with_their_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = folder.path().join("bad.k").display().to_string();
+    fs::write(&deck, "*KEYWORD\n*MAT_RIGID\n1\n*CONTROL_TERMINATION\n1.0,0,0.5\n*END\n").unwrap();
+    let words = ["bad.k:2", "first of 2 cards", "bad.k:5", "DTMIN = 0.5", "leave the field blank"];
+    refused(&["import-k", &deck, "--unit", "mm-ton-s"], &words);
+}
+
+#[test]
 fn a_case_that_keyword_files_cannot_say_ends_with_the_reasons() {
     let folder = tempfile::tempdir().unwrap();
     let deck = folder.path().join("small.k").display().to_string();
