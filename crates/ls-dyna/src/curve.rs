@@ -1,6 +1,7 @@
 //! Curves over time, and what of them a case can say: its values do not depend on time but for one ramp.
 
 use crate::cards::Card;
+use crate::case_file::six;
 use crate::deck::Deck;
 use crate::error::{DeckError, Place, lacks, syntax, unknown, unsupported};
 use crate::fields::{Layout, number, real, real_or, zero};
@@ -130,8 +131,10 @@ impl Deck {
             let [a, o] = line.take(&POINT)?;
             let point = [sfa * (a + offa), sfo * (o + offo)];
             if points.last().is_some_and(|[before, _]| *before > point[0]) {
-                let what =
-                    format!("the time {} of a curve is before that of its last point", point[0]);
+                let what = format!(
+                    "the time {} of a curve is before that of its last point",
+                    six(point[0])
+                );
                 return Err(syntax(&line.place(), what));
             }
             points.push(point);
@@ -165,8 +168,12 @@ impl Deck {
         let (begins, end) = (self.begins, self.end()?);
         let times = [curve.points.first(), curve.points.last()].map(|p| p.map_or(0.0, |p| p[0]));
         if times[0] > begins || times[1] < end {
-            let what =
-                format!("curve {}, whose points end outside {begins} to ENDTIM = {end},", curve.id);
+            let what = format!(
+                "curve {}, whose points do not reach from {} to ENDTIM = {},",
+                curve.id,
+                six(begins),
+                six(end)
+            );
             let remedy =
                 "give it a first point at the start of rolling and a last one at ENDTIM or later";
             return Err(unsupported(&curve.place, what, remedy));

@@ -114,3 +114,26 @@ pub(super) fn refusal(card: &Card) -> DeckError {
     );
     unsupported(&card.place, format!("*{}", card.name), remedy)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_document_lists_all_cards_that_are_ignored_and_no_others() {
+        let document = include_str!("../../../docs/ls-dyna.md");
+        let (_, list) = document.split_once("### Cards that are ignored").unwrap();
+        let (list, _) = list.split_once("The same holds").unwrap();
+        let mut listed: Vec<_> =
+            list.split('`').filter_map(|word| word.strip_prefix('*')).collect();
+        listed.sort_unstable();
+        let mut ignored: Vec<_> = IGNORED
+            .iter()
+            .map(
+                |(name, _)| if name.ends_with('_') { format!("{name}...") } else { (*name).into() },
+            )
+            .collect();
+        ignored.sort_unstable();
+        assert_eq!(listed, ignored);
+    }
+}

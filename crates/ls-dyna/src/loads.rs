@@ -1,6 +1,8 @@
 //! What presses and turns the hub: forces in z, and a torque about the axle.
 
-use std::collections::HashMap;
+use std::collections::BTreeSet;
+
+use mesh::import::Foreign;
 
 use crate::case_file::six;
 use crate::deck::{Deck, Load, Loaded};
@@ -54,15 +56,15 @@ pub(crate) fn torque(deck: &Deck) -> Result<Option<&Load>, DeckError> {
 /// curves at the end; loads that reach it while the disk rolls go into `notes`.
 ///
 /// # Errors
-/// A load that does not press down, falls again, or changes up to the end; nodes that are not the disk's.
+/// A load that does not press down, falls again, or changes up to the end; nodes that are not the hub's.
 pub(crate) fn normal(
     deck: &Deck,
     model: &Model,
     units: Units,
     notes: &mut Vec<String>,
 ) -> Result<f64, DeckError> {
-    let places: HashMap<u64, u32> =
-        model.foreign.nodes.ids.iter().zip(0..).map(|(id, place)| (*id, place)).collect();
+    let Foreign { nodes, sets, .. } = &model.foreign;
+    let hub: BTreeSet<u64> = sets["hub"].nodes.iter().map(|n| nodes.ids[*n as usize]).collect();
     let mut sum = 0.0;
     for load in deck.loads.iter().filter(|load| load.dof == 3) {
         let nodes = match &load.on {
@@ -75,9 +77,8 @@ pub(crate) fn normal(
                     Some(set) => set.clone(),
                     None => return Err(unknown(format!("node set {}", target.id))),
                 };
-                let on_disk = |id: &u64| places.get(id).is_some_and(|n| model.nodes[0].contains(n));
-                if let Some(id) = nodes.iter().find(|id| !on_disk(id)) {
-                    return Err(unknown(format!("node {id}, which is none of the disk's")));
+                if let Some(id) = nodes.iter().find(|id| !hub.contains(id)) {
+                    return Err(unknown(format!("node {id} of the hub")));
                 }
                 nodes.len()
             }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use case::Case;
-use case::schema::Stiffness;
+use case::schema::{LoadMode, Stiffness};
 use ls_dyna::{DeckError, Fault, Source, Translation, Units, translate};
 
 /// The small model of `meshes/`: a disk of radius 100 mm on a bar, 2000 N, 16 m/s, until 2.5e-4 s.
@@ -129,9 +129,12 @@ fn curves_that_a_case_cannot_say_are_refused() {
         ),
         (load("0.0,0.0\n2.5e-4,1.0\n1.0,1.0\n"), "a load that still changes at ENDTIM"),
         (load("0.0,1.0\n1.0e-4,0.5\n1.0,0.5\n"), "a load that falls again"),
-        (load("0.0,1.0\n2.0e-4,1.0\n"), "curve 1, whose points end outside 0 to ENDTIM = 0.00025"),
-        (load("1.0e-4,1.0\n1.0,1.0\n"), "curve 1, whose points end outside"),
-        (load("0.0,1.0\n3.0e-4,1.0\n2.0e-4,1.0\n"), "the time 0.0002 of a curve is before"),
+        (
+            load("0.0,1.0\n2.0e-4,1.0\n"),
+            "curve 1, whose points do not reach from 0 to ENDTIM = 2.5e-4",
+        ),
+        (load("1.0e-4,1.0\n1.0,1.0\n"), "curve 1, whose points do not reach"),
+        (load("0.0,1.0\n3.0e-4,1.0\n2.0e-4,1.0\n"), "the time 2e-4 of a curve is before"),
         (fast(&[[0.0, 0.0], [1e-4, 16e3], [1.0, 16e3]]), "changes to 16000 while the disk rolls"),
         (fast(&[[0.0, 32e3], [1.0, 32e3]]), "of 32000 beside an initial velocity VX = 16000"),
         (moved(6, &[[0.0, 0.0], [1e-4, 160.0], [1.0, 160.0]]), "does not go from 160.32 to 160"),
@@ -144,6 +147,31 @@ fn curves_that_a_case_cannot_say_are_refused() {
         let error = refused(&deck, words);
         assert!(error.place.is_some(), "{words}");
     }
+}
+
+#[test]
+fn a_load_that_rises_while_the_disk_rolls_is_noted() {
+    let notes = import(&changed(LOAD_POINTS, "0.0,0.0\n1.0e-4,1.0\n1.0,1.0\n")).unwrap().notes;
+    assert!(
+        notes.iter().any(|note| note.contains("the load of curve 1 rises for 1.000e-4 s")),
+        "{notes:?}"
+    );
+    let nodes = changed("         1         3         1 -13", "         2         3         1 -13");
+    refused(&nodes, "of the hub, which does not exist");
+}
+
+#[test]
+fn a_motion_that_ends_hands_over_to_a_load_or_is_refused() {
+    let turn = "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n3,6,0,1,160.32,0,";
+    let torque = "\n*LOAD_RIGID_BODY\n3,6,1,5.0";
+    refused(&with(&format!("{turn}1.0e-4")), "DOF = 6 with DEATH = 1e-4");
+    refused(&with(&format!("{turn}1.0e-4{torque}")), "DOF = 6 with DEATH = 1e-4");
+    refused(&with(&format!("{turn}0{torque}")), "a torque on a hub whose turn is prescribed");
+    refused(&with(&format!("{torque}{torque}")), "a second torque");
+    let depth = "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n3,3,2,1,-0.01,0,";
+    refused(&with(&format!("{depth}1.0e-4")), "DOF = 3 with DEATH = 1e-4");
+    let held = case(&with(&format!("{depth}1.0")));
+    assert_eq!(held.load.mode, LoadMode::Height);
 }
 
 #[test]

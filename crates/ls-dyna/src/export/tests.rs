@@ -188,6 +188,12 @@ fn torque_lateral_creepage_and_the_mass_of_the_hub_come_back() {
     let there = There::new(case, "mm-ton-s");
     let found = read(&there.back("mm-ton-s"));
     near("torque", found.drive.torque.unwrap(), 120.0);
+    // a torque turns the hub by its moment of inertia about the axle, the fourth of its line
+    let mut lines: Vec<String> = there.deck.lines().map(str::to_owned).collect();
+    let moments = 1 + lines.iter().position(|line| line.contains("IYY")).unwrap();
+    lines[moments].replace_range(30..40, "       1.0");
+    let error = translated(&lines.join("\n"), "mm-ton-s").unwrap_err();
+    assert!(error.to_string().contains("a hub with IYY = "), "{error}");
     assert_eq!(found.mesh.symmetry, Symmetry::Half);
 }
 
