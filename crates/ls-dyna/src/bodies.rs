@@ -177,9 +177,13 @@ impl Deck {
     /// Pairs of a heading line and a data line.
     fn part(&mut self, card: &Card) -> Result<(), DeckError> {
         let mut lines = card.all_lines();
-        while lines.next().is_some() {
-            let missing = || syntax(&card.place, "*PART needs a heading and a card");
-            let line = lines.next().ok_or_else(missing)?;
+        while let Some(heading) = lines.next() {
+            let line = match lines.next() {
+                Some(line) => line,
+                // a blank line at the end
+                None if heading.text.trim().is_empty() => break,
+                None => return Err(syntax(&card.place, "*PART needs a heading and a card")),
+            };
             let [id, section, material, hourglass] = line.take(&PART)?.map(|id| id as u64);
             self.first("part", id, &line.place())?;
             self.parts.insert(id, Part { section, material, hourglass, place: line.place() });

@@ -321,21 +321,21 @@ impl<'a> Line<'a> {
                 Err(syntax(&self.place(), what))
             }
         };
-        let refused = |value: String, allowed: String| {
-            let (card, field) = (self.card.name.clone(), field.name);
-            Err(Fault::Field { card, field, value, allowed }.at(&self.place()))
+        let refused = |value: &str, allowed: String| {
+            let what = format!("{} with {} = {value}", self.card.name, field.name);
+            Err(Fault::Field { what, allowed }.at(&self.place()))
         };
         match field.role {
             Role::Idle => Ok(None),
             Role::Rests(_) | Role::Says(_) if word.is_empty() => Ok(None),
             Role::Says(words) if words.contains(&&*word.to_uppercase()) => Ok(None),
-            Role::Says(words) => refused(word.into(), words.join(" or ")),
+            Role::Says(words) => refused(word, words.join(" or ")),
             Role::Rests(defaults) => match number(word)? {
                 x if x == 0.0 || defaults.contains(&x) => Ok(None),
                 x => {
                     let allowed: Vec<_> =
                         [0.0].iter().chain(defaults).map(|x| case::key::number(*x)).collect();
-                    refused(case::key::number(x), allowed.join(" or "))
+                    refused(&case::key::number(x), allowed.join(" or "))
                 }
             },
             Role::Taken(kind) => Ok(Some(match (kind, word) {

@@ -53,14 +53,10 @@ pub enum Fault {
         remedy: &'static str,
     },
     /// A field without a place in a case that is neither blank nor at its default.
-    #[error("*{card} with {field} = {value} is not read")]
+    #[error("*{what} is not read")]
     Field {
-        /// The keyword.
-        card: String,
-        /// The name of the field.
-        field: &'static str,
-        /// What it holds.
-        value: String,
+        /// The keyword, the name of the field and what it holds.
+        what: String,
         /// What it may hold.
         allowed: String,
     },
@@ -109,12 +105,10 @@ pub enum Fault {
         shown: String,
     },
     /// Numbers that make no disk on a bar in the units that were given, but do in others.
-    #[error("--unit {given} is not that of the deck: {shown}")]
+    #[error("--unit {what}")]
     Unit {
-        /// The units that were given.
-        given: String,
-        /// What in the deck shows it.
-        shown: String,
+        /// The units that were given, and what in the deck shows that they are not its own.
+        what: String,
         /// The units that fit, with what the numbers are in them.
         fitting: String,
     },

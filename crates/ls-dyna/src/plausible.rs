@@ -46,7 +46,8 @@ impl Numbers {
             return Ok(());
         }
         let fitting = fitting[..fitting.len().min(3)].join(", or ");
-        Err(DeckError::of(Fault::Unit { given: given.name(), shown, fitting }))
+        let what = format!("{} is not that of the deck: {shown}", given.name());
+        Err(DeckError::of(Fault::Unit { what, fitting }))
     }
 
     /// What no disk on a bar has in these units.

@@ -59,7 +59,8 @@ impl Deck {
             return Ok(());
         }
         let fitting = format!("{length}-{mass}-{time}");
-        let shown = format!("its *CONTROL_UNITS names {fitting}");
-        Err(Fault::Unit { given: units.name(), shown, fitting }.at(place))
+        let given = units.name();
+        let what = format!("{given} is not that of the deck: its *CONTROL_UNITS names {fitting}");
+        Err(Fault::Unit { what, fitting }.at(place))
     }
 }
