@@ -418,3 +418,8 @@ pub(super) fn number(word: &str, parameters: &Parameters) -> Result<f64, Fault> 
     let value = number.parse().ok().filter(|x: &f64| x.is_finite());
     value.ok_or_else(|| Fault::Syntax { what: format!("a number is expected, found `{word}`") })
 }
+
+/// A number as text, of six significant digits at most.
+pub(crate) fn six(x: f64) -> String {
+    case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
+}

@@ -1,5 +1,6 @@
 //! What the cards say of materials, load, motion and contact, and the case file with it.
 
+use crate::cards::six;
 use crate::deck::{Contact, Deck, Material};
 use crate::drive::{Drive, Turn};
 use crate::error::{DeckError, lacks, unknown, unsupported};
@@ -464,9 +465,4 @@ fn write_elements(t: &mut String, settings: &Settings) {
             }
         }
     }
-}
-
-/// A number of six significant digits at most.
-pub(crate) fn six(x: f64) -> String {
-    case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
 }

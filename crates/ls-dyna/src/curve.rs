@@ -1,7 +1,7 @@
 //! Curves over time, and what of them a case can say: its values do not depend on time but for one ramp.
 
 use crate::cards::Card;
-use crate::case_file::six;
+use crate::cards::six;
 use crate::deck::Deck;
 use crate::error::{DeckError, Place, lacks, syntax, unknown, unsupported};
 use crate::fields::{Layout, number, real, real_or, zero};

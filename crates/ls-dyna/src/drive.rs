@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::case_file::six;
+use crate::cards::six;
 use crate::curve::Course;
 use crate::deck::{Deck, Initial, Turning};
 use crate::error::{DeckError, Place, lacks, unknown, unsupported};

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use mesh::import::Foreign;
 
-use crate::case_file::six;
+use crate::cards::six;
 use crate::deck::{Deck, Load, Loaded};
 use crate::error::{DeckError, lacks, second, unknown, unsupported};
 use crate::model::Model;

@@ -2,7 +2,7 @@
 //!
 //! Source of the ranges: Ashby (2011), "Materials Selection in Mechanical Design", chart of Young's modulus over density.
 
-use crate::case_file::six;
+use crate::cards::six;
 use crate::error::{DeckError, Fault};
 use crate::units::Units;
 
