@@ -149,8 +149,14 @@ fn hub_mass(
     }
     let all = model.alike() * inertia.mass * units.mass();
     let [nodes, of_nodes] = model.lumped("hub", density, shape.radius);
-    // the rest is what the file's digits leave
-    let own = if all - nodes > 1e-5 * all { all - nodes } else { 0.0 };
+    // what is left is of the file's digits
+    let own = if (all - nodes).abs() > 1e-5 * all { all - nodes } else { 0.0 };
+    if own < 0.0 {
+        let what =
+            format!("a hub with TM of {} kg, below the {} kg of its nodes,", six(all), six(nodes));
+        let remedy = "give TM with the mass of the nodes: a half of it where the model is a half";
+        return Err(unsupported(&inertia.place, what, remedy));
+    }
     let moment = model.alike() * inertia.moment * units.mass() * units.length().powi(2);
     let expected = of_nodes + 0.5 * own * shape.hub_radius.powi(2);
     if matches!(drive.turn, Turn::Torque(_)) && (moment - expected).abs() > ALIKE * expected {
@@ -194,6 +200,15 @@ impl Damping {
         };
         let of_part = |part: &u64| cards.stiffness.get(part).map(|(coefficient, _)| *coefficient);
         let parts: BTreeSet<_> = model.parts.iter().flatten().copied().collect();
+        if let Some((part, (_, at))) =
+            cards.stiffness.iter().find(|(part, _)| !parts.contains(part))
+        {
+            return Err(unknown(
+                at,
+                "*DAMPING_PART_STIFFNESS",
+                format!("part {part} of disk and bar"),
+            ));
+        }
         if let Some(part) = parts.iter().find(|part| of_part(part) != Some(*coefficient)) {
             let what = format!("*DAMPING_PART_STIFFNESS of part {first} that part {part} lacks");
             let remedy = "give all parts of both bodies the same COEF: a case has one";

@@ -170,6 +170,12 @@ fn torque_lateral_creepage_and_the_mass_of_the_hub_come_back() {
     same_mesh(&there.model, &read_abaqus(made.mesh.as_bytes()).unwrap());
     let found = read(&made);
     near("mass", found.load.hub_mass, 35.0);
+    // TM is the fourth of its line, in tons
+    let mut lines: Vec<String> = there.deck.lines().map(str::to_owned).collect();
+    let mass = 1 + lines.iter().position(|line| line.contains(" TM")).unwrap();
+    lines[mass].replace_range(30..40, "    1.0e-6");
+    let error = translated(&lines.join("\n"), "mm-ton-s").unwrap_err();
+    assert!(error.to_string().contains("below the"), "{error}");
     near("lateral", found.drive.lateral_creepage, 1e-3);
 
     let text = std::fs::read_to_string(
