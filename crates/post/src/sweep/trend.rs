@@ -118,6 +118,8 @@ const REACHED: f64 = 0.05;
 const MISSED: f64 = 0.15;
 /// A step against the overall direction counts as a turn where it exceeds this share of the range.
 const TURN: f64 = 0.05;
+/// Most decimal places of a limit.
+const PLACES: f64 = 6.0;
 /// From this exponent on there is a limit: each decade of refinement leaves at most 56 % of the distance to it.
 const SETTLES: f64 = 0.25;
 /// Up to this exponent there is none: each decade adds at least 79 % of what the one before did.
@@ -217,7 +219,10 @@ fn fitted(points: &[Sample], refinement: Refinement) -> Option<Trend> {
         Refinement::Springs => &[Form::Series, Form::Power][..],
         Refinement::Upwards | Refinement::TowardsZero => &[Form::Power],
     };
-    let holds = |fit: &Fit| fit.residual <= (MISSED * fit.spread).max(0.5 * width(points));
+    // the steepest fit to three points is that to a step: the two after it say nothing
+    let checked = |fit: &Fit| points.len() > 3 || fit.exponent < EXPONENTS[1];
+    let holds =
+        |fit: &Fit| fit.residual <= (MISSED * fit.spread).max(0.5 * width(points)) && checked(fit);
     let of = |form: &Form| Some((*form, form.fit(points).filter(holds)?));
     let (form, fit) = forms.iter().find_map(of)?;
     Some(match form {
@@ -287,17 +292,26 @@ fn untold(points: &[Sample]) -> Trend {
         let share = digits(100.0 * turn / range, 2);
         format!("the measure turns back on its way, by {share} % of its range")
     } else {
-        "the last points follow no trend that has a limit or has none".into()
+        "the last points follow no such trend".into()
     };
     Trend::Unclear { reason }
 }
 
 impl Asymptote {
-    /// "v ± half", with the unit.
+    /// "v ± half" to two digits of the half, with the unit.
     fn text(&self, unit: &str) -> String {
-        format!("{} \u{b1} {} {unit}", digits(self.value, 4), digits(self.half, 2))
-            .trim_end()
-            .into()
+        if !self.half.is_finite() {
+            return format!("{} {unit}", digits(self.value, 4)).trim_end().to_owned() + ", or none";
+        }
+        let decimals = 1.0 - libm::floor(libm::log10(self.half));
+        let text = if (0.0..=PLACES).contains(&decimals) {
+            let fixed =
+                |value: f64| format!("{value:.*}", decimals as usize).replace('-', "\u{2212}");
+            format!("{} \u{b1} {} {unit}", fixed(self.value), fixed(self.half))
+        } else {
+            format!("{} \u{b1} {} {unit}", digits(self.value, 4), digits(self.half, 2))
+        };
+        text.trim_end().into()
     }
 
     /// How what is left falls.
@@ -520,6 +534,16 @@ mod tests {
     }
 
     #[test]
+    fn a_limit_is_told_to_two_digits_of_its_uncertainty() {
+        let text = |value, half| {
+            Asymptote { value, half, left: 0.0, exponent: None, points: 4 }.text("MPa")
+        };
+        assert_eq!(text(0.198_037, 9.7e-4), "0.19804 \u{b1} 0.00097 MPa");
+        assert_eq!(text(-292.84, 12.3), "\u{2212}293 \u{b1} 12 MPa");
+        assert_eq!(text(292.84, f64::INFINITY), "292.8 MPa, or none");
+    }
+
+    #[test]
     fn the_deviation_over_records_hides_no_series() {
         // T/N of the tutorial: every run has the same transient in its window, of 0.015
         let mut points = measured(&[0.1, 0.3, 1.0, 3.0], &[0.1484, 0.1776, 0.1910, 0.1960], None);
@@ -597,6 +621,11 @@ mod tests {
         assert!(matches!(found, Trend::Flat { points: 5, .. }), "{found:?}");
         let found = upwards(&measured(&DECADES, &[1.0, 3.0, 0.5, 2.5, 1.0], None));
         assert_eq!(found.word(), "cannot be told");
+        // a step: two points that agree are no plateau
+        for step in [&[2.1, 3.21, 3.18][..], &[1.0, 2.1, 3.21, 3.18]] {
+            let found = upwards(&measured(&DECADES, step, None));
+            assert_eq!(found.verdict(), Verdict::CannotBeTold, "{found:?}");
+        }
         // random values whose last three happen to come closer to one another
         let found = upwards(&measured(&DECADES, &[1.2, 0.7, 1.1, 1.0, 0.97], None));
         assert_eq!(found.word(), "cannot be told", "{found:?}");
