@@ -4,7 +4,8 @@
 //! rest at their default, unless they have no effect on a case: a field that nobody reads cannot hold anything
 //! unnoticed.
 //!
-//! Source of names, columns and defaults: LS-DYNA Keyword User's Manual, vol. I and II (R13 and later).
+//! Source of names, columns and defaults: LS-DYNA Keyword User's Manual, vol. I and II, and the keyword classes of
+//! PyDYNA, which are made of it.
 
 /// A field of a data line.
 #[derive(Clone, Copy, Debug)]
