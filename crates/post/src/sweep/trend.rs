@@ -134,8 +134,8 @@ const GOES_ON: f64 = 0.1;
 /// 1. *Flat*: the range is below `FLAT` of the largest, `REACHED` where the points turn, or below the mean width of the intervals, and that
 ///    width below `REACHED` of it. *Hidden*: otherwise, where the range is below that width.
 /// 2. Points that turn back by more than `TURN` of their range, and by more than that width, follow no trend.
-/// 3. Otherwise a form must hold: 1/v = 1/v_inf + c/r for springs ([`Form::Series`]), or else v = v_inf + c r^-q
-///    ([`Form::Power`]), within `MISSED` of the deviation of the values or within their intervals.
+/// 3. Otherwise a form must hold: 1/v = 1/v_inf + c/r for springs (`Form::Series`), or else v = v_inf + c r^-q
+///    (`Form::Power`), within `MISSED` of the deviation of the values or within their intervals.
 /// 4. q <= `GOES_ON`: no limit. q < `SETTLES`: no verdict. The limit is zero where |v| falls and |v_inf| is below
 ///    `REACHED` of the range or has the other sign than the last value. Otherwise it is *reached* where the last point
 ///    is within `REACHED` of it and its interval, too; it is not where the last point is farther away, and
