@@ -105,7 +105,9 @@ fn wrong_names_and_values_are_refused_with_the_names_that_exist() {
     let own = folder.path().join("contact.vtkhdf");
     refused(&["check", run, "--map", text(&own)], &["file of the run itself"]);
     refused(&["check", run, "--pairing", "both"], &["stricter, before, after"]);
-    refused(&["check", "nowhere"], &["contact.vtkhdf", "folder of a run"]);
+    refused(&["check", "nowhere"], &["nowhere", "no such file or folder"]);
+    let empty = tempfile::tempdir().unwrap();
+    refused(&["check", text(empty.path())], &["contact.vtkhdf", "folder of a run"]);
 }
 
 #[test]
