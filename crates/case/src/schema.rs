@@ -273,6 +273,11 @@ section! {
         /// Correct gap and normal with the exact cylinder and crown instead of the facets
         /// (true or false). Default true.
         curvature: bool = true => FLAG.finite_elements_only();
+        /// The normal along which a node meets a face: `"averaged"`, interpolated between means over the faces around
+        /// each corner, or `"face"`, that of the face alone (Benson and Hallquist 1990), which pushes the disk along
+        /// without friction by the order of h/(4R) of the load at faces of size h; without meaning for
+        /// `rows = "mortar"`. Default `"averaged"`.
+        normals: Normals = Normals::Averaged => word(Normals::WORDS).finite_elements_only();
         /// The penalty springs; without meaning for `enforcement = "exact"`.
         penalty: Penalty;
     }
@@ -297,6 +302,17 @@ words! {
         NodeToFace = "node_to_face",
         /// A slave node and the mean over the faces near it, by dual mortar functions.
         Mortar = "mortar",
+    }
+}
+
+words! {
+    /// The normals of contact.
+    Normals {
+        /// Averaged at nodes, interpolated between them.
+        #[default]
+        Averaged = "averaged",
+        /// Of the face alone.
+        Face = "face",
     }
 }
 

@@ -20,9 +20,10 @@ pub use implicit::{Corrected, Matrix3};
 
 use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
-use crate::face::{EDGE, Positions};
+use crate::face::{EDGE, Positions, shape};
 use crate::mortar::{Mean, Mortar};
 use crate::nodal::NodalContact;
+use crate::nodal_normals::{NodalNormals, Normals};
 use crate::penalty::{check_common, in_range};
 use crate::point::{State, WATCHED, finer, follow_first, sleep};
 use crate::renumber::{Renumbered, Renumbering};
@@ -57,6 +58,8 @@ pub struct ExactSettings {
     pub curvature: bool,
     /// What the slaves meet.
     pub rows: Rows,
+    /// The normal along which they meet a face.
+    pub normals: Normals,
 }
 
 /// The side whose nodes are slaves.
@@ -87,6 +90,8 @@ pub struct ExactContact {
     /// Whether the search was refreshed in the last step.
     searched: bool,
     curvature: bool,
+    /// Averaged normals of the master, unless slaves meet faces along theirs.
+    normals: Option<NodalNormals>,
     /// Integration of mortar constraints, and the mean that each slave follows.
     mortar: Option<(Mortar, Vec<Mean>)>,
     /// Constraints that may carry force in this step, and their legs.
@@ -125,11 +130,13 @@ impl ExactContact {
         let slave = slave_side(settings, &sides)?;
         let zeros = |side: usize| sides[side].len();
         let mortar = || {
-            let own = &sides[slave];
-            let means = vec![Mean::default(); own.len()];
-            (Mortar::new(own, settings.curvature), means)
+            let means = vec![Mean::default(); sides[slave].len()];
+            (Mortar::new(settings.curvature), means)
         };
+        let averaged = settings.rows == Rows::NodeToFace && settings.normals == Normals::Averaged;
+        let normals = || NodalNormals::new(&sides[1 - slave], settings.curvature);
         Ok(Self {
+            normals: averaged.then(normals),
             mortar: (settings.rows == Rows::Mortar).then(mortar),
             search: Search::new(&sides),
             searched: false,
@@ -203,13 +210,24 @@ impl ExactContact {
         let master = &self.sides[1 - self.slave];
         let followed = constraint.project(master, positions, self.curvature, x);
         let projection = followed.projection?;
+        let mut old = followed.old;
+        if constraint.is_closed()
+            && let Some(normals) = &mut self.normals
+        {
+            let weights = shape(constraint.xi, constraint.eta);
+            old.normal = normals.at(master, positions, constraint.face, &weights);
+        }
         constraint.move_to(&projection);
         let [xi, eta] = within(&projection);
         let shares = face_shares(&master.faces[projection.face as usize], xi, eta);
         let master_point = MasterPoint::under(x, &shares, master, positions);
-        let (normal, on_plane) = (projection.point.normal, master.is_on_plane(x));
+        let normal = match &mut self.normals {
+            Some(normals) => normals.at(master, positions, projection.face, &shape(xi, eta)),
+            None => projection.point.normal,
+        };
+        let on_plane = master.is_on_plane(x);
         constraint.set_up(&shares, &master_point, normal, x, on_plane, &mut self.legs);
-        Some(frame(followed.old.tangent, followed.old.normal))
+        Some(frame(old.tangent, old.normal))
     }
 
     /// The same over the mean of a mortar constraint, which is integrated where there is none yet or the slave has
@@ -593,6 +611,7 @@ impl Contact for ExactContact {
         self.active.clear();
         self.legs.clear();
         self.integrated = 0;
+        self.normals.iter_mut().for_each(NodalNormals::expire);
         for (i, constraint) in constraints.iter_mut().enumerate() {
             if self.update_kinematics(constraint, &positions, motion) {
                 self.active.push(i as u32);

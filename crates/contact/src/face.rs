@@ -202,20 +202,17 @@ impl<'a> FaceGeometry<'a> {
     }
 }
 
-/// Normals of a face at its corners, of the exact surface where it has one.
-pub(crate) fn corner_normals(
+/// The normal of a face at one of its corners, of the exact surface where it has one.
+pub(crate) fn corner_normal(
     surface: &ContactSurface,
     face: u32,
+    corner: u8,
     positions: &Positions<'_>,
     curvature: bool,
-) -> [Vec3; 4] {
-    let geometry = FaceGeometry::new(surface, face, positions, curvature);
-    let mut normals = [[0.0; 3]; 4];
-    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    for (normal, [xi, eta]) in normals.iter_mut().zip(corners) {
-        *normal = geometry.at(xi, eta).normal;
-    }
-    normals
+) -> Vec3 {
+    const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let [xi, eta] = CORNERS[usize::from(corner)];
+    FaceGeometry::new(surface, face, positions, curvature).at(xi, eta).normal
 }
 
 /// A point of the master surface followed through one step: where the projection of the last step is

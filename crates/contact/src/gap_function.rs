@@ -2,12 +2,11 @@
 
 use crate::constraint::{Rows, Share, within};
 use crate::exact::slave_side;
-use crate::face::{Positions, corner_normals, project, shape};
+use crate::face::{Positions, project, shape};
 use crate::mortar::{Mean, Mortar};
+use crate::nodal_normals::NodalNormals;
 use crate::search::{Listed, Search};
 use crate::surface::ContactSurface;
-use crate::symmetry::in_plane;
-use crate::vector::{add, axpy, norm, scale};
 use crate::{BodyMaterial, ContactError, ExactSettings, Gap, Trace};
 use mesh::{Mesh, Padded, Surface};
 
@@ -40,6 +39,8 @@ pub struct GapFunction {
     slave: usize,
     rows: Rows,
     curvature: bool,
+    /// Of the master.
+    normals: NodalNormals,
     search: Search,
     /// The nodes of each side near the other.
     points: [Vec<Near>; 2],
@@ -57,8 +58,10 @@ impl GapFunction {
         settings: &ExactSettings,
     ) -> Result<Self, ContactError> {
         let (trace, sides) = ContactSurface::both(mesh, surfaces)?;
+        let slave = slave_side(settings, &sides)?;
         Ok(Self {
-            slave: slave_side(settings, &sides)?,
+            slave,
+            normals: NodalNormals::new(&sides[1 - slave], settings.curvature),
             rows: settings.rows,
             curvature: settings.curvature,
             search: Search::new(&sides),
@@ -84,32 +87,32 @@ impl GapFunction {
         }
     }
 
-    fn over_faces(&self, positions: &Positions<'_>, gaps: &mut Vec<Gap>) {
+    fn over_faces(&mut self, positions: &Positions<'_>, gaps: &mut Vec<Gap>) {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
-        let mut faces = Vec::new();
+        self.normals.expire();
         for point in &self.points[self.slave] {
             let x = positions.at(own.node(point.slave));
             let walk = project(master, positions, self.curvature, x, point.face, 0.0, 0.0);
             let Some(projection) = walk.projection else { continue };
-            faces.push(projection.face);
             let [xi, eta] = within(&projection);
+            let weights = shape(xi, eta);
             let corners = master.faces[projection.face as usize].nodes;
             let corners = corners.map(|node| self.trace.in_mesh(node));
             gaps.push(Gap {
                 node: self.trace.in_mesh(own.node(point.slave)),
-                projection: corners.into_iter().zip(shape(xi, eta)).collect(),
-                normal: projection.point.normal,
+                projection: corners.into_iter().zip(weights).collect(),
+                // with the normals of faces a slave over an edge between two of them would find no equilibrium
+                normal: self.normals.at(master, positions, projection.face, &weights),
                 gap: projection.gap,
                 area: own.area[point.slave as usize],
                 nodes: own.nodes_of_whole(x),
             });
         }
-        self.smooth_normals(positions, &faces, gaps);
     }
 
     fn over_means(&self, positions: &Positions<'_>, gaps: &mut Vec<Gap>) {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
-        let mut mortar = Mortar::new(own, self.curvature);
+        let mut mortar = Mortar::new(self.curvature);
         let mut mean = Mean::default();
         for point in &self.points[self.slave] {
             let (_, on_master) =
@@ -130,37 +133,6 @@ impl GapFunction {
                 area: own.area[point.slave as usize],
                 nodes: own.nodes_of_whole(x),
             });
-        }
-    }
-
-    /// Replaces the normals of `gaps`, whose projections lie on the faces `projections` of the master, by ones that are
-    /// continuous over the surface, on a plane of symmetry with its mirror image. A load dents facets against one
-    /// another, so that a slave over their common edge finds no equilibrium with either normal.
-    fn smooth_normals(&self, positions: &Positions<'_>, projections: &[u32], gaps: &mut [Gap]) {
-        let surface = &self.sides[1 - self.slave];
-        let mut wanted = vec![false; surface.len()];
-        for &face in projections {
-            surface.faces[face as usize].local.iter().for_each(|&n| wanted[n as usize] = true);
-        }
-        let mut sums = vec![[0.0; 3]; surface.len()];
-        for (index, face) in surface.faces.iter().enumerate() {
-            if face.local.iter().any(|&n| wanted[n as usize]) {
-                let normals = corner_normals(surface, index as u32, positions, self.curvature);
-                for (normal, &n) in normals.iter().zip(&face.local) {
-                    let x = positions.at(surface.node(n));
-                    let normal = if surface.is_on_plane(x) { in_plane(*normal) } else { *normal };
-                    sums[n as usize] = add(sums[n as usize], normal);
-                }
-            }
-        }
-        for (gap, &face) in gaps.iter_mut().zip(projections) {
-            let mut normal = [0.0; 3];
-            for ((_, weight), &n) in gap.projection.iter().zip(&surface.faces[face as usize].local)
-            {
-                let sum = sums[n as usize];
-                normal = axpy(normal, weight / norm(sum), sum);
-            }
-            gap.normal = scale(1.0 / norm(normal), normal);
         }
     }
 }

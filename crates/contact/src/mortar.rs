@@ -129,9 +129,6 @@ struct Sample {
 #[derive(Clone, Debug)]
 pub(crate) struct Mortar {
     curvature: bool,
-    /// The slave faces around each slave node and which of their corners it is: `around[start[i]..start[i+1]]`.
-    start: Vec<u32>,
-    around: Vec<(u32, u8)>,
     /// Points of the slave face at hand.
     samples: Vec<Sample>,
     /// Master faces met from the slave face at hand.
@@ -166,37 +163,14 @@ impl Plane {
 }
 
 impl Mortar {
-    /// For the nodes of `slaves`.
-    pub fn new(slaves: &ContactSurface, curvature: bool) -> Self {
-        let mut start = vec![0; slaves.len() + 1];
-        let corners = |visit: &mut dyn FnMut(usize, u32, u8)| {
-            for (f, face) in slaves.faces.iter().enumerate() {
-                for (c, node) in face.local.iter().enumerate() {
-                    visit(*node as usize, f as u32, c as u8);
-                }
-            }
-        };
-        corners(&mut |node, _, _| start[node + 1] += 1);
-        for i in 1..start.len() {
-            start[i] += start[i - 1];
-        }
-        let mut next = start.clone();
-        let mut around = vec![(NONE, 0); 4 * slaves.faces.len()];
-        corners(&mut |node, face, corner| {
-            around[next[node] as usize] = (face, corner);
-            next[node] += 1;
-        });
-        Self { curvature, start, around, samples: Vec::new(), met: Vec::new() }
+    pub fn new(curvature: bool) -> Self {
+        Self { curvature, samples: Vec::new(), met: Vec::new() }
     }
 
     /// Room of the lists that an integration fills.
     #[cfg(test)]
     pub fn room(&self) -> usize {
         self.samples.capacity() + self.met.capacity()
-    }
-
-    fn around(&self, slave: u32) -> std::ops::Range<usize> {
-        self.start[slave as usize] as usize..self.start[slave as usize + 1] as usize
     }
 
     /// Integrates over the faces around the slave node `slave` into `mean`; `sides` are those of slaves and
@@ -219,8 +193,8 @@ impl Mortar {
         let near = projection.map_or(near, |projection| projection.face);
 
         // two directions for the gradients, whichever
-        let outward = self.around(slave).fold([0.0; 3], |sum, k| {
-            axpy(sum, -1.0, Plane::new(own, self.around[k].0, positions).axes[2])
+        let outward = own.around(slave).iter().fold([0.0; 3], |sum, &(face, _)| {
+            axpy(sum, -1.0, Plane::new(own, face, positions).axes[2])
         });
         let on_plane = own.is_on_plane(x);
         let unit = |a: Vec3| if on_plane { unit_in_plane(a) } else { scale(1.0 / norm(a), a) };
@@ -229,8 +203,7 @@ impl Mortar {
         let directions = frame(along, n);
 
         let (mut area, mut normal, mut gap) = (0.0, [0.0; 3], 0.0);
-        for k in self.around(slave) {
-            let (face, corner) = self.around[k];
+        for &(face, corner) in own.around(slave) {
             let whole = self.sample(sides, positions, face, near);
             let q = dual(&self.samples, corner as usize, whole);
             for sample in &self.samples {
@@ -280,13 +253,13 @@ impl Mortar {
         let [a1, a2] = master_point.tangents;
         let facet = cross(a1, a2);
         mean.normal = [dot(n, facet) / norm(facet), dot(n, a1), dot(n, a2)];
-        mean.far = self.far(own, slave);
+        mean.far = Self::far(own, slave);
         mean.seen = seen(&master_point, n, sub(positions.at(mean.far), x));
     }
 
     /// The corner of a face around a slave node that lies across from it, a node of the trace.
-    fn far(&self, own: &ContactSurface, slave: u32) -> u32 {
-        let (face, corner) = self.around[self.around(slave).start];
+    fn far(own: &ContactSurface, slave: u32) -> u32 {
+        let (face, corner) = own.around(slave)[0];
         own.faces[face as usize].nodes[(corner as usize + 2) % 4]
     }
 
@@ -298,7 +271,7 @@ impl Mortar {
     ) -> Result<(), StateError> {
         let known = |(slave, mean): (usize, &Mean)| {
             mean.shares.is_empty()
-                || mean.far == self.far(own, slave as u32)
+                || mean.far == Self::far(own, slave as u32)
                     && mean.shares.iter().all(|share| (share.node as usize) < master.len())
         };
         let fits = means.len() == own.len() && means.iter().enumerate().all(known);
@@ -514,7 +487,7 @@ mod tests {
 
         fn means(&self, curvature: bool) -> Vec<Option<Mean>> {
             let sides = [&self.sides[0], &self.sides[1]];
-            let mut mortar = Mortar::new(sides[0], curvature);
+            let mut mortar = Mortar::new(curvature);
             let middle = sides[1].faces.len() as u32 / 2;
             let positions = self.positions();
             let positions = Positions(&positions);

@@ -1,6 +1,7 @@
 //! Two-pass penalty contact, node to face in both directions.
 
 use crate::face::Positions;
+use crate::nodal_normals::{NodalNormals, Normals};
 use crate::penalty_point::{Pass, PenaltyPoint, scatter};
 use crate::point::State;
 use crate::search::{Listed, Search};
@@ -24,6 +25,8 @@ pub struct PenaltySettings {
     pub damping: f64,
     /// Corrects gap and normal with the exact surface where the master has one.
     pub curvature: bool,
+    /// The normal along which a node meets a face.
+    pub normals: Normals,
 }
 
 /// Two-pass penalty contact of two surfaces with friction springs.
@@ -48,6 +51,8 @@ pub struct PenaltyContact {
     /// Whether the search was refreshed in the last step.
     searched: bool,
     pub(crate) settings: PenaltySettings,
+    /// Averaged normals of both sides, unless nodes meet faces along theirs.
+    normals: Option<[NodalNormals; 2]>,
     stability: Option<StabilityScale>,
     /// [`PenaltyContact::nodal_stiffness_bound`] at the nodes of each side (N/m).
     pub(crate) bound: [Vec<f64>; 2],
@@ -73,7 +78,9 @@ impl PenaltyContact {
             return Err(ContactError::ImplicitLaw);
         }
         let (trace, sides) = ContactSurface::both(mesh, surfaces)?;
+        let normals = || [0, 1].map(|s: usize| NodalNormals::new(&sides[s], settings.curvature));
         let mut contact = Self {
+            normals: (settings.normals == Normals::Averaged).then(normals),
             search: Search::new(&sides),
             searched: false,
             trace,
@@ -121,12 +128,17 @@ impl PenaltyContact {
         }
         let mut points = std::mem::take(&mut self.points);
         let mut slid = std::mem::take(&mut self.slid);
+        let mut normals = self.normals.take();
+        normals.iter_mut().flatten().for_each(NodalNormals::expire);
         let most = points.iter().map(Vec::len).max().unwrap_or(0);
         slid.clear();
         slid.reserve(most);
         for (slave, list) in points.iter_mut().enumerate() {
             let pass = self.pass(slave);
-            list.iter_mut().for_each(|point| pass.update(point, positions, motion));
+            for point in list.iter_mut() {
+                let of_master = normals.as_mut().map(|normals| &mut normals[1 - slave]);
+                pass.update(point, positions, motion, of_master);
+            }
             let Some(motion) = motion else { continue };
             slid.clear();
             let closed = list.iter().filter(|point| point.is_closed());
@@ -137,6 +149,7 @@ impl PenaltyContact {
         }
         self.points = points;
         self.slid = slid;
+        self.normals = normals;
         self.note_loaded();
     }
 

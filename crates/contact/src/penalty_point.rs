@@ -1,7 +1,8 @@
 //! One slave node and its projection on the master surface: normal spring and damper, friction spring.
 
 use crate::Motion;
-use crate::face::{Positions, SurfacePoint, shape};
+use crate::face::{Positions, shape};
+use crate::nodal_normals::NodalNormals;
 use crate::point::{ContactPoint, Enforced, State, relative_velocity, sleep};
 use crate::search::Listed;
 use crate::stiffness::{PenaltyStiffness, StabilityScale};
@@ -44,6 +45,15 @@ struct Trial {
     start: Vec3,
     /// First direction of the face at the new projection.
     tangent: Vec3,
+}
+
+/// A point in contact since the step before, as the face has carried it along.
+struct Held {
+    /// Motion of the slave over the step relative to where it was on the face, at the distance it had (m).
+    moved: Vec3,
+    /// The normal of the last step and its frame.
+    normal: Vec3,
+    frame: [Vec3; 2],
 }
 
 impl Enforced for Springs {
@@ -117,12 +127,14 @@ impl Pass<'_> {
             .map(|form| form.per_pass(scaled, reduced, self.stability) * self.slave.area[slave])
     }
 
-    /// Follows the point to `positions`; `motion` is absent where only normal springs act.
+    /// Follows the point to `positions`; `motion` is absent where only normal springs act. Its normal is that of the face
+    /// unless there are averaged `normals`.
     pub fn update(
         &self,
         point: &mut PenaltyPoint,
         positions: &Positions<'_>,
         motion: Option<&Motion<'_>>,
+        mut normals: Option<&mut NodalNormals>,
     ) {
         point.enforcement.friction_work = 0.0;
         point.enforcement.damping_work = 0.0;
@@ -161,20 +173,28 @@ impl Pass<'_> {
             point.enforcement.stiffness =
                 self.stiffness(point.slave as usize, face, &point.enforcement.weights);
         }
-        point.normal = projection.point.normal;
+        let (old, of_face) = (followed.old, projection.point.normal);
+        let mut averaged = |face, weights: &[f64; 4], of_face| match &mut normals {
+            Some(normals) => normals.at(self.master, positions, face, weights),
+            None => of_face,
+        };
+        point.normal = averaged(projection.face, &point.enforcement.weights, of_face);
+        let held = before.is_closed().then(|| {
+            let normal = averaged(before.face, &before.enforcement.weights, old.normal);
+            let kept = axpy(old.x, before.gap + old.offset, old.normal);
+            Held { moved: sub(x, kept), normal, frame: frame(old.tangent, normal) }
+        });
         self.press(point, &before, node, face, motion);
+        if let Some(Held { moved, normal, .. }) = &held {
+            // the gap does not change along the face: what an averaged normal does there, no spring gives
+            let tilted = scale(before.normal_force, sub(*normal, old.normal));
+            let along = axpy(tilted, point.normal_force, sub(point.normal, of_face));
+            point.enforcement.damping_work -= 0.5 * dot(along, *moved);
+        }
         match motion {
             Some(motion) => {
-                self.tangential_predictor(
-                    point,
-                    &before,
-                    x,
-                    &followed.old,
-                    &projection.point,
-                    node,
-                    face,
-                    motion,
-                );
+                let tangent = projection.point.tangent;
+                self.tangential_predictor(point, &before, held, tangent, x, node, face, motion);
             }
             None => {
                 point.state = State::Stick;
@@ -226,7 +246,7 @@ impl Pass<'_> {
     }
 
     /// The motion that the friction spring answers to: `Delta`, the tangential motion of the slave over the
-    /// step relative to its old projection, which moved with the face, so that a rotation common to both bodies
+    /// step from where its old place on the face has gone, so that a rotation common to both bodies
     /// gives none. The old force turns with the frame of the face at the old projection, and is then laid into
     /// the new tangent plane with its length kept.
     ///
@@ -236,27 +256,27 @@ impl Pass<'_> {
         &self,
         point: &mut PenaltyPoint,
         before: &PenaltyPoint,
+        held: Option<Held>,
+        tangent: Vec3,
         x: Vec3,
-        old: &SurfacePoint,
-        new: &SurfacePoint,
         node: u32,
         face: &MasterFace,
         motion: &Motion<'_>,
     ) {
         point.state = State::Stick;
-        if !before.is_closed() {
+        let Some(held) = held else {
             let velocity =
                 relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights);
             point.slip_velocity = tangential(velocity, point.normal);
             point.memory = self.law.begin(&point.place(self.slave, x, motion.time));
             point.enforcement.trial = Trial::default();
             return;
-        }
+        };
         point.enforcement.trial = Trial {
             held: true,
-            delta: tangential(sub(x, old.x), point.normal),
-            start: before.transported(frame(old.tangent, old.normal), point.normal),
-            tangent: new.tangent,
+            delta: tangential(held.moved, point.normal),
+            start: before.transported(held.frame, point.normal),
+            tangent,
         };
     }
 

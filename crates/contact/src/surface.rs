@@ -46,6 +46,9 @@ pub(crate) struct ContactSurface {
     pub symmetric: bool,
     /// Which nodes lie on the plane; empty without one.
     plane: Vec<bool>,
+    /// The faces around each node and which of their corners it is: `around[start[i]..start[i + 1]]`.
+    start: Vec<u32>,
+    around: Vec<(u32, u8)>,
 }
 
 impl ContactSurface {
@@ -88,6 +91,8 @@ impl ContactSurface {
             origin: 0.0,
             symmetric: mesh.symmetric,
             plane: Vec::new(),
+            start: Vec::new(),
+            around: Vec::new(),
         };
         if mesh.symmetric {
             result.plane = nodes.iter().map(|&n| mesh.nodes[n as usize][1] == 0.0).collect();
@@ -128,6 +133,7 @@ impl ContactSurface {
             sums.iter_mut().zip(&*area).for_each(|(sum, area)| *sum /= area);
         }
         result.join_neighbours(side, nodes)?;
+        result.gather_around();
         Ok(result)
     }
 
@@ -166,6 +172,25 @@ impl ContactSurface {
     /// The numbers of its nodes in the trace.
     pub fn nodes(&self) -> Range<u32> {
         self.first..self.first + self.len() as u32
+    }
+
+    /// The faces around a node, ascending, and which of their corners it is.
+    #[inline]
+    pub fn around(&self, local: u32) -> &[(u32, u8)] {
+        let [first, last] = [0, 1].map(|next| self.start[local as usize + next] as usize);
+        &self.around[first..last]
+    }
+
+    fn gather_around(&mut self) {
+        let corners = self.faces.iter().zip(0..).flat_map(|(face, f)| {
+            face.local.into_iter().zip(0..).map(move |(node, corner)| (node, (f, corner)))
+        });
+        let mut corners: Vec<(u32, (u32, u8))> = corners.collect();
+        corners.sort_unstable();
+        let nodes = 0..=self.len() as u32;
+        let first = |node| corners.partition_point(|(at, _)| *at < node) as u32;
+        self.start = nodes.map(first).collect();
+        self.around = corners.into_iter().map(|(_, face)| face).collect();
     }
 
     /// Every inner edge is run through once in each direction; `nodes` are the numbers in the mesh.

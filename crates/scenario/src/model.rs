@@ -135,6 +135,7 @@ impl Model {
             tangential: stiffness(case.contact.penalty.tangential),
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
+            normals: normals(case),
         };
         let law = friction_law::law(case, self.law.as_ref())?;
         Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
@@ -176,6 +177,7 @@ impl Model {
         ExactSettings {
             slave: Some(self.slave()),
             curvature: case.contact.curvature,
+            normals: normals(case),
             rows: match case.contact.rows.unwrap_or_default() {
                 case::schema::Rows::NodeToFace => contact::Rows::NodeToFace,
                 case::schema::Rows::Mortar => contact::Rows::Mortar,
@@ -198,6 +200,13 @@ impl Model {
     fn sides(&self) -> [(&Surface, BodyMaterial); 2] {
         let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
         [DISK, BAR].map(|side| (&self.surfaces[side], body(self.materials[side])))
+    }
+}
+
+fn normals(case: &Case) -> contact::Normals {
+    match case.contact.normals {
+        case::schema::Normals::Averaged => contact::Normals::Averaged,
+        case::schema::Normals::Face => contact::Normals::Face,
     }
 }
 

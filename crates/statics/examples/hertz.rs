@@ -9,8 +9,8 @@
 #![allow(clippy::unwrap_used)]
 
 use contact::{
-    BodyMaterial, ExactSettings, GapFunction, PenaltyContact, PenaltySettings, PenaltyStiffness,
-    Rows,
+    BodyMaterial, ExactSettings, GapFunction, Normals, PenaltyContact, PenaltySettings,
+    PenaltyStiffness, Rows,
 };
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Grading, Padded};
@@ -69,6 +69,7 @@ fn main() {
             tangential: PenaltyStiffness::Scale(factor),
             damping: 0.0,
             curvature: true,
+            normals: Normals::Averaged,
         };
         let behind = BodyMaterial { bulk_modulus: steel.bulk(), density: steel.density };
         let sides = [
@@ -87,8 +88,12 @@ fn main() {
         let mut start = vec![Padded::ZERO; mesh.nodes.len()];
         let part = if rows.is_none() { 1.0 } else { 0.5 };
         start[mesh.bodies[0].nodes.clone()].iter_mut().for_each(|u| u[2] = -part * APPROACH);
-        let exact =
-            ExactSettings { slave: Some(0), curvature: true, rows: rows.unwrap_or_default() };
+        let exact = ExactSettings {
+            slave: Some(0),
+            curvature: true,
+            rows: rows.unwrap_or_default(),
+            ..ExactSettings::default()
+        };
         let mut gaps = GapFunction::new(&mesh, sides, &exact).unwrap();
         let enforced = match rows {
             Some(_) => Contact::Multipliers(&mut gaps),

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use contact::{
-    BodyMaterial, ExactSettings, GapFunction, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    BodyMaterial, ExactSettings, GapFunction, Normals, PenaltyContact, PenaltySettings,
+    PenaltyStiffness,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded};
@@ -93,6 +94,7 @@ impl Rig {
             tangential: stiffness,
             damping: 0.0,
             curvature: true,
+            normals: Normals::Averaged,
         };
         let behind = BodyMaterial { bulk_modulus: material.bulk(), density: material.density };
         let sides =

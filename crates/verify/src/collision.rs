@@ -29,7 +29,9 @@ use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use crate::waves::slender;
-use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use contact::{
+    ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
+};
 use dynamics::Simulation;
 use friction::Coulomb;
 use mesh::Padded;
@@ -153,6 +155,7 @@ fn collide(n: usize, c: f64, method: Method) -> Result<Collision, Cause> {
         tangential: PenaltyStiffness::Scale(1.0),
         damping: 0.0,
         curvature: false,
+        normals: Normals::Averaged,
     };
     let material = contact_material(&MATERIAL);
     let surfaces = [&mesh.bodies[0].surfaces["x+"], &mesh.bodies[1].surfaces["x-"]];

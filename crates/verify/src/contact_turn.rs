@@ -13,7 +13,7 @@
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Contact, PenaltyContact, PenaltySettings, PenaltyStiffness, TraceFields};
+use contact::{Contact, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness, TraceFields};
 use friction::Coulomb;
 use mesh::{Disk, FineZone, Grading, Mesh, Padded, Surface};
 use std::f64::consts::TAU;
@@ -23,6 +23,7 @@ const SETTINGS: PenaltySettings = PenaltySettings {
     tangential: PenaltyStiffness::Scale(1.0),
     damping: 0.0,
     curvature: true,
+    normals: Normals::Averaged,
 };
 const MU: f64 = 0.5;
 const DT: f64 = 1e-7;

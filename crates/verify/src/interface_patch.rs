@@ -86,7 +86,7 @@ fn pressures(
     let mut gaps = GapFunction::new(
         &areas,
         surfaces.map(|s| (s, contact_material(&MATERIAL))),
-        &ExactSettings { slave: Some(0), curvature: false, rows },
+        &ExactSettings { slave: Some(0), rows, ..ExactSettings::default() },
     )?;
     // pressed by a rigid plate: the solution is uniform as well
     let press = Tied {

@@ -27,7 +27,9 @@ use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{ExactContact, ExactSettings, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use contact::{
+    ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
+};
 use dynamics::{Fixed, Setup, Simulation};
 use friction::{Exponential, FrictionLaw, Implicit, Lagged, NodeFriction};
 use mesh::Padded;
@@ -235,6 +237,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
                 tangential: PenaltyStiffness::Areal(k),
                 damping: 0.1,
                 curvature: false,
+                normals: Normals::Averaged,
             };
             let law = Box::new(Lagged(LAW));
             let contact = PenaltyContact::new(&mesh, surfaces, &settings, None, law)?;

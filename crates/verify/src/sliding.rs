@@ -35,7 +35,7 @@ use crate::body::{STEEL, at_rest, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
-    BodyMaterial, Contact, ExactContact, ExactSettings, PenaltyContact, PenaltySettings,
+    BodyMaterial, Contact, ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings,
     PenaltyStiffness, Rows,
 };
 use dynamics::{Load, Setup, Simulation};
@@ -383,7 +383,7 @@ fn damped(mesh: &Mesh, kelvin_voigt: f64) -> Result<Solid, Cause> {
 }
 
 fn exact(mesh: &Mesh, rows: Rows, mu: f64) -> Result<ExactContact, Cause> {
-    let settings = ExactSettings { slave: Some(0), curvature: false, rows };
+    let settings = ExactSettings { slave: Some(0), rows, ..ExactSettings::default() };
     let law = Box::new(Coulomb { mu });
     Ok(ExactContact::new(mesh, surfaces(mesh), &settings, law)?)
 }
@@ -405,6 +405,7 @@ fn setup(
         tangential: PenaltyStiffness::Areal(SPRING),
         damping,
         curvature: false,
+        normals: Normals::Averaged,
     };
     let contact =
         PenaltyContact::new(mesh, surfaces(mesh), &settings, None, Box::new(Coulomb { mu }))?;

@@ -8,8 +8,8 @@ use crate::snapshot::Points;
 use crate::tests::{K, step_on_trace};
 use crate::vector::{Vec3, add, axpy, cross, norm, sub};
 use crate::{
-    Contact, ContactState, ContactSums, ExactContact, ExactSettings, NodalContact, PenaltyContact,
-    PenaltySettings, PenaltyStiffness, Rows, StateError,
+    Contact, ContactState, ContactSums, ExactContact, ExactSettings, NodalContact, Normals,
+    PenaltyContact, PenaltySettings, PenaltyStiffness, Rows, StateError,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
@@ -26,6 +26,7 @@ fn penalty(mesh: &Mesh, [a, b]: [&Surface; 2]) -> Box<dyn Contact> {
         tangential: PenaltyStiffness::Areal(0.7 * K),
         damping: 0.1,
         curvature: true,
+        normals: Normals::Averaged,
     };
     let sides = [(a, STEEL), (b, STEEL)];
     let law = Box::new(Coulomb { mu: MU });
@@ -37,7 +38,8 @@ fn exact<const SLAVE: usize, const MORTAR: bool>(
     [a, b]: [&Surface; 2],
 ) -> Box<dyn Contact> {
     let rows = if MORTAR { Rows::Mortar } else { Rows::NodeToFace };
-    let settings = ExactSettings { slave: Some(SLAVE), curvature: true, rows };
+    let settings =
+        ExactSettings { slave: Some(SLAVE), curvature: true, rows, normals: Normals::Averaged };
     let sides = [(a, STEEL), (b, STEEL)];
     let law = Box::new(Coulomb { mu: MU });
     Box::new(ExactContact::new(mesh, sides, &settings, law).unwrap())

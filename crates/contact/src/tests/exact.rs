@@ -1,7 +1,7 @@
 use super::step_on_trace;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
-use crate::{Contact, ContactSums, ExactContact, ExactSettings, NodalContact, Rows};
+use crate::{Contact, ContactSums, ExactContact, ExactSettings, NodalContact, Normals, Rows};
 use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
 
@@ -28,7 +28,8 @@ impl Masses {
         let count = upper.0.nodes.len();
         let (mesh, second) = together(upper.0, lower.0, lower.1);
         let surfaces = [(&upper.1, STEEL), (&second, STEEL)];
-        let settings = ExactSettings { slave: Some(slave), curvature: true, rows };
+        let settings =
+            ExactSettings { slave: Some(slave), curvature: true, rows, normals: Normals::Averaged };
         let contact = ExactContact::new(&mesh, surfaces, &settings, Box::new(law)).unwrap();
         let n = mesh.nodes.len();
         let noise =

@@ -11,7 +11,7 @@ mod slip;
 use crate::plates::{STEEL, plate, together};
 use crate::vector::{Vec3, add, axpy, sub};
 use crate::{
-    Contact, ContactSums, FreeMotion, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    Contact, ContactSums, FreeMotion, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
     TraceFields, TraceStep,
 };
 use friction::NodeFriction;
@@ -25,6 +25,7 @@ pub(crate) const SETTINGS: PenaltySettings = PenaltySettings {
     tangential: PenaltyStiffness::Areal(0.7 * K),
     damping: 0.0,
     curvature: true,
+    normals: Normals::Averaged,
 };
 
 /// Body 0 above (side 0), body 1 below (side 1), both with prescribed motion.

@@ -1,0 +1,84 @@
+//! Averaged normals: at a node of the master the mean of the normals of the faces around it, between nodes the mean of
+//! these with the shape functions (Yang, Laursen and Meng 2005; Puso and Laursen 2004).
+//!
+//! A load dents the facets of a mesh against one another, by h/R times a number of order one at faces of size h under a disk
+//! of radius R. A node by their common edge that takes the normal of one of them is pushed along the surface, as all
+//! nodes are that stand on that side of an edge: a force of the order of h/(4R) of the load, without friction. The mean normal
+//! is continuous over the edges and has no side.
+
+use crate::face::{Positions, corner_normal};
+use crate::surface::ContactSurface;
+use crate::symmetry::in_plane;
+use crate::vector::{Vec3, add, axpy, norm, scale};
+
+/// The normal along which a slave node meets a face of the master.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// The mean of the normals at the corners of the face, each the mean over the faces around that node.
+    #[default]
+    Averaged,
+    /// That of the face alone, as Benson and Hallquist (1990) have it.
+    Face,
+}
+
+/// The normals at the nodes of one surface, each found when it is first asked for in a configuration.
+#[derive(Clone, Debug)]
+pub(crate) struct NodalNormals {
+    curvature: bool,
+    normal: Vec<Vec3>,
+    /// The configuration in which each was found.
+    found: Vec<u64>,
+    now: u64,
+}
+
+impl NodalNormals {
+    /// Of `surface`, with the normals of its exact surface where it has one and `curvature` is set.
+    pub fn new(surface: &ContactSurface, curvature: bool) -> Self {
+        let nodes = surface.len();
+        Self { curvature, normal: vec![[0.0; 3]; nodes], found: vec![0; nodes], now: 0 }
+    }
+
+    /// Forgets the normals, since the nodes move.
+    pub fn expire(&mut self) {
+        self.now += 1;
+    }
+
+    /// The unit normal of `surface` at the mean of the corners of `face` with `weights`; on a plane of symmetry that of the
+    /// surface with its mirror image.
+    pub fn at(
+        &mut self,
+        surface: &ContactSurface,
+        positions: &Positions<'_>,
+        face: u32,
+        weights: &[f64; 4],
+    ) -> Vec3 {
+        let corners = surface.faces[face as usize].local;
+        let mut sum = [0.0; 3];
+        for (weight, node) in weights.iter().zip(corners) {
+            // on an edge the nodes beside it have no part
+            if *weight != 0.0 {
+                sum = axpy(sum, *weight, self.of(surface, positions, node));
+            }
+        }
+        scale(1.0 / norm(sum), sum)
+    }
+
+    fn of(&mut self, surface: &ContactSurface, positions: &Positions<'_>, node: u32) -> Vec3 {
+        let place = node as usize;
+        if self.found[place] != self.now {
+            self.found[place] = self.now;
+            self.normal[place] = self.mean(surface, positions, node);
+        }
+        self.normal[place]
+    }
+
+    fn mean(&self, surface: &ContactSurface, positions: &Positions<'_>, node: u32) -> Vec3 {
+        let on_plane = surface.is_on_plane(positions.at(surface.node(node)));
+        let around = surface.around(node).iter();
+        let sum = around.fold([0.0; 3], |sum, &(face, corner)| {
+            let normal = corner_normal(surface, face, corner, positions, self.curvature);
+            add(sum, if on_plane { in_plane(normal) } else { normal })
+        });
+        scale(1.0 / norm(sum), sum)
+    }
+}
