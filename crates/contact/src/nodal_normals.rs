@@ -35,7 +35,7 @@ impl NodalNormals {
     /// Of `surface`, with the normals of its exact surface where it has one and `curvature` is set.
     pub fn new(surface: &ContactSurface, curvature: bool) -> Self {
         let nodes = surface.len();
-        Self { curvature, normal: vec![[0.0; 3]; nodes], found: vec![0; nodes], now: 0 }
+        Self { curvature, normal: vec![[0.0; 3]; nodes], found: vec![0; nodes], now: 1 }
     }
 
     /// Forgets the normals, since the nodes move.
