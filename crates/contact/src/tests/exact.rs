@@ -6,13 +6,13 @@ use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
 
 /// Two bodies whose nodes are masses without springs: what contact does to them in a step.
-struct Masses {
+pub(super) struct Masses {
     contact: ExactContact,
-    upper: usize,
-    reference: Vec<Padded>,
-    displacement: Vec<Padded>,
+    pub upper: usize,
+    pub reference: Vec<Padded>,
+    pub displacement: Vec<Padded>,
     velocity: Vec<Padded>,
-    inverse_mass: Vec<f64>,
+    pub inverse_mass: Vec<f64>,
     force: Vec<Padded>,
     dt: f64,
 }
@@ -25,12 +25,21 @@ impl Masses {
         rows: Rows,
         law: impl NodeFriction + 'static,
     ) -> Self {
+        let settings =
+            ExactSettings { slave: Some(slave), curvature: true, rows, normals: Normals::Averaged };
+        Self::with(upper, lower, &settings, law)
+    }
+
+    pub fn with(
+        upper: (Mesh, Surface),
+        lower: (Mesh, Surface),
+        settings: &ExactSettings,
+        law: impl NodeFriction + 'static,
+    ) -> Self {
         let count = upper.0.nodes.len();
         let (mesh, second) = together(upper.0, lower.0, lower.1);
         let surfaces = [(&upper.1, STEEL), (&second, STEEL)];
-        let settings =
-            ExactSettings { slave: Some(slave), curvature: true, rows, normals: Normals::Averaged };
-        let contact = ExactContact::new(&mesh, surfaces, &settings, Box::new(law)).unwrap();
+        let contact = ExactContact::new(&mesh, surfaces, settings, Box::new(law)).unwrap();
         let n = mesh.nodes.len();
         let noise =
             |i: usize| f64::from((i as u32).wrapping_mul(2_654_435_761) >> 8) / 16_777_216.0;
@@ -58,7 +67,7 @@ impl Masses {
     }
 
     /// A step under the forces `given(body, X)` (N) on every node.
-    fn step(&mut self, given: impl Fn(usize, Vec3) -> Vec3) -> ContactSums {
+    pub fn step(&mut self, given: impl Fn(usize, Vec3) -> Vec3) -> ContactSums {
         for (i, (f, x)) in self.force.iter_mut().zip(&self.reference).enumerate() {
             *f = Padded::new(given(usize::from(i >= self.upper), x.xyz()));
         }

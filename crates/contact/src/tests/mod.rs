@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod curvature;
+mod dent;
 mod every_enforcement;
 mod exact;
 mod normal;
