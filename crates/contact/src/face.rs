@@ -1,7 +1,7 @@
 //! The projection of a slave node on the master surface: projection on bilinear faces, the exact
 //! surface beyond the facets, and the walk from face to face.
 
-use crate::surface::{ContactSurface, NONE};
+use crate::surface::{ContactSurface, Corner, NONE};
 use crate::symmetry::{in_plane, tangent_in_plane, unit_in_plane};
 use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub};
 use mesh::{Padded, SmoothSurface};
@@ -146,12 +146,7 @@ impl<'a> FaceGeometry<'a> {
             Some(smooth) if curvature => Some((&face.reference, smooth)),
             _ => None,
         };
-        // Not by `map`: what it calls is not always inlined.
-        let mut x = [[0.0; 3]; 4];
-        for (x, &node) in x.iter_mut().zip(&face.nodes) {
-            *x = positions.at(node);
-        }
-        Self { current: Bilinear::through(x), exact }
+        Self { current: face.facet(positions), exact }
     }
 
     /// The surface at `(xi, eta)`.
@@ -163,32 +158,20 @@ impl<'a> FaceGeometry<'a> {
     #[inline(always)]
     fn evaluate(&self, node: Vec3, xi: f64, eta: f64) -> (SurfacePoint, [f64; 2]) {
         let x = self.current.point(xi, eta);
-        let [a1, a2] = self.current.tangents(xi, eta);
-        let facet = cross(a1, a2);
-        let area = norm(facet);
-        let per_area = 1.0 / area;
-        let n_f = scale(per_area, facet);
-        let (g11, g12, g22) = (dot(a1, a1), dot(a1, a2), dot(a2, a2));
+        let plane = TangentPlane::of(&self.current, xi, eta);
+        let TangentPlane { tangents: [a1, a2], area, normal: n_f, metric: [g11, g12, g22] } = plane;
         let d = sub(node, x);
         let (mut r1, mut r2) = (dot(a1, d), dot(a2, d));
         let mut normal = n_f;
         let mut offset = 0.0;
         if let Some((reference, smooth)) = &self.exact {
-            let at = reference.point(xi, eta);
-            let [b1, b2] = reference.tangents(xi, eta);
-            let n_s = smooth.normal(at);
-            offset = smooth.offset(at);
-            let (t1, t2) = (dot(n_s, b1), dot(n_s, b2));
-            let facet = cross(b1, b2);
-            let nu = dot(n_s, facet) / norm(facet);
+            let inclination = Inclination::of(smooth, reference, xi, eta);
+            let Inclination { nu, along: [t1, t2] } = inclination;
+            offset = smooth.offset(reference.point(xi, eta));
             let lambda = dot(d, n_f) / nu;
             r1 -= lambda * t1;
             r2 -= lambda * t2;
-            // Dual components: t_a g^a = w^a a_a with w = g^-1 t, det g = area^2.
-            let w1 = (g22 * t1 - g12 * t2) * (per_area * per_area);
-            let w2 = (g11 * t2 - g12 * t1) * (per_area * per_area);
-            normal = axpy(axpy(scale(nu, n_f), w1, a1), w2, a2);
-            normal = scale(1.0 / norm(normal), normal);
+            normal = plane.inclined(&inclination);
         }
         let mut h12 = g12 - dot(d, self.current.t);
         let mut det = g11 * g22 - h12 * h12;
@@ -202,17 +185,82 @@ impl<'a> FaceGeometry<'a> {
     }
 }
 
-/// The normal of a face at one of its corners, of the exact surface where it has one.
+/// The tangents `a_a` of a facet at a point, its unit normal `n_f` and its metric `a_a . a_b`.
+struct TangentPlane {
+    tangents: [Vec3; 2],
+    /// Of the parallelogram of the tangents (m^2).
+    area: f64,
+    normal: Vec3,
+    /// `g_11`, `g_12`, `g_22` (m^2).
+    metric: [f64; 3],
+}
+
+impl TangentPlane {
+    #[inline(always)]
+    fn of(facet: &Bilinear, xi: f64, eta: f64) -> Self {
+        let [a1, a2] = facet.tangents(xi, eta);
+        let facet = cross(a1, a2);
+        let area = norm(facet);
+        let metric = [dot(a1, a1), dot(a1, a2), dot(a2, a2)];
+        Self { tangents: [a1, a2], area, normal: scale(1.0 / area, facet), metric }
+    }
+
+    /// The normal `normalise(nu n_f + (N_s.A_a) g^a)` of the exact surface.
+    #[inline(always)]
+    fn inclined(&self, inclination: &Inclination) -> Vec3 {
+        let Self { tangents: [a1, a2], metric: [g11, g12, g22], .. } = *self;
+        let [t1, t2] = inclination.along;
+        let per_area = 1.0 / self.area;
+        // Dual components: t_a g^a = w^a a_a with w = g^-1 t, det g = area^2.
+        let w1 = (g22 * t1 - g12 * t2) * (per_area * per_area);
+        let w2 = (g11 * t2 - g12 * t1) * (per_area * per_area);
+        let normal = axpy(axpy(scale(inclination.nu, self.normal), w1, a1), w2, a2);
+        scale(1.0 / norm(normal), normal)
+    }
+}
+
+/// How the exact surface is inclined to a facet at a point, in the reference configuration.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inclination {
+    /// `N_s . N_f`.
+    nu: f64,
+    /// `N_s . A_a` (m).
+    along: [f64; 2],
+}
+
+impl Inclination {
+    #[inline(always)]
+    fn of(smooth: &SmoothSurface, reference: &Bilinear, xi: f64, eta: f64) -> Self {
+        let [b1, b2] = reference.tangents(xi, eta);
+        let n_s = smooth.normal(reference.point(xi, eta));
+        let facet = cross(b1, b2);
+        Self { nu: dot(n_s, facet) / norm(facet), along: [dot(n_s, b1), dot(n_s, b2)] }
+    }
+
+    /// That at a corner of a face, where the surface has an exact one.
+    pub fn at_corner(surface: &ContactSurface, face: u32, corner: u8) -> Option<Self> {
+        let [xi, eta] = CORNERS[usize::from(corner)];
+        let reference = &surface.faces[face as usize].reference;
+        surface.smooth.map(|smooth| Self::of(&smooth, reference, xi, eta))
+    }
+}
+
+const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+
+/// The normal of a face at one of its corners, of the exact surface where it has one and `curvature` is set.
 pub(crate) fn corner_normal(
     surface: &ContactSurface,
-    face: u32,
-    corner: u8,
+    corner: &Corner,
     positions: &Positions<'_>,
     curvature: bool,
 ) -> Vec3 {
-    const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let [xi, eta] = CORNERS[usize::from(corner)];
-    FaceGeometry::new(surface, face, positions, curvature).at(xi, eta).normal
+    let [xi, eta] = CORNERS[usize::from(corner.number)];
+    let facet = surface.faces[corner.face as usize].facet(positions);
+    let plane = TangentPlane::of(&facet, xi, eta);
+    match &corner.inclination {
+        Some(inclination) if curvature => plane.inclined(inclination),
+        _ => plane.normal,
+    }
 }
 
 /// A point of the master surface followed through one step: where the projection of the last step is

@@ -193,8 +193,8 @@ impl Mortar {
         let near = projection.map_or(near, |projection| projection.face);
 
         // two directions for the gradients, whichever
-        let outward = own.around(slave).iter().fold([0.0; 3], |sum, &(face, _)| {
-            axpy(sum, -1.0, Plane::new(own, face, positions).axes[2])
+        let outward = own.around(slave).iter().fold([0.0; 3], |sum, corner| {
+            axpy(sum, -1.0, Plane::new(own, corner.face, positions).axes[2])
         });
         let on_plane = own.is_on_plane(x);
         let unit = |a: Vec3| if on_plane { unit_in_plane(a) } else { scale(1.0 / norm(a), a) };
@@ -203,9 +203,9 @@ impl Mortar {
         let directions = frame(along, n);
 
         let (mut area, mut normal, mut gap) = (0.0, [0.0; 3], 0.0);
-        for &(face, corner) in own.around(slave) {
-            let whole = self.sample(sides, positions, face, near);
-            let q = dual(&self.samples, corner as usize, whole);
+        for corner in own.around(slave) {
+            let whole = self.sample(sides, positions, corner.face, near);
+            let q = dual(&self.samples, usize::from(corner.number), whole);
             for sample in &self.samples {
                 let psi: f64 = q.iter().zip(sample.shape).map(|(q, n)| q * n).sum();
                 let psi = psi * sample.weight;
@@ -259,8 +259,8 @@ impl Mortar {
 
     /// The corner of a face around a slave node that lies across from it, a node of the trace.
     fn far(own: &ContactSurface, slave: u32) -> u32 {
-        let (face, corner) = own.around(slave)[0];
-        own.faces[face as usize].nodes[(corner as usize + 2) % 4]
+        let corner = &own.around(slave)[0];
+        own.faces[corner.face as usize].nodes[(usize::from(corner.number) + 2) % 4]
     }
 
     /// That `means` are of the slaves and masters of these sides.

@@ -75,8 +75,8 @@ impl NodalNormals {
     fn mean(&self, surface: &ContactSurface, positions: &Positions<'_>, node: u32) -> Vec3 {
         let on_plane = surface.is_on_plane(positions.at(surface.node(node)));
         let around = surface.around(node).iter();
-        let sum = around.fold([0.0; 3], |sum, &(face, corner)| {
-            let normal = corner_normal(surface, face, corner, positions, self.curvature);
+        let sum = around.fold([0.0; 3], |sum, corner| {
+            let normal = corner_normal(surface, corner, positions, self.curvature);
             add(sum, if on_plane { in_plane(normal) } else { normal })
         });
         scale(1.0 / norm(sum), sum)

@@ -1,6 +1,6 @@
 //! One contact surface: its nodes, faces, neighbours, tributary areas and masses.
 
-use crate::face::Bilinear;
+use crate::face::{Bilinear, Inclination, Positions};
 use crate::vector::Vec3;
 use crate::{BodyMaterial, ContactError, Trace};
 use mesh::{Mesh, SmoothSurface, Surface};
@@ -25,6 +25,28 @@ pub(crate) struct MasterFace {
     pub size: f64,
 }
 
+impl MasterFace {
+    #[inline(always)]
+    pub fn facet(&self, positions: &Positions<'_>) -> Bilinear {
+        // Not by `map`: what it calls is not always inlined.
+        let mut x = [[0.0; 3]; 4];
+        for (x, &node) in x.iter_mut().zip(&self.nodes) {
+            *x = positions.at(node);
+        }
+        Bilinear::through(x)
+    }
+}
+
+/// A face at a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corner {
+    pub face: u32,
+    /// Which of its corners the node is.
+    pub number: u8,
+    /// That of the exact surface there, if there is one.
+    pub inclination: Option<Inclination>,
+}
+
 /// One side of the contact.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactSurface {
@@ -46,9 +68,9 @@ pub(crate) struct ContactSurface {
     pub symmetric: bool,
     /// Which nodes lie on the plane; empty without one.
     plane: Vec<bool>,
-    /// The faces around each node and which of their corners it is: `around[start[i]..start[i + 1]]`.
+    /// The faces around each node: `around[start[i]..start[i + 1]]`.
     start: Vec<u32>,
-    around: Vec<(u32, u8)>,
+    around: Vec<Corner>,
 }
 
 impl ContactSurface {
@@ -174,9 +196,9 @@ impl ContactSurface {
         self.first..self.first + self.len() as u32
     }
 
-    /// The faces around a node, ascending, and which of their corners it is.
+    /// The faces around a node, ascending.
     #[inline]
-    pub fn around(&self, local: u32) -> &[(u32, u8)] {
+    pub fn around(&self, local: u32) -> &[Corner] {
         let [first, last] = [0, 1].map(|next| self.start[local as usize + next] as usize);
         &self.around[first..last]
     }
@@ -190,7 +212,12 @@ impl ContactSurface {
         let nodes = 0..=self.len() as u32;
         let first = |node| corners.partition_point(|(at, _)| *at < node) as u32;
         self.start = nodes.map(first).collect();
-        self.around = corners.into_iter().map(|(_, face)| face).collect();
+        let corner = |(_, (face, number))| Corner {
+            face,
+            number,
+            inclination: Inclination::at_corner(self, face, number),
+        };
+        self.around = corners.into_iter().map(corner).collect();
     }
 
     /// Every inner edge is run through once in each direction; `nodes` are the numbers in the mesh.

@@ -425,6 +425,7 @@ fn write_contact(t: &mut String, settings: &Settings) {
         "
 [contact]
 curvature = false         # LS-DYNA's contact meets the facets
+normals = \"face\"
 
 [contact.penalty]         # SLSFAC times SFS
 normal = {factor}

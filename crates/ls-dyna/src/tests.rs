@@ -2,7 +2,7 @@
 
 use crate::{DeckError, Source, Translation, Units, translate};
 use case::Case;
-use case::schema::{ContactLayers, Crown, Stiffness};
+use case::schema::{ContactLayers, Crown, Normals, Stiffness};
 use friction::Kind;
 use mesh::import::{SetNames, Unit, bodies, read_abaqus};
 use std::fs;
@@ -55,6 +55,7 @@ fn the_cards_of_the_small_model_become_the_keys_of_the_table() {
     assert_eq!(case.contact.penalty.tangential, Stiffness::Factor(1.0));
     assert_eq!(case.contact.penalty.damping, 0.1);
     assert!(!case.contact.curvature);
+    assert_eq!(case.contact.normals, Normals::Face);
     assert_eq!(case.element.hourglass, 0.05);
     assert_eq!(case.element.contact_layers, ContactLayers::OnePoint);
     assert_eq!((case.damping.bulk_linear, case.damping.bulk_quadratic), (0.06, 1.5));

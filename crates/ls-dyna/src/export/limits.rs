@@ -1,7 +1,9 @@
 //! What keyword files cannot say of a case, and what they say only nearly.
 
 use super::{Rolling, by_torque};
-use case::schema::{Case, ContactLayers, Ends, Enforcement, PreloadMethod, Stiffness, Volumetric};
+use case::schema::{
+    Case, ContactLayers, Ends, Enforcement, Normals, PreloadMethod, Stiffness, Volumetric,
+};
 use friction::Kind;
 
 /// What of a case keyword files cannot say, one entry each with the key; nothing where the case can be exported.
@@ -65,6 +67,10 @@ pub(super) fn nearly(rolling: &Rolling<'_>) -> Vec<String> {
         ),
         (!by_torque(case), radius),
         (case.contact.curvature, "contact.curvature: contact meets the facets".to_owned()),
+        (
+            case.contact.normals == Normals::Averaged,
+            "contact.normals: contact meets each facet along its own".to_owned(),
+        ),
         (
             penalty.damping != 0.0,
             "contact.penalty.damping: VDC is a share of critical by the other program's masses".to_owned(),

@@ -290,10 +290,14 @@ fn motions_that_would_be_read_as_others_are_refused() {
 
 #[test]
 fn a_deck_names_its_units_and_what_it_says_nearly() {
-    let there = There::new(small(&["contact.curvature=true"]), "mm-ton-s");
+    let there =
+        There::new(small(&["contact.curvature=true", "contact.normals=\"averaged\""]), "mm-ton-s");
     let head: Vec<&str> = there.deck.lines().take_while(|line| line.starts_with('$')).collect();
     assert!(head.contains(&"$ units: mm-ton-s"), "{head:?}");
-    assert!(head.iter().any(|line| line.starts_with("$ nearly: contact.curvature")), "{head:?}");
+    for key in ["curvature", "normals"] {
+        let line = format!("$ nearly: contact.{key}");
+        assert!(head.iter().any(|found| found.starts_with(&line)), "{head:?}");
+    }
     assert!(there.deck.lines().all(|line| line.len() <= 88 || line.starts_with('$')));
     assert!(there.deck.is_ascii());
 }

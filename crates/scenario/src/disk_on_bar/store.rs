@@ -71,6 +71,7 @@ pub(crate) fn key(case: &Case, kernels: &str) -> String {
         "enforcement": case.contact.enforcement,
         "rows": case.contact.rows,
         "curvature": case.contact.curvature,
+        "normals": case.contact.normals,
         "normal": penalty.normal,
         "preload": case.preload.undisturbed(),
         // relaxation takes its fictitious masses from both springs
