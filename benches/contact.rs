@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use contact::{
-    BodyMaterial, Contact, FreeMotion, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    BodyMaterial, Contact, FreeMotion, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
     TraceFields,
 };
 use friction::{Exponential, Lagged};
@@ -58,6 +58,7 @@ impl Rolling {
             tangential: PenaltyStiffness::Scale(0.1),
             damping: 0.1,
             curvature: true,
+            normals: Normals::Averaged,
         };
         let law = Lagged(Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 });
         let surfaces =

@@ -40,6 +40,7 @@ const QUANTITIES: &[Quantity] = &[
     ("window.torque", "N m", "torque that the drive supplies about y"),
     ("window.max_penetration", "m", ""),
     ("window.hourglass_share", "1", "hourglass over strain energy"),
+    ("window.friction_power", "W", "mean power of friction; T creepage V in steady rolling"),
     ("checks.cone_excess", "1", "largest (|shear| - mu pressure) over Hertz's peak pressure"),
     ("checks.resultant_mismatch", "1", "|sum of the contact forces on both bodies| over the normal force"),
     ("checks.contact_damping", "J", "the part of damping_dissipated that contact took"),

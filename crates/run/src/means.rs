@@ -67,6 +67,9 @@ pub(crate) struct Means {
     pub(crate) stick_border: Mean,
     pub(crate) penetration: Mean,
     pub(crate) hourglass_share: Mean,
+    /// Time (s) and work of friction so far (J), in the first and the last row of the window.
+    #[serde(default)]
+    pub(crate) friction_work: Option<[[f64; 2]; 2]>,
     pub(crate) worst_cone: f64,
     pub(crate) worst_mismatch: f64,
     /// Most sweeps of exact enforcement in a step.
@@ -116,6 +119,12 @@ impl Means {
                  several elements"
             )
         ))
+    }
+
+    /// The mean power of friction between the first and the last row of the window (W).
+    pub(crate) fn friction_power(&self) -> Option<f64> {
+        let [[from, before], [to, after]] = self.friction_work?;
+        (to > from).then(|| (after - before) / (to - from))
     }
 
     /// Counts a step whose last sweep changed a force by `change` of the largest, where it did not converge.

@@ -235,6 +235,7 @@ pub(crate) fn window(case: &Case, means: &Means, status: Status) -> serde_json::
         "torque": means.torque.mean(),
         "max_penetration": means.penetration.mean(),
         "hourglass_share": means.hourglass_share.mean(),
+        "friction_power": means.friction_power(),
         "warnings": misses.as_slice(),
         "deviation": {
             "normal_force": means.force[2].deviation(),

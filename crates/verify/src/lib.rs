@@ -11,6 +11,7 @@ mod convergence;
 mod problem;
 mod problems;
 mod rolling_dynamic;
+mod rolling_limits;
 mod rolling_memory;
 mod rolling_steps;
 mod row;

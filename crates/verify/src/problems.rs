@@ -4,8 +4,8 @@ use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
     interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic,
-    rolling_memory, rolling_steps, rupture, shear_column, shear_column_penalty, slider_tables,
-    sliding, steady_rolling, waves,
+    rolling_limits, rolling_memory, rolling_steps, rupture, shear_column, shear_column_penalty,
+    slider_tables, sliding, steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -244,6 +244,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "rolling-exact",
         about: "Steady rolling by explicit dynamics with exact contact, as it is, beside CONTACT",
         run: rolling_dynamic::run_exact,
+    },
+    Problem {
+        name: "rolling-limits",
+        about: "Rolling without friction and in gross sliding: no tangential force, and mu N",
+        run: rolling_limits::run,
     },
     Problem {
         name: "slider-tables",

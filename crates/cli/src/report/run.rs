@@ -77,11 +77,12 @@ const CONTACT: [Quantity; 9] = [
 ];
 
 /// Quantities of the window that stand beside the contract's.
-const WINDOW: [Quantity; 4] = [
+const WINDOW: [Quantity; 5] = [
     ("peak shear", "peak_shear", 1e-6, "MPa"),
     ("stick border at x", "stick_border", 1e3, "mm"),
     ("largest penetration", "max_penetration", 1e6, "um"),
     ("torque", "torque", 1.0, "N m"),
+    ("power of friction", "friction_power", 1e-3, "kW"),
 ];
 
 fn contact(out: &mut String, summary: &Value) {

@@ -202,7 +202,7 @@ impl ContactRecord {
         at: &Whereabouts,
     ) -> Result<(), RunError> {
         let energies = report.energies.unwrap_or_default();
-        self.means.add_patch(patch, &energies, step.inside);
+        self.means.add_row(report.time, patch, &energies, step.inside);
         self.rows.extend(row(report, &step.resultants, patch, at).each());
         if self.rows.len() >= HISTORY_BATCH * HISTORY.each().len()
             || self.flushed.elapsed() >= LONGEST_HELD

@@ -85,8 +85,14 @@ impl Means {
         }
     }
 
-    /// Adds the patch and the energies of a row of the history.
-    pub(super) fn add_patch(&mut self, patch: &PatchMeasures, energies: &Energies, inside: bool) {
+    /// Adds the patch and the energies of a row of the history, at `time` (s).
+    pub(super) fn add_row(
+        &mut self,
+        time: f64,
+        patch: &PatchMeasures,
+        energies: &Energies,
+        inside: bool,
+    ) {
         self.worst_cone = self.worst_cone.max(patch.cone_excess);
         if inside {
             let [a, b, p0, _] = patch.fit;
@@ -99,6 +105,8 @@ impl Means {
             self.slip.add(patch.areas.slip_fraction);
             self.stick_border.add(patch.stick_border);
             self.hourglass_share.add(energies.hourglass / energies.internal);
+            let work = [time, energies.friction_dissipated];
+            self.friction_work.get_or_insert([work; 2])[1] = work;
         }
     }
 }

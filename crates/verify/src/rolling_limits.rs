@@ -1,0 +1,63 @@
+//! Rolling whose tangential force is known beforehand: none without friction, and `mu N` in gross sliding.
+//!
+//! The reference case A rolls on 2 mm by penalty and by exact contact. Where a node meets a face along the normal of that
+//! face, the load pushes the disk along by about h/(4R) of itself (`contact::Normals`); of that a tenth is asked.
+//!
+//! In gross sliding the shear `q = mu p` tilts the common surface of both bodies by (1 - 2 nu) q/(2G), so that T/N falls
+//! short of mu by that mean angle times 1 + mu^2.
+
+use crate::half_space::WHEEL;
+use crate::problem::{Cause, Outcome, Size};
+use crate::rolling_dynamic::numbers_of_run;
+use crate::row::Row;
+
+/// Size of the elements (m).
+const SIZE: f64 = 2e-3;
+/// The friction of case A.
+const MU: f64 = 0.5;
+/// The material of case A.
+const YOUNG: f64 = 210e9;
+const POISSON: f64 = 0.3;
+
+/// The name of a contact and its keys.
+type Contact = (&'static str, &'static [&'static str]);
+
+const PENALTY: Contact = ("penalty", &["contact.penalty.normal=1", "contact.penalty.tangential=1"]);
+const NODE_TO_FACE: Contact = ("node to face", &["contact.enforcement=exact"]);
+const MORTAR: Contact = ("mortar", &["contact.enforcement=exact", "contact.rows=mortar"]);
+
+pub(crate) fn run(_: Size) -> Outcome {
+    let mut rows = Vec::new();
+    for contact in [PENALTY, NODE_TO_FACE, MORTAR] {
+        rows.push(without_friction(contact)?);
+    }
+    for contact in [PENALTY, MORTAR] {
+        rows.push(in_gross_sliding(contact)?);
+    }
+    Ok(rows)
+}
+
+fn traction((_, keys): Contact, more: &[&str]) -> Result<f64, Cause> {
+    let keys: Vec<String> = keys.iter().chain(more).map(|key| (*key).to_owned()).collect();
+    Ok(numbers_of_run(SIZE, keys)?("contact", "traction_coefficient")?)
+}
+
+fn without_friction(contact: Contact) -> Result<Row, Cause> {
+    let found = traction(contact, &["friction.static=0", "time.roll=0.02", "drive.ramp=0.2e-3"])?;
+    let limit = 0.1 * SIZE / (4.0 * WHEEL.radii[0]);
+    let from = "a tenth of h/(4R), the push along normals of faces";
+    let what = format!("{}: T/N without friction", contact.0);
+    Ok(Row::new(what, [0.0, found], 1.0, (limit, from), "equilibrium"))
+}
+
+fn in_gross_sliding(contact: Contact) -> Result<Row, Cause> {
+    let found = traction(contact, &["drive.creepage=20e-3"])?;
+    let [a, b] = WHEEL.half_axes;
+    let mean_pressure = WHEEL.load / (std::f64::consts::PI * a * b);
+    let shear_modulus = YOUNG / (2.0 * (1.0 + POISSON));
+    let tilt = (1.0 - 2.0 * POISSON) * MU * mean_pressure / (2.0 * shear_modulus);
+    let limit = tilt * (1.0 + MU * MU) / MU;
+    let from = "tilt of the surface under shear, (1 - 2 nu) mu p_m/(2G), times (1 + mu^2)/mu";
+    let what = format!("{}: T/N at 20 per mille", contact.0);
+    Ok(Row::new(what, [MU, found], MU, (limit, from), "T = mu N"))
+}
