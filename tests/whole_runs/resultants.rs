@@ -41,6 +41,7 @@ impl Rig {
             tangential: contact::PenaltyStiffness::Scale(0.1),
             damping: 0.1,
             curvature,
+            normals: contact::Normals::Averaged,
         };
         let surfaces =
             [(&mesh.bodies[0].surfaces["tread"], steel), (&mesh.bodies[1].surfaces["top"], steel)];
