@@ -90,6 +90,7 @@ const QUANTITIES: &[Quantity] = &[
     ("implicit.products", "1", "products with the stiffness of all implicit steps"),
     ("spectral.megabytes", "MB", "memory of the half-spaces"),
     ("spectral.memory_steps", "1", "steps of the past that are felt"),
+    ("spectral.undelayed_steps", "1", "steps in which a point that stuck began to slip although adhesion was a solution"),
     ("spectral.", "1", ""),
     ("mesh_window.travel", "m", "how far the fine zone has moved"),
     ("mesh_window.energy", "J", "brought by its moves, less what was taken"),
