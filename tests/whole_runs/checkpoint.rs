@@ -86,6 +86,12 @@ fn an_exact_run_interrupted_and_resumed_leaves_the_bits_of_an_undisturbed_one() 
 }
 
 #[test]
+fn implicit_steps_go_on_and_count_what_all_parts_took_as_one_would() {
+    let implicit = ["time.integrator=implicit", "time.step=1e-7", "contact.enforcement=exact"];
+    interrupted_is_uninterrupted(&implicit, &["contact/slip/0001", "history/sweeps"]);
+}
+
+#[test]
 fn mortar_rows_go_on_with_the_integrals_that_they_follow() {
     let mortar = ["contact.enforcement=exact", "contact.rows=mortar", "time.roll=0.006"];
     interrupted_is_uninterrupted(&mortar, &["contact/slip/0001", "history/sweeps"]);

@@ -85,6 +85,7 @@ fn numbers_of_the_half_are_those_of_the_whole_bodies() {
             "/contact/normal_force",
             "/contact/tangential_force",
             "/contact/patch_area",
+            "/contact/patch_area_fitted",
             "/contact/patch_half_length",
             "/contact/patch_half_width",
             "/contact/peak_pressure",

@@ -64,6 +64,27 @@ fn inertia_changes_the_force_of_slow_rolling_by_less_than_a_thousandth() {
 }
 
 #[test]
+fn half_spaces_expect_of_falling_friction_what_elements_do_but_for_the_layer_that_they_lack() {
+    let law = [
+        "friction.law=exponential",
+        "friction.dynamic=0.2",
+        "friction.memory.distance=2e-6",
+        "time.roll=0.0004",
+    ];
+    let [elements, half_spaces, slow] =
+        [small(&law), rolled(&law), rolled(&[&law[..], &["half_space.inertia=false"]].concat())];
+    for key in ["pressure", "impedance", "r", "slip_length", "nucleation_length", "gamma"] {
+        let at = format!("/numbers/{key}");
+        let [one, other] = [&elements, &half_spaces].map(|run| run.number(&at));
+        assert!((other / one - 1.0).abs() < 1e-12, "{key}: {one} {other}");
+    }
+    let [at, without] = [&half_spaces, &slow].map(|run| &run.summary["numbers"]);
+    assert!(at["n1"].is_null() && at["n2"].is_null(), "there is no layer of elements: {at}");
+    assert!(without["r"].is_null(), "without waves there is no impedance: {without}");
+    assert_eq!(without["gamma"], at["gamma"]);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit_of_half_spaces() {
     let case = runs::load(&runs::project("tests/small.toml"), &MODEL);
     let (one, three) = (run(&case, 1), run(&case, 3));

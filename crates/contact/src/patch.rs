@@ -1,5 +1,7 @@
 //! Measures of the contact patch from nodal values.
 
+use std::f64::consts::PI;
+
 /// A node is in contact where its pressure exceeds this share of Hertz's peak pressure, or of the largest nodal
 /// one: nodes around the patch carry a little force that faces under a loaded node hand on to them.
 pub const IN_CONTACT: f64 = 0.02;
@@ -33,6 +35,8 @@ pub struct PatchFit {
     pub xc: f64,
     /// y of the centre (m).
     pub yc: f64,
+    /// Area (m^2): pi a b of an ellipse, 4 a b of a rectangle.
+    pub area: f64,
 }
 
 /// Areas and peak of the patch from nodal values.
@@ -93,12 +97,18 @@ pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<P
     }
     let top = c - cx * cx / (4.0 * cxx) - cy * cy / (4.0 * cyy);
     // NaN fails the test too.
-    (top > 0.0).then(|| PatchFit {
-        a: (-top / cxx).sqrt() * extent[0],
-        b: if rectangle { 0.5 * (high - low) } else { (-top / cyy).sqrt() * extent[1] },
+    if top.is_nan() || top <= 0.0 {
+        return None;
+    }
+    let a = (-top / cxx).sqrt() * extent[0];
+    let b = if rectangle { 0.5 * (high - low) } else { (-top / cyy).sqrt() * extent[1] };
+    Some(PatchFit {
+        a,
+        b,
         p0: top.sqrt() * peak,
         xc: mean[0] - cx / (2.0 * cxx) * extent[0],
         yc: if rectangle { 0.5 * (low + high) } else { mean[1] - cy / (2.0 * cyy) * extent[1] },
+        area: if rectangle { 4.0 } else { PI } * a * b,
     })
 }
 
@@ -191,6 +201,29 @@ mod tests {
         assert!((found.p0 / 1.2376e9 - 1.0).abs() < 1e-11);
         assert!((found.xc - 1.3e-3).abs() < 1e-13);
         assert!((found.yc + 0.4e-3).abs() < 1e-13);
+        assert!((found.area / (PI * 7.162e-3 * 5.387e-3) - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn the_area_of_the_fit_is_the_ellipse_s_where_that_of_the_nodes_is_larger() {
+        let (points, pressure) = hertz(1e-3);
+        let area = vec![1e-6; points.len()];
+        let ellipse = PI * 7.162e-3 * 5.387e-3;
+        // faces hand a sixth of a node's force on to each neighbour, along and across
+        let weight = |d: f64| match d.abs() {
+            d if d < 0.5e-3 => 2.0 / 3.0,
+            d if d < 1.5e-3 => 1.0 / 6.0,
+            _ => 0.0,
+        };
+        let spread = |x: &[f64; 3]| {
+            let from = |(y, p): (&[f64; 3], &f64)| p * weight(x[0] - y[0]) * weight(x[1] - y[1]);
+            points.iter().zip(&pressure).map(from).sum::<f64>()
+        };
+        let spread: Vec<f64> = points.iter().map(spread).collect();
+        let nodes = areas(&spread, &area, &vec![1; points.len()]).contact;
+        let found = fit(PatchShape::Ellipse, &points, &spread).unwrap();
+        assert!(nodes > 1.2 * ellipse, "{nodes} {ellipse}");
+        assert!((found.area / ellipse - 1.0).abs() < 0.05, "{found:?}");
     }
 
     #[test]
@@ -217,6 +250,7 @@ mod tests {
             assert!((found.p0 / p0 - 1.0).abs() < 1e-11);
             assert!((found.xc - xc).abs() < 1e-13);
             assert!((found.b - 0.25e-3).abs() < 1e-16 && found.yc.abs() < 1e-16, "{found:?}");
+            assert!((found.area / (2.0 * a * 0.5e-3) - 1.0).abs() < 1e-11, "{found:?}");
         }
     }
 

@@ -26,6 +26,7 @@ use columns::{Columns, Rows};
 use contact::ContactSums;
 use mesh::Padded;
 use operator::{ConjugateGradients, Operator, Vectors};
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// A step that is not solved is cut in halves, these again, so often.
@@ -52,6 +53,17 @@ impl Implicit {
     /// Mean velocities over the last step (m/s).
     pub(crate) fn step_velocity(&self) -> &[Padded] {
         &self.w
+    }
+
+    /// The nodes whose columns are in the count of products, of whole steps and of each cut.
+    pub(crate) fn counted(&self) -> Vec<BTreeSet<u32>> {
+        self.columns.iter().map(|columns| columns.counted.clone()).collect()
+    }
+
+    /// Takes over what an earlier part of the run counted.
+    pub(crate) fn set_counted(&mut self, counted: &[BTreeSet<u32>]) {
+        let of = self.columns.iter_mut().zip(counted);
+        of.for_each(|(columns, counted)| columns.counted.clone_from(counted));
     }
 }
 

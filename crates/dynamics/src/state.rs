@@ -9,6 +9,7 @@ use crate::window::Travel;
 use contact::{ContactState, StateError};
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// State of a simulation at a full step, with velocities at the half step before. What follows from
 /// the setup (masses, elements, boundary conditions, loads) is not part of it.
@@ -36,6 +37,8 @@ pub struct SimulationState {
     pub travel: Travel,
     /// What implicit steps took so far.
     pub effort: Effort,
+    /// The nodes whose columns of the compliance are in the effort, of whole steps and of each cut.
+    pub columns: Vec<BTreeSet<u32>>,
 }
 
 /// Why a simulation cannot go on from a state.
@@ -72,6 +75,7 @@ impl Simulation {
             timers: self.timers,
             travel: self.travel,
             effort: self.effort().unwrap_or_default(),
+            columns: self.implicit.as_ref().map(|implicit| implicit.counted()).unwrap_or_default(),
         }
     }
 
@@ -109,6 +113,7 @@ impl Simulation {
         (self.watch, self.travel) = (state.watch, state.travel);
         if let Some(implicit) = &mut self.implicit {
             implicit.effort = state.effort;
+            implicit.set_counted(&state.columns);
         }
         Ok(())
     }

@@ -22,6 +22,6 @@ pub struct Effort {
     pub cut: usize,
     /// Newton iterations.
     pub iterations: usize,
-    /// Products with the stiffness in all of conjugate gradients.
+    /// Products with the stiffness in all of conjugate gradients, but for what a resumed run does a second time.
     pub products: usize,
 }

@@ -142,6 +142,8 @@ pub struct StepSums {
     pub slipping: usize,
     /// Points where adhesion and slip both were solutions.
     pub non_unique: usize,
+    /// Those that begin to slip although adhesion is a solution: the iteration settled without perfect delay.
+    pub undelayed: usize,
     /// Iterations, and the change of slip velocity in the last one over the largest trial velocity where that is above the
     /// tolerance, or the part of a prescribed force that is missed.
     pub iterations: usize,
@@ -174,10 +176,9 @@ pub(crate) struct Fields {
 }
 
 impl Fields {
-    /// Rate of the displacement `c` of a point (m/s), by the backward difference of second order over the step `dt` (s).
-    fn rate(&self, c: usize, i: usize, dt: f64) -> f64 {
-        let [now, one, two] = &self.moved;
-        (1.5 * now[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / dt
+    /// Rate of the displacement `c` of a point (m/s), by the rates per displacement (1/s) of [`Rolling::difference`].
+    fn rate(&self, c: usize, i: usize, by: [f64; 3]) -> f64 {
+        by.iter().zip(&self.moved).map(|(by, moved)| by * moved[c][i]).sum()
     }
 }
 
@@ -428,14 +429,22 @@ impl Rolling {
         self.work.slid = slid;
     }
 
+    /// The backward difference in time, as rates (1/s) per displacement now, one and two steps ago. It is of second order but in
+    /// the first step: nothing moved before, so that a motion that begins suddenly would begin half a step late.
+    pub(crate) fn difference(&self) -> [f64; 3] {
+        let of_step = if self.steps == 1 { [1.0, -1.0, 0.0] } else { [1.5, -2.0, 0.5] };
+        of_step.map(|weight| weight / self.setup.step)
+    }
+
     /// The velocities that the points would have without the present tractions (m/s), but for the creepage along x.
     fn free_velocities(&mut self, rigid: Rigid) {
-        let (v, step) = (self.setup.speed, self.setup.step);
+        let v = self.setup.speed;
+        let [of_now, of_one, of_two] = self.difference();
         let [_, one, two] = &self.fields.moved;
         self.work.free.clear();
         for &(i, at) in &self.points {
             let elastic =
-                |c: usize| (1.5 * self.work.left[c][i] - 2.0 * one[c][i] + 0.5 * two[c][i]) / step;
+                |c: usize| of_now * self.work.left[c][i] + of_one * one[c][i] + of_two * two[c][i];
             let carried = rigid.carried(v, at);
             self.work.free.push([0, 1].map(|c| elastic(c) + carried[c]));
         }
@@ -472,14 +481,17 @@ impl Rolling {
                 *to = left + now;
             }
         }
-        let (step, compliance) = (self.setup.step, self.local_compliance());
+        let (step, difference) = (self.setup.step, self.difference());
+        let compliance = self.local_compliance();
         for (k, &(i, at)) in self.points.iter().enumerate() {
             let found = self.work.found[k];
             let mut carried = rigid.carried(self.setup.speed, at);
             carried[0] -= self.backward;
             let free = [0, 1].map(|c| found.slip_velocity[c] - compliance * found.shear[c]);
-            let many = is_non_unique(&self.point(i, at), free, compliance);
+            let point = self.point(i, at);
+            let many = is_non_unique(&point, free, compliance);
             sums.non_unique += usize::from(many);
+            sums.undelayed += usize::from(many && found.slips && !point.slipped);
             let fields = &mut self.fields;
             fields.mu[i] = found.mu;
             fields.contact[i] = if found.slips { 2 } else { 1 };
@@ -491,7 +503,7 @@ impl Rolling {
                 fields.slip[c][i] += step * found.slip_velocity[c];
                 sums.shear[c] += cell * found.shear[c];
                 sums.dissipated -= cell * found.shear[c] * found.slip_velocity[c];
-                sums.stored += cell * found.shear[c] * fields.rate(c, i, step);
+                sums.stored += cell * found.shear[c] * fields.rate(c, i, difference);
                 sums.driven -= cell * found.shear[c] * carried[c];
             }
         }
@@ -523,7 +535,7 @@ impl Rolling {
 
     /// The points in contact: column and line of the material, and what holds there.
     pub fn patch(&self) -> impl Iterator<Item = PatchPoint> + '_ {
-        let h = self.setup.spacing;
+        let (h, difference) = (self.setup.spacing, self.difference());
         self.points.iter().map(move |&(i, at)| PatchPoint {
             column: ((at[0] + self.centre) / h).round() as i64,
             line: (at[1] / h - self.setup.offset).round() as i64,
@@ -533,7 +545,7 @@ impl Rolling {
             slip_velocity: [0, 1].map(|c| self.fields.slip_velocity[c][i]),
             slip: [0, 1].map(|c| self.fields.slip[c][i]),
             displacement: [0, 1].map(|c| self.fields.moved[0][c][i]),
-            rate: [0, 1].map(|c| self.fields.rate(c, i, self.setup.step)),
+            rate: [0, 1].map(|c| self.fields.rate(c, i, difference)),
             mu: self.fields.mu[i],
             slips: self.fields.contact[i] == 2,
         })

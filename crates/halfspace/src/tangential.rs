@@ -10,7 +10,8 @@ const CONVERGED: f64 = 1e-9;
 /// A compliance whose bounds differ by less than this factor is nearly local.
 const LOCAL: f64 = 3.0;
 /// Iterations after which a point that slips takes the solution in slip where there are several, as if it had slipped in the
-/// step before: under friction that falls steeply, neighbours may else make one another stick and slip in turn.
+/// step before: under friction that falls steeply, neighbours may else make one another stick and slip in turn. Such points
+/// leave perfect delay, and are counted (`undelayed`).
 const SETTLED: usize = 30;
 /// Steps of Newton's method to a given force at most, and the share of the force at which it ends.
 const NEWTON_STEPS: usize = 6;
@@ -39,7 +40,7 @@ impl Rolling {
     /// local, its mean takes each point to its own solution; else the method of gradients needs its upper bound, and momentum.
     pub(crate) fn local_compliance(&self) -> f64 {
         let [least, most] = self.kernel.bounds;
-        let rate = 1.5 / self.setup.step;
+        let [rate, ..] = self.difference();
         if self.is_nearly_local() { 0.5 * rate * (least + most) } else { rate * most }
     }
 
@@ -48,7 +49,7 @@ impl Rolling {
     /// convex function.
     /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
     pub(crate) fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
-        let rate = 1.5 / self.setup.step;
+        let [rate, ..] = self.difference();
         let compliance = self.local_compliance();
         let [least, most] = self.kernel.bounds;
         let root = (least / most).sqrt();

@@ -96,6 +96,8 @@ pub struct Contact {
     pub patch_half_width: Option<f64>,
     /// Area of the bar's nodes in contact (m2).
     pub patch_area: Option<f64>,
+    /// Area of the fitted ellipse, or of a line contact's rectangle (m2).
+    pub patch_area_fitted: Option<f64>,
     /// Peak pressure of Hertz's distribution fitted to the nodal pressures (Pa).
     pub peak_pressure: Option<f64>,
     /// Share of the patch's area that sticks (dimensionless).
@@ -215,6 +217,7 @@ mod tests {
             "patch_half_length",
             "patch_half_width",
             "patch_area",
+            "patch_area_fitted",
             "peak_pressure",
             "stick_fraction",
             "slip_fraction",

@@ -17,7 +17,7 @@ use crate::frames::ContactHistory;
 use crate::slip_zone::SlipZone;
 use crate::statistics::time_weights;
 use crate::surface::body_name;
-use crate::window::Span;
+use crate::window::{Span, Window};
 use ::figure::Figure;
 use contact::mesh_mode::{LEAST_SLIP, MeshMode};
 use difference::INSTANTS;
@@ -45,13 +45,16 @@ struct RunLine {
     /// The time in the window that each record stands for (s).
     weights: Vec<f64>,
     zone: Option<SlipZone>,
+    /// The largest slip speed (m/s) in the zone, and the span of time (s) that it is the largest of.
+    largest: Option<f64>,
+    largest_over: [f64; 2],
     /// Alternating slip over all faces in contact, in every record of the window.
     mesh_mode: MeshMode,
 }
 
 /// Compares runs of one geometry and speed, each with the one before it, over `window`; where that is `None`,
 /// over the first `[[output.window]]` of the first run, else its evaluation window, else the time that all runs
-/// have records of.
+/// have records of. The largest slip speed of a run is that of its evaluation window, unless a window is asked for.
 ///
 /// # Errors
 /// Fewer than two runs; files that cannot be read; a run without a record in the window, or whose speed, half
@@ -75,7 +78,11 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
     });
     let mut lines = Vec::new();
     for (run, history) in runs.iter_mut().zip(&histories) {
-        lines.push(read(history, &mut run.basis, window)?);
+        let mut line = read(history, &mut run.basis, window)?;
+        if asked.is_none() {
+            (line.largest, line.largest_over) = largest(history, &mut run.basis)?;
+        }
+        lines.push(line);
     }
     let labels = labels(runs);
     let described: Vec<Value> = runs
@@ -119,7 +126,7 @@ fn describe(run: &Compared, label: &str, line: &RunLine) -> Value {
     let zone = line.zone.as_ref();
     json!({
         "name": run.basis.name, "label": label, "folder": run.paths.folder, "side": body_name(line.line.body),
-        "largest": zone.map(|zone| zone.largest), "mean": zone.map(|zone| zone.mean),
+        "largest": line.largest, "largest_over": line.largest_over, "mean": zone.map(|zone| zone.mean),
         "fluctuation": zone.and_then(|zone| zone.fluctuation),
         "fluctuating_share": zone.and_then(|zone| zone.fluctuating_share),
         "slip_zone": zone.map(|zone| zone.document(&line.line)),
@@ -156,5 +163,22 @@ fn read(
     let weights: Vec<f64> =
         around.map(|record| if records.contains(&record) { all[record] } else { 0.0 }).collect();
     let zone = SlipZone::of(&line, &weights);
-    Ok(RunLine { line, weights, zone, mesh_mode })
+    let largest = zone.as_ref().map(|zone| zone.largest);
+    Ok(RunLine { line, weights, zone, largest, largest_over: window, mesh_mode })
+}
+
+/// The largest slip speed (m/s) in the slip zone over the run's evaluation window, as `creepage check` gives it, and that
+/// window (s): the span in which records lie close enough for differences is too short for what happens seldom.
+fn largest(
+    history: &ContactHistory,
+    basis: &mut Basis,
+) -> Result<(Option<f64>, [f64; 2]), PostError> {
+    let window = Window::resolve(None, basis, history)?;
+    let mut line = CentreLine::new(history, basis)?;
+    history.stream(window.records.clone(), |frame| {
+        line.take(&history.surface, &frame);
+        Ok(())
+    })?;
+    let zone = SlipZone::of(&line, &window.weights(&history.times));
+    Ok((zone.map(|zone| zone.largest), window.ends(&history.times)))
 }

@@ -28,13 +28,17 @@ fn column(measure: &str) -> Option<&'static FieldSpec> {
 
 /// The name of a measure of the patch in a run's summary and history.
 fn name_in_run(measure: &str) -> &str {
-    column(measure).map_or(measure, |column| &column.name)
+    match measure {
+        // the history holds the half axes alone
+        "area_fitted" => "patch_area_fitted",
+        _ => column(measure).map_or(measure, |column| &column.name),
+    }
 }
 
 /// The reason why a measure has no mean, where the run states none.
 fn why_none(measure: &str) -> &'static str {
     match measure {
-        "half_length" | "half_width" | "centre" | "peak_pressure" => {
+        "half_length" | "half_width" | "area_fitted" | "centre" | "peak_pressure" => {
             "Hertz's distribution fits the pressure of no record"
         }
         "stick_fraction" | "slip_fraction" => "the file has no field state",

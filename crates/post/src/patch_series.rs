@@ -7,7 +7,7 @@ use crate::vector::{Vec3, axpy, cross, dot, norm, sub};
 use contact::patch::{self, PatchShape};
 
 /// Measures of the patch, in the order of [`PatchRow::values`]: name, unit, meaning.
-pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
+pub const PATCH_MEASURES: [(&str, &str, &str); 15] = [
     ("half_length", "m", "half axis along x of Hertz's distribution fitted to the pressure"),
     ("half_width", "m", "half axis along y of that fit, or half the width of a line contact"),
     ("centre", "m", "x of its centre"),
@@ -15,6 +15,7 @@ pub const PATCH_MEASURES: [(&str, &str, &str); 14] = [
     ("peak_pressure_raw", "Pa", "largest nodal pressure"),
     ("peak_shear", "Pa", "largest nodal shear traction"),
     ("area", "m2", "sum of the areas of the nodes in contact"),
+    ("area_fitted", "m2", "area of the fitted ellipse, or of a line contact's rectangle"),
     ("normal_force", "N", "z component of the force on the disk"),
     ("tangential_force", "N", "x component of the force on the disk"),
     ("lateral_force", "N", "y component of the force on the disk"),
@@ -47,10 +48,11 @@ const fn line(
 }
 
 /// The lines of a table of the patch, on a page or in a terminal.
-pub const PATCH_TABLE: [PatchLine; 13] = [
+pub const PATCH_TABLE: [PatchLine; 14] = [
     line("half length (fit)", "half_length", 1e3, "mm"),
     line("half width (fit)", "half_width", 1e3, "mm"),
     line("area (nodes)", "area", 1e6, "mm\u{b2}"),
+    line("area (fit)", "area_fitted", 1e6, "mm\u{b2}"),
     line("peak pressure (fit)", "peak_pressure", 1e-6, "MPa"),
     line("peak pressure (nodes)", "peak_pressure_raw", 1e-6, "MPa"),
     line("peak shear", "peak_shear", 1e-6, "MPa"),
@@ -121,12 +123,11 @@ pub(crate) fn measure(
     let towards_disk = if body == 0 { 1.0 } else { -1.0 };
     let [fx, fy, fz] = force.map(|f| f * towards_disk);
     let share = |part: f64| if frame.state.is_some() { part / area } else { f64::NAN };
-    let [a, b, xc, top] = fit.map_or([f64::NAN; 4], |f| [f.a, f.b, f.xc, f.p0]);
+    let [a, b, xc, top, of_fit] = fit.map_or([f64::NAN; 5], |f| [f.a, f.b, f.xc, f.p0, f.area]);
     let (stick, slip) = (share(stick), share(slip));
-    PatchRow {
-        time: frame.time,
-        values: [a, b, xc, top, peak, peak_shear, area, fz, fx, fy, fx / fz, stick, slip, power],
-    }
+    let values =
+        [a, b, xc, top, peak, peak_shear, area, of_fit, fz, fx, fy, fx / fz, stick, slip, power];
+    PatchRow { time: frame.time, values }
 }
 
 /// For each node the sum of the area vectors of the faces around it that have pressure at a corner.

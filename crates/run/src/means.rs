@@ -62,6 +62,7 @@ pub(crate) struct Means {
     pub(crate) peak_pressure: Mean,
     pub(crate) peak_shear: Mean,
     pub(crate) area: Mean,
+    pub(crate) fitted_area: Mean,
     pub(crate) stick: Mean,
     pub(crate) slip: Mean,
     pub(crate) stick_border: Mean,

@@ -214,6 +214,7 @@ pub(crate) fn contact_means(means: &Means) -> Contact {
         patch_half_length: means.half_length.mean(),
         patch_half_width: means.half_width.mean(),
         patch_area: means.area.mean(),
+        patch_area_fitted: means.fitted_area.mean(),
         peak_pressure: means.peak_pressure.mean(),
         stick_fraction: means.stick.mean(),
         slip_fraction: means.slip.mean(),
@@ -246,6 +247,7 @@ pub(crate) fn window(case: &Case, means: &Means, status: Status) -> serde_json::
             "patch_half_length": means.half_length.deviation(),
             "patch_half_width": means.half_width.deviation(),
             "patch_area": means.area.deviation(),
+            "patch_area_fitted": means.fitted_area.deviation(),
             "peak_pressure": means.peak_pressure.deviation(),
             "peak_shear": means.peak_shear.deviation(),
             "stick_fraction": means.stick.deviation(),
@@ -265,6 +267,7 @@ fn reasons(means: &Means) -> serde_json::Map<String, serde_json::Value> {
     let all = [
         ("patch_half_length", &means.half_length, fit),
         ("patch_half_width", &means.half_width, fit),
+        ("patch_area_fitted", &means.fitted_area, fit),
         ("peak_pressure", &means.peak_pressure, fit),
         ("stick_border", &means.stick_border, stick),
     ];

@@ -2,7 +2,7 @@
 
 use crate::draw::{draw, seed};
 use crate::error::ScenarioError;
-use crate::numbers::three;
+use crate::numbers::{DimensionlessNumbers, three};
 use case::friction_law;
 use case::hertz::hertz;
 use case::schema::{Case, DriveMode};
@@ -19,6 +19,8 @@ pub struct HalfSpaceModel {
     pub steps: u64,
     /// The points that a run records.
     pub points: SurfacePoints,
+    /// What to expect of the friction law.
+    pub numbers: DimensionlessNumbers,
     /// Width (m) that forces per width are multiplied with: one in three dimensions, where they are forces.
     pub width: f64,
     /// Remarks for the user, one sentence each.
@@ -71,8 +73,10 @@ pub fn half_space(
             return Err(ScenarioError::Torque { force: force.abs(), bound });
         }
     }
+    let at = interface(&setup);
     Ok(HalfSpaceModel {
-        warnings: warnings(case, &setup),
+        warnings: warnings(case, &setup, &at),
+        numbers: DimensionlessNumbers::of(case, at, setup.law.mu_static()),
         rolling: Rolling::new(setup)?,
         steps: steps as u64,
         points: points(case),
@@ -117,30 +121,32 @@ fn points(case: &Case) -> SurfacePoints {
     }
 }
 
-/// What the grid is too coarse for.
-fn warnings(case: &Case, setup: &Setup) -> Vec<String> {
+/// The interface of the half-spaces. Without inertia they have no impedance; they have no surface layer.
+fn interface(setup: &Setup) -> friction::Interface {
     let bodies = &setup.bodies;
-    let at = friction::Interface {
+    friction::Interface {
         pressure: setup.patch.peak_pressure,
-        impedance: 0.5 * bodies.shear_modulus / bodies.shear_speed,
+        impedance: match setup.inertia {
+            Inertia::Dynamic => 0.5 * bodies.shear_modulus / bodies.shear_speed,
+            Inertia::Static => f64::NAN,
+        },
         // G/(1 - nu) = 2 G (1 - (c_s/c_p)^2)
         modulus: 2.0
             * bodies.shear_modulus
             * (1.0 - (bodies.shear_speed / bodies.pressure_speed).powi(2)),
-        // half-spaces have no surface layer
-        surface_mass: f64::INFINITY,
+        surface_mass: f64::NAN,
         dt: setup.step,
-    };
-    let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
-    let Some(law) = falls else { return Vec::new() };
-    if setup.inertia == Inertia::Static && case.friction.memory.is_none() {
-        // R compares with the impedance of waves
-        return Vec::new();
     }
+}
+
+/// What the grid is too coarse for.
+fn warnings(case: &Case, setup: &Setup, at: &friction::Interface) -> Vec<String> {
+    let falls = case.friction.exponential().filter(|law| friction::falling(law, at).is_some());
+    let Some(law) = falls else { return Vec::new() };
     let h = setup.spacing;
     match case.friction.memory {
         Some(memory) => {
-            let length = friction::nucleation_length(&law, memory.distance, &at);
+            let length = friction::nucleation_length(&law, memory.distance, at);
             let few = length < POINTS_PER_NUCLEATION * h;
             let text = format!(
                 "the friction law's nucleation length is {} mm, {} spacings: below {POINTS_PER_NUCLEATION} what \
@@ -152,7 +158,7 @@ fn warnings(case: &Case, setup: &Setup) -> Vec<String> {
             few.then_some(text).into_iter().collect()
         }
         None => {
-            let r = friction::falling(&law, &at).map_or(0.0, |numbers| numbers.r);
+            let r = friction::falling(&law, at).map_or(0.0, |numbers| numbers.r);
             let text = format!(
                 "friction falls with the slip velocity without memory, R = {r:.1}: above 1 disturbances grow the faster the \
                  finer the grid, and no grid has the answer; give friction.memory.distance"

@@ -33,23 +33,16 @@ pub fn numbers(case: &Case, model: &Model, dt: f64) -> DimensionlessNumbers {
     let compliance = |m: &Material| (1.0 - m.poisson) / m.shear();
     let surface = |m: &Material| 0.5 * m.density * depth;
     let in_series = |a: f64, b: f64| a * b / (a + b);
-    let patch = hertz(case);
     let at = Interface {
-        pressure: patch.p0,
+        pressure: hertz(case).p0,
         impedance: in_series(impedance(disk), impedance(bar)),
         modulus: 2.0 / (compliance(disk) + compliance(bar)),
         surface_mass: in_series(surface(disk), surface(bar)),
         dt,
     };
-    let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
-    let memory = case.friction.memory.map(|memory| memory.distance);
-    DimensionlessNumbers {
-        n1: tangential(case, model, depth).map(|k| friction::spring_number(k, &at)),
-        falling: falls.and_then(|law| friction::falling(&law, &at)),
-        nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
-        slip_length: 2.0 * patch.a * slipping(case, model, patch.a),
-        at,
-    }
+    let mu = friction_law::law(case, model.law.as_ref()).map_or(f64::NAN, |law| law.mu_static());
+    let n1 = tangential(case, model, depth).map(|k| friction::spring_number(k, &at));
+    DimensionlessNumbers { n1, ..DimensionlessNumbers::of(case, at, mu) }
 }
 
 /// Areal stiffness of the friction springs of both passes (N/m^3) between cubes of the size `depth`,
@@ -70,8 +63,7 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
 
 /// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
 /// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
-fn slipping(case: &Case, model: &Model, half_length: f64) -> f64 {
-    let mu = friction_law::law(case, model.law.as_ref()).map_or(f64::NAN, |law| law.mu_static());
+fn slipping(case: &Case, mu: f64, half_length: f64) -> f64 {
     let share = match case.drive.mode {
         DriveMode::Creepage => {
             case.drive.creepage.unwrap_or(0.0).abs() * case.disk.radius / (mu * half_length)
@@ -85,6 +77,20 @@ fn slipping(case: &Case, model: &Model, half_length: f64) -> f64 {
 }
 
 impl DimensionlessNumbers {
+    /// Those of a case without friction springs, `at` its interface, whose coefficient of friction at rest is `mu`.
+    pub(crate) fn of(case: &Case, at: Interface, mu: f64) -> Self {
+        let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
+        let memory = case.friction.memory.map(|memory| memory.distance);
+        let half_length = hertz(case).a;
+        Self {
+            n1: None,
+            falling: falls.and_then(|law| friction::falling(&law, &at)),
+            nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
+            slip_length: 2.0 * half_length * slipping(case, mu, half_length),
+            at,
+        }
+    }
+
     /// The line of the log; none for a law that does not fall.
     pub fn line(&self) -> Option<String> {
         let f = self.falling?;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::plan::SweepError;
 
 /// Columns besides the parameters and the measures of the checks: heading, and JSON pointer into the entry of a run.
-const COLUMNS: [(&str, &str); 60] = [
+const COLUMNS: [(&str, &str); 62] = [
     ("dt", "/summary/dt"),
     ("dt_limit", "/summary/stability/dt_limit"),
     ("steps", "/summary/steps"),
@@ -31,6 +31,8 @@ const COLUMNS: [(&str, &str); 60] = [
     ("patch_half_width_sd", "/summary/window/deviation/patch_half_width"),
     ("patch_area", "/summary/contact/patch_area"),
     ("patch_area_sd", "/summary/window/deviation/patch_area"),
+    ("patch_area_fitted", "/summary/contact/patch_area_fitted"),
+    ("patch_area_fitted_sd", "/summary/window/deviation/patch_area_fitted"),
     ("peak_pressure", "/summary/contact/peak_pressure"),
     ("peak_pressure_sd", "/summary/window/deviation/peak_pressure"),
     ("peak_shear", "/summary/window/peak_shear"),

@@ -38,8 +38,12 @@ pub fn text(document: &Value) -> String {
     }
     let _ = writeln!(
         out,
-        "  (m/s; shares of the root mean square)\n\n  {:<62}{:>9}{:>9}{:>9}",
-        "difference over the second run's", "local", "means", "devs"
+        "  (m/s; largest from {}; shares of the root mean square)\n\n  {:<62}{:>9}{:>9}{:>9}",
+        spans(&document["runs"]),
+        "difference over the second run's",
+        "local",
+        "means",
+        "devs"
     );
     for difference in entries("differences") {
         let (from, to) = (word(&difference, "/from"), word(&difference, "/to"));
@@ -70,6 +74,18 @@ pub fn text(document: &Value) -> String {
         }
     }
     out
+}
+
+/// The spans of time that the largest slip speeds are the largest of.
+fn spans(runs: &Value) -> String {
+    let of = |run: &Value| {
+        let [from, to] =
+            [0, 1].map(|i| digits(run["largest_over"][i].as_f64().map(|time| 1e3 * time), 6));
+        format!("{from} to {to} ms")
+    };
+    let mut spans: Vec<String> = runs.as_array().into_iter().flatten().map(of).collect();
+    spans.dedup();
+    spans.join(", ")
 }
 
 fn share(value: Option<f64>) -> String {

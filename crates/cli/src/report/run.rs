@@ -64,7 +64,7 @@ fn of_half_spaces(summary: &Value) -> bool {
 /// A quantity of the contact: label, key, factor to the unit, unit.
 type Quantity = (&'static str, &'static str, f64, &'static str);
 
-const CONTACT: [Quantity; 9] = [
+const CONTACT: [Quantity; 10] = [
     ("normal force", "normal_force", 1e-3, "kN"),
     ("tangential force", "tangential_force", 1e-3, "kN"),
     ("lateral force", "lateral_force", 1e-3, "kN"),
@@ -73,6 +73,7 @@ const CONTACT: [Quantity; 9] = [
     ("patch half length", "patch_half_length", 1e3, "mm"),
     ("patch half width", "patch_half_width", 1e3, "mm"),
     ("patch area (nodes)", "patch_area", 1e6, "mm2"),
+    ("patch area (fit)", "patch_area_fitted", 1e6, "mm2"),
     ("peak pressure", "peak_pressure", 1e-6, "MPa"),
 ];
 
@@ -167,7 +168,7 @@ fn half_space(summary: &Value, key: &str) -> Option<f64> {
     let value = match key {
         "patch_half_length" => at("half_length"),
         "patch_half_width" => at("half_width"),
-        "patch_area" => at("area"),
+        "patch_area" | "patch_area_fitted" => at("area"),
         "peak_pressure" => at("peak_pressure"),
         other => at(other),
     };

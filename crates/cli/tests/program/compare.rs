@@ -58,6 +58,22 @@ fn a_run_is_itself_a_twin_parts_a_little_and_another_friction_differs() {
     let transits = (to - from) * scale("speed") / (2.0 * scale("half_length"));
     assert!((transits - 0.1).abs() < 1e-9, "{transits}");
     assert!(std::fs::read_to_string(&figure).unwrap().contains("slip speed (m/s)"));
+    // the largest slip is that of the evaluation window, though the window of every step is the one compared
+    let dense = place("dense");
+    run(&dense, &["output.window=[{ from = 49.0e-6, to = 50.0e-6 }]"]);
+    let dense = dense.to_str().unwrap();
+    let json = |args: &[&str]| -> Value {
+        serde_json::from_slice(&creepage(&[args, &["--json"]].concat()).stdout).unwrap()
+    };
+    let compared = json(&["compare", dense, runs[0]]);
+    assert_eq!(compared["window"], serde_json::json!([49.0e-6, 50.0e-6]));
+    let checked = json(&["check", dense]);
+    let [whole, part] = [&checked, &compared["runs"][0]].map(|of| &of["slip_zone"]["largest"]);
+    assert_eq!(compared["runs"][0]["largest"], whole["value"]);
+    assert_eq!(compared["runs"][0]["largest_over"], checked["window"]);
+    assert!(whole["value"].as_f64() > part["value"].as_f64(), "{whole} {part}");
+    let asked = json(&["compare", dense, runs[0], "--window", "49e-6:50e-6"]);
+    assert_eq!(asked["runs"][0]["largest"], part["value"]);
     let text = creepage(&["compare", runs[0], runs[2]]);
     assert!(String::from_utf8_lossy(&text.stdout).contains("twins: "));
 }

@@ -16,7 +16,7 @@ const SWEEP: &str = "base = \"base.toml\"\n[[axis]]\nkey = \"friction.static\"\n
     output.window = [{ from = 2.0e-5, to = 2.04e-5 }]\n";
 
 /// The mean of a measure in the summary, by its place there, and in `patch` of a check.
-const MEANS: [(&str, &str); 12] = [
+const MEANS: [(&str, &str); 13] = [
     ("contact/normal_force", "normal_force"),
     ("contact/tangential_force", "tangential_force"),
     ("contact/lateral_force", "lateral_force"),
@@ -25,6 +25,7 @@ const MEANS: [(&str, &str); 12] = [
     ("contact/patch_half_length", "half_length"),
     ("contact/patch_half_width", "half_width"),
     ("contact/patch_area", "area"),
+    ("contact/patch_area_fitted", "area_fitted"),
     ("contact/peak_pressure", "peak_pressure"),
     ("contact/stick_fraction", "stick_fraction"),
     ("contact/slip_fraction", "slip_fraction"),
@@ -105,6 +106,7 @@ fn run_check_report_and_sweep_give_one_number_for_each_mean_over_one_window() {
         shows(&page, "<td>traction coefficient</td>", 2, traction);
         shows(&page, "<td>normal force</td>", 2, 1e-3 * value("/contact/normal_force"));
         shows(&page, "<td>area (nodes)</td>", 2, 1e6 * value("/contact/patch_area"));
+        shows(&page, "<td>area (fit)</td>", 2, 1e6 * value("/contact/patch_area_fitted"));
         shows(&page, "<td>peak pressure (fit)</td>", 2, 1e-6 * value("/contact/peak_pressure"));
         let mu = if i == 0 { "<tr><td class=\"n\">0.2<" } else { "<tr><td class=\"n\">0.3<" };
         shows(&sweep_page, mu, under("T/N"), traction);
@@ -165,12 +167,12 @@ fn means_that_do_not_exist_are_dashes_with_the_reason_everywhere() {
         found.unwrap_or_else(|| panic!("no {label} in\n{page}")).to_owned()
     };
     let said = said.unwrap();
-    for label in ["patch half length", "patch half width", "peak pressure", "stick border"] {
+    for label in ["patch half length", "patch area (fit)", "peak pressure", "stick border"] {
         let line = line(&said, label);
         assert!(line.contains("  -  (") && line.contains("none of"), "{line}");
     }
     let table = String::from_utf8(creepage(folder, &["check", "r"])).unwrap();
-    for label in ["half length (fit)", "half width (fit)", "peak pressure (fit)"] {
+    for label in ["half length (fit)", "area (fit)", "peak pressure (fit)"] {
         let line = line(&table, label);
         assert!(line.contains("  -  (") && line.contains("none of"), "{line}");
     }

@@ -9,7 +9,7 @@ use crate::paired;
 use crate::system::System;
 use contact::{Matrix3, Trace};
 use mesh::Padded;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Part to which the residual of a column falls: contact works with columns that are nearly right, and corrects what they miss.
 const TOLERANCE: f64 = 0.03;
@@ -20,6 +20,8 @@ const MOST_PRODUCTS: usize = 200;
 pub(crate) struct Columns {
     /// By the node of the trace: the velocities (m/s) of all nodes of its side of the trace under unit forces on it, along x, y and z.
     of: HashMap<u32, Vec<Matrix3>>,
+    /// The nodes whose products are counted. A run that is resumed finds their columns again, which is no part of what it takes.
+    pub(crate) counted: BTreeSet<u32>,
 }
 
 /// The nodes of the trace in rows along the surface: of the bar along x, of a disk around its axle.
@@ -103,7 +105,7 @@ impl Rows {
 }
 
 impl Columns {
-    /// Finds the column of a node of the `trace`, if there is none. Returns how many products it took.
+    /// Finds the column of a node of the `trace`, if there is none. Returns how many products it took, unless they were counted before.
     pub(crate) fn find(
         &mut self,
         node: u32,
@@ -136,7 +138,7 @@ impl Columns {
             }
         }
         self.of.insert(node, column);
-        products
+        if self.counted.insert(node) { products } else { 0 }
     }
 
     /// The velocity of `node` under unit forces on `loaded`, of the same side, by the column of `source`; that of the disk

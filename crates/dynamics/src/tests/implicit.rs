@@ -108,6 +108,7 @@ fn a_step_taken_up_again_has_the_same_bits() {
     }
     assert!(whole.ledger().friction > 0.0, "the block slid");
     assert_eq!(whole.displacement(), resumed.displacement());
+    assert_eq!(whole.effort(), resumed.effort());
 }
 
 #[test]

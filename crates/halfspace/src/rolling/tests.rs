@@ -59,6 +59,26 @@ fn friction_holds_at_every_point_and_spends_what_the_drive_gives() {
 }
 
 #[test]
+fn points_that_leave_perfect_delay_are_counted_and_under_constant_friction_none_does() {
+    let steep = Exponential { decay: 30.0, ..LAW };
+    let laws: [Arc<dyn NodeFriction>; 2] =
+        [Arc::new(Coulomb { mu: 0.4 }), Arc::new(Implicit(steep))];
+    let [constant, falling] = laws.map(|law| {
+        // steps so long that points are coupled closely
+        let base = setup(Some(4e-3), law);
+        let mut rolling = Rolling::new(Setup { step: 4.0 * base.step, ..base }).unwrap();
+        let steps = (0..5).map(|_| rolling.step(driven(0.01)));
+        steps.filter(|sums| sums.undelayed > 0).collect::<Vec<_>>()
+    });
+    assert!(constant.is_empty(), "{constant:?}");
+    assert!(!falling.is_empty());
+    for sums in falling {
+        assert!(sums.unconverged == 0.0 && sums.iterations > 30, "{sums:?}");
+        assert!(sums.undelayed <= sums.non_unique.min(sums.slipping), "{sums:?}");
+    }
+}
+
+#[test]
 fn a_patch_goes_on_from_its_state_with_the_same_bits() {
     let law = Arc::new(Remembering { steady: LAW, memory: Memory { distance: 1e-6, floor: 1e-2 } });
     let mut whole = Rolling::new(setup(Some(4e-3), law.clone())).unwrap();
@@ -100,6 +120,29 @@ fn a_force_is_met_at_every_step() {
         let sums = rolling.step(rigid);
         assert!((sums.shear[0] / force - 1.0).abs() < 1e-7, "{sums:?}");
     }
+}
+
+#[test]
+fn a_shift_in_one_step_gives_the_force_of_mindlin_and_of_many_steps() {
+    let (a, mu, poisson, share) = (6e-3, 0.3, 0.3, 0.7);
+    let force = |steps: i32| {
+        let base = setup(Some(a), Arc::new(Coulomb { mu }));
+        let load = 2.0 / 3.0 * std::f64::consts::PI * a * a * base.patch.peak_pressure;
+        let rigidity = 8.0 * base.bodies.shear_modulus * a / (3.0 * mu * load * (2.0 - poisson));
+        // Mindlin (1949): Johnson 1985, Eq. (7.42)
+        let shift = (1.0 - f64::powf(1.0 - share, 2.0 / 3.0)) / rigidity;
+        let (speed, step) = (1e-6, 1e-6);
+        let creepage = shift / (f64::from(steps) * speed * step);
+        let setup = Setup { spacing: 0.5e-3, speed, step, inertia: Inertia::Static, ..base };
+        let mut rolling = Rolling::new(setup).unwrap();
+        let rigid = Rigid { along: Along::Creepage(creepage), lateral: 0.0, spin: 0.0 };
+        let sums = (0..steps).map(|_| rolling.step(rigid)).last().unwrap();
+        assert_eq!(sums.unconverged, 0.0);
+        sums.shear[0] / sums.normal
+    };
+    let [one, many] = [1, 20].map(force);
+    assert!((one / (share * mu) - 1.0).abs() < 0.02, "{one}");
+    assert!((one / many - 1.0).abs() < 1e-3, "{one} {many}");
 }
 
 #[test]

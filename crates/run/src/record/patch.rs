@@ -71,7 +71,7 @@ impl Patch {
         if let (Some(size), Some(fit)) = (self.drifts, &fit) {
             self.centreline = centreline(&self.bar, fit.yc, size);
         }
-        let fit = fit.map_or([f64::NAN; 4], |f| [f.a, f.b, f.p0, f.xc - hub_x]);
+        let fit = fit.map_or([f64::NAN; 5], |f| [f.a, f.b, f.p0, f.xc - hub_x, f.area]);
         let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
         PatchMeasures {
             fit,

@@ -40,9 +40,9 @@ impl Resultants {
 
 /// Measures of the patch on the bar at one instant.
 pub(crate) struct PatchMeasures {
-    /// Half axes along and across (m), peak pressure (Pa) and x of the centre relative to the hub (m), by the fit of
-    /// Hertz's distribution; NaN where none fits.
-    pub(crate) fit: [f64; 4],
+    /// Half axes along and across (m), peak pressure (Pa), x of the centre relative to the hub (m) and area (m^2), by the
+    /// fit of Hertz's distribution; NaN where none fits.
+    pub(crate) fit: [f64; 5],
     pub(crate) areas: patch::PatchAreas,
     /// Largest shear traction (Pa).
     pub(crate) peak_shear: f64,
@@ -95,10 +95,11 @@ impl Means {
     ) {
         self.worst_cone = self.worst_cone.max(patch.cone_excess);
         if inside {
-            let [a, b, p0, _] = patch.fit;
+            let [a, b, p0, _, area] = patch.fit;
             self.half_length.add(a);
             self.half_width.add(b);
             self.peak_pressure.add(p0);
+            self.fitted_area.add(area);
             self.peak_shear.add(patch.peak_shear);
             self.area.add(patch.areas.contact);
             self.stick.add(patch.areas.stick_fraction);
@@ -130,7 +131,7 @@ pub(super) fn row(
 ) -> HistoryRow<f64> {
     let e = report.energies.unwrap_or_default();
     let Resultants { tangential, lateral, normal, creepage, mismatch } = *resultants;
-    let [a, b, p0, xc] = patch.fit;
+    let [a, b, p0, xc, _] = patch.fit;
     let areas = &patch.areas;
     HistoryRow {
         time: report.time,

@@ -76,7 +76,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         "inertia": case.has_inertia(),
         "megabytes": rolling.bytes() as f64 / 1e6,
         "iterations_per_step": facts.iterations as f64 / steps.max(1) as f64,
-        "most_iterations": facts.most });
+        "most_iterations": facts.most, "undelayed_steps": facts.undelayed });
     let exchanged = [energies.internal, energies.friction_dissipated, energies.external_work]
         .into_iter()
         .fold(f64::MIN_POSITIVE, |most: f64, e| most.max(e.abs()));
@@ -86,6 +86,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         ("symmetry", json!(case.mesh.symmetry)),
         ("half_space", half_space),
         ("spectral", spectral),
+        ("numbers", model.numbers.json()),
         ("window", window(case, means, ended.status)),
         (
             "checks",

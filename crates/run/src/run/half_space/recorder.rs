@@ -46,6 +46,8 @@ pub(super) struct SolverFacts {
     pub(super) iterations: u64,
     /// See `iterations`.
     pub(super) most: u64,
+    /// Steps in which a point left perfect delay.
+    pub(super) undelayed: u64,
     /// Wall time of output.
     pub(super) output: Duration,
 }
@@ -117,6 +119,7 @@ impl HalfSpaceRecorder {
         let facts = &mut self.state.facts;
         facts.iterations += sums.iterations as u64;
         facts.most = facts.most.max(sums.iterations as u64);
+        facts.undelayed += u64::from(sums.undelayed > 0);
         let report = self.report(case, sums, energies);
         let step = self.contact.add_step(&report);
         let n = sums.step as u64;
