@@ -2,7 +2,7 @@
 //! are elements.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use contact::{BodyMaterial, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness};
 use divan::counter::ItemsCount;
 use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, System, Vertical};
 use friction::Coulomb;
@@ -51,6 +51,7 @@ fn rolling(size: f64) -> Simulation {
         tangential: PenaltyStiffness::Scale(0.1),
         damping: 0.1,
         curvature: true,
+        normals: Normals::Averaged,
     };
     let steel = BodyMaterial { bulk_modulus: STEEL.bulk(), density: STEEL.density };
     let surfaces = [(&disk.surfaces["tread"], steel), (&bar.surfaces["top"], steel)];
