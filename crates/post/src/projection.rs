@@ -58,8 +58,9 @@ impl Pair {
         }
     }
 
-    /// The slip velocity (m/s) of each of `nodes` relative to the other surface, in its tangent plane, from
-    /// displacements (m) and velocities (m/s) of all nodes; `None` where the node has no projection.
+    /// The slip velocity (m/s) of each of `nodes` relative to the other surface, from displacements (m) and velocities (m/s)
+    /// of all nodes; `None` where the node has no projection. It lies in the plane of the averaged normal: faces of a dent
+    /// meet at an angle, and the plane of one of them is off by half of it.
     pub fn slip(
         &mut self,
         surface: &Surface,
@@ -67,6 +68,7 @@ impl Pair {
         nodes: &[usize],
     ) -> Vec<Option<Vec3>> {
         let projections = self.projections(surface, displacement, nodes);
+        let mut normals = vec![None; surface.points.len()];
         let slip = |(&node, projection): (&usize, Option<(u32, Projection)>)| {
             let (face, projection) = projection?;
             let mut relative = velocity[node];
@@ -76,9 +78,30 @@ impl Pair {
                 relative = axpy(relative, -projection.weights[i], v);
                 relative = axpy(relative, dot(projection.normal, v), projection.levers[i]);
             }
-            Some(axpy(relative, -dot(relative, projection.normal), projection.normal))
+            let mut mean = [0.0; 3];
+            for (weight, corner) in projection.weights.into_iter().zip(corners) {
+                let normal = normals[corner as usize]
+                    .get_or_insert_with(|| self.normal(surface, displacement, corner));
+                mean = axpy(mean, weight, *normal);
+            }
+            let along = dot(relative, mean) / dot(mean, mean);
+            Some(axpy(relative, -along, mean))
         };
         nodes.iter().zip(projections).map(slip).collect()
+    }
+
+    /// The mean of the unit normals that the master faces around a node have there.
+    fn normal(&self, surface: &Surface, displacement: &[Vec3], node: u32) -> Vec3 {
+        let at = |node: u32| axpy(surface.points[node as usize], 1.0, displacement[node as usize]);
+        let around = self.around[node as usize].iter();
+        let sum = around.fold([0.0; 3], |sum, &face| {
+            let corners = surface.faces[face as usize];
+            let corner = corners.iter().position(|&n| n == node).unwrap_or(0);
+            let edge = |ahead: usize| sub(at(corners[(corner + ahead) % 4]), at(node));
+            let normal = cross(edge(1), edge(3));
+            axpy(sum, 1.0 / norm(normal), normal)
+        });
+        sum.map(|component| component / norm(sum))
     }
 
     /// The face under each of `nodes` and its projection there; `None` where the node has no projection.
@@ -332,6 +355,31 @@ mod tests {
         let motion = [vec![[0.0; 3]; 5], velocity];
         let slip = Pair::new(&surface, 0).slip(&surface, &motion, &[4])[0].unwrap();
         assert!(norm(slip) < 1e-14, "{slip:?}");
+    }
+
+    #[test]
+    fn slip_over_the_edge_between_two_faces_lies_in_the_plane_of_their_mean_normal() {
+        // a ridge of slope 0.1 along y, with a node of another body on it
+        let points = vec![
+            [-1.0, 0.0, -0.1],
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, -0.1],
+            [-1.0, 1.0, -0.1],
+            [0.0, 1.0, 0.0],
+            [1.0, 1.0, -0.1],
+            [0.0, 0.5, 0.0],
+        ];
+        let surface = Surface {
+            faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
+            face_body: vec![1, 1],
+            body: vec![1, 1, 1, 1, 1, 1, 0],
+            area: vec![1.0; 7],
+            points,
+        };
+        let mut velocity = vec![[0.0; 3]; 7];
+        velocity[6] = [2.0, 1.0, 3.0];
+        let slip = Pair::new(&surface, 0).slip(&surface, &[vec![[0.0; 3]; 7], velocity], &[6]);
+        assert!(norm(sub(slip[0].unwrap(), [2.0, 1.0, 0.0])) < 1e-15, "{slip:?}");
     }
 
     #[test]
