@@ -1,10 +1,10 @@
 //! Averaged normals: at a node of the master the mean of the normals of the faces around it, between nodes the mean of
 //! these with the shape functions (Yang, Laursen and Meng 2005; Puso and Laursen 2004).
 //!
-//! A load dents the facets of a mesh against one another, by h/R times a number of order one at faces of size h under a disk
-//! of radius R. A node by their common edge that takes the normal of one of them is pushed along the surface, as all
-//! nodes are that stand on that side of an edge: a force of the order of h/(4R) of the load, without friction. The mean normal
-//! is continuous over the edges and has no side.
+//! Under load the facets of a dent meet at angles of the order of h/R, for faces of size h under a disk of radius R. A node
+//! beside an edge that takes the normal of its face is pushed along the surface. Where meshes match, all nodes lie on the
+//! same side of their edges, and the pushes add up to about h/(4R) of the load, without friction. The averaged normal is
+//! continuous over the edges.
 
 use crate::face::{Positions, corner_normal};
 use crate::surface::ContactSurface;

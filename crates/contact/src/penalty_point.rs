@@ -39,9 +39,11 @@ pub(crate) struct Springs {
 struct Trial {
     /// In contact since the step before.
     held: bool,
-    /// Tangential motion of the slave over the step relative to its old projection (m).
+    /// Tangential motion of the slave over the step (m) from where its old place on the face has gone, so that a rotation
+    /// common to both bodies gives none.
     delta: Vec3,
-    /// The old force laid into the new tangent plane (N).
+    /// The old force, turned with the frame of the face at the old projection and laid into the new tangent plane with its
+    /// length kept (N).
     start: Vec3,
     /// First direction of the face at the new projection.
     tangent: Vec3,
@@ -186,15 +188,26 @@ impl Pass<'_> {
         });
         self.press(point, &before, node, face, motion);
         if let Some(Held { moved, normal, .. }) = &held {
-            // the gap does not change along the face: what an averaged normal does there, no spring gives
+            // the springs store by the gap, which does not change along the face: the work that an inclined normal does
+            // there is none of theirs
             let tilted = scale(before.normal_force, sub(*normal, old.normal));
             let along = axpy(tilted, point.normal_force, sub(point.normal, of_face));
             point.enforcement.damping_work -= 0.5 * dot(along, *moved);
         }
         match motion {
             Some(motion) => {
-                let tangent = projection.point.tangent;
-                self.tangential_predictor(point, &before, held, tangent, x, node, face, motion);
+                point.state = State::Stick;
+                match held {
+                    Some(Held { moved, frame, .. }) => {
+                        point.enforcement.trial = Trial {
+                            held: true,
+                            delta: tangential(moved, point.normal),
+                            start: before.transported(frame, point.normal),
+                            tangent: projection.point.tangent,
+                        };
+                    }
+                    None => self.begin(point, x, node, face, motion),
+                }
             }
             None => {
                 point.state = State::Stick;
@@ -245,39 +258,21 @@ impl Pass<'_> {
             -0.5 * (before.enforcement.damper_force + point.enforcement.damper_force) * closing;
     }
 
-    /// The motion that the friction spring answers to: `Delta`, the tangential motion of the slave over the
-    /// step from where its old place on the face has gone, so that a rotation common to both bodies
-    /// gives none. The old force turns with the frame of the face at the old projection, and is then laid into
-    /// the new tangent plane with its length kept.
-    ///
-    /// In the step in which a point closes there is no old projection: the spring starts unloaded, and
-    /// the slip speed is that of the nodes' velocities.
-    fn tangential_predictor(
+    /// Begins friction where a point closes: the spring starts unloaded, and the slip speed is that of the nodes'
+    /// velocities.
+    fn begin(
         &self,
         point: &mut PenaltyPoint,
-        before: &PenaltyPoint,
-        held: Option<Held>,
-        tangent: Vec3,
         x: Vec3,
         node: u32,
         face: &MasterFace,
         motion: &Motion<'_>,
     ) {
-        point.state = State::Stick;
-        let Some(held) = held else {
-            let velocity =
-                relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights);
-            point.slip_velocity = tangential(velocity, point.normal);
-            point.memory = self.law.begin(&point.place(self.slave, x, motion.time));
-            point.enforcement.trial = Trial::default();
-            return;
-        };
-        point.enforcement.trial = Trial {
-            held: true,
-            delta: tangential(held.moved, point.normal),
-            start: before.transported(held.frame, point.normal),
-            tangent,
-        };
+        let velocity =
+            relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights);
+        point.slip_velocity = tangential(velocity, point.normal);
+        point.memory = self.law.begin(&point.place(self.slave, x, motion.time));
+        point.enforcement.trial = Trial::default();
     }
 
     /// What the law of friction is told about a closed point: the slip speed of the step before.

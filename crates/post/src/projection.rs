@@ -357,25 +357,23 @@ mod tests {
         assert!(norm(slip) < 1e-14, "{slip:?}");
     }
 
-    #[test]
-    fn slip_over_the_edge_between_two_faces_lies_in_the_plane_of_their_mean_normal() {
-        // a ridge of slope 0.1 along y, with a node of another body on it
-        let points = vec![
-            [-1.0, 0.0, -0.1],
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, -0.1],
-            [-1.0, 1.0, -0.1],
-            [0.0, 1.0, 0.0],
-            [1.0, 1.0, -0.1],
-            [0.0, 0.5, 0.0],
-        ];
-        let surface = Surface {
+    /// Two faces in a row along x that meet at x = 0, their other edges at the height `sides`, and a `node` of another body.
+    fn two_faces(sides: f64, node: Vec3) -> Surface {
+        let across = |y: f64| [[-1.0, y, sides], [0.0, y, 0.0], [1.0, y, sides]];
+        let points = [&across(0.0)[..], &across(1.0), &[node]].concat();
+        Surface {
             faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
             face_body: vec![1, 1],
             body: vec![1, 1, 1, 1, 1, 1, 0],
             area: vec![1.0; 7],
             points,
-        };
+        }
+    }
+
+    #[test]
+    fn slip_over_the_edge_between_two_faces_lies_in_the_plane_of_their_mean_normal() {
+        // a ridge of slope 0.1, with the node on it
+        let surface = two_faces(-0.1, [0.0, 0.5, 0.0]);
         let mut velocity = vec![[0.0; 3]; 7];
         velocity[6] = [2.0, 1.0, 3.0];
         let slip = Pair::new(&surface, 0).slip(&surface, &[vec![[0.0; 3]; 7], velocity], &[6]);
@@ -384,23 +382,7 @@ mod tests {
 
     #[test]
     fn slip_over_a_moving_master_that_deforms_is_taken_at_the_projection() {
-        // two faces in a row under one node of another body
-        let points = vec![
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [2.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [2.0, 1.0, 0.0],
-            [0.25, 0.5, 0.0],
-        ];
-        let surface = Surface {
-            faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
-            face_body: vec![1, 1],
-            body: vec![1, 1, 1, 1, 1, 1, 0],
-            area: vec![1.0; 7],
-            points,
-        };
+        let surface = two_faces(0.0, [-0.75, 0.5, 0.0]);
         // v_x of the master grows with x; the node rolls from the first face to the second
         let velocity = |x: f64| [2.0 * x, 1.0, 5.0];
         let mut velocities: Vec<Vec3> =
@@ -412,7 +394,7 @@ mod tests {
             displacement[6] = [moved, 0.0, 0.0];
             let motion = [displacement, velocities.clone()];
             let slip = pair.slip(&surface, &motion, &[6])[0].unwrap();
-            let expected = [7.0 - 2.0 * (0.25 + moved), -1.0, 0.0];
+            let expected = [7.0 - 2.0 * (moved - 0.75), -1.0, 0.0];
             assert!(norm(sub(slip, expected)) < 1e-12, "{slip:?}");
         }
         let mut displacement = vec![[0.0; 3]; 7];

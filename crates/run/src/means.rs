@@ -69,7 +69,6 @@ pub(crate) struct Means {
     pub(crate) penetration: Mean,
     pub(crate) hourglass_share: Mean,
     /// Time (s) and work of friction so far (J), in the first and the last row of the window.
-    #[serde(default)]
     pub(crate) friction_work: Option<[[f64; 2]; 2]>,
     pub(crate) worst_cone: f64,
     pub(crate) worst_mismatch: f64,

@@ -3,8 +3,8 @@
 //! The reference case A rolls on 2 mm by penalty and by exact contact. Where a node meets a face along the normal of that
 //! face, the load pushes the disk along by about h/(4R) of itself (`contact::Normals`); of that a tenth is asked.
 //!
-//! In gross sliding the shear `q = mu p` tilts the common surface of both bodies by (1 - 2 nu) q/(2G), so that T/N falls
-//! short of mu by that mean angle times 1 + mu^2.
+//! In gross sliding the shear `q = mu p` tilts the common surface of both bodies by (1 - 2 nu) q/(2G) (Johnson 1985,
+//! section 2.4), so that T/N falls short of mu by that mean angle times 1 + mu^2.
 
 use crate::half_space::WHEEL;
 use crate::problem::{Cause, Outcome, Size};

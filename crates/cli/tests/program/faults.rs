@@ -140,7 +140,7 @@ fn a_torque_in_newton_millimetres_wrings_elements_inside_out() {
     assert!(text.contains("creepage = 4e-3"));
     fs::write(&case, text.replace("creepage = 4e-3", "torque = 10e6")).unwrap();
     let words = ["inside out", "negative Jacobian", "drive.torque"];
-    // with softer springs the surfaces penetrate too deep first
+    // at some stiffnesses another guard stops the run first: penetration, or energy from nowhere
     let summary = stopped(&case, &["contact.penalty.normal=2"], 1500, &words);
     assert!(summary["steps"].as_u64().unwrap() > 100, "it went well at first");
 }
