@@ -177,6 +177,9 @@ fn write_defaults(case: &mut Case) {
         case.element.layers = Some(case.contact_layers());
         case.element.volumetric.get_or_insert_default();
     }
+    if !case.is_half_space() {
+        case.damping.kelvin_voigt = Some(case.kelvin_voigt());
+    }
     if case.time.step.is_none() {
         case.time.factor = Some(case.factor());
     }

@@ -452,7 +452,7 @@ fn damping_of_parts_alone_is_refused_and_of_all_is_read() {
     let of = |cards: &str| with(&format!("*DAMPING_PART_STIFFNESS\n{cards}"));
     refused(&of("2,-1.0e-8"), "*DAMPING_PART_STIFFNESS of part 2 that part 1 lacks");
     refused(&of("1,-1.0e-8\n2,-2.0e-8"), "*DAMPING_PART_STIFFNESS of part 1 that part 2 lacks");
-    assert_eq!(case(&of("1,-1.0e-8\n2,-1.0e-8")).damping.kelvin_voigt, 1e-8);
+    assert_eq!(case(&of("1,-1.0e-8\n2,-1.0e-8")).kelvin_voigt(), 1e-8);
     refused(&of("1,-1.0e-8\n2,-1.0e-8\n9,-1.0e-8"), "part 9 of disk and bar, which does not exist");
     let relative = |psid: u32, pidrb: u32| {
         let cards = format!("*DAMPING_RELATIVE\n1.0,1000.0,{pidrb},{psid}\n*SET_PART_LIST\n5\n1");

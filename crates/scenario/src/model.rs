@@ -80,7 +80,7 @@ impl Model {
         let viscosity = Viscosity {
             bulk_linear: case.damping.bulk_linear,
             bulk_quadratic: case.damping.bulk_quadratic,
-            kelvin_voigt: case.damping.kelvin_voigt,
+            kelvin_voigt: case.kelvin_voigt(),
         };
         Ok(Solid::new(&self.mesh, &self.materials, self.elements(), viscosity, self.kernels)?)
     }

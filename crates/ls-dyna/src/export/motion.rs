@@ -251,12 +251,12 @@ pub(super) fn damping(cards: &mut Cards, rolling: &Rolling<'_>) {
             ],
         );
     }
-    if case.damping.kelvin_voigt != 0.0 {
+    if case.kelvin_voigt() != 0.0 {
         let full = rolling.model.fully_integrated() > 0;
         let parts = number::PARTS.into_iter().chain(number::FULL.into_iter().filter(|_| full));
         for part in parts {
             // below zero: the coefficient of the stiffness in units of time
-            let coefficient = -case.damping.kelvin_voigt / units.time();
+            let coefficient = -case.kelvin_voigt() / units.time();
             cards.card("DAMPING_PART_STIFFNESS", &[("PID", part as f64), ("COEF", coefficient)]);
         }
     }

@@ -140,7 +140,7 @@ fn a_case_comes_back_from_its_keyword_file_with_the_same_mesh() {
             ("contact.penalty.damping", b.contact.penalty.damping, a.contact.penalty.damping),
             ("element.hourglass", b.element.hourglass, a.element.hourglass),
             ("damping.mass", b.damping.mass, a.damping.mass),
-            ("damping.kelvin_voigt", b.damping.kelvin_voigt, a.damping.kelvin_voigt),
+            ("damping.kelvin_voigt", b.kelvin_voigt(), a.kelvin_voigt()),
             ("damping.bulk_linear", b.damping.bulk_linear, a.damping.bulk_linear),
             ("damping.bulk_quadratic", b.damping.bulk_quadratic, a.damping.bulk_quadratic),
             ("time.factor", b.time.factor.unwrap(), there.facts.stability.factor),
