@@ -127,7 +127,14 @@ pub fn check(
     let mesh_mode = mesh_mode::document(&evaluation.mesh_mode, sources.summary(), basis);
     let (mut document, holds) = evaluation.document(basis, options, &window, patch, mesh_mode);
     document["slip_zone"] = match &line {
-        Ok(line) => SlipZone::of(line, &weights).map_or(Value::Null, |zone| zone.document(line)),
+        Ok(line) => {
+            let zone = SlipZone::of(line, &weights);
+            let note = zone.as_ref().and_then(SlipZone::note);
+            if let (Some(notes), Some(note)) = (document["notes"].as_array_mut(), note) {
+                notes.push(json!(note));
+            }
+            zone.map_or(Value::Null, |zone| zone.document(line))
+        }
         Err(why) => json!({ "note": why.to_string() }),
     };
     Ok(Checked { document, pass: holds, patch: evaluation.patch })
