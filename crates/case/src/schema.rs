@@ -630,6 +630,13 @@ impl Case {
         self.damping.kelvin_voigt.unwrap_or(default)
     }
 
+    /// Longest stable explicit step (s) with the largest frequency `omega_max` (rad/s) without damping: Kelvin–Voigt
+    /// stiffens that mode, dt <= 2/omega (sqrt(1 + xi^2) - xi) with xi = eta omega/2.
+    pub fn stable_limit(&self, omega_max: f64) -> f64 {
+        let xi = 0.5 * self.kelvin_voigt() * omega_max;
+        2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi)
+    }
+
     /// The time step as a fraction of the stability limit (dimensionless), where `time.step` does not give it.
     pub fn factor(&self) -> f64 {
         self.time.factor.unwrap_or(self.default_factor())

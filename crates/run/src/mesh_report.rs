@@ -26,7 +26,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<serde_json::Value,
     let omega = model.elastic_frequency(&mut solid);
     let elements = model.mesh.hexes.len();
     let nodes = model.mesh.nodes.len();
-    let step = case.step().under(2.0 / omega);
+    let step = case.step().under(case.stable_limit(omega));
     let steps = (case.duration() / step).ceil();
     // How many products with the stiffness an implicit step takes depends on its contact: 140 to 4000 in the cases of the project.
     let explicit = case.theta().is_none();

@@ -107,9 +107,7 @@ fn preloaded_state(
         }
         None => (omega_elastic, 0.0),
     };
-    // Kelvin–Voigt stiffens the highest mode: dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = eta omega/2
-    let xi = 0.5 * case.kelvin_voigt() * omega_max;
-    let limit = 2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi);
+    let limit = case.stable_limit(omega_max);
     Ok(PreloadedState {
         solid,
         springs,
