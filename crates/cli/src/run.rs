@@ -24,7 +24,9 @@ pub fn command(args: &Args, RunArgs { options, leash }: &RunArgs) -> Result<u8, 
         hold_leash(args.stop.clone())?;
     }
     let done = creepage::run(options, &mut RunWatch::new(args, *leash))?;
-    args.show(&done.document, || report::run::text(&done.document, &done.folder));
+    args.show(&done.document, || {
+        report::run::text(&done.document, &done.folder, done.fluctuating_slip().as_deref())
+    });
     if let Some(diagnosis) = done.diagnosis() {
         terminal::message(&format!("stopped: {diagnosis}"));
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use friction::OwnLaw;
+use post::{Basis, RunPaths};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -64,6 +65,13 @@ impl Ran {
     /// Whether the run was interrupted: with [`RunOptions::resume`] it goes on.
     pub fn interrupted(&self) -> bool {
         self.document["status"] == "interrupted"
+    }
+
+    /// What to try where much of the slip fluctuates, in one sentence; `None` also where the run has no contact to judge.
+    pub fn fluctuating_slip(&self) -> Option<String> {
+        let paths = RunPaths::of(&self.folder).ok()?;
+        let mut basis = Basis::read(&paths).ok()?;
+        post::fluctuating_slip(&paths, &mut basis).ok()?
     }
 
     /// Exit code of the command line: 0, 3 where the run's own guards stopped it, 130 when interrupted.

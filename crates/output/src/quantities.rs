@@ -77,6 +77,7 @@ const QUANTITIES: &[Quantity] = &[
     ("numbers.slip_length", "m", "l_slip, length of the zone of slip by Carter's theory"),
     ("numbers.nucleation_length", "m", "h_n, nucleation length of friction with memory"),
     ("numbers.gamma", "1", "Gamma = l_slip/h_n"),
+    ("exact_contact.kelvin_voigt", "s", "Kelvin-Voigt time constant"),
     ("exact_contact.most_sweeps", "1", "most sweeps of a step"),
     ("exact_contact.unconverged_steps", "1", "steps whose sweeps did not converge"),
     ("exact_contact.unconverged_change", "1", "largest last change of a force over the largest force"),

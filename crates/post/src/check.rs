@@ -139,3 +139,19 @@ pub fn check(
     };
     Ok(Checked { document, pass: holds, patch: evaluation.patch })
 }
+
+/// What a run tells of slip that fluctuates much in its evaluation window, as a check notes it; `None` where it does not.
+///
+/// # Errors
+/// As of [`check`].
+pub fn fluctuating_slip(paths: &RunPaths, basis: &mut Basis) -> Result<Option<String>, PostError> {
+    let history = ContactHistory::open(&paths.contact)?;
+    let window = Window::resolve(None, basis, &history)?;
+    let weights = window.weights(&history.times);
+    let mut line = CentreLine::new(&history, basis)?;
+    history.stream_batches(window.records, |frames| {
+        frames.iter().for_each(|frame| line.take(&history.surface, frame));
+        Ok(())
+    })?;
+    Ok(SlipZone::of(&line, &weights).and_then(|zone| zone.note()))
+}

@@ -48,7 +48,7 @@ mod welch;
 mod window;
 
 pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
-pub use check::{CheckOptions, Checked, Report, check, keeps_limit, slip_paired};
+pub use check::{CheckOptions, Checked, Report, check, fluctuating_slip, keeps_limit, slip_paired};
 pub use compare::{Compared, Comparison, compare};
 pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
 pub use digits::all_digits;

@@ -115,7 +115,8 @@ pub(crate) fn summary(
         "contact_damping": last.contact_damping });
     let exact = (case.contact.enforcement == Enforcement::Exact).then(|| {
         let (steps, change) = means.unconverged;
-        json!({ "most_sweeps": means.most_sweeps, "unconverged_steps": steps,
+        json!({ "rows": case.contact.rows, "kelvin_voigt": case.kelvin_voigt(),
+            "most_sweeps": means.most_sweeps, "unconverged_steps": steps,
             "unconverged_change": change, "manifold_node_steps": means.non_unique,
             "mortar_integrals": means.integrated,
             "steepness_node": means.steepness[0], "steepness_patch": means.steepness[1],

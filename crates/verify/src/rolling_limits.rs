@@ -31,7 +31,7 @@ pub(crate) fn run(_: Size) -> Outcome {
     for contact in [PENALTY, NODE_TO_FACE, MORTAR] {
         rows.push(without_friction(contact)?);
     }
-    for contact in [PENALTY, MORTAR] {
+    for contact in [PENALTY, NODE_TO_FACE, MORTAR] {
         rows.push(in_gross_sliding(contact)?);
     }
     Ok(rows)

@@ -7,13 +7,16 @@ use serde_json::Value;
 
 use super::layout::{count, digits, duration, heading, number, row, text as word};
 
-/// The whole page.
-pub fn text(summary: &Value, folder: &Path) -> String {
+/// The whole page; `slip` says what to try where much of the slip fluctuates.
+pub fn text(summary: &Value, folder: &Path, slip: Option<&str>) -> String {
     let mut out = String::new();
     title(&mut out, summary);
     // A run that ended in its preload has nothing further to tell.
     if number(summary, "/steps").is_some_and(|steps| steps > 0.0) {
         contact(&mut out, summary);
+        if let Some(note) = slip {
+            let _ = writeln!(out, "  {note}");
+        }
         energy(&mut out, summary);
         speed(&mut out, summary);
         stability(&mut out, summary);
@@ -54,6 +57,17 @@ fn title(out: &mut String, summary: &Value) {
         digits(scaled(at("/dt"), 1e9), 4)
     );
     let _ = writeln!(out, "{}", if steps > 0.0 { &rolled } else { "  nothing rolled" });
+    if let Some(rows) = summary.pointer("/exact_contact/rows").and_then(Value::as_str) {
+        let damped = at("/exact_contact/kelvin_voigt").filter(|time| *time > 0.0);
+        let damped = damped
+            .map(|time| format!(", Kelvin-Voigt damping of {} ns", digits(Some(time * 1e9), 4)));
+        let _ = writeln!(
+            out,
+            "  exact contact, {} rows{}",
+            rows.replace('_', " "),
+            damped.unwrap_or_default()
+        );
+    }
 }
 
 /// Whether half-spaces rolled, which have neither elements nor springs.
@@ -304,7 +318,7 @@ mod tests {
 
     #[test]
     fn the_page_has_units_deviations_half_space_ratios_and_shares() {
-        let page = text(&summary(), Path::new("runs/quick"));
+        let page = text(&summary(), Path::new("runs/quick"), None);
         for line in [
             "quick: completed after 10.5 s",
             "  normal force                   100.4 kN       +- 0.075",
@@ -336,9 +350,9 @@ mod tests {
     fn a_run_without_torque_tells_the_creepage_of_free_rolling() {
         let mut rolled = summary();
         rolled["rolling_radius"] = json!({ "effective": 0.46, "free": null });
-        assert!(!text(&rolled, Path::new("x")).contains("free rolling"));
+        assert!(!text(&rolled, Path::new("x"), None).contains("free rolling"));
         rolled["rolling_radius"]["free"] = json!(0.4597);
-        let page = text(&rolled, Path::new("x"));
+        let page = text(&rolled, Path::new("x"), None);
         assert!(
             page.contains("\n  without torque: this creepage is that of free rolling\n"),
             "{page}"
@@ -355,7 +369,7 @@ mod tests {
         let mut surfaces = summary();
         surfaces["files"] =
             json!({ "fields": "", "contact": "contact.vtkhdf", "history": "history.h5" });
-        let page = text(&surfaces, Path::new("runs/quick"));
+        let page = text(&surfaces, Path::new("runs/quick"), None);
         let look = "\n  paraview runs/quick/contact.vtkhdf    Apply; colour by pressure";
         assert!(page.contains(look) && !page.contains("fields"), "{page}");
     }
@@ -363,13 +377,13 @@ mod tests {
     #[test]
     fn springs_are_blamed_only_where_there_are_springs() {
         let mut exact = summary();
-        let page = text(&exact, Path::new("x"));
+        let page = text(&exact, Path::new("x"), None);
         assert!(
             page.contains("half-space: Hertz; soft penalty springs and coarse elements"),
             "{page}"
         );
         exact["exact_contact"] = json!({ "most_sweeps": 100, "warnings": ["did not converge"] });
-        let page = text(&exact, Path::new("x"));
+        let page = text(&exact, Path::new("x"), None);
         assert!(page.contains("\n  warning: did not converge\n"), "{page}");
         assert!(
             page.contains("half-space: Hertz; coarse elements make the patch larger"),
@@ -383,7 +397,7 @@ mod tests {
         let mut rolled = summary();
         rolled["model"] = json!("half-space");
         rolled["mesh_mode"] = Value::Null;
-        let page = text(&rolled, Path::new("x"));
+        let page = text(&rolled, Path::new("x"), None);
         for absent in ["element", "spring", "hourglass", "kinetic"] {
             assert!(!page.contains(absent), "{absent}: {page}");
         }
@@ -396,14 +410,14 @@ mod tests {
         bare["half_space"] = Value::Null;
         bare["stability"] = Value::Null;
         bare["energy"]["kinetic"] = Value::Null;
-        let page = text(&bare, Path::new("x"));
+        let page = text(&bare, Path::new("x"), None);
         assert!(!page.contains("null") && !page.contains("NaN") && !page.contains("Stability"));
     }
 
     #[test]
     fn a_run_that_ended_in_its_preload_has_no_sections() {
         let ended = json!({ "name": "quick", "status": "interrupted", "steps": 0, "wall_s": 1.0 });
-        let page = text(&ended, Path::new("x"));
+        let page = text(&ended, Path::new("x"), None);
         assert!(
             page.contains("interrupted after")
                 && page.contains("nothing rolled")
