@@ -143,7 +143,7 @@ fn judged(reference: &Reference, found: &[(f64, Rolled)], balance: f64) -> Vec<R
         at("border of stick (m), error in elements"),
         [reference.border, border.finest()],
         finest,
-        (1.0, "one element, in which it ends"),
+        (0.5, "half an element: it lies between two nodes"),
         SOURCE,
     );
     let creepage = study(|r| r.creepage - FREE);
