@@ -48,6 +48,26 @@ fn energy_balances_and_friction_only_takes() {
 }
 
 #[test]
+fn implicit_steps_roll_as_explicit_ones_by_either_rows() {
+    for rows in ["contact.rows='node_to_face'", MORTAR] {
+        let explicit = small(&[EXACT, rows, "time.roll=0.002"]);
+        let implicit = ["time.integrator=implicit", "time.step=0.5e-6", "time.roll=0.002"];
+        let implicit = small(&[&[EXACT, rows][..], &implicit].concat());
+        // five explicit steps make one implicit, which damps what changes within it
+        for (pointer, slack) in [
+            ("/contact/normal_force", 2e-3),
+            ("/contact/tangential_force", 1e-2),
+            ("/contact/peak_pressure", 5e-3),
+        ] {
+            let [one, other] = [&explicit, &implicit].map(|run| run.number(pointer));
+            assert!((other / one - 1.0).abs() < slack, "{rows} {pointer}: {one} {other}");
+        }
+        assert_eq!(implicit.number("/exact_contact/unconverged_steps"), 0.0);
+        assert_eq!(implicit.number("/exact_contact/mortar_integrals") > 0.0, rows == MORTAR);
+    }
+}
+
+#[test]
 fn rolling_starts_from_the_static_preload_without_a_jump() {
     // Ten elements across the patch: with seven (0.5 mm) the force ripples by 0.65 % as nodes pass, with
     // ten by 0.2 %.

@@ -59,14 +59,16 @@ const BEGINNING: &str = "time.roll=0.0004";
 fn fields_of_the_half_are_those_of_the_whole_while_that_keeps_its_symmetry() {
     let memory =
         ["friction.law=exponential", "friction.static=0.5", "friction.memory.distance=10e-6"];
-    for law in [&["friction.law=coulomb"][..], &memory] {
-        let sets = [&[EXACT, BEGINNING][..], law].concat();
+    // mortar rows integrate over pieces of faces, which the plane of symmetry cuts otherwise
+    let mortar = [&memory[..], &[MORTAR, "time.roll=0.0002"]].concat();
+    for (keys, slack) in [(&["friction.law=coulomb"][..], 1e-6), (&memory, 1e-6), (&mortar, 1e-5)] {
+        let sets = [&[EXACT, BEGINNING][..], keys].concat();
         let (whole, half) = (small(&sets), small(&[&sets[..], &[HALF]].concat()));
         for field in ["pressure", "shear", "displacement", "velocity"] {
             let own = difference(&whole, &whole, field, Nodes::OffPlane, -1);
             let found = difference(&whole, &half, field, Nodes::OffPlane, 1);
             assert!(own < 1e-6, "{field}: the whole is not symmetric: {own:e}");
-            assert!(found < 1e-6, "{field}: {found:e}");
+            assert!(found < slack, "{field}: {found:e}");
         }
         // there the whole takes the normal of one of the two facets that meet under the node
         let on_plane = difference(&whole, &half, "pressure", Nodes::OnPlane, 1);
