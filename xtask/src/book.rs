@@ -1,6 +1,6 @@
 //! `cargo xtask book`: the documents as a book, without a dead link.
 //!
-//! Chapters are the Markdown files of `docs/`, which also lead to sources by relative links, as a Git
+//! Chapters are the Markdown files of `docs/` and `docs/tables/`, which also lead to sources by relative links, as a Git
 //! host shows them. The book takes those sources along as text, so that it stands alone.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -67,14 +67,27 @@ pub fn chapters(root: &Path) -> io::Result<Vec<String>> {
 /// Documents that the table of contents does not list.
 fn unlisted(root: &Path) -> io::Result<Vec<String>> {
     let listed = chapters(root)?;
-    let mut faults = Vec::new();
-    for entry in fs::read_dir(root.join("docs"))? {
-        let name = entry?.file_name().to_string_lossy().into_owned();
-        if name.ends_with(".md") && name != "SUMMARY.md" && !listed.contains(&name) {
-            faults.push(format!("docs/SUMMARY.md does not list {name}"));
+    let others =
+        pages(root)?.into_iter().filter(|name| name != "SUMMARY.md" && !listed.contains(name));
+    Ok(others.map(|name| format!("docs/SUMMARY.md does not list {name}")).collect())
+}
+
+/// The Markdown files in `docs/` and in `docs/tables/`, as paths below `docs/`.
+pub fn pages(root: &Path) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for folder in ["", "tables/"] {
+        let path = root.join("docs").join(folder);
+        if !folder.is_empty() && !path.exists() {
+            continue;
+        }
+        for entry in fs::read_dir(path)? {
+            let name = entry?.file_name().to_string_lossy().into_owned();
+            if name.ends_with(".md") {
+                names.push(format!("{folder}{name}"));
+            }
         }
     }
-    Ok(faults)
+    Ok(names)
 }
 
 /// Equations of the theory without a number of their own or a module that computes them. Each stands in
@@ -121,14 +134,15 @@ fn set_out(root: &Path, stage: &Path) -> io::Result<()> {
     for name in chapters(root)? {
         let path = docs.join(&name);
         let text = fs::read_to_string(&path)?;
+        // from the chapter's folder up to docs/
+        let up = "../".repeat(name.matches('/').count());
         let mut rewritten = text.clone();
         for (_, link) in links(&parse(&text)) {
-            // Chapters lie in docs/ itself, so that one step up is the root.
-            let Some(outside) = link.strip_prefix("../") else { continue };
+            let Some(outside) = link.strip_prefix(&format!("{up}../")) else { continue };
             let file = outside.split('#').next().unwrap_or_default().trim_end_matches('/');
             // mdBook takes everything with `.md` in it for a chapter
             let inside = format!("source/{}.txt", file.replace(".md", "-md"));
-            rewritten = rewritten.replace(&format!("]({link})"), &format!("]({inside})"));
+            rewritten = rewritten.replace(&format!("]({link})"), &format!("]({up}{inside})"));
             if taken.insert(file.to_owned()) {
                 let to = docs.join(&inside);
                 fs::create_dir_all(to.parent().unwrap_or(&docs))?;

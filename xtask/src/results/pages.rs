@@ -136,16 +136,11 @@ pub fn write(root: &Path) -> Result<(), Vec<String>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// The documents with their texts: the README and what lies in `docs/`.
+/// The documents with their texts: the README and the pages of the book.
 fn documents(root: &Path, faults: &mut Vec<String>) -> Vec<(String, String)> {
     let chapters = || -> io::Result<Vec<String>> {
         let mut names = vec!["README.md".to_owned()];
-        for entry in fs::read_dir(root.join("docs"))? {
-            let name = entry?.file_name().to_string_lossy().into_owned();
-            if name.ends_with(".md") {
-                names.push(format!("docs/{name}"));
-            }
-        }
+        names.extend(crate::book::pages(root)?.iter().map(|name| format!("docs/{name}")));
         names.sort();
         Ok(names)
     };
