@@ -4,7 +4,6 @@ mod archive;
 mod book;
 mod book_test;
 mod chores;
-mod kernels;
 mod kill_loop;
 mod links;
 mod markdown;

@@ -1,6 +1,5 @@
 //! `cargo xtask validate`: what the continuous integration runs and what a contributor runs.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
@@ -11,7 +10,7 @@ use crate::step::{Outcome, Step, built, cargo, execute, missing, python, root, t
 /// Runs the steps, cheapest first, up to the first that fails, and reports on each.
 pub fn validate() -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 22] = [
+    let steps: [(&str, Step); 21] = [
         ("format", format),
         ("links", links),
         ("spelling", crate::sources::spelling),
@@ -23,7 +22,6 @@ pub fn validate() -> ExitCode {
         ("tests", tests),
         ("program without verify", without_verify),
         ("schema", schema),
-        ("kernels", kernels),
         ("smoke run", smoke_run),
         ("tables of the documents", crate::results::step),
         ("report page", report_page),
@@ -134,30 +132,6 @@ fn schema(root: &Path) -> Outcome {
         return Outcome::Failed;
     }
     check_with_python(root, "check_schema.py", &[file, root.join("cases")])
-}
-
-/// The machine code of the element kernels has not grown.
-fn kernels(root: &Path) -> Outcome {
-    use crate::kernels::{Verdict, compare};
-    if !cfg!(target_arch = "x86_64") {
-        return Outcome::Skipped;
-    }
-    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
-    match compare(&binary, &root.join("benches/kernels.txt")) {
-        Ok(Verdict::Kept) => Outcome::Passed,
-        Ok(Verdict::NotCompared(why)) => {
-            eprintln!("warning: the kernels were not compared: {why}");
-            Outcome::Skipped
-        }
-        Ok(Verdict::Worse(what)) => {
-            what.iter().for_each(|line| eprintln!("error: {line} (benches/kernels.txt)"));
-            Outcome::Failed
-        }
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            Outcome::Failed
-        }
-    }
 }
 
 /// Runs the smallest case and has its files read by the libraries that users read them with.
