@@ -101,6 +101,17 @@ pub fn execute(command: &mut Command) -> Outcome {
     ended(command, status)
 }
 
+/// What a command prints, if it ends well.
+pub fn output(command: &mut Command) -> Result<String, String> {
+    match command.stderr(Stdio::inherit()).output() {
+        Ok(output) if output.status.success() => {
+            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+        }
+        Ok(output) => Err(format!("{command:?}: {}", output.status)),
+        Err(error) => Err(format!("{command:?}: {error}")),
+    }
+}
+
 /// Runs a command; gives the last line on its standard output, too.
 pub fn telling(command: &mut Command) -> (Outcome, String) {
     let mut last = String::new();
