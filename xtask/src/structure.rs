@@ -1,4 +1,4 @@
-//! The crates use one another as `docs/architecture.md` draws it, and the program and the tests share what they compile.
+//! The crates use one another as `docs/architecture.md` draws it.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -18,19 +18,32 @@ const LIST: &str = "```text crates";
 const TOOLS: [&str; 3] = ["xtask", "tests", "benches"];
 
 /// What differs between the drawing and the sources of the checkout at `root`, one line each.
-pub fn differences(root: &Path) -> Result<Vec<String>, String> {
-    let text =
-        std::fs::read_to_string(root.join(DRAWING)).map_err(|e| format!("{DRAWING}: {e}"))?;
+pub fn differences(root: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(root.join(DRAWING)).unwrap_or_default();
     let list = text.lines().skip_while(|line| *line != LIST).skip(1);
     let drawn: BTreeSet<String> =
         list.take_while(|line| *line != "```").map(str::to_owned).collect();
-    let words = ["metadata", "--no-deps", "--format-version", "1"];
-    let metadata = output(Command::new("cargo").args(words).current_dir(root))?;
-    let metadata = serde_json::from_str(&metadata).map_err(|e| e.to_string())?;
-    let built = built(&metadata);
+    let built = match metadata(root) {
+        Ok(metadata) => built(&metadata),
+        Err(problem) => return vec![problem],
+    };
     let not_built = drawn.difference(&built).map(|line| format!("{DRAWING} draws `{line}`"));
     let not_drawn = built.difference(&drawn).map(|line| format!("the sources have `{line}`"));
-    Ok(not_built.chain(not_drawn).collect())
+    not_built.chain(not_drawn).collect()
+}
+
+/// What Cargo knows of our packages.
+fn metadata(root: &Path) -> Result<Value, String> {
+    let words = ["metadata", "--no-deps", "--format-version", "1"];
+    let metadata = output(Command::new("cargo").args(words).current_dir(root))?;
+    serde_json::from_str(&metadata).map_err(|e| e.to_string())
+}
+
+/// The names of our packages, with blanks between.
+pub fn packages(root: &Path) -> Result<String, String> {
+    let metadata = metadata(root)?;
+    let packages = metadata["packages"].as_array().into_iter().flatten();
+    Ok(packages.filter_map(|package| package["name"].as_str()).collect::<Vec<_>>().join(" "))
 }
 
 /// The lines of the packages as Cargo has them, `crate: those that it uses`, without what tests alone use.
@@ -48,32 +61,6 @@ fn built(metadata: &Value) -> BTreeSet<String> {
         format!("{}:{}", name(package), used.collect::<String>())
     };
     packages.filter(|package| !TOOLS.contains(&&*name(package))).map(line).collect()
-}
-
-/// The builds that the tests go on from: the README's first command, and all commands of the program.
-const BUILDS: [&[&str]; 2] =
-    [&["--package", "creepage", "--no-default-features"], &["--package", "creepage"]];
-
-/// Foreign packages that a build selects with other features than the tests: Cargo would compile them again.
-pub fn compiled_twice(root: &Path) -> Result<Vec<String>, String> {
-    let tests = foreign(root, &["--workspace", "--edges", "normal,build,dev"])?;
-    let mut differ = BTreeSet::new();
-    for build in BUILDS {
-        let build = foreign(root, &[build, &["--edges", "normal,build"]].concat())?;
-        differ.extend(build.difference(&tests).cloned());
-    }
-    let remedy =
-        "has other features than in the tests: name those of the tests in crates/cli/Cargo.toml";
-    Ok(differ.iter().map(|package| format!("{package} {remedy}")).collect())
-}
-
-/// The packages of a selection with their versions and features, without our own, whose lines name their folder.
-fn foreign(root: &Path, selection: &[&str]) -> Result<BTreeSet<String>, String> {
-    let words = ["tree", "--no-dedupe", "--prefix", "none", "--format", "{p} {f}"];
-    let tree = output(Command::new("cargo").args(words).args(selection).current_dir(root))?;
-    let is_foreign =
-        |line: &&str| !line.is_empty() && !line.contains(" (/") && !line.contains(":\\");
-    Ok(tree.lines().filter(is_foreign).map(str::to_owned).collect())
 }
 
 #[cfg(test)]
