@@ -20,7 +20,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use crate::markdown::{pages, parse};
-use crate::step::{Outcome, built, copy, missing, python, target, without};
+use crate::step::{Outcome, copy, missing, program, python, target, without};
 use crate::{results, structure};
 
 /// Which commands are run, and by what.
@@ -82,16 +82,13 @@ pub fn test(root: &Path, options: &Options) -> Outcome {
         Ok(python) => python,
         Err(problem) => return missing(&problem, "the test of the documents' commands"),
     };
-    let program = options.program.clone().or_else(|| built(root, "creepage"));
-    let program = program.and_then(|program| program.canonicalize().ok());
-    let Some(program) = program else { return without(["there is no program".into()]) };
-    let folders = [&program, &python].map(|file| file.with_file_name(""));
-    let all = scripts(root, options)
-        .and_then(|all| Ok((all, Shell::new(root, folders).map_err(|error| error.to_string())?)));
-    match all {
-        Ok((all, shell)) => without(all.iter().filter_map(|script| shell.test(script).err())),
-        Err(problem) => without([problem]),
-    }
+    let faults = scripts(root, options).and_then(|scripts| {
+        let program = program(root, options.program.as_ref())?;
+        let folders = [&program, &python].map(|file| file.with_file_name(""));
+        let shell = Shell::new(root, folders).map_err(|error| error.to_string())?;
+        Ok(scripts.iter().filter_map(|script| shell.test(script).err()).collect())
+    });
+    without(faults.unwrap_or_else(|problem| vec![problem]))
 }
 
 /// The commands of the pages: those to be read, which takes no time, and those to be run in the order of the book.

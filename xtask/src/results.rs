@@ -125,10 +125,7 @@ fn runner<'a>(
     options: &Options,
     chosen: &BTreeMap<&String, &Manifest>,
 ) -> Result<Runner<'a>, String> {
-    let program = match &options.program {
-        Some(program) => program.clone(),
-        None => step::built(root, "creepage").ok_or("the program cannot be built")?,
-    };
+    let program = step::program(root, options.program.as_ref())?;
     let mut steps = chosen.values().flat_map(|manifest| &manifest.steps);
     let needs_python = steps.any(|step| step.command.starts_with("python "));
     let python = needs_python.then(|| step::python(root)).transpose()?;
@@ -183,18 +180,14 @@ fn list(root: &Path) -> Vec<String> {
     faults
 }
 
-/// The day when a table was made, and how often what it depends on was changed since.
+/// The day when a table was made, and how often what it depends on was changed since its commands began.
 fn age(root: &Path, manifest: &Manifest, record: &Record) -> String {
     let day = record.date.split('T').next().unwrap_or_default();
     // the commit may have gone with its branch: then the date decides
-    let limits = [format!("{}..HEAD", record.commit), format!("--since={}", record.date)];
-    let log = |limit| git(root, &["log", "--format=%h %cs %s", limit], &manifest.depends);
-    let changes = limits.iter().find_map(|limit| log(limit)).unwrap_or_default();
-    match (changes.lines().count(), changes.lines().next()) {
-        (number, Some(last)) => format!("{day}, older than {number} changes, the last: {last}"),
-        _ if record.uncommitted.is_empty() => format!("{day}, as new as what it depends on"),
-        _ => format!("{day}, made with changes that were not committed"),
-    }
+    let since = [format!("{}..HEAD", record.commit), format!("--since={}", record.date)];
+    let log = |since| git(root, &["log", "--format=%h", since], &manifest.depends);
+    let changes = since.iter().find_map(|since| log(since)).unwrap_or_default();
+    format!("{day}, changes since: {}", changes.lines().count())
 }
 
 /// What git says of these paths, if it ends well.

@@ -101,6 +101,12 @@ pub fn built(root: &Path, name: &str) -> Option<PathBuf> {
         .then(|| target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
 }
 
+/// The program named on the command line, or just built.
+pub fn program(root: &Path, named: Option<&PathBuf>) -> Result<PathBuf, String> {
+    let program = named.cloned().or_else(|| built(root, "creepage"));
+    program.and_then(|program| program.canonicalize().ok()).ok_or("there is no program".into())
+}
+
 /// Runs a command to its end.
 pub fn execute(command: &mut Command) -> Outcome {
     without(done(command).err())

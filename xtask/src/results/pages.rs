@@ -53,14 +53,10 @@ impl Tables {
     }
 }
 
-/// A page with its tables printed anew, and their names. `fault` hears of markers that do not belong together and of
-/// tables that cannot be printed, with their lines.
-fn print(
-    old: &str,
-    tables: &Tables,
-    mut fault: impl FnMut(usize, String),
-) -> (String, Vec<String>) {
-    let (mut new, mut names) = (String::new(), Vec::new());
+/// A page with its tables printed anew. `fault` hears of markers that do not belong together and of tables that cannot
+/// be printed, with their lines.
+fn print(old: &str, tables: &Tables, mut fault: impl FnMut(usize, String)) -> String {
+    let mut new = String::new();
     let mut in_code = false;
     let mut lines = (1..).zip(old.lines());
     while let Some((number, line)) = lines.next() {
@@ -74,7 +70,6 @@ fn print(
             }
             continue;
         };
-        names.push(name.to_owned());
         let stands: Vec<&str> =
             lines.by_ref().map(|(_, line)| line).take_while(|line| *line != END).collect();
         let is_closed = old.lines().nth(number + stands.len()) == Some(END);
@@ -88,7 +83,7 @@ fn print(
         new += &table.unwrap_or_else(|| stands.iter().map(|line| format!("{line}\n")).collect());
         new = new + END + "\n";
     }
-    (new, names)
+    new
 }
 
 /// The first line of a page that is not what the results say.
@@ -102,17 +97,20 @@ fn first_difference(old: &str, new: &str) -> Option<String> {
 pub fn check(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     let tables = Tables::read(root, &mut faults);
-    let mut shown = BTreeSet::new();
-    for (file, old, new, names) in printed(root, &tables, &mut faults) {
-        faults
-            .extend(first_difference(&old, &new).map(|difference| format!("{file}:{difference}")));
-        shown.extend(names);
+    let pages = printed(root, &tables, &mut faults);
+    for (file, old, new) in &pages {
+        let difference = first_difference(old, new);
+        faults.extend(difference.map(|difference| format!("{file}:{difference}")));
     }
+    let shows = |name: &str| {
+        let marker = format!("{BEGIN} {name} -->");
+        pages.iter().any(|(_, text, _)| text.contains(&marker))
+    };
     let mut drawn = BTreeSet::new();
     for (name, manifest) in &tables.manifests {
         let at = format!("{FOLDER}/{name}.toml");
         drawn.extend(manifest.pictures.iter().map(|picture| picture.to.clone()));
-        if !manifest.parts.is_empty() && !shown.contains(name) {
+        if !manifest.parts.is_empty() && !shows(name) {
             faults.push(format!("{at}: no document has its markers"));
         }
         let Some(record) = tables.records.get(name) else {
@@ -144,27 +142,24 @@ pub fn write(root: &Path) -> Vec<String> {
     let tables = Tables::read(root, &mut faults);
     let printed = printed(root, &tables, &mut faults);
     if faults.is_empty() {
-        let changed = printed.into_iter().filter(|(_, old, new, _)| old != new);
-        let written = changed.map(|(file, _, new, _)| fs::write(root.join(file), new));
+        let changed = printed.into_iter().filter(|(_, old, new)| old != new);
+        let written = changed.map(|(file, _, new)| fs::write(root.join(file), new));
         faults.extend(written.filter_map(|written| Some(written.err()?.to_string())));
     }
     faults
 }
 
-/// The documents by name with their texts, their texts printed anew, and their tables; `faults` gains what cannot be
-/// printed.
+/// The documents by name with their texts, and their texts printed anew; `faults` gains what cannot be printed.
 fn printed(
     root: &Path,
     tables: &Tables,
     faults: &mut Vec<String>,
-) -> Vec<(String, String, String, Vec<String>)> {
+) -> Vec<(String, String, String)> {
     let page = |file: String| {
         // that every document is there is checked with the links
         let old = fs::read_to_string(root.join(&file)).unwrap_or_default();
-        let (new, names) = print(&old, tables, |line, fault| {
-            faults.push(format!("{file}:{line}: {fault}"));
-        });
-        (file, old, new, names)
+        let new = print(&old, tables, |line, fault| faults.push(format!("{file}:{line}: {fault}")));
+        (file, old, new)
     };
     markdown::pages(root).unwrap_or_default().into_iter().map(page).collect()
 }

@@ -153,18 +153,14 @@ mod tests {
             title = "A"
             depends = ["crates"]
             tolerance = { relative = 1e-3, absolute = 1e-12 }
-            [[step]]
-            name = "a"
-            command = "true"
-            [[step]]
-            name = "b"
-            command = "true"
-            chaotic = true
-            [[part]]
-            text = "| name | {a > force :.1} | {b > slip :.2} |\n|---|---|---|\n"
-            [[part]]
-            each = "a > rows"
-            text = "| {name :s} | {size > 0 :.1e} | |"
+            step = [
+                { name = "a", command = "true" },
+                { name = "b", command = "true", chaotic = true },
+            ]
+            part = [
+                { text = "| name | {a > force :.1} | {b > slip :.2} |\n|---|---|---|" },
+                { each = "a > rows", text = "| {name :s} | {size > 0 :.1e} | |" },
+            ]
         "#;
         Manifest::read(text).unwrap()
     }
