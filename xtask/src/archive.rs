@@ -3,9 +3,9 @@
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
-use crate::step::{Outcome, cargo, execute, root, target};
+use crate::step::{Outcome, cargo, done, target};
 
 /// Completions: the shell, and the name under which it looks for them.
 const COMPLETIONS: [(&str, &str); 4] = [
@@ -19,21 +19,8 @@ const COMPLETIONS: [(&str, &str); 4] = [
 const TEXTS: [&str; 5] =
     ["README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE-APACHE", "LICENSE-MIT"];
 
-/// Builds the archive and says where it is.
-pub fn archive() -> ExitCode {
-    match build(&root()) {
-        Ok(archive) => {
-            println!("{}", archive.display());
-            ExitCode::SUCCESS
-        }
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn build(root: &Path) -> Result<PathBuf, String> {
+/// Builds the archive.
+pub fn archive(root: &Path) -> Result<PathBuf, String> {
     let machine = format!("{}-unknown-linux-musl", std::env::consts::ARCH);
     let build = ["build", "--release", "--package", "creepage", "--target", &machine];
     if cargo(root, &build, &[]) != Outcome::Passed {
@@ -54,19 +41,12 @@ fn build(root: &Path) -> Result<PathBuf, String> {
     }
     for (shell, file) in COMPLETIONS {
         let file = File::create(folder.join("completions").join(file)).map_err(tell)?;
-        run(Command::new(&program).args(["completions", shell]).stdout(file))?;
+        done(Command::new(&program).args(["completions", shell]).stdout(file))?;
     }
-    run(Command::new(&program).args(["man", "--out"]).arg(folder.join("man")))?;
+    done(Command::new(&program).args(["man", "--out"]).arg(folder.join("man")))?;
     let archive = parent.join(format!("{name}.tar.gz"));
-    run(Command::new("tar").arg("-czf").arg(&archive).arg("-C").arg(&parent).arg(&name))?;
+    done(Command::new("tar").arg("-czf").arg(&archive).arg("-C").arg(&parent).arg(&name))?;
     Ok(archive)
-}
-
-fn run(command: &mut Command) -> Result<(), String> {
-    match execute(command) {
-        Outcome::Passed => Ok(()),
-        _ => Err(format!("{command:?} failed")),
-    }
 }
 
 #[cfg(test)]

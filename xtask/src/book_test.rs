@@ -1,215 +1,111 @@
-//! `cargo xtask book-test`: the commands of the documents do what they say.
+//! `cargo xtask book-test`: the program takes the commands of the documents, and the short ones are run.
 //!
-//! Commands stand in blocks whose fence says how they are tested:
+//! | fence | what is done with its commands |
+//! |---|---|
+//! | `sh run`, or `sh run exit=1` | they are run, and must end with this exit code |
+//! | `sh long` | they are read; with `--long` they are run |
+//! | `sh elsewhere` | they are read: they need what a checkout lacks, or change the machine |
 //!
-//! | fence | here | with `--all` or `--rest` |
-//! |---|---|---|
-//! | `sh run`, or `sh run exit=1` | run, with this exit code | run |
-//! | `sh long` | checked | run, and kept in `docs/book-test.json` |
-//! | `sh elsewhere` | checked | checked: it needs what a checkout lacks, or changes the machine |
-//!
-//! Blocks are run in the order of the book, in one copy of the checkout, so that later chapters find
-//! the runs of earlier ones. `creepage`, also as `cargo run --release --` or `target/release/creepage`, is
-//! the program just built; other calls of cargo work in the checkout itself, which spares a second compilation. A command is
-//! checked by having the program read its options, its case and its sweep, and by looking for the files,
-//! packages and chores that it names. Inline code that is a whole command is checked as well. Runs that the
-//! tables of the documents just made are taken from there. `--rest` leaves out the long blocks that passed
-//! before as they stand, or whose commands made a table.
+//! Blocks are run in the order of the book, in one copy of the checkout, so that later pages find the runs of earlier
+//! ones. The runs that short tables make (`cargo xtask results`) are there from the beginning: the commands that make
+//! them stand in blocks of `sh long`. To read commands, bash goes through them with functions in place of the
+//! programs: `creepage` looks at its options, its case and its sweep, and of others packages, cases and scripts must
+//! exist. Inline code that is a whole command is read as well.
 
-mod made;
-mod passed;
-
-use std::collections::{BTreeMap, BTreeSet};
+use std::env;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use clap::Parser;
+use crate::markdown::{pages, parse};
+use crate::step::{Outcome, copy, missing, program, python, target, without};
+use crate::{results, structure};
 
-use crate::book::chapters;
-use crate::chores::Args;
-use crate::markdown::{Block, parse};
-use crate::shell::commands;
-use made::Made;
-use passed::Passed;
-
-/// Programs that the documents are about.
-const PROGRAMS: [&str; 4] = ["cargo", "creepage", "pip", "python"];
-
-/// Programs that no checkout holds. That their lines are right is not tested.
-const FOREIGN: [&str; 18] = [
-    "anim_to_vtk_linux64_gf",
-    "cat",
-    "cd",
-    "cp",
-    "curl",
-    "engine_linux64_gf",
-    "git",
-    "jupyter",
-    "ls",
-    "mkdir",
-    "paraview",
-    "pip",
-    "printf",
-    "rustup",
-    "sbatch",
-    "sh",
-    "starter_linux64_gf",
-    "timeout",
-];
-
-/// What runs commands.
-pub struct Programs {
-    /// Folder with `creepage`.
-    pub release: PathBuf,
-    /// Folder with `python` and the packages of the checks; none where Python is missing.
-    pub python: Option<PathBuf>,
+/// Which commands are run, and by what.
+#[derive(Debug, Default, clap::Args)]
+pub struct Options {
+    /// Run the long ones, too; this takes many hours
+    #[arg(long)]
+    long: bool,
+    /// Take this program instead of building it
+    #[arg(long, value_name = "FILE")]
+    program: Option<PathBuf>,
+    /// Pages, such as docs/start.md, with those before them whose runs they read [default: all]
+    pages: Vec<String>,
 }
 
-/// Which long blocks are run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Long {
-    None,
-    /// Those that neither passed before as they stand nor made a table.
-    Rest,
-    All,
-}
-
-/// Which blocks are run, besides those whose runs they read.
-#[derive(Clone, Debug)]
-pub struct Chosen {
-    pub long: Long,
-    /// The documents by their names without folder, or blocks by that and their line (`start.md:19`); all if there
-    /// are none.
-    pub chapters: Vec<String>,
-}
-
-impl Chosen {
-    fn holds(&self, script: &Script, passed: &Passed) -> bool {
-        let here = |chapter: &String| is_in(script, chapter);
-        let kind = match (script.kind, self.long) {
-            (Kind::Elsewhere, _) | (Kind::Long { .. }, Long::None) => false,
-            (Kind::Long { .. }, Long::Rest) => !passed.has(script),
-            _ => true,
-        };
-        kind && (self.chapters.is_empty() || self.chapters.iter().any(here))
-    }
-}
-
-/// Whether the block is of the document, or is the one at `document:line`.
-fn is_in(script: &Script, chosen: &str) -> bool {
-    let document = script.at.split(':').next().unwrap_or_default();
-    [document, &script.at].iter().any(|at| Path::new(at).file_name() == Some(chosen.as_ref()))
-}
-
-/// How a block is tested.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Run { exit: i32 },
-    Long { exit: i32 },
-    Elsewhere,
-}
-
-/// A block of commands of a document.
-#[derive(Debug)]
+/// A block of commands of a document, or inline code.
 struct Script {
     /// `file:line`.
     at: String,
-    kind: Kind,
+    /// The exit code to expect; none if the commands are only read.
+    exit: Option<i32>,
     text: String,
 }
 
-/// Tests the commands of the checkout at `root` in a copy at `scratch`, and keeps which long blocks passed.
-/// Returns what is wrong, a few lines each.
-pub fn test(root: &Path, scratch: &Path, programs: &Programs, chosen: &Chosen) -> Vec<String> {
-    let mut faults = Vec::new();
-    let scripts = match scripts(root, &mut faults) {
-        Ok(scripts) => scripts,
-        Err(error) => return vec![error.to_string()],
-    };
-    for script in scripts.iter().filter(|script| !matches!(script.kind, Kind::Run { .. })) {
-        faults.extend(check(root, programs, script));
-    }
-    faults.extend(made_twice(&scripts));
-    let has_none = |place: &&String| !scripts.iter().any(|script| is_in(script, place));
-    faults.extend(
-        chosen.chapters.iter().filter(has_none).map(|place| format!("no commands are at {place}")),
-    );
-    if !faults.is_empty() {
-        return faults;
-    }
-    if let Err(error) = lay_out(root, scratch, programs) {
-        return vec![format!("{}: {error}", scratch.display())];
-    }
-    let made = Made::of(root, &programs.release.join("creepage"));
-    let mut passed = match Passed::read(root, &scripts) {
-        Ok(passed) => passed,
-        Err(problem) => return vec![problem],
-    };
-    let may_run = |script: &Script| match script.kind {
-        Kind::Run { .. } => true,
-        Kind::Long { .. } => chosen.long != Long::None,
-        Kind::Elsewhere => false,
-    };
-    let runs = with_needed(&scripts, may_run, |script| chosen.holds(script, &passed));
-    let mut number = 0;
-    for script in runs.into_iter().map(|index| &scripts[index]) {
-        let (exit, is_long) = match script.kind {
-            Kind::Run { exit } => (exit, false),
-            Kind::Long { exit } => (exit, true),
-            Kind::Elsewhere => continue,
-        };
-        match made.take(&script.text, scratch) {
-            Ok(true) => {
-                eprintln!("   made  {}, for a table", script.at);
-                continue;
-            }
-            Ok(false) => {}
-            Err(error) => return vec![format!("{}: {error}", script.at)],
-        }
-        let start = Instant::now();
-        match execute(root, scratch, programs, &script.text) {
-            Ok((code, _)) if code == exit => {
-                let seconds = start.elapsed().as_secs_f64();
-                eprintln!("{seconds:7.1} s  {}", script.at);
-                number += 1;
-                if is_long && let Err(problem) = passed.keep(root, script, seconds) {
-                    return vec![problem];
-                }
-            }
-            Ok((code, said)) => {
-                let text = &script.text;
-                let left = scratch.display();
-                return vec![format!(
-                    "{}: exit code {code} instead of {exit}\n{text}{said}\nwhat it left is in {left}",
-                    script.at
-                )];
-            }
-            Err(error) => return vec![format!("{}: bash: {error}", script.at)],
-        }
-    }
-    println!(
-        "{number} blocks of commands run, {} in all; {}",
-        scripts.len(),
-        passed.told(&scripts)
-    );
-    let _ = fs::remove_dir_all(scratch);
-    Vec::new()
+/// Before what is read.
+const READ: &str = r#"set -eo pipefail
+known() { # packages, cases and scripts must be there
+    for word; do
+        case "$word" in
+        creepage-*) [[ " $PACKAGES " == *" $word "* ]];;
+        cases/*|crates/*|meshes/*|tests/*|benches/*) compgen -G "$word" >/dev/null;;
+        esac || { echo "there is no $word" >&2; exit 1; }
+    done
+}
+creepage() { known "$@"; command creepage --check-args "$@" >/dev/null; }
+target/release/creepage() { creepage "$@"; }
+cargo() {
+    case "$*" in
+    "run --release -- "*) creepage "${@:4}";;
+    "run --release --no-default-features -- "*) creepage "${@:5}";;
+    "xtask "*) "$XTASK" --check-args "${@:2}";;
+    *) known "$@";;
+    esac
+}
+for foreign in cases/sweeps/slurm.sh cd cp peers/bin/pip peers/bin/python pip python sh \
+    {starter,engine,anim_to_vtk}_linux64_gf; do
+    eval "$foreign() { known \"\$@\"; }"
+done
+"#;
+
+/// The step of `validate`.
+pub fn step(root: &Path) -> Outcome {
+    test(root, &Options::default())
 }
 
-/// The blocks of commands of the README and of all chapters; `faults` gains what cannot be tested.
-fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>> {
-    let chapters = chapters(root)?.into_iter().map(|name| format!("docs/{name}"));
+/// Tests the commands of the documents.
+pub fn test(root: &Path, options: &Options) -> Outcome {
+    let python = match python(root) {
+        Ok(python) => python,
+        Err(problem) => return missing(&problem, "the test of the documents' commands"),
+    };
+    let faults = scripts(root, options).and_then(|scripts| {
+        let program = program(root, options.program.as_ref())?;
+        let folders = [&program, &python].map(|file| file.with_file_name(""));
+        let shell = Shell::new(root, folders).map_err(|error| error.to_string())?;
+        Ok(scripts.iter().filter_map(|script| shell.test(script).err()).collect())
+    });
+    without(faults.unwrap_or_else(|problem| vec![problem]))
+}
+
+/// The commands of the pages: those to be read, which takes no time, and those to be run in the order of the book.
+fn scripts(root: &Path, options: &Options) -> Result<Vec<Script>, String> {
+    let is_chosen = |page: &String| options.pages.is_empty() || options.pages.contains(page);
+    let pages = pages(root).map_err(|error| format!("docs: {error}"))?;
     let mut scripts = Vec::new();
-    for name in ["README.md".into()].into_iter().chain(chapters) {
-        let document = parse(&fs::read_to_string(root.join(&name))?);
-        for block in document.blocks {
-            let at = format!("{name}:{}", block.line);
-            match kind(&block) {
-                Ok(Some(kind)) => scripts.push(Script { at, kind, text: block.text }),
-                Ok(None) => {}
-                Err(problem) => faults.push(format!("{at}: {problem}")),
+    for page in pages.iter().filter(|page| is_chosen(page)) {
+        let text = fs::read_to_string(root.join(page)).map_err(|e| format!("{page}: {e}"))?;
+        let document = parse(&text);
+        for (line, info, text) in document.blocks {
+            if info.starts_with("sh") || text.lines().any(is_command) {
+                let at = format!("{page}:{line}");
+                let exit = exit(&info, options.long).ok_or_else(|| {
+                    format!("{at}: commands stand in `sh run`, `sh long`, `sh elsewhere`, perhaps with `exit=CODE`")
+                })?;
+                scripts.push(Script { at, exit, text });
             }
         }
         for (line, span) in document.code.iter().filter(|(_, span)| is_whole_command(span)) {
@@ -217,272 +113,103 @@ fn scripts(root: &Path, faults: &mut Vec<String>) -> std::io::Result<Vec<Script>
             let of_it = span.starts_with("creepage ")
                 && span.split(' ').skip(2).all(|word| word.starts_with("--"));
             let text = format!("{span}{}", if of_it { " --help" } else { "" });
-            let at = format!("{name}:{line}");
-            scripts.push(Script { at, kind: Kind::Elsewhere, text });
+            scripts.push(Script { at: format!("{page}:{line}"), exit: None, text });
         }
     }
-    Ok(scripts)
+    scripts.sort_by_key(|script| script.exit.is_some());
+    if scripts.is_empty() { Err("no such page has commands".into()) } else { Ok(scripts) }
 }
 
-/// Commands whose folder an earlier one of the book has made, which the program would refuse.
-fn made_twice(scripts: &[Script]) -> Vec<String> {
-    let mut places: BTreeMap<PathBuf, &str> = BTreeMap::new();
-    let mut faults = Vec::new();
-    for script in scripts.iter().filter(|script| script.kind != Kind::Elsewhere) {
-        for (folder, again) in made::folders_made(&script.text) {
-            match places.get(&folder) {
-                Some(first) if !again => {
-                    let (at, folder) = (&script.at, folder.display());
-                    faults.push(format!(
-                        "{at}: {folder} is made in {first} already: --out or --force"
-                    ));
-                }
-                _ => drop(places.insert(folder, &script.at)),
-            }
-        }
-    }
-    faults
-}
-
-/// Of the scripts that may run those chosen, and those that make the runs that these read, in the order of the book.
-fn with_needed(
-    scripts: &[Script],
-    may_run: impl Fn(&Script) -> bool,
-    is_chosen: impl Fn(&Script) -> bool,
-) -> BTreeSet<usize> {
-    let mut found = BTreeSet::new();
-    let mut read: BTreeSet<PathBuf> = BTreeSet::new();
-    for (index, script) in scripts.iter().enumerate().rev() {
-        if !may_run(script) {
-            continue;
-        }
-        let (made, named) = made::folders(&script.text);
-        let is_made = |folder: &PathBuf| made.iter().any(|made| folder.starts_with(made));
-        if is_chosen(script) || read.iter().any(is_made) {
-            found.insert(index);
-            read.retain(|folder| !is_made(folder));
-            read.extend(named);
-        }
-    }
-    found
-}
-
-/// How a block says that it is tested; none for a block that is no script.
-fn kind(block: &Block) -> Result<Option<Kind>, String> {
-    let words: Vec<&str> = block.info.iter().map(String::as_str).collect();
-    let (how, exit) = match words[..] {
+/// The exit code that a fence wants of its commands if they are run; none for a fence that does not say it.
+fn exit(info: &str, long: bool) -> Option<Option<i32>> {
+    let (how, code) = match info.split_whitespace().collect::<Vec<_>>()[..] {
         ["sh", how] => (how, 0),
-        ["sh", how, exit] => match exit.strip_prefix("exit=").map(str::parse) {
-            Some(Ok(code)) => (how, code),
-            _ => return Err(format!("{exit:?} is not exit=CODE")),
-        },
-        ["sh"] | ["bash" | "shell" | "console", ..] => ("", 0),
-        _ if block.text.lines().any(is_command) => ("", 0),
-        _ => return Ok(None),
+        ["sh", how, exit] => (how, exit.strip_prefix("exit=")?.parse().ok()?),
+        _ => return None,
     };
     match how {
-        "run" => Ok(Some(Kind::Run { exit })),
-        "long" => Ok(Some(Kind::Long { exit })),
-        "elsewhere" => Ok(Some(Kind::Elsewhere)),
-        _ => Err("commands stand in blocks of `sh run`, `sh long` or `sh elsewhere`".into()),
+        "run" => Some(Some(code)),
+        "long" => Some(long.then_some(code)),
+        "elsewhere" => Some(None),
+        _ => None,
     }
 }
 
 /// Whether a line calls one of the programs that the documents are about.
 fn is_command(line: &str) -> bool {
-    let mut words = line.split_whitespace();
-    let program = words.next().is_some_and(|word| PROGRAMS.contains(&word));
+    let mut words = line.split(' ');
+    let program = words.next().is_some_and(|word| ["cargo", "creepage", "python"].contains(&word));
     // `creepage = 2.4e-3` is a key of a case
-    program && !line.starts_with(' ') && words.next().is_some_and(|word| word != "=")
+    program && words.next().is_some_and(|word| word != "=")
 }
 
-/// Whether inline code is a command without anything to fill in.
+/// Whether inline code is a command without anything to fill in: no `CASE.toml`, no `[--out DIR]`.
 fn is_whole_command(span: &str) -> bool {
-    let to_fill_in = |word: &str| {
-        let letters = word.chars().filter(char::is_ascii_alphabetic);
-        let all_capitals = letters.clone().count() > 2 && letters.clone().all(|c| c.is_uppercase());
-        all_capitals || word.contains(['[', '<', '|', '*']) || word.contains("...")
-    };
-    let parts = || span.split(|c: char| c.is_whitespace() || c == '/' || c == '=' || c == '.');
-    is_command(span) && !span.contains("...") && !span.ends_with(" --") && !parts().any(to_fill_in)
+    let is_pattern = |c: char| c.is_ascii_uppercase() || "[<|*".contains(c);
+    is_command(span)
+        && !span.contains(is_pattern)
+        && !span.contains("...")
+        && !span.ends_with(" --")
 }
 
-/// What is wrong with a script that is not run.
-fn check(root: &Path, programs: &Programs, script: &Script) -> Vec<String> {
-    let mut faults = Vec::new();
-    for command in commands(&script.text) {
-        if let Err(problem) = check_command(root, programs, &command) {
-            faults.push(format!("{}: {}\n  {problem}", script.at, command.join(" ")));
+/// Where scripts are run or read.
+struct Shell {
+    scratch: PathBuf,
+    search: std::ffi::OsString,
+    program: PathBuf,
+    packages: String,
+}
+
+impl Shell {
+    /// A copy of the checkout, with the folders of `creepage` and of `python` before all others: the Python package
+    /// brings a `creepage` of its own.
+    fn new(root: &Path, [program, python]: [PathBuf; 2]) -> io::Result<Self> {
+        let scratch = target(root).join("book-test");
+        if scratch.exists() {
+            fs::remove_dir_all(&scratch)?;
         }
-    }
-    faults
-}
-
-/// The words after the program, however a command calls it; none for a command of another program.
-fn arguments(command: &[String]) -> Option<&[String]> {
-    const CALLS: [&[&str]; 5] = [
-        &["creepage"],
-        &["$CREEPAGE"],
-        &["target/release/creepage"],
-        &["cargo", "run", "--release", "--"],
-        &["cargo", "run", "--release", "--no-default-features", "--"],
-    ];
-    let call = CALLS.iter().find(|call| command.iter().take(call.len()).eq(call.iter()))?;
-    Some(&command[call.len()..])
-}
-
-fn check_command(root: &Path, programs: &Programs, command: &[String]) -> Result<(), String> {
-    let words: Vec<&str> = command.iter().map(String::as_str).collect();
-    match arguments(command) {
-        Some(given) => reads(root, programs, given),
-        None => is_there(root, &words),
-    }?;
-    // Files below the project's folders are there, whoever reads them.
-    for word in &words {
-        let below = |folder: &str| word.starts_with(folder) && !word.contains(['*', '$']);
-        if ["cases/", "crates/", "meshes/", "tests/"].iter().any(|folder| below(folder)) {
-            exists(root, word)?;
+        copy(root, &scratch)?;
+        for made in results::short_folders(root) {
+            let (from, name) = (root.join(&made), made.trim_start_matches("runs/docs/"));
+            match from.is_dir() {
+                true => copy(&from, &scratch.join("runs").join(name))?,
+                false => eprintln!("warning: there is no {made}: `cargo xtask results` makes it"),
+            }
         }
+        let before = env::var_os("PATH").unwrap_or_default();
+        let folders = [program.clone(), python].into_iter().chain(env::split_paths(&before));
+        let search = env::join_paths(folders).map_err(io::Error::other)?;
+        let packages = structure::packages(root).map_err(io::Error::other)?;
+        Ok(Self { scratch, search, program, packages })
     }
-    Ok(())
-}
 
-fn exists(root: &Path, file: &str) -> Result<(), String> {
-    if root.join(file).exists() { Ok(()) } else { Err(format!("there is no {file}")) }
-}
-
-/// What the command of another program names exists.
-fn is_there(root: &Path, words: &[&str]) -> Result<(), String> {
-    match *words {
-        ["cargo", "xtask", ..] => match Args::try_parse_from(&words[1..]) {
-            Err(error) if error.use_stderr() => Err(error.to_string()),
-            _ => Ok(()),
-        },
-        ["cargo", ..] => cargo_finds(root, &words[1..]),
-        ["python", "-m", ..] => Ok(()),
-        ["python", file, ..] => exists(root, file),
-        [program, ..] if FOREIGN.contains(&program) || program.contains('/') => Ok(()),
-        _ => Err(format!("an unknown program (known are {})", FOREIGN.join(", "))),
-    }
-}
-
-/// The program reads these words as a command of its own, with all options, keys and cases.
-fn reads(root: &Path, programs: &Programs, words: &[String]) -> Result<(), String> {
-    let read = Command::new(programs.release.join("creepage"))
-        .arg("--check-args")
-        .args(words)
-        .current_dir(root)
-        .output()
-        .map_err(|error| error.to_string())?;
-    if read.status.success() {
-        return Ok(());
-    }
-    Err(String::from_utf8_lossy(&read.stderr).into_owned())
-}
-
-/// The packages, examples, tests and benchmarks of a call of cargo exist.
-fn cargo_finds(root: &Path, words: &[&str]) -> Result<(), String> {
-    let mut folder = None;
-    for pair in words.windows(2) {
-        if let ["-p" | "--package", package] = *pair {
-            folder = Some(package_folder(root, package).ok_or(format!("no package {package}"))?);
-        }
-    }
-    // without a package it is about the command line's
-    let folder = folder.unwrap_or_else(|| root.join("crates/cli"));
-    for pair in words.windows(2) {
-        let [kind, name] = *pair else { continue };
-        let files = match kind {
-            "--example" => vec![format!("examples/{name}.rs")],
-            "--test" => vec![format!("tests/{name}.rs"), format!("tests/{name}/main.rs")],
-            "--bench" => {
-                vec![format!("benches/{name}.rs"), format!("{name}.rs"), format!("src/{name}.rs")]
-            }
-            "--bin" => {
-                vec![format!("src/bin/{name}.rs"), format!("src/{}.rs", name.replace('-', "_"))]
-            }
-            "--path" => {
-                exists(root, name)?;
-                continue;
-            }
-            _ => continue,
+    /// Runs or reads a script; what is wrong with it.
+    fn test(&self, script: &Script) -> Result<(), String> {
+        let start = Instant::now();
+        let before = match script.exit {
+            // the first command that fails ends it
+            Some(_) => "set -euo pipefail".to_owned(),
+            // other programs than the functions are not found
+            None => format!("PATH={:?}\n{READ}", self.program),
         };
-        if !files.iter().any(|file| folder.join(file).exists()) {
-            return Err(format!("{} has no {}", folder.display(), files.join(" or ")));
+        let mut bash = Command::new("bash");
+        bash.arg("-c").arg(format!("{before}\n{}", script.text));
+        bash.env("PATH", &self.search).env("MPLBACKEND", "agg").env("PACKAGES", &self.packages);
+        bash.env("XTASK", env::current_exe().unwrap_or_default());
+        let output = bash.current_dir(&self.scratch).stdin(Stdio::null()).output();
+        let output = output.map_err(|error| format!("bash: {error}"))?;
+        if script.exit.is_some() {
+            eprintln!("{:7.1} s  {}", start.elapsed().as_secs_f64(), script.at);
         }
-    }
-    Ok(())
-}
-
-fn package_folder(root: &Path, package: &str) -> Option<PathBuf> {
-    let crates = fs::read_dir(root.join("crates")).ok()?.flatten().map(|entry| entry.path());
-    let others = ["xtask", "tests", "benches"].map(|name| root.join(name));
-    crates.chain(others).find(|folder| {
-        let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
-        manifest.contains(&format!("\nname = \"{package}\""))
-    })
-}
-
-/// A copy of the checkout without runs and hidden files, and of what is built the program alone.
-fn lay_out(root: &Path, scratch: &Path, programs: &Programs) -> std::io::Result<()> {
-    if scratch.exists() {
-        fs::remove_dir_all(scratch)?;
-    }
-    let release = scratch.join("target/release");
-    fs::create_dir_all(&release)?;
-    fs::copy(programs.release.join("creepage"), release.join("creepage"))?;
-    let left_out = BTreeSet::from(["target", "runs"]);
-    for entry in fs::read_dir(root)? {
-        let entry = entry?;
-        let name = entry.file_name();
-        let text = name.to_string_lossy();
-        if text.starts_with('.') || left_out.contains(&*text) {
-            continue;
+        let (code, wanted) = (output.status.code().unwrap_or(-1), script.exit.unwrap_or(0));
+        let said = [output.stdout, output.stderr].concat();
+        let said = String::from_utf8_lossy(&said);
+        let (at, text) = (&script.at, script.text.trim_end());
+        if code == wanted {
+            return Ok(());
         }
-        if entry.path().is_dir() {
-            crate::book::copy(&entry.path(), &scratch.join(name))?;
-        } else {
-            fs::copy(entry.path(), scratch.join(name))?;
-        }
+        Err(format!("{at}: exit code {code} instead of {wanted}\n{text}\n{said}"))
     }
-    Ok(())
-}
-
-/// Before every script: the first command that fails ends it.
-const PRELUDE: &str = r#"set -euo pipefail
-cargo() {
-    if [ "${1-} ${2-}" = "run --release" ]; then
-        case "${3-}" in
-        --) shift 3; creepage "$@"; return;;
-        --no-default-features) shift 4; creepage "$@"; return;;
-        esac
-    fi
-    (builtin cd "$CREEPAGE_CHECKOUT" && command cargo "$@")
-}
-"#;
-
-/// Exit code of a script, and what it said.
-fn execute(
-    root: &Path,
-    scratch: &Path,
-    programs: &Programs,
-    text: &str,
-) -> std::io::Result<(i32, String)> {
-    // the Python package brings a `creepage` of its own
-    let folders = std::iter::once(&programs.release).chain(&programs.python).cloned();
-    let before = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths(folders.chain(std::env::split_paths(&before)))
-        .map_err(std::io::Error::other)?;
-    let output = Command::new("bash")
-        .args(["-c", &format!("{PRELUDE}{text}")])
-        .env("PATH", path)
-        .env("CREEPAGE_CHECKOUT", root)
-        .env("MPLBACKEND", "agg")
-        .current_dir(scratch)
-        .stdin(std::process::Stdio::null())
-        .output()?;
-    let said = [output.stdout, output.stderr].concat();
-    Ok((output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned()))
 }
 
 #[cfg(test)]
@@ -491,114 +218,53 @@ mod tests {
 
     use super::*;
 
-    fn kind_of(text: &str) -> Result<Option<Kind>, String> {
-        kind(&parse(text).blocks[0])
-    }
-
     #[test]
     fn a_fence_says_how_its_commands_are_tested() {
-        assert_eq!(kind_of("```sh run\ntrue\n```"), Ok(Some(Kind::Run { exit: 0 })));
-        assert_eq!(kind_of("```sh run exit=1\nfalse\n```"), Ok(Some(Kind::Run { exit: 1 })));
-        assert_eq!(kind_of("```sh long\ntrue\n```"), Ok(Some(Kind::Long { exit: 0 })));
-        assert_eq!(kind_of("```toml\na = 1\n```"), Ok(None));
-    }
-
-    #[test]
-    fn a_folder_that_an_earlier_block_has_made_is_told() {
-        let script = |text: &str| Script {
-            at: "docs/a.md:1".into(),
-            kind: Kind::Long { exit: 0 },
-            text: text.into(),
-        };
-        let twice = |second: &str| made_twice(&[script("creepage run a.toml"), script(second)]);
-        assert_eq!(twice("creepage run b/a.toml").len(), 1);
-        for fine in ["creepage run a.toml --force", "creepage run a.toml --out runs/c", "true"] {
-            assert!(twice(fine).is_empty(), "{fine}");
+        for (info, wanted) in [
+            ("sh run", Some(Some(0))),
+            ("sh run exit=1", Some(Some(1))),
+            ("sh long", Some(None)),
+            ("sh elsewhere", Some(None)),
+            ("sh", None),
+            ("sh run exit=x", None),
+        ] {
+            assert_eq!(exit(info, false), wanted, "{info}");
         }
-    }
-
-    #[test]
-    fn a_block_is_chosen_by_its_document_or_by_that_and_its_line() {
-        let script =
-            Script { at: "docs/a.md:19".into(), kind: Kind::Long { exit: 0 }, text: "true".into() };
-        for (chosen, wanted) in
-            [("a.md", true), ("a.md:19", true), ("a.md:1", false), ("b.md", false), ("docs", false)]
-        {
-            assert_eq!(is_in(&script, chosen), wanted, "{chosen}");
-        }
-    }
-
-    #[test]
-    fn what_a_block_reads_is_run_before_it() {
-        let script =
-            |kind, text: &str| Script { at: "docs/a.md:1".into(), kind, text: text.into() };
-        let (long, short) = (Kind::Long { exit: 0 }, Kind::Run { exit: 0 });
-        let made = "creepage run a.toml --out runs/b";
-        let other = "creepage run a.toml --out runs/b/runs/01";
-        let of_last = |first, second, may_run: fn(&Script) -> bool| {
-            let last = script(short, "creepage check runs/b/runs/0");
-            let scripts = [script(first, made), script(second, made), script(long, other), last];
-            with_needed(&scripts, may_run, |script| script.text.contains("check"))
-        };
-        let all = |script: &Script| script.kind != Kind::Elsewhere;
-        assert_eq!(of_last(long, Kind::Elsewhere, all), BTreeSet::from([0, 3]));
-        assert_eq!(of_last(long, short, all), BTreeSet::from([1, 3]));
-        let short_ones = |script: &Script| matches!(script.kind, Kind::Run { .. });
-        assert_eq!(of_last(long, Kind::Elsewhere, short_ones), BTreeSet::from([3]));
-    }
-
-    #[test]
-    fn commands_that_no_fence_classifies_are_refused() {
-        for text in ["```sh\ntrue\n```", "```\ncreepage run a.toml\n```", "    cargo test\n"] {
-            assert!(kind_of(text).is_err(), "{text}");
-        }
-        assert!(kind_of("```sh run exit=one\n```").is_err());
+        assert_eq!(
+            [exit("sh long", true), exit("sh elsewhere", true)],
+            [Some(Some(0)), Some(None)]
+        );
     }
 
     #[test]
     fn inline_code_with_something_to_fill_in_is_no_command() {
         assert!(is_whole_command("creepage check runs/quick --limit law_error=0.05"));
-        for span in [
-            "creepage run CASE.toml",
-            "creepage plot runs/NAME",
-            "creepage run [--out DIR]",
-            "creepage mesh ...",
-            "runs/quick",
-        ] {
+        for span in ["creepage run CASE.toml", "creepage run [--out DIR]", "runs/quick"] {
             assert!(!is_whole_command(span), "{span}");
         }
     }
 
     #[test]
-    fn a_script_ends_with_the_code_of_the_first_command_that_fails() {
-        let here = std::env::temp_dir();
-        let programs = Programs { release: here.clone(), python: None };
-        let ends = |text: &str| execute(&here, &here, &programs, text).unwrap();
-        assert_eq!(ends("echo a; (exit 3)\necho b\n"), (3, "a\n".into()));
-        assert_eq!(ends("true\n").0, 0);
-    }
-
-    #[test]
-    fn files_packages_and_chores_that_do_not_exist_are_told() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let programs = Programs { release: root.clone(), python: None };
-        let check = |text: &str| check_command(&root, &programs, &commands(text)[0]);
-        for good in [
-            "cargo xtask validate",
-            "cargo run --release -p creepage-contact --example own_law",
-            "python tests/python/violations.py a.vtkhdf b.png",
-        ] {
-            assert_eq!(check(good), Ok(()), "{good}");
-        }
-        for bad in [
-            "cargo xtask vali",
-            "cargo run --release -p creepage-contact --example our_law",
-            "cargo test -p creepage-contract",
-            "python tests/python/violation.py",
-            "cat cases/quack.toml",
-            "creepeg run cases/quick.toml",
-        ] {
-            assert!(check(bad).is_err(), "{bad}");
+    fn what_does_not_exist_is_told_and_what_is_read_is_not_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path();
+        fs::create_dir(root.join("cases")).unwrap();
+        fs::write(root.join("cases/a.py"), "").unwrap();
+        let shell = Shell {
+            scratch: root.to_owned(),
+            search: env::var_os("PATH").unwrap(),
+            program: root.to_owned(),
+            packages: "creepage-contact".into(),
+        };
+        let reads = |text: &str| {
+            let script = Script { at: "docs/a.md:1".into(), exit: None, text: text.into() };
+            shell.test(&script).is_ok()
+        };
+        assert!(reads("cargo run --release -p creepage-contact --example own_law"));
+        assert!(reads("cd runs && python cases/a.py --out b.png\ncp cases/a.py b.py"));
+        assert!(!root.join("b.py").exists());
+        for bad in ["cargo test -p creepage-contract", "cp cases/b.py b\ntrue", "creepeg run a"] {
+            assert!(!reads(bad), "{bad}");
         }
     }
 }

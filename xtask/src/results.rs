@@ -4,11 +4,8 @@
 //! leave. What was found is kept beside it, `NAME.json`, and printed from there between the markers of
 //! a document.
 
-mod age;
 mod extract;
-mod instruction_set;
 mod manifest;
-mod markers;
 mod pages;
 mod record;
 mod steps;
@@ -17,272 +14,185 @@ mod template;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::process::Command;
 use std::time::SystemTime;
 
-use self::instruction_set::kernels;
-use self::manifest::Manifest;
+use self::manifest::{FOLDER, Manifest};
 use self::pages::Tables;
 use self::record::{Found, Record};
-use self::steps::{Gathered, Runner, sum};
-use crate::step::{self, Outcome};
+use self::steps::{Runner, after, kernels, sum};
+use crate::step::{self, Outcome, without};
 
 /// What to do with the tables of the documents.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Default, clap::Args)]
 pub struct Options {
     /// Tables to make anew [default: all but the long ones]
     names: Vec<String>,
     /// List all tables, and what they depend on that changed since they were made
-    #[arg(long, conflicts_with = "names")]
+    #[arg(long, exclusive = true)]
     list: bool,
     /// Check that the documents say what the results say, and run nothing
-    #[arg(long, conflicts_with_all = ["names", "list"])]
+    #[arg(long, exclusive = true)]
     check: bool,
     /// Print the results into the documents, and run nothing
-    #[arg(long, conflicts_with_all = ["names", "list", "check"])]
+    #[arg(long, exclusive = true)]
     print: bool,
     /// Run the commands, and compare with the results instead of keeping what is found
-    #[arg(long, conflicts_with_all = ["list", "check", "print"])]
+    #[arg(long)]
     compare: bool,
+    /// Without names the long tables instead of the short ones
+    #[arg(long, conflicts_with = "names")]
+    long: bool,
     /// Take this program, built from this checkout, instead of building it
     #[arg(long, value_name = "FILE")]
     program: Option<PathBuf>,
 }
 
 /// The chore.
-pub fn results(options: &Options) -> ExitCode {
-    let root = step::root();
-    let done = if options.list {
-        list(&root)
+pub fn results(root: &Path, options: &Options) -> Outcome {
+    without(if options.list {
+        list(root)
     } else if options.check {
-        none(pages::check(&root))
+        pages::check(root)
     } else if options.print {
-        pages::write(&root)
+        pages::write(root)
     } else {
-        run(&root, options)
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(faults) => {
-            faults.iter().for_each(|fault| eprintln!("error: {fault}"));
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// Makes all long tables that were made before again, and compares; gives what there is to say of it, too.
-pub fn compare_long(root: &Path) -> (Outcome, String) {
-    let tables = Tables::read(root, &mut Vec::new());
-    let long = tables
-        .manifests
-        .iter()
-        .filter(|(name, manifest)| manifest.long && tables.records.contains_key(*name));
-    let names: Vec<String> = long.map(|(name, _)| name.clone()).collect();
-    if names.is_empty() {
-        eprintln!("warning: no long table was made yet");
-        return (Outcome::Skipped, String::new());
-    }
-    let count = names.len();
-    let options =
-        Options { names, list: false, check: false, print: false, compare: true, program: None };
-    let faults = run(root, &options).err().unwrap_or_default();
-    faults.iter().for_each(|fault| eprintln!("error: {fault}"));
-    if faults.is_empty() {
-        return (Outcome::Passed, format!("{count} long tables came out again"));
-    }
-    (
-        Outcome::Failed,
-        format!("{count} long tables, faults: {}", faults.join("; ").replace('\n', " ")),
-    )
-}
-
-/// The commands of all short tables.
-pub fn short_commands(root: &Path) -> Vec<String> {
-    let short = manifest::all(root, &mut Vec::new()).into_values().filter(|table| !table.long);
-    short.flat_map(|table| table.steps).map(|step| step.command).collect()
-}
-
-/// The commands of all tables that were made, as their manifests stand.
-pub fn made_commands(root: &Path) -> Vec<String> {
-    let tables = Tables::read(root, &mut Vec::new());
-    let made = tables.manifests.iter().filter(|(name, manifest)| {
-        tables.records.get(*name).is_some_and(|record| record.steps == manifest.steps_sum())
-    });
-    made.flat_map(|(_, manifest)| &manifest.steps).map(|step| step.command.clone()).collect()
+        run(root, options)
+    })
 }
 
 /// The step of `validate`: documents say what results say, short tables come out again, and ages are told.
 pub fn step(root: &Path) -> Outcome {
-    let options = Options {
-        names: Vec::new(),
-        list: false,
-        check: false,
-        print: false,
-        compare: true,
-        program: None,
-    };
-    let done =
-        none(pages::check(root)).and_then(|()| run(root, &options)).and_then(|()| list(root));
-    let Err(faults) = done else { return Outcome::Passed };
-    faults.iter().for_each(|fault| eprintln!("error: {fault}"));
-    Outcome::Failed
+    let compare = Options { compare: true, ..Options::default() };
+    without([pages::check(root), run(root, &compare), list(root)].concat())
 }
 
-fn none(faults: Vec<String>) -> Result<(), Vec<String>> {
-    if faults.is_empty() { Ok(()) } else { Err(faults) }
+/// The folders of the runs and sweeps that short tables make.
+pub fn short_folders(root: &Path) -> Vec<String> {
+    let manifests = Tables::read(root, &mut Vec::new()).manifests;
+    let steps = manifests.values().filter(|table| !table.long).flat_map(|table| &table.steps);
+    steps.filter_map(|step| Some(after(&step.command, "--out")?.to_owned())).collect()
 }
 
 /// Runs the commands of tables, and keeps or compares what they give.
-fn run(root: &Path, options: &Options) -> Result<(), Vec<String>> {
+fn run(root: &Path, options: &Options) -> Vec<String> {
     let mut faults = Vec::new();
     let tables = Tables::read(root, &mut faults);
-    let chosen = chosen(&tables, options).map_err(|problem| vec![problem])?;
+    let is_known = |name: &String| {
+        let made = || !options.compare || tables.records.contains_key(name);
+        tables.manifests.contains_key(name) && made()
+    };
+    let is_chosen = |name: &String, table: &Manifest| match options.names.is_empty() {
+        true => table.long == options.long && is_known(name),
+        false => options.names.contains(name),
+    };
+    let unknown = options.names.iter().filter(|name| !is_known(name));
+    faults
+        .extend(unknown.map(|name| format!("there is no table `{name}`, or it was not made yet")));
     if !faults.is_empty() {
-        return Err(faults);
+        return faults;
     }
-    let runner = runner(root, options, &chosen).map_err(|problem| vec![problem])?;
-    // of what the program was built from: long commands outlive commits
-    let sources: BTreeMap<&str, Sources> =
-        chosen.iter().map(|(name, manifest)| (*name, Sources::of(root, manifest))).collect();
-    for (name, manifest) in chosen {
+    let chosen = tables.manifests.iter().filter(|(name, table)| is_chosen(name, table)).collect();
+    let runner = match runner(root, options, &chosen) {
+        Ok(runner) => runner,
+        Err(problem) => return vec![problem],
+    };
+    // with the commit of what the program was built from: long commands outlive commits
+    let begun: Vec<Record> =
+        chosen.values().map(|manifest| begun(root, manifest, &runner.program)).collect();
+    for ((name, manifest), record) in chosen.into_iter().zip(begun) {
         eprintln!("{name}: {}", manifest.title);
-        let done = runner.gather(manifest).and_then(|gathered| match tables.records.get(name) {
-            Some(record) if options.compare => compare(manifest, record, &gathered),
-            _ => keep(root, name, manifest, &runner, &gathered, &sources[name]),
+        let found = runner.gather(manifest).and_then(|documents| Found::take(manifest, &documents));
+        let done = found.and_then(|found| match tables.records.get(name) {
+            Some(old) if options.compare => {
+                let differences =
+                    old.found.differences(&found, manifest, old.kernels == record.kernels);
+                if differences.is_empty() { Ok(()) } else { Err(differences.join("\n  ")) }
+            }
+            _ => keep(root, name, manifest, Record { found, ..record }),
         });
-        if let Err(problem) = done {
-            faults.push(format!("table `{name}`: {problem}"));
-        }
+        faults.extend(done.err().map(|problem| format!("table `{name}`: {problem}")));
     }
-    if !options.compare
-        && let Err(more) = pages::write(root)
-    {
-        faults.extend(more);
+    if !options.compare {
+        faults.extend(pages::write(root));
     }
-    none(faults)
-}
-
-/// The tables to run: those named, else the short ones; to compare, those that were made.
-fn chosen<'a>(
-    tables: &'a Tables,
-    options: &'a Options,
-) -> Result<BTreeMap<&'a str, &'a Manifest>, String> {
-    if options.names.is_empty() {
-        let made = |name: &String| !options.compare || tables.records.contains_key(name);
-        let short = tables.manifests.iter().filter(|(name, table)| !table.long && made(name));
-        return Ok(short.map(|(name, manifest)| (name.as_str(), manifest)).collect());
-    }
-    let named = options.names.iter().map(|name| {
-        let manifest = tables.manifests.get(name);
-        let manifest = manifest.ok_or(format!("there is no {}/{name}.toml", manifest::FOLDER))?;
-        if options.compare && !tables.records.contains_key(name) {
-            return Err(format!("table `{name}` was not made yet"));
-        }
-        Ok((name.as_str(), manifest))
-    });
-    named.collect()
+    faults
 }
 
 /// What runs commands: the program just built, or the one named.
 fn runner<'a>(
     root: &'a Path,
     options: &Options,
-    chosen: &BTreeMap<&str, &Manifest>,
+    chosen: &BTreeMap<&String, &Manifest>,
 ) -> Result<Runner<'a>, String> {
-    let program = match &options.program {
-        Some(program) => program.clone(),
-        None => step::built(root, "creepage").ok_or("the program cannot be built")?,
-    };
+    let program = step::program(root, options.program.as_ref())?;
     let mut steps = chosen.values().flat_map(|manifest| &manifest.steps);
-    let python = match steps.any(|step| step.command.starts_with("python ")) {
-        true => Some(step::python(root)?),
-        false => None,
-    };
-    let python = python.as_deref().and_then(Path::parent);
+    let needs_python = steps.any(|step| step.command.starts_with("python "));
+    let python = needs_python.then(|| step::python(root)).transpose()?;
     // a comparison with what was kept would compare results with themselves
     let since = if options.compare { SystemTime::now() } else { SystemTime::UNIX_EPOCH };
-    Runner::new(root, &step::target(root), &program, python, since)
+    let kept = step::target(root).join("results");
+    Runner::new(root, kept, &program, python.as_deref(), since).map_err(|error| error.to_string())
 }
 
-fn compare(manifest: &Manifest, record: &Record, gathered: &Gathered) -> Result<(), String> {
-    let found = Found::take(manifest, &gathered.documents)?;
-    let same = record.kernels == kernels();
-    let differences = record.found.differences(&found, manifest, same);
-    if differences.is_empty() { Ok(()) } else { Err(differences.join("\n  ")) }
-}
-
-/// What a table depends on, as it is now.
-struct Sources {
-    /// The last commit that changed it.
-    commit: String,
-    /// What of it is changed and not committed.
-    uncommitted: Vec<String>,
-}
-
-impl Sources {
-    fn of(root: &Path, manifest: &Manifest) -> Self {
-        Self {
-            commit: age::last_change(root, &manifest.depends).unwrap_or_default(),
-            uncommitted: age::uncommitted(root, &manifest.depends),
-        }
+/// A record of a table whose commands begin now, without what they will give.
+fn begun(root: &Path, manifest: &Manifest, program: &str) -> Record {
+    let commit = git(root, &["log", "-1", "--format=%H"], &manifest.depends).unwrap_or_default();
+    let changed = git(root, &["status", "--porcelain"], &manifest.depends).unwrap_or_default();
+    Record {
+        date: String::new(),
+        steps: manifest.steps_sum(),
+        commit: commit.trim().to_owned(),
+        uncommitted: changed.lines().filter_map(|line| Some(line.get(3..)?.to_owned())).collect(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        program: program.to_owned(),
+        kernels: kernels().to_owned(),
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        found: Found::default(),
+        pictures: BTreeMap::new(),
     }
 }
 
 /// Keeps what was found, with the pictures.
-fn keep(
-    root: &Path,
-    name: &str,
-    manifest: &Manifest,
-    runner: &Runner,
-    gathered: &Gathered,
-    sources: &Sources,
-) -> Result<(), String> {
-    let found = Found::take(manifest, &gathered.documents)?;
-    found.print(manifest)?;
-    let mut pictures = BTreeMap::new();
+fn keep(root: &Path, name: &str, manifest: &Manifest, mut record: Record) -> Result<(), String> {
+    record.found.print(manifest)?;
     for picture in &manifest.pictures {
-        let told = |error: std::io::Error| format!("{}: {error}", picture.from);
-        fs::copy(root.join(&picture.from), root.join(&picture.to)).map_err(told)?;
-        pictures.insert(picture.to.clone(), sum(&root.join(&picture.to))?);
+        let to = root.join(&picture.to);
+        let sum = fs::copy(root.join(&picture.from), &to).and_then(|_| sum(&to));
+        let sum = sum.map_err(|error| format!("{}: {error}", picture.from))?;
+        record.pictures.insert(picture.to.clone(), sum);
     }
-    let record = Record {
-        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        steps: manifest.steps_sum(),
-        commit: sources.commit.clone(),
-        uncommitted: sources.uncommitted.clone(),
-        version: runner.version()?,
-        program: runner.program.clone(),
-        kernels: kernels().to_owned(),
-        threads: std::thread::available_parallelism().map_or(1, usize::from),
-        cases: gathered.cases.clone(),
-        found,
-        pictures,
-    };
-    record.write(root, name)
+    record.date = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    let text = serde_json::to_string_pretty(&record).map_err(|error| error.to_string())?;
+    let file = root.join(FOLDER).join(format!("{name}.json"));
+    fs::write(&file, text + "\n").map_err(|error| format!("{}: {error}", file.display()))
 }
 
 /// Names all tables with their age.
-fn list(root: &Path) -> Result<(), Vec<String>> {
+fn list(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     let tables = Tables::read(root, &mut faults);
     for (name, manifest) in &tables.manifests {
         let length = if manifest.long { "long" } else { "short" };
-        let age = tables.records.get(name).map_or("not made yet".into(), |record| {
-            let day = record.date.split('T').next().unwrap_or_default();
-            let changes = age::changes_since(root, &record.commit, &record.date, &manifest.depends);
-            match changes.as_deref() {
-                Some([]) if !record.uncommitted.is_empty() => {
-                    format!("{day}, made with changes that were not committed")
-                }
-                None => format!("{day}, of unknown age: there is no git repository"),
-                Some([]) => format!("{day}, as new as what it depends on"),
-                Some([newest, ..]) => {
-                    let number = changes.as_ref().map_or(0, Vec::len);
-                    format!("{day}, older than {number} changes, the last: {newest}")
-                }
-            }
-        });
-        println!("{length:<6} {name:<28} {age}");
+        let age = tables.records.get(name).map(|record| age(root, manifest, record));
+        println!("{length:<6} {name:<28} {}", age.unwrap_or_else(|| "not made yet".into()));
     }
-    none(faults)
+    faults
+}
+
+/// The day when a table was made, and how often what it depends on was changed since its commands began.
+fn age(root: &Path, manifest: &Manifest, record: &Record) -> String {
+    let day = record.date.split('T').next().unwrap_or_default();
+    // the commit may have gone with its branch: then the date decides
+    let since = [format!("{}..HEAD", record.commit), format!("--since={}", record.date)];
+    let log = |since| git(root, &["log", "--format=%h", since], &manifest.depends);
+    let changes = since.iter().find_map(|since| log(since)).unwrap_or_default();
+    format!("{day}, changes since: {}", changes.lines().count())
+}
+
+/// What git says of these paths, if it ends well.
+fn git(root: &Path, words: &[&str], paths: &[String]) -> Option<String> {
+    let mut command = Command::new("git");
+    let output = command.args(words).arg("--").args(paths).current_dir(root).output().ok()?;
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
 }

@@ -1,9 +1,10 @@
 //! A step of the checks: how it ends, and the commands that it runs.
 
 use std::env;
-use std::io::{self, BufRead, BufReader};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, ExitStatus, Stdio};
+use std::process::{Command, ExitCode, Stdio};
 
 /// How a step ended.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -24,6 +25,11 @@ pub fn alone(step: impl FnOnce(&Path) -> Outcome) -> ExitCode {
     if step(&root()) == Outcome::Passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
+/// Makes a file, and says where it is.
+pub fn made(make: impl FnOnce(&Path) -> Result<PathBuf, String>) -> ExitCode {
+    alone(|root| without(make(root).map(|file| println!("{}", file.display())).err()))
+}
+
 /// The root folder of the project.
 pub fn root() -> PathBuf {
     // Asked at run time: clones that share a target folder share this program as well.
@@ -31,16 +37,16 @@ pub fn root() -> PathBuf {
     Path::new(&home).parent().unwrap_or(Path::new(".")).to_path_buf()
 }
 
-/// Tells what is wrong.
-pub fn told(faults: &[String]) -> Outcome {
-    faults.iter().for_each(|fault| eprintln!("error: {fault}"));
-    Outcome::Failed
+/// Passes without faults, and tells them.
+pub fn without(faults: impl IntoIterator<Item = String>) -> Outcome {
+    let told = faults.into_iter().inspect(|fault| eprintln!("error: {fault}"));
+    if told.count() == 0 { Outcome::Passed } else { Outcome::Failed }
 }
 
 /// Something is missing on this machine; the continuous integration must have it.
 pub fn missing(problem: &str, what: &str) -> Outcome {
     if env::var_os("CI").is_some() {
-        return told(&[problem.to_owned()]);
+        return without([problem.to_owned()]);
     }
     eprintln!("warning: {problem}; {what} was skipped");
     Outcome::Skipped
@@ -53,10 +59,10 @@ pub fn python(root: &Path) -> Result<PathBuf, String> {
     let bin = venv.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let python = bin.join(if cfg!(windows) { "python.exe" } else { "python" });
     let requirements = root.join("tests/python/requirements.txt");
-    let wanted = std::fs::read(&requirements)
+    let wanted = fs::read(&requirements)
         .map_err(|error| format!("{} cannot be read: {error}", requirements.display()))?;
     let installed = venv.join("requirements.txt");
-    if std::fs::read(&installed).is_ok_and(|installed| installed == wanted) {
+    if fs::read(&installed).is_ok_and(|installed| installed == wanted) {
         return Ok(python);
     }
     let system = if cfg!(windows) { "python" } else { "python3" };
@@ -69,7 +75,7 @@ pub fn python(root: &Path) -> Result<PathBuf, String> {
     if execute(Command::new(&python).args(pip).arg(&requirements)) != Outcome::Passed {
         return Err("pip could not install tests/python/requirements.txt".into());
     }
-    std::fs::write(&installed, wanted).map_err(|error| error.to_string())?;
+    fs::write(&installed, wanted).map_err(|error| error.to_string())?;
     Ok(python)
 }
 
@@ -95,45 +101,55 @@ pub fn built(root: &Path, name: &str) -> Option<PathBuf> {
         .then(|| target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
 }
 
+/// The program named on the command line, or just built.
+pub fn program(root: &Path, named: Option<&PathBuf>) -> Result<PathBuf, String> {
+    let program = named.cloned().or_else(|| built(root, "creepage"));
+    program.and_then(|program| program.canonicalize().ok()).ok_or("there is no program".into())
+}
+
 /// Runs a command to its end.
 pub fn execute(command: &mut Command) -> Outcome {
-    let status = command.status();
-    ended(command, status)
+    without(done(command).err())
 }
 
-/// Runs a command; gives the last line on its standard output, too.
-pub fn telling(command: &mut Command) -> (Outcome, String) {
-    let mut last = String::new();
-    let status = command.stdout(Stdio::piped()).spawn().and_then(|mut child| {
-        if let Some(out) = child.stdout.take() {
-            for line in BufReader::new(out).lines() {
-                let line = line?;
-                println!("{line}");
-                if !line.trim().is_empty() {
-                    last = line;
-                }
-            }
-        }
-        child.wait()
-    });
-    let told = status.as_ref().map_or_else(ToString::to_string, ToString::to_string);
-    let outcome = ended(command, status);
-    if outcome == Outcome::Failed {
-        last = format!("{last} ({told})");
+/// Runs a command to its end; what is wrong with that.
+pub fn done(command: &mut Command) -> Result<(), String> {
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{command:?}: {status}")),
+        Err(error) => Err(format!("{command:?}: {error}")),
     }
-    (outcome, last)
 }
 
-fn ended(command: &Command, status: io::Result<ExitStatus>) -> Outcome {
-    match status {
-        Ok(status) if status.success() => Outcome::Passed,
-        Ok(status) => {
-            eprintln!("{command:?}: {status}");
-            Outcome::Failed
+/// What a command prints, if it ends well.
+pub fn output(command: &mut Command) -> Result<String, String> {
+    match command.stderr(Stdio::inherit()).output() {
+        Ok(output) if output.status.success() => {
+            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
         }
-        Err(error) => {
-            eprintln!("{command:?}: {error}");
-            Outcome::Failed
-        }
+        Ok(output) => Err(format!("{command:?}: {}", output.status)),
+        Err(error) => Err(format!("{command:?}: {error}")),
     }
+}
+
+/// The files below a folder in order, apart from hidden ones, what is built, and the runs that lie in it.
+pub fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let is_ours = |entry: &walkdir::DirEntry| {
+        let name = entry.file_name().to_string_lossy();
+        let is_run = entry.depth() == 1 && name == "runs";
+        entry.depth() == 0 || !(name.starts_with('.') || name == "target" || is_run)
+    };
+    let entries = walkdir::WalkDir::new(folder).sort_by_file_name().into_iter();
+    let ours = entries.filter_entry(is_ours).filter_map(Result::ok);
+    ours.filter(|entry| entry.file_type().is_file()).map(walkdir::DirEntry::into_path)
+}
+
+/// Copies these files of a folder.
+pub fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    for file in files(from) {
+        let to = to.join(file.strip_prefix(from).unwrap_or(&file));
+        fs::create_dir_all(to.with_file_name(""))?;
+        fs::copy(file, to)?;
+    }
+    Ok(())
 }

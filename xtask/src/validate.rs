@@ -1,90 +1,67 @@
 //! `cargo xtask validate`: what the continuous integration runs and what a contributor runs.
 
-use std::env;
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
-use crate::book_test::{Chosen, Long};
-use crate::step::{Outcome, Step, built, cargo, execute, missing, python, root, target, told};
+use crate::step::{
+    Outcome, Step, built, cargo, execute, missing, output, python, root, target, without,
+};
+use crate::{book, book_test, markdown, results, soak, sources, structure, wheel};
 
-/// Runs the steps, cheapest first, up to the first that fails, and reports on each.
-pub fn validate() -> ExitCode {
+/// The steps, cheapest first.
+pub const STEPS: [(&str, Step); 21] = [
+    ("format", |root| cargo(root, &["fmt", "--all", "--check"], &[])),
+    ("links", |root| without(markdown::broken(root))),
+    ("spelling", sources::spelling),
+    ("licences", sources::licences),
+    ("structure", |root| without(structure::differences(root))),
+    ("lints", lints),
+    ("documentation", documentation),
+    ("other machines", sources::other_machines),
+    ("tests", tests),
+    ("program without verify", without_verify),
+    ("schema", schema),
+    ("smoke run", smoke_run),
+    ("tables of the documents", results::step),
+    ("report page", report_page),
+    ("sweep through Dask", |root| with_program(root, "check_dask.py")),
+    ("full and read-only disks", |root| with_program(root, "check_disk.py")),
+    ("damaged files", soak::sample_of_damage),
+    ("kills at system calls", soak::sample_of_kills),
+    ("Python package", wheel::tests),
+    ("book", book::step),
+    ("commands of the book", book_test::step),
+];
+
+/// Runs the steps with these names, all if there are none, up to the first that fails, and reports on each.
+pub fn validate(names: &[String]) -> ExitCode {
     let root = &root();
-    let steps: [(&str, Step); 22] = [
-        ("format", format),
-        ("links", links),
-        ("spelling", crate::sources::spelling),
-        ("licences", crate::sources::licences),
-        ("structure", structure),
-        ("lints", lints),
-        ("documentation", documentation),
-        ("other machines", crate::sources::other_machines),
-        ("tests", tests),
-        ("program without verify", without_verify),
-        ("schema", schema),
-        ("kernels", kernels),
-        ("smoke run", smoke_run),
-        ("tables of the documents", crate::results::step),
-        ("report page", report_page),
-        ("sweep through Dask", dask),
-        ("full and read-only disks", disks),
-        ("damaged files", crate::soak::sample_of_damage),
-        ("kills at system calls", crate::soak::sample_of_kills),
-        ("Python package", crate::wheel::tests),
-        ("book", book),
-        ("commands of the book", book_test),
-    ];
     let mut report = Vec::new();
-    for (name, step) in steps {
+    let mut code = ExitCode::SUCCESS;
+    for (name, step) in STEPS {
+        if !names.is_empty() && !names.iter().any(|chosen| chosen == name) {
+            continue;
+        }
+        if code != ExitCode::SUCCESS {
+            report.push(format!("not run             {name}"));
+            continue;
+        }
         eprintln!("\n== {name}");
         let start = Instant::now();
-        let outcome = step(root);
-        report.push((name, outcome, start.elapsed()));
-        if outcome == Outcome::Failed {
-            break;
-        }
-    }
-    eprintln!("\n== validate");
-    for (name, outcome, time) in &report {
-        let word = match outcome {
+        let word = match step(root) {
             Outcome::Passed => "passed",
-            Outcome::Failed => "FAILED",
             Outcome::Skipped => "skipped",
+            Outcome::Failed => {
+                code = ExitCode::FAILURE;
+                "FAILED"
+            }
         };
-        eprintln!("{word:<8} {:>7.1} s  {name}", time.as_secs_f64());
+        report.push(format!("{word:<8} {:>7.1} s  {name}", start.elapsed().as_secs_f64()));
     }
-    for (name, _) in &steps[report.len()..] {
-        eprintln!("not run             {name}");
-    }
-    let failed = report.iter().any(|(_, outcome, _)| *outcome == Outcome::Failed);
-    if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
-}
-
-fn format(root: &Path) -> Outcome {
-    cargo(root, &["fmt", "--all", "--check"], &[])
-}
-
-fn links(root: &Path) -> Outcome {
-    match crate::links::broken(root) {
-        Ok(broken) if broken.is_empty() => Outcome::Passed,
-        Ok(broken) => {
-            told(&broken.iter().map(|link| format!("{link} does not exist")).collect::<Vec<_>>())
-        }
-        Err(error) => told(&[format!("a document cannot be read: {error}")]),
-    }
-}
-
-/// The crates use one another as they are drawn, their modules without circles, and no package is compiled twice.
-fn structure(root: &Path) -> Outcome {
-    use crate::structure::{circles, compiled_twice, differences};
-    let faults = differences(root)
-        .and_then(|drawn| Ok([drawn, circles(root)?, compiled_twice(root)?].concat()));
-    match faults {
-        Ok(faults) if faults.is_empty() => Outcome::Passed,
-        Ok(faults) => told(&faults),
-        Err(error) => told(&[error]),
-    }
+    eprintln!("\n== validate\n{}", report.join("\n"));
+    code
 }
 
 fn lints(root: &Path) -> Outcome {
@@ -94,11 +71,8 @@ fn lints(root: &Path) -> Outcome {
 }
 
 fn documentation(root: &Path) -> Outcome {
-    cargo(
-        root,
-        &["doc", "--release", "--no-deps", "--workspace"],
-        &[("RUSTDOCFLAGS", "-D warnings")],
-    )
+    let doc = ["doc", "--release", "--no-deps", "--workspace"];
+    cargo(root, &doc, &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
 /// The README's test command.
@@ -116,133 +90,54 @@ fn without_verify(root: &Path) -> Outcome {
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.
 fn schema(root: &Path) -> Outcome {
-    let Some(binary) = built(root, "creepage") else { return Outcome::Failed };
-    let schema = match Command::new(&binary).arg("schema").output() {
-        Ok(output) if output.status.success() => output.stdout,
-        Ok(output) => {
-            eprintln!("error: `creepage schema`: {}", output.status);
-            return Outcome::Failed;
-        }
-        Err(error) => {
-            eprintln!("error: {}: {error}", binary.display());
-            return Outcome::Failed;
-        }
-    };
+    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
     let file = target(root).join("case.schema.json");
-    if let Err(error) = std::fs::write(&file, schema) {
-        eprintln!("error: {}: {error}", file.display());
-        return Outcome::Failed;
-    }
-    check_with_python(root, "check_schema.py", &[file, root.join("cases")])
-}
-
-/// The machine code of the element kernels has not grown.
-fn kernels(root: &Path) -> Outcome {
-    use crate::kernels::{Verdict, compare};
-    if !cfg!(target_arch = "x86_64") {
-        return Outcome::Skipped;
-    }
-    let binary = target(root).join("release").join(format!("creepage{}", env::consts::EXE_SUFFIX));
-    match compare(&binary, &root.join("benches/kernels.txt")) {
-        Ok(Verdict::Kept) => Outcome::Passed,
-        Ok(Verdict::NotCompared(why)) => {
-            eprintln!("warning: the kernels were not compared: {why}");
-            Outcome::Skipped
-        }
-        Ok(Verdict::Worse(what)) => {
-            what.iter().for_each(|line| eprintln!("error: {line} (benches/kernels.txt)"));
-            Outcome::Failed
-        }
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            Outcome::Failed
-        }
+    let written = output(Command::new(program).arg("schema"))
+        .and_then(|schema| fs::write(&file, schema).map_err(|error| error.to_string()));
+    match written {
+        Ok(()) => check_with_python(root, "check_schema.py", &[&file, &root.join("cases")]),
+        Err(problem) => without([problem]),
     }
 }
 
 /// Runs the smallest case and has its files read by the libraries that users read them with.
 fn smoke_run(root: &Path) -> Outcome {
-    let folder = target(root).join("smoke");
-    let out = folder.display().to_string();
     let Some(program) = built(root, "creepage") else { return Outcome::Failed };
-    let run = ["run", "cases/smoke.toml", "--force", "--out", &out];
-    if execute(Command::new(program).args(run).current_dir(root)) == Outcome::Failed {
-        return Outcome::Failed;
+    let folder = target(root).join("smoke");
+    let mut run = Command::new(program);
+    run.args(["run", "cases/smoke.toml", "--force", "--out"]).arg(&folder).current_dir(root);
+    match execute(&mut run) {
+        Outcome::Passed => check_with_python(root, "check_run.py", &[&folder]),
+        failed => failed,
     }
-    check_with_python(root, "check_run.py", &[folder])
 }
 
 /// Has a browser render the report of the smoke run. Machines without one skip this: that pages are
 /// well-formed and ask for no address is tested everywhere.
 fn report_page(root: &Path) -> Outcome {
     let browsers = ["chromium", "chromium-browser", "google-chrome"];
-    let runs = |name: &&str| Command::new(name).arg("--version").output().is_ok();
-    if !browsers.iter().any(runs) {
+    if !browsers.iter().any(|name| Command::new(name).arg("--version").output().is_ok()) {
         eprintln!("warning: there is no Chromium; tests/python/check_page.py was skipped");
         return Outcome::Skipped;
     }
-    let folder = target(root).join("smoke").display().to_string();
     let Some(program) = built(root, "creepage") else { return Outcome::Failed };
-    let report = ["report", &folder];
-    if execute(Command::new(program).args(report).current_dir(root)) == Outcome::Failed {
-        return Outcome::Failed;
-    }
-    check_with_python(root, "check_page.py", &[target(root).join("smoke/report.html")])
-}
-
-/// A plan of `creepage sweep` run by the Dask driver gives the sweep's own numbers.
-fn dask(root: &Path) -> Outcome {
-    let Some(binary) = built(root, "creepage") else { return Outcome::Failed };
-    check_with_python(root, "check_dask.py", &[binary, root.to_path_buf()])
-}
-
-/// Runs on small file systems of their own fill them up. Says so where none can be mounted.
-fn disks(root: &Path) -> Outcome {
-    let Some(binary) = built(root, "creepage") else { return Outcome::Failed };
-    check_with_python(root, "check_disk.py", &[binary, root.to_path_buf()])
-}
-
-/// The documents as a book, without a dead link.
-pub fn book(root: &Path) -> Outcome {
-    use crate::book::{Problem, book};
-    match book(root, &target(root)) {
-        Ok(page) => {
-            println!("{}", page.display());
-            Outcome::Passed
-        }
-        Err(Problem::Faults(faults)) => told(&faults),
-        Err(Problem::NoBuilder(problem)) => missing(&problem, "the book"),
+    let folder = target(root).join("smoke");
+    match execute(Command::new(program).arg("report").arg(&folder).current_dir(root)) {
+        Outcome::Passed => check_with_python(root, "check_page.py", &[&folder.join("report.html")]),
+        failed => failed,
     }
 }
 
-/// The commands of the book, but for the long ones.
-fn book_test(root: &Path) -> Outcome {
-    commands_of_the_book(root, &Chosen { long: Long::None, chapters: Vec::new() })
-}
-
-/// Commands of the book.
-pub fn commands_of_the_book(root: &Path, chosen: &Chosen) -> Outcome {
-    if Command::new("bash").arg("--version").output().is_err() {
-        return missing("there is no bash", "the test of the book's commands");
-    }
-    let python = match python(root) {
-        Ok(python) => python.parent().map(Path::to_owned),
-        Err(problem) => return missing(&problem, "the test of the book's commands"),
-    };
-    if built(root, "creepage").is_none() {
-        return Outcome::Failed;
-    }
-    let programs = crate::book_test::Programs { release: target(root).join("release"), python };
-    let scratch = target(root).join("book-test");
-    match &crate::book_test::test(root, &scratch, &programs, chosen)[..] {
-        [] => Outcome::Passed,
-        faults => told(faults),
-    }
+/// Runs a script of `tests/python` on the program: a plan of `creepage sweep` run by the Dask driver gives the sweep's
+/// own numbers; runs on small file systems of their own fill them up.
+fn with_program(root: &Path, script: &str) -> Outcome {
+    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
+    check_with_python(root, script, &[&program, root])
 }
 
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous
 /// integration.
-fn check_with_python(root: &Path, script: &str, arguments: &[PathBuf]) -> Outcome {
+fn check_with_python(root: &Path, script: &str, arguments: &[&Path]) -> Outcome {
     let script = root.join("tests/python").join(script);
     match python(root) {
         Ok(python) => execute(Command::new(python).arg(script).args(arguments).current_dir(root)),

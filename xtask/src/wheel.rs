@@ -1,42 +1,26 @@
 //! `cargo xtask wheel`: the wheel of the Python package; its tests, and the notebooks.
 
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
-use crate::step::{Outcome, execute, missing, python, root, target};
+use crate::step::{Outcome, done, missing, python, target, without};
 
 /// Options of maturin that link for every Linux with glibc 2.17 or newer.
 const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
 
-/// Builds the wheel, for other machines too if `portable`, and says where it is.
-pub fn wheel(portable: bool) -> ExitCode {
-    let root = root();
-    let options = if portable { &PORTABLE[..] } else { &[] };
-    let built = python(&root).and_then(|python| {
-        if portable {
-            install_zig(&python)?;
-        }
-        build(&root, &python, options)
-    });
-    match built {
-        Ok(wheel) => {
-            println!("{}", wheel.display());
-            ExitCode::SUCCESS
-        }
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            ExitCode::FAILURE
-        }
-    }
-}
+/// Options of pip that keep it quiet.
+const QUIET: [&str; 5] = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
 
-/// Installs the linker of portable wheels beside maturin.
-fn install_zig(python: &Path) -> Result<(), String> {
-    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "ziglang==0.17.1"];
-    match execute(Command::new(python).args(pip)) {
-        Outcome::Passed => Ok(()),
-        _ => Err("pip could not install ziglang".into()),
+/// Builds the wheel, for other machines too if `portable`.
+pub fn wheel(root: &Path, portable: bool) -> Result<PathBuf, String> {
+    let python = python(root)?;
+    if !portable {
+        return build(root, &python, &[]);
     }
+    // the linker of portable wheels, beside maturin
+    done(Command::new(&python).args(QUIET).arg("ziglang==0.17.1"))?;
+    build(root, &python, &PORTABLE)
 }
 
 /// Builds the wheel, installs it in the virtual environment of the checks, and runs the tests of the
@@ -46,35 +30,23 @@ pub fn tests(root: &Path) -> Outcome {
         Ok(python) => python,
         Err(problem) => return missing(&problem, "the Python package"),
     };
-    let wheel = match build(root, &python, &[]) {
-        Ok(wheel) => wheel,
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            return Outcome::Failed;
-        }
-    };
-    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    let install = ["--force-reinstall", "--no-deps"];
-    if execute(Command::new(&python).args(pip).args(install).arg(wheel)) != Outcome::Passed {
-        return Outcome::Failed;
-    }
-    let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
-    let tests = execute(Command::new(&python).args(pytest).current_dir(root.join("crates/python")));
-    if tests != Outcome::Passed {
-        return tests;
-    }
-    let mut command = Command::new(&python);
-    command.args(pytest).arg("--nbmake").arg(root.join("notebooks")).current_dir(root);
-    execute(&mut command)
+    let tested = build(root, &python, &[]).and_then(|wheel| {
+        let install = ["--force-reinstall", "--no-deps"];
+        done(Command::new(&python).args(QUIET).args(install).arg(wheel))?;
+        let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
+        done(Command::new(&python).args(pytest).current_dir(root.join("crates/python")))?;
+        let notebooks = ["--nbmake", "notebooks"];
+        done(Command::new(&python).args(pytest).args(notebooks).current_dir(root))
+    });
+    without(tested.err())
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.
 fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String> {
     let folder = target(root).join("wheel");
-    if let Err(error) = std::fs::remove_dir_all(&folder)
-        && error.kind() != std::io::ErrorKind::NotFound
-    {
-        return Err(format!("{}: {error}", folder.display()));
+    // what is left of another version would be taken for the wheel
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
     let maturin = ["-m", "maturin", "build", "--release", "--quiet", "--manifest-path"];
     let mut command = Command::new(python);
@@ -85,11 +57,7 @@ fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = own.into_iter().chain(std::env::split_paths(&path));
     command.env("PATH", std::env::join_paths(folders).map_err(|error| error.to_string())?);
-    if execute(&mut command) != Outcome::Passed {
-        return Err("maturin could not build the wheel".into());
-    }
-    let files = std::fs::read_dir(&folder).map_err(|error| error.to_string())?;
-    let mut wheels = files.filter_map(|file| Some(file.ok()?.path()));
-    let is_wheel = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "whl");
-    wheels.find(is_wheel).ok_or_else(|| format!("there is no wheel in {}", folder.display()))
+    done(&mut command)?;
+    let wheel = fs::read_dir(&folder).map_err(|error| error.to_string())?.flatten().next();
+    wheel.map(|wheel| wheel.path()).ok_or_else(|| format!("{} is empty", folder.display()))
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask kill-loop`: kills runs at random moments, resumes them, and compares every bit.
+//! `cargo xtask soak kill-loop`: kills runs at random moments, resumes them, and compares every bit.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

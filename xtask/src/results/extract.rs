@@ -2,24 +2,21 @@
 
 use serde_json::{Map, Value};
 
-/// The name of the step that a path begins with.
-pub fn step_of(path: &str) -> &str {
-    path.split(" > ").next().unwrap_or_default().trim()
-}
-
-/// All values at the path behind its first word, which names the step whose document this is.
-pub fn in_step<'a>(document: &'a Value, path: &str) -> Vec<&'a Value> {
-    let mut parts: Vec<&str> = path.split(" > ").map(str::trim).collect();
-    parts.remove(0);
-    at(document, &parts)
+/// The name of the step that a path begins with, and the path in what that step left.
+pub fn split(path: &str) -> (&str, &str) {
+    let (step, rest) = path.split_once(" > ").unwrap_or((path, ""));
+    (step.trim(), rest)
 }
 
 /// All values at a path. A part of it is a key, an index, `KEY=VALUE` (those objects of a list that
 /// have this value; `&` joins several) or `^WORD` (those lines of a text that begin with it).
-pub fn at<'a>(document: &'a Value, path: &[&str]) -> Vec<&'a Value> {
-    let Some((part, rest)) = path.split_first() else { return vec![document] };
+pub fn at<'a>(document: &'a Value, path: &str) -> Vec<&'a Value> {
+    if path.is_empty() {
+        return vec![document];
+    }
+    let (part, rest) = split(path);
     let found: Vec<&Value> = match document {
-        Value::Object(object) => object.get(*part).into_iter().collect(),
+        Value::Object(object) => object.get(part).into_iter().collect(),
         Value::Array(list) => match (part.parse::<usize>(), part.strip_prefix('^')) {
             (Ok(index), _) => list.get(index).into_iter().collect(),
             (_, Some(word)) => list.iter().filter(|line| begins(line, word)).collect(),
@@ -31,11 +28,11 @@ pub fn at<'a>(document: &'a Value, path: &[&str]) -> Vec<&'a Value> {
 }
 
 /// The one value at a path.
-pub fn one<'a>(found: &[&'a Value], path: &str) -> Result<&'a Value, String> {
-    match found {
+pub fn one<'a>(document: &'a Value, path: &str) -> Result<&'a Value, String> {
+    match at(document, path)[..] {
         [value] => Ok(value),
-        [] => Err(format!("{{{path}}} is not in what the command gave")),
-        _ => Err(format!("{{{path}}} fits {} values", found.len())),
+        [] => Err("is not in what the command gave".into()),
+        ref found => Err(format!("fits {} values", found.len())),
     }
 }
 
@@ -64,26 +61,19 @@ pub fn document(text: &str) -> Value {
 pub fn table(text: &str) -> Result<Value, csv::Error> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let heads = reader.headers()?.clone();
-    let rows: Result<Vec<Value>, csv::Error> = reader
-        .records()
-        .map(|row| {
-            let row = row?;
-            let cells = heads.iter().zip(&row).map(|(head, cell)| (head.to_owned(), value(cell)));
-            Ok(Value::Object(cells.collect::<Map<_, _>>()))
-        })
-        .collect();
-    rows.map(Value::Array)
+    let row = |row: Result<csv::StringRecord, csv::Error>| {
+        let row = row?;
+        let cells = heads.iter().zip(&row).map(|(head, cell)| (head.to_owned(), value(cell)));
+        Ok(Value::Object(cells.collect::<Map<_, _>>()))
+    };
+    reader.records().map(row).collect::<Result<_, _>>().map(Value::Array)
 }
 
 fn value(cell: &str) -> Value {
     match cell.parse::<f64>() {
         _ if cell.is_empty() => Value::Null,
         Ok(number) => Value::from(number),
-        Err(_) => match cell {
-            "true" => Value::Bool(true),
-            "false" => Value::Bool(false),
-            text => Value::from(text),
-        },
+        Err(_) => cell.parse::<bool>().map_or_else(|_| Value::from(cell), Value::from),
     }
 }
 
@@ -99,26 +89,23 @@ mod tests {
     fn a_path_leads_through_keys_indices_and_conditions() {
         let document = json!({"results": [
             {"name": "a", "quantity": "nu = 0: x (m)", "meshes": [{"value": 1.5}]},
-            {"name": "b", "quantity": "x", "meshes": []},
+            {"name": "b", "quantity": "x", "meshes": [], "n": 1},
+            {"name": "c", "n": 1},
         ]});
-        let path = "v > results > name=a & quantity=nu = 0: x (m) > meshes > 0 > value";
-        assert_eq!(in_step(&document, path), [&json!(1.5)]);
-        assert_eq!(in_step(&document, "v > results > name=b > quantity"), [&json!("x")]);
-        let none = in_step(&document, "v > results > name=c");
-        assert!(one(&none, "v").unwrap_err().contains("not in what the command gave"));
-        let twice = json!([{"k": 1, "v": 2}, {"k": 1, "v": 3}]);
-        let two = in_step(&twice, "v > k=1 > v");
-        assert!(one(&two, "v").unwrap_err().contains("fits 2 values"));
+        let path = "results > name=a & quantity=nu = 0: x (m) > meshes > 0 > value";
+        assert_eq!(one(&document, path), Ok(&json!(1.5)));
+        assert_eq!(split("v > results > name=b"), ("v", "results > name=b"));
+        assert!(one(&document, "results > name=d").unwrap_err().contains("not in what"));
+        assert!(one(&document, "results > n=1 > name").unwrap_err().contains("fits 2 values"));
     }
 
     #[test]
     fn text_is_a_list_of_lines_and_csv_a_list_of_rows() {
         let lines = document("  tension   0  pass\n  cone  1e-10\n");
-        assert_eq!(in_step(&lines, "c > ^cone"), [&json!("  cone  1e-10")]);
+        assert_eq!(one(&lines, "^cone"), Ok(&json!("  cone  1e-10")));
         let rows = table("name,x,y\nfirst,0.1,\nsecond,true,left\n").unwrap();
-        assert_eq!(in_step(&rows, "s > name=first > x"), [&json!(0.1)]);
-        assert_eq!(in_step(&rows, "s > name=first > y"), [&Value::Null]);
-        assert_eq!(in_step(&rows, "s > name=second > x"), [&json!(true)]);
+        let second = json!({"name": "second", "x": true, "y": "left"});
+        assert_eq!(rows, json!([{"name": "first", "x": 0.1, "y": null}, second]));
         assert!(table("a,b\n1\n").is_err());
     }
 }

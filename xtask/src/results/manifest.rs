@@ -1,13 +1,12 @@
 //! What a table of the documents is made of: `docs/results/NAME.toml`.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
+use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 
-use super::template::{Placeholder, placeholders};
+use super::extract::split;
+use super::steps::sum_of;
+use super::template::paths;
 
 /// Where manifests and results lie, below the root.
 pub const FOLDER: &str = "docs/results";
@@ -77,89 +76,42 @@ pub struct Picture {
     pub to: String,
 }
 
-impl Part {
-    /// The part's placeholders; they were read before, when the manifest was checked.
-    pub fn placeholders(&self) -> Vec<Placeholder> {
-        placeholders(&self.text).unwrap_or_default()
-    }
-}
-
 impl Manifest {
-    /// SHA-256 of the commands and of what is read of each: results of other ones are no longer the table's.
-    pub fn steps_sum(&self) -> String {
-        let mut sum = Sha256::new();
-        for Step { name, command, read, exit, .. } in &self.steps {
-            let read = read.as_deref().unwrap_or_default();
-            sum.update(format!("{name}\n{command}\n{read}\n{exit}\n"));
-        }
-        sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
-    }
-
     /// Reads a manifest.
     pub fn read(text: &str) -> Result<Self, String> {
         let manifest: Self = toml::from_str(text).map_err(|error| error.to_string())?;
-        manifest.check()?;
-        Ok(manifest)
-    }
-
-    /// What the types alone do not say.
-    fn check(&self) -> Result<(), String> {
-        if self.depends.is_empty() {
+        if manifest.depends.is_empty() {
             return Err("`depends` names nothing, so that the table would never grow old".into());
         }
         let mut names = BTreeSet::new();
-        for step in &self.steps {
-            if !names.insert(step.name.as_str()) {
-                return Err(format!("two steps have the name `{}`", step.name));
+        for Step { name, .. } in &manifest.steps {
+            if !names.insert(name) {
+                return Err(format!("two steps have the name `{name}`"));
             }
         }
-        for part in &self.parts {
-            let found = placeholders(&part.text)?;
-            let paths = match &part.each {
-                Some(each) => vec![each.clone()],
-                None => found.into_iter().map(|placeholder| placeholder.path).collect(),
-            };
-            for path in paths {
-                let step = super::extract::step_of(&path);
-                if !names.contains(step) {
-                    return Err(format!("{{{path}}}: there is no step `{step}`"));
-                }
+        for part in &manifest.parts {
+            let in_text = paths(&part.text)?;
+            let of_steps = part.each.as_deref().map_or(in_text, |each| vec![each]);
+            if let Some(path) = of_steps.into_iter().find(|path| manifest.step_of(path).is_none()) {
+                return Err(format!("{{{path}}}: there is no step `{}`", split(path).0));
             }
         }
-        Ok(())
+        Ok(manifest)
     }
 
     /// The step that a path begins with.
     pub fn step_of(&self, path: &str) -> Option<&Step> {
-        let name = super::extract::step_of(path);
-        self.steps.iter().find(|step| step.name == name)
+        self.steps.iter().find(|step| step.name == split(path).0)
     }
-}
 
-/// All manifests below `root` by name; what cannot be read is told in `faults`.
-pub fn all(root: &Path, faults: &mut Vec<String>) -> BTreeMap<String, Manifest> {
-    let mut found = BTreeMap::new();
-    for name in names(root, "toml") {
-        let file = format!("{FOLDER}/{name}.toml");
-        let read = fs::read_to_string(root.join(&file)).map_err(|error| error.to_string());
-        match read.and_then(|text| Manifest::read(&text)) {
-            Ok(manifest) => drop(found.insert(name, manifest)),
-            Err(problem) => faults.push(format!("{file}: {problem}")),
-        }
+    /// SHA-256 of the commands and of what is read of each: results of other ones are no longer the table's.
+    pub fn steps_sum(&self) -> String {
+        let line = |Step { name, command, read, exit, .. }: &Step| {
+            format!("{name}\n{command}\n{}\n{exit}\n", read.as_deref().unwrap_or_default())
+        };
+        let lines: String = self.steps.iter().map(line).collect();
+        sum_of(lines)
     }
-    found
-}
-
-/// Names of the files of a kind among manifests and results, in order.
-pub fn names(root: &Path, extension: &str) -> Vec<String> {
-    let entries = fs::read_dir(root.join(FOLDER)).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|found| found == extension))
-        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
-        .collect();
-    names.sort();
-    names
 }
 
 #[cfg(test)]
@@ -168,30 +120,21 @@ mod tests {
 
     use super::*;
 
-    const HEAD: &str = "title = \"A\"\ndepends = [\"crates\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
-                        [[step]]\nname = \"a\"\ncommand = \"true\"\n";
-
-    fn refused(text: &str) -> String {
-        Manifest::read(text).unwrap_err()
-    }
-
     #[test]
-    fn a_manifest_that_asks_for_what_no_step_gives_is_refused() {
-        let manifest = Manifest::read(&format!("{HEAD}[[part]]\ntext = \"{{a > x :.2}}\"\n"));
-        assert!(!manifest.unwrap().long);
-        let part = format!("{HEAD}[[part]]\ntext = \"{{b > x :.2}}\"\n");
-        assert!(refused(&part).contains("no step `b`"), "{part}");
-        let each = format!("{HEAD}[[part]]\neach = \"c > rows\"\ntext = \"{{x :.2}}\"\n");
-        assert!(refused(&each).contains("no step `c`"), "{each}");
-    }
-
-    #[test]
-    fn unknown_keys_and_names_given_twice_are_refused() {
-        assert!(refused(&format!("tittle = \"A\"\n{HEAD}")).contains("tittle"));
-        assert!(
-            refused(&format!("{HEAD}[[step]]\nname = \"a\"\ncommand = \"\"\n"))
-                .contains("two steps")
-        );
-        assert!(refused(&HEAD.replace("[\"crates\"]", "[]")).contains("depends"));
+    fn a_manifest_that_contradicts_itself_is_refused() {
+        let head = "title = \"A\"\ndepends = [\"a\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
+             [[step]]\nname = \"a\"\ncommand = \"true\"\n";
+        let read = |more: &str| Manifest::read(&format!("{head}{more}"));
+        assert!(!read("[[part]]\ntext = \"{a > x :.2}\"\n").unwrap().long);
+        for (more, problem) in [
+            ("[[part]]\ntext = \"{b > x :.2}\"\n", "no step `b`"),
+            ("[[part]]\neach = \"c > rows\"\ntext = \"{x :.2}\"\n", "no step `c`"),
+            ("[[step]]\nname = \"a\"\ncommand = \"\"\n", "two steps"),
+            ("[[peace]]\n", "peace"),
+        ] {
+            assert!(read(more).unwrap_err().contains(problem), "{more}");
+        }
+        let young = head.replace("[\"a\"]", "[]");
+        assert!(Manifest::read(&young).unwrap_err().contains("never grow old"));
     }
 }

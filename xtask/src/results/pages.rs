@@ -1,14 +1,17 @@
-//! The documents' tables and pictures against the results.
+//! The documents' tables and pictures against the results. Tables stand between `<!-- results: NAME -->` and
+//! `<!-- end of results -->`, each on a line of its own.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::io;
 use std::path::Path;
 
-use super::manifest::{self, FOLDER, Manifest};
-use super::markers::{find, first_difference, replace};
+use super::manifest::{FOLDER, Manifest};
 use super::record::Record;
 use super::steps::sum;
+use crate::markdown;
+
+const BEGIN: &str = "<!-- results:";
+const END: &str = "<!-- end of results -->";
 
 /// Where the documents' pictures lie.
 const PICTURES: &str = "docs/pictures";
@@ -22,68 +25,102 @@ pub struct Tables {
 impl Tables {
     /// Reads manifests and results; what cannot be read is told in `faults`.
     pub fn read(root: &Path, faults: &mut Vec<String>) -> Self {
-        let manifests = manifest::all(root, faults);
-        let mut records = BTreeMap::new();
-        for name in manifest::names(root, "json") {
-            let file = format!("{FOLDER}/{name}.json");
-            if !root.join(FOLDER).join(format!("{name}.toml")).exists() {
-                faults.push(format!("{file}: there is no manifest {FOLDER}/{name}.toml"));
-            }
-            match Record::read(root, &name) {
-                Ok(Some(record)) => drop(records.insert(name, record)),
-                Ok(None) => {}
-                Err(problem) => faults.push(format!("{file}: {problem}")),
-            }
+        let mut tables = Self { manifests: BTreeMap::new(), records: BTreeMap::new() };
+        for entry in fs::read_dir(root.join(FOLDER)).into_iter().flatten().flatten() {
+            let file = entry.file_name().to_string_lossy().into_owned();
+            let text = fs::read_to_string(entry.path()).map_err(|error| error.to_string());
+            let fault = match file.rsplit_once('.') {
+                Some((name, "toml")) => text
+                    .and_then(|text| Manifest::read(&text))
+                    .map(|manifest| drop(tables.manifests.insert(name.into(), manifest))),
+                Some((name, "json")) => text
+                    .and_then(|text| serde_json::from_str(&text).map_err(|e| e.to_string()))
+                    .map(|record| drop(tables.records.insert(name.into(), record))),
+                _ => continue,
+            };
+            faults.extend(fault.err().map(|problem| format!("{FOLDER}/{file}: {problem}")));
         }
-        Self { manifests, records }
+        for name in tables.records.keys().filter(|name| !tables.manifests.contains_key(*name)) {
+            faults.push(format!("{FOLDER}/{name}.json: there is no manifest of this name"));
+        }
+        tables
     }
+
+    /// What stands between the markers of a table; none if it was not made yet.
+    fn print(&self, name: &str) -> Result<Option<String>, String> {
+        let manifest = self.manifests.get(name).ok_or("there is no manifest of this name")?;
+        self.records.get(name).map(|record| record.found.print(manifest)).transpose()
+    }
+}
+
+/// A page with its tables printed anew. `fault` hears of markers that do not belong together and of tables that cannot
+/// be printed, with their lines.
+fn print(old: &str, tables: &Tables, mut fault: impl FnMut(usize, String)) -> String {
+    let mut new = String::new();
+    let mut in_code = false;
+    let mut lines = (1..).zip(old.lines());
+    while let Some((number, line)) = lines.next() {
+        new = new + line + "\n";
+        // a marker in a block of code is an example
+        in_code ^= line.starts_with("```");
+        let name = line.strip_prefix(BEGIN).and_then(|rest| rest.strip_suffix("-->"));
+        let Some(name) = name.map(str::trim).filter(|_| !in_code) else {
+            if line == END && !in_code {
+                fault(number, format!("`{END}` without `{BEGIN} NAME -->`"));
+            }
+            continue;
+        };
+        let stands: Vec<&str> =
+            lines.by_ref().map(|(_, line)| line).take_while(|line| *line != END).collect();
+        let is_closed = old.lines().nth(number + stands.len()) == Some(END);
+        if !is_closed || stands.iter().any(|line| line.starts_with(BEGIN)) {
+            fault(number, format!("the table `{name}` has no `{END}`"));
+        }
+        let table = tables.print(name).unwrap_or_else(|problem| {
+            fault(number, format!("table `{name}`: {problem}"));
+            None
+        });
+        new += &table.unwrap_or_else(|| stands.iter().map(|line| format!("{line}\n")).collect());
+        new = new + END + "\n";
+    }
+    new
+}
+
+/// The first line of a page that is not what the results say.
+fn first_difference(old: &str, new: &str) -> Option<String> {
+    let mut lines = (1..).zip(old.lines().zip(new.lines()));
+    let (number, (old, new)) = lines.find(|(_, (old, new))| old != new)?;
+    Some(format!("{number}: `{old}` stands where the results give `{new}`"))
 }
 
 /// What in the documents is not what the results say, with file and line.
 pub fn check(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     let tables = Tables::read(root, &mut faults);
-    let mut shown = BTreeSet::new();
-    for (file, text) in documents(root, &mut faults) {
-        let found = match find(&text) {
-            Ok(found) => found,
-            Err((line, problem)) => {
-                faults.push(format!("{file}:{line}: {problem}"));
-                continue;
-            }
-        };
-        for marked in found {
-            let (name, line) = (marked.name.as_str(), marked.begin);
-            shown.insert(name.to_owned());
-            if !root.join(FOLDER).join(format!("{name}.toml")).exists() {
-                faults.push(format!("{file}:{line}: there is no manifest {FOLDER}/{name}.toml"));
-            }
-            let both = tables.manifests.get(name).zip(tables.records.get(name));
-            let Some((manifest, record)) = both else { continue };
-            match record.found.print(manifest) {
-                Err(problem) => faults.push(format!("{file}:{line}: table `{name}`: {problem}")),
-                Ok(content) => {
-                    if let Some((line, problem)) = first_difference(&text, &marked, &content) {
-                        faults.push(format!("{file}:{line}: table `{name}`: {problem}"));
-                    }
-                }
-            }
-        }
+    let pages = printed(root, &tables, &mut faults);
+    for (file, old, new) in &pages {
+        let difference = first_difference(old, new);
+        faults.extend(difference.map(|difference| format!("{file}:{difference}")));
     }
+    let shows = |name: &str| {
+        let marker = format!("{BEGIN} {name} -->");
+        pages.iter().any(|(_, text, _)| text.contains(&marker))
+    };
+    let mut drawn = BTreeSet::new();
     for (name, manifest) in &tables.manifests {
-        if !manifest.parts.is_empty() && !shown.contains(name) {
-            faults.push(format!("{FOLDER}/{name}.toml: no document has its markers"));
+        let at = format!("{FOLDER}/{name}.toml");
+        drawn.extend(manifest.pictures.iter().map(|picture| picture.to.clone()));
+        if !manifest.parts.is_empty() && !shows(name) {
+            faults.push(format!("{at}: no document has its markers"));
         }
         let Some(record) = tables.records.get(name) else {
             if !manifest.long {
-                faults.push(format!(
-                    "{FOLDER}/{name}.toml: was not made yet: cargo xtask results {name}"
-                ));
+                faults.push(format!("{at}: was not made yet: cargo xtask results {name}"));
             }
             continue;
         };
         if record.steps != manifest.steps_sum() {
-            faults.push(format!("{FOLDER}/{name}.toml: its commands changed since it was made"));
+            faults.push(format!("{at}: its commands changed since it was made"));
         }
         for picture in &manifest.pictures {
             let kept = record.pictures.get(&picture.to);
@@ -92,211 +129,124 @@ pub fn check(root: &Path) -> Vec<String> {
             }
         }
     }
-    faults.extend(drawn_by_hand(root, &tables));
+    let entries = fs::read_dir(root.join(PICTURES)).into_iter().flatten().flatten();
+    let files = entries.map(|entry| format!("{PICTURES}/{}", entry.file_name().display()));
+    let files: BTreeSet<String> = files.collect();
+    faults.extend(files.difference(&drawn).map(|file| format!("{file}: no manifest draws it")));
     faults
 }
 
-/// Pictures of the documents that no manifest makes anew.
-fn drawn_by_hand(root: &Path, tables: &Tables) -> Vec<String> {
-    let manifests = tables.manifests.values();
-    let drawn: BTreeSet<&str> = manifests
-        .flat_map(|manifest| &manifest.pictures)
-        .map(|picture| picture.to.as_str())
-        .collect();
-    let entries = fs::read_dir(root.join(PICTURES)).into_iter().flatten().flatten();
-    let files = entries.map(|entry| format!("{PICTURES}/{}", entry.file_name().to_string_lossy()));
-    let others: BTreeSet<String> = files.filter(|file| !drawn.contains(file.as_str())).collect();
-    others.iter().map(|file| format!("{file}: no manifest draws it")).collect()
-}
-
-/// Prints all results into the documents.
-pub fn write(root: &Path) -> Result<(), Vec<String>> {
+/// Prints all results into the documents, unless a marker is missing: then what follows it would be lost.
+pub fn write(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     let tables = Tables::read(root, &mut faults);
-    for (file, text) in documents(root, &mut faults) {
-        let mut changed = text.clone();
-        let found =
-            find(&text).map_err(|(line, problem)| vec![format!("{file}:{line}: {problem}")])?;
-        // from the last on, so that lines above stay where they are
-        for marked in found.iter().rev() {
-            let name = &marked.name;
-            let both = tables.manifests.get(name).zip(tables.records.get(name));
-            match both.map(|(manifest, record)| record.found.print(manifest)) {
-                Some(Ok(content)) => changed = replace(&changed, marked, &content),
-                Some(Err(problem)) => faults.push(format!("{file}: table `{name}`: {problem}")),
-                None => {}
-            }
-        }
-        if changed != text
-            && let Err(error) = fs::write(root.join(&file), changed)
-        {
-            faults.push(format!("{file}: {error}"));
-        }
+    let printed = printed(root, &tables, &mut faults);
+    if faults.is_empty() {
+        let changed = printed.into_iter().filter(|(_, old, new)| old != new);
+        let written = changed.map(|(file, _, new)| fs::write(root.join(file), new));
+        faults.extend(written.filter_map(|written| Some(written.err()?.to_string())));
     }
-    if faults.is_empty() { Ok(()) } else { Err(faults) }
+    faults
 }
 
-/// The documents with their texts: the README and the pages of the book.
-fn documents(root: &Path, faults: &mut Vec<String>) -> Vec<(String, String)> {
-    let chapters = || -> io::Result<Vec<String>> {
-        let mut names = vec!["README.md".to_owned()];
-        names.extend(crate::book::pages(root)?.iter().map(|name| format!("docs/{name}")));
-        names.sort();
-        Ok(names)
+/// The documents by name with their texts, and their texts printed anew; `faults` gains what cannot be printed.
+fn printed(
+    root: &Path,
+    tables: &Tables,
+    faults: &mut Vec<String>,
+) -> Vec<(String, String, String)> {
+    let page = |file: String| {
+        // that every document is there is checked with the links
+        let old = fs::read_to_string(root.join(&file)).unwrap_or_default();
+        let new = print(&old, tables, |line, fault| faults.push(format!("{file}:{line}: {fault}")));
+        (file, old, new)
     };
-    let mut texts = Vec::new();
-    match chapters() {
-        Err(error) => faults.push(format!("docs: {error}")),
-        Ok(names) => {
-            for name in names {
-                match fs::read_to_string(root.join(&name)) {
-                    Ok(text) => texts.push((name, text)),
-                    Err(error) => faults.push(format!("{name}: {error}")),
-                }
-            }
-        }
-    }
-    texts
+    markdown::pages(root).unwrap_or_default().into_iter().map(page).collect()
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
 
-    use std::path::PathBuf;
-
     use super::*;
 
     const MANIFEST: &str = "title = \"A\"\ndepends = [\"crates\"]\n\
                             tolerance = { relative = 0.0, absolute = 0.0 }\n\
                             [[step]]\nname = \"a\"\ncommand = \"true\"\n\
-                            [[part]]\ntext = \"| T/N | {a > t :.3} |\"\n";
-    /// Results of the commands of the manifest.
-    fn record() -> String {
-        RECORD.replace("STEPS", &Manifest::read(MANIFEST).unwrap().steps_sum())
-    }
-
+                            [[part]]\ntext = \"| T/N | {a > t :.3} |\"\n\
+                            [[picture]]\nfrom = \"runs/p.svg\"\nto = \"docs/pictures/p.svg\"\n";
     const RECORD: &str = r#"{"date": "2000-01-01T00:00:00Z", "steps": "STEPS", "commit": "0", "uncommitted": [],
-        "version": "0", "program": "0", "kernels": "avx2", "threads": 1, "cases": {},
-        "found": {"values": {"a > t": 0.2605}, "rows": {}}, "pictures": {}}"#;
-    const PAGE: &str =
-        "# Page\n\n<!-- results: a -->\n| T/N | 0.261 |\n<!-- end of results -->\n\nend\n";
+        "version": "0", "program": "0", "kernels": "avx2", "threads": 1,
+        "found": {"values": {"a > t": 0.2605}, "rows": {}}, "pictures": {"docs/pictures/p.svg": "PICTURE"}}"#;
+    const PAGE: &str = "# Page\n\n<!-- results: a -->\n| T/N | 0.261 |\n<!-- end of results -->\n\n\
+                        ```text\n<!-- results: b -->\n```\n";
 
-    /// A project with one table.
-    struct Project(PathBuf);
+    /// A project with one table, and what changes its files.
+    fn project() -> (tempfile::TempDir, impl Fn(&str, &str)) {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().to_owned();
+        fs::create_dir_all(root.join(FOLDER)).unwrap();
+        fs::create_dir_all(root.join(PICTURES)).unwrap();
+        let put = move |file: &str, text: &str| fs::write(root.join(file), text).unwrap();
+        put("README.md", "# A\n");
+        put("docs/SUMMARY.md", "- [Page](page.md)\n");
+        put("docs/page.md", PAGE);
+        put("docs/pictures/p.svg", "<svg/>");
+        put("docs/results/a.toml", MANIFEST);
+        let picture = sum(&folder.path().join("docs/pictures/p.svg")).unwrap();
+        let steps = Manifest::read(MANIFEST).unwrap().steps_sum();
+        let record = RECORD.replace("STEPS", &steps).replace("PICTURE", &picture);
+        put("docs/results/a.json", &record);
+        assert_eq!(check(folder.path()), Vec::<String>::new());
+        (folder, put)
+    }
 
-    impl Project {
-        fn new(name: &str) -> Self {
-            let root =
-                std::env::temp_dir().join(format!("creepage-pages-{name}-{}", std::process::id()));
-            fs::create_dir_all(root.join(FOLDER)).unwrap();
-            fs::create_dir_all(root.join(PICTURES)).unwrap();
-            let project = Self(root);
-            project.put("README.md", "# A\n");
-            project.put("docs/page.md", PAGE);
-            project.put("docs/results/a.toml", MANIFEST);
-            project.put("docs/results/a.json", &record());
-            assert_eq!(check(&project.0), Vec::<String>::new());
-            project
+    #[test]
+    fn a_changed_digit_in_a_table_is_told_with_its_line_and_printed_anew() {
+        let (folder, put) = project();
+        put("docs/page.md", &PAGE.replace("0.261", "0.271"));
+        let wanted =
+            "docs/page.md:4: `| T/N | 0.271 |` stands where the results give `| T/N | 0.261 |`";
+        assert_eq!(check(folder.path()), [wanted]);
+        write(folder.path());
+        assert_eq!(fs::read_to_string(folder.path().join("docs/page.md")).unwrap(), PAGE);
+    }
+
+    #[test]
+    fn markers_manifests_results_and_pictures_belong_together() {
+        let (folder, put) = project();
+        put("docs/page.md", &PAGE.replace("results: a", "results: b"));
+        put("docs/results/c.json", &RECORD.replace("STEPS", "0"));
+        put("docs/results/a.toml", &MANIFEST.replace("\"true\"", "\"true --set\""));
+        put("docs/pictures/p.svg", "<svg></svg>");
+        put("docs/pictures/q.png", "");
+        let unshown = MANIFEST.split("[[part]]").next().unwrap();
+        put("docs/results/d.toml", unshown);
+        put("docs/results/e.toml", &format!("long = true\n{unshown}"));
+        let wanted = [
+            "docs/results/c.json: there is no manifest of this name",
+            "docs/page.md:3: table `b`: there is no manifest of this name",
+            "docs/results/a.toml: no document has its markers",
+            "docs/results/a.toml: its commands changed since it was made",
+            "docs/pictures/p.svg: is not the picture that `a` drew",
+            "docs/results/d.toml: was not made yet: cargo xtask results d",
+            "docs/pictures/q.png: no manifest draws it",
+        ];
+        assert_eq!(check(folder.path()), wanted);
+    }
+
+    #[test]
+    fn a_marker_without_its_fellow_is_told_and_the_page_stays_as_it_is() {
+        let (folder, put) = project();
+        for (text, problem) in [
+            (PAGE.replace("\n<!-- end of results -->", ""), "3: the table `a` has no"),
+            (PAGE.replace("<!-- results: a -->\n", ""), "4: `<!-- end of results -->` without"),
+            (PAGE.replace("| T", "<!-- results: a -->\n| T"), "3: the table `a` has no"),
+        ] {
+            put("docs/page.md", &text);
+            let faults = write(folder.path());
+            assert!(faults[0].contains(problem), "{faults:?}");
+            assert_eq!(fs::read_to_string(folder.path().join("docs/page.md")).unwrap(), text);
         }
-
-        fn put(&self, file: &str, text: &str) {
-            fs::write(self.0.join(file), text).unwrap();
-        }
-    }
-
-    impl Drop for Project {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
-        }
-    }
-
-    #[test]
-    fn a_changed_digit_in_a_table_is_told_with_table_and_line_and_printed_anew() {
-        let project = Project::new("digit");
-        project.put("docs/page.md", &PAGE.replace("0.261", "0.271"));
-        let faults = check(&project.0);
-        let wanted = "docs/page.md:4: table `a`: `| T/N | 0.271 |` stands where the results give \
-                      `| T/N | 0.261 |`";
-        assert_eq!(faults, [wanted]);
-        write(&project.0).unwrap();
-        assert_eq!(fs::read_to_string(project.0.join("docs/page.md")).unwrap(), PAGE);
-    }
-
-    #[test]
-    fn a_changed_digit_in_the_results_is_told_too() {
-        let project = Project::new("json");
-        project.put("docs/results/a.json", &record().replace("0.2605", "0.2705"));
-        assert!(check(&project.0)[0].contains("table `a`"));
-    }
-
-    #[test]
-    fn a_marker_without_a_manifest_a_manifest_without_a_marker_and_results_without_either_are_told()
-    {
-        let project = Project::new("orphans");
-        project.put("docs/page.md", &PAGE.replace("results: a", "results: b"));
-        project.put("docs/results/c.json", &record());
-        assert_eq!(
-            check(&project.0),
-            [
-                "docs/results/c.json: there is no manifest docs/results/c.toml",
-                "docs/page.md:3: there is no manifest docs/results/b.toml",
-                "docs/results/a.toml: no document has its markers",
-            ]
-        );
-    }
-
-    #[test]
-    fn a_table_that_was_never_made_stays_as_it_is() {
-        let project = Project::new("never");
-        fs::remove_file(project.0.join("docs/results/a.json")).unwrap();
-        project.put("docs/page.md", &PAGE.replace("0.261", "0.3"));
-        let told = "docs/results/a.toml: was not made yet: cargo xtask results a";
-        assert_eq!(check(&project.0), [told]);
-        write(&project.0).unwrap();
-        assert!(fs::read_to_string(project.0.join("docs/page.md")).unwrap().contains("0.3 |"));
-        project.put("docs/results/a.toml", &MANIFEST.replace("depends", "long = true\ndepends"));
-        assert_eq!(check(&project.0), Vec::<String>::new(), "long ones may wait");
-    }
-
-    #[test]
-    fn a_command_that_changed_since_the_table_was_made_is_told() {
-        let project = Project::new("command");
-        project.put("docs/results/a.toml", &MANIFEST.replace("\"true\"", "\"true --set\""));
-        let told = "docs/results/a.toml: its commands changed since it was made";
-        assert_eq!(check(&project.0), [told]);
-    }
-
-    #[test]
-    fn a_picture_that_was_changed_is_told() {
-        let project = Project::new("picture");
-        let picture = "[[picture]]\nfrom = \"runs/p.svg\"\nto = \"docs/p.svg\"\n";
-        project.put("docs/results/a.toml", &format!("{MANIFEST}{picture}"));
-        project.put("docs/p.svg", "<svg/>");
-        let kept = sum(&project.0.join("docs/p.svg")).unwrap();
-        let record = record()
-            .replace("\"pictures\": {}", &format!("\"pictures\": {{\"docs/p.svg\": \"{kept}\"}}"));
-        project.put("docs/results/a.json", &record);
-        assert_eq!(check(&project.0), Vec::<String>::new());
-        project.put("docs/p.svg", "<svg></svg>");
-        assert_eq!(check(&project.0), ["docs/p.svg: is not the picture that `a` drew"]);
-    }
-
-    #[test]
-    fn a_picture_that_no_manifest_draws_is_told() {
-        let project = Project::new("by-hand");
-        project.put("docs/pictures/p.svg", "<svg/>");
-        project.put("docs/pictures/q.png", "");
-        assert_eq!(
-            check(&project.0),
-            [
-                "docs/pictures/p.svg: no manifest draws it",
-                "docs/pictures/q.png: no manifest draws it",
-            ]
-        );
-        let picture = "[[picture]]\nfrom = \"runs/p.svg\"\nto = \"docs/pictures/p.svg\"\n";
-        let steps = MANIFEST.split("[[part]]").next().unwrap();
-        project.put("docs/results/p.toml", &format!("long = true\n{steps}{picture}"));
-        assert_eq!(check(&project.0), ["docs/pictures/q.png: no manifest draws it"]);
     }
 }

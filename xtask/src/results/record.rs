@@ -1,22 +1,19 @@
 //! What the commands of a table found: `docs/results/NAME.json`. A table is printed from it alone.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::extract::{at, in_step, one};
-use super::manifest::{FOLDER, Manifest, Tolerance};
-use super::template::fill;
+use super::extract::{at, one, split};
+use super::manifest::{Manifest, Tolerance};
+use super::template::{fill, paths};
 
 /// Values by their paths.
 pub type Values = BTreeMap<String, Value>;
 
 /// Results with what they were made by.
 #[derive(Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
 pub struct Record {
     /// When, in UTC.
     pub date: String,
@@ -33,8 +30,6 @@ pub struct Record {
     pub kernels: String,
     /// Threads of the machine.
     pub threads: usize,
-    /// SHA-256 of the resolved case of each run, by its file.
-    pub cases: BTreeMap<String, String>,
     pub found: Found,
     /// SHA-256 of each picture.
     pub pictures: BTreeMap<String, String>,
@@ -49,62 +44,31 @@ pub struct Found {
     pub rows: BTreeMap<String, Vec<Values>>,
 }
 
-impl Record {
-    /// Where the results of a table lie.
-    pub fn file(root: &Path, name: &str) -> PathBuf {
-        root.join(FOLDER).join(format!("{name}.json"))
-    }
-
-    /// The results of a table, if there are any.
-    pub fn read(root: &Path, name: &str) -> Result<Option<Self>, String> {
-        let file = Self::file(root, name);
-        if !file.exists() {
-            return Ok(None);
-        }
-        let text = fs::read_to_string(&file).map_err(|error| error.to_string())?;
-        serde_json::from_str(&text).map(Some).map_err(|error| error.to_string())
-    }
-
-    /// Keeps them.
-    pub fn write(&self, root: &Path, name: &str) -> Result<(), String> {
-        let text = serde_json::to_string_pretty(self).map_err(|error| error.to_string())?;
-        let file = Self::file(root, name);
-        fs::write(&file, text + "\n").map_err(|error| format!("{}: {error}", file.display()))
-    }
-}
-
 impl Found {
     /// Takes what a manifest asks for from what its steps gave.
     pub fn take(manifest: &Manifest, documents: &BTreeMap<String, Value>) -> Result<Self, String> {
         let mut found = Self::default();
-        let of = |path: &str| documents.get(super::extract::step_of(path)).unwrap_or(&Value::Null);
+        let of = |step: &str| documents.get(step).unwrap_or(&Value::Null);
         for part in &manifest.parts {
-            let placeholders = part.placeholders();
+            let paths = paths(&part.text)?;
             let Some(each) = &part.each else {
-                for placeholder in placeholders {
-                    let path = placeholder.path;
-                    let value = one(&in_step(of(&path), &path), &path)?.clone();
-                    found.values.insert(path, value);
+                for path in paths {
+                    let (step, rest) = split(path);
+                    found.values.insert(path.into(), taken(of(step), rest, path)?);
                 }
                 continue;
             };
-            let items = match &in_step(of(each), each)[..] {
+            let (step, rest) = split(each);
+            let items = match &at(of(step), rest)[..] {
+                [] => return Err(format!("{{{each}}} fits nothing")),
                 [Value::Array(items)] => items.iter().collect(),
                 items => items.to_vec(),
             };
-            if items.is_empty() {
-                return Err(format!("{{{each}}} fits nothing"));
-            }
-            let mut rows = Vec::new();
-            for item in items {
-                let mut row = Values::new();
-                for placeholder in &placeholders {
-                    let path: Vec<&str> = placeholder.path.split(" > ").map(str::trim).collect();
-                    let value = one(&at(item, &path), &placeholder.path)?.clone();
-                    row.insert(placeholder.path.clone(), value);
-                }
-                rows.push(row);
-            }
+            let row = |item| -> Result<Values, String> {
+                let value = |path: &&str| Ok(((*path).to_owned(), taken(item, path, path)?));
+                paths.iter().map(value).collect()
+            };
+            let rows = items.into_iter().map(row).collect::<Result<_, _>>()?;
             found.rows.insert(each.clone(), rows);
         }
         Ok(found)
@@ -114,17 +78,14 @@ impl Found {
     pub fn print(&self, manifest: &Manifest) -> Result<String, String> {
         let mut text = String::new();
         for part in &manifest.parts {
-            let placeholders = part.placeholders();
             let lacks = |path: &str| format!("the results lack {{{path}}}: make them anew");
-            let get = |values: &'_ Values, path: &str| values.get(path).cloned().ok_or(lacks(path));
             let rows = match &part.each {
                 None => std::slice::from_ref(&self.values),
-                Some(each) => self.rows.get(each).ok_or(lacks(each))?.as_slice(),
+                Some(each) => self.rows.get(each).ok_or_else(|| lacks(each))?.as_slice(),
             };
             for row in rows {
-                let line = fill(&part.text, &placeholders, |path| get(row, path))?;
-                text.push_str(line.trim_end_matches('\n'));
-                text.push('\n');
+                let line = fill(&part.text, |path| row.get(path).ok_or_else(|| lacks(path)))?;
+                text = text + line.trim_end_matches('\n') + "\n";
             }
         }
         Ok(text)
@@ -133,46 +94,50 @@ impl Found {
     /// Where a rerun differs from these results by more than the manifest allows. Chaotic runs and texts are
     /// compared where kernels are the `same` alone.
     pub fn differences(&self, rerun: &Self, manifest: &Manifest, same: bool) -> Vec<String> {
-        let compare = |step: &str, path: &str, old: &Value, new: Option<&Value>| {
-            let chaotic = manifest.step_of(step).is_some_and(|step| step.chaotic);
-            let compared = same || (!chaotic && !old.is_string());
-            compared.then(|| difference(path, old, new, manifest.tolerance)).flatten()
+        let (old, new) = (self.by_path(), rerun.by_path());
+        let differs = |path: &str, old: &Value| {
+            let chaotic = manifest.step_of(path).is_some_and(|step| step.chaotic);
+            let near = new.get(path).is_some_and(|new| near(old, new, manifest.tolerance));
+            !near && (same || !(chaotic || old.is_string()))
         };
-        let mut faults = Vec::new();
-        for (path, old) in &self.values {
-            faults.extend(compare(path, path, old, rerun.values.get(path)));
-        }
+        let changed = old.iter().filter(|(path, old)| differs(path, old)).map(|(path, old)| {
+            let now = new.get(path).map_or("nothing".to_owned(), |new| new.to_string());
+            format!("{{{path}}} is {now} now, the document has {old}")
+        });
+        let came = new.keys().filter(|path| !old.contains_key(*path));
+        changed.chain(came.map(|path| format!("{{{path}}} came"))).collect()
+    }
+
+    /// All values, those of rows with the number of the row in their path.
+    fn by_path(&self) -> BTreeMap<String, &Value> {
+        let mut all: BTreeMap<String, &Value> =
+            self.values.iter().map(|(path, value)| (path.clone(), value)).collect();
         for (each, rows) in &self.rows {
-            let anew = rerun.rows.get(each).map(Vec::as_slice).unwrap_or_default();
             for (number, row) in rows.iter().enumerate() {
-                for (key, old) in row {
-                    let new = anew.get(number).and_then(|row| row.get(key));
-                    faults.extend(compare(each, &format!("{each} > {number} > {key}"), old, new));
-                }
-            }
-            if anew.len() > rows.len() {
-                faults.push(format!("{{{each}}}: {} rows instead of {}", anew.len(), rows.len()));
+                let path = |key: &String| format!("{each} > {number} > {key}");
+                all.extend(row.iter().map(|(key, value)| (path(key), value)));
             }
         }
-        faults
+        all
     }
 }
 
-fn difference(path: &str, old: &Value, new: Option<&Value>, allowed: Tolerance) -> Option<String> {
-    let near = match (old.as_f64(), new.and_then(Value::as_f64)) {
-        (Some(old), Some(new)) => {
-            (new - old).abs() <= allowed.relative * old.abs() + allowed.absolute
+fn taken(document: &Value, rest: &str, path: &str) -> Result<Value, String> {
+    one(document, rest).cloned().map_err(|problem| format!("{{{path}}} {problem}"))
+}
+
+fn near(old: &Value, new: &Value, allowed: Tolerance) -> bool {
+    match (old, new) {
+        (Value::Array(old), Value::Array(new)) => {
+            old.len() == new.len() && old.iter().zip(new).all(|(old, new)| near(old, new, allowed))
         }
-        _ => match (old.as_array(), new.and_then(Value::as_array)) {
-            (Some(old), Some(new)) if old.len() == new.len() => old
-                .iter()
-                .zip(new)
-                .all(|(old, new)| difference(path, old, Some(new), allowed).is_none()),
-            _ => new == Some(old),
+        _ => match (old.as_f64(), new.as_f64()) {
+            (Some(old), Some(new)) => {
+                (new - old).abs() <= allowed.relative * old.abs() + allowed.absolute
+            }
+            _ => new == old,
         },
-    };
-    let now = new.map_or("nothing".to_owned(), Value::to_string);
-    (!near).then(|| format!("{{{path}}} is {now} now, the document has {old}"))
+    }
 }
 
 #[cfg(test)]
@@ -188,21 +153,14 @@ mod tests {
             title = "A"
             depends = ["crates"]
             tolerance = { relative = 1e-3, absolute = 1e-12 }
-            [[step]]
-            name = "a"
-            command = "true"
-            [[step]]
-            name = "b"
-            command = "true"
-            chaotic = true
-            [[part]]
-            text = """
-            | name | {a > force :.1} | {b > slip :.2} |
-            |---|---|---|
-            """
-            [[part]]
-            each = "a > rows"
-            text = "| {name :s} | {size > 0 :.1e} | |"
+            step = [
+                { name = "a", command = "true" },
+                { name = "b", command = "true", chaotic = true },
+            ]
+            part = [
+                { text = "| name | {a > force :.1} | {b > slip :.2} |\n|---|---|---|" },
+                { each = "a > rows", text = "| {name :s} | {size > 0 :.1e} | |" },
+            ]
         "#;
         Manifest::read(text).unwrap()
     }
@@ -214,16 +172,11 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_printed_from_the_results_alone() {
+    fn a_table_is_printed_from_the_results_alone_and_what_they_lack_is_told() {
         let found = found(100.26, 0.125, 4e-16);
         let kept: Found = serde_json::from_str(&serde_json::to_string(&found).unwrap()).unwrap();
-        let wanted = "            | name | 100.3 | 0.12 |\n            |---|---|---|\n            \
-                      \n| x | 4.0e-16 | |\n| y | 0.0e0 | |\n";
+        let wanted = "| name | 100.3 | 0.12 |\n|---|---|---|\n| x | 4.0e-16 | |\n| y | 0.0e0 | |\n";
         assert_eq!(kept.print(&manifest()).unwrap(), wanted);
-    }
-
-    #[test]
-    fn what_the_results_lack_is_told_with_its_path() {
         let error = Found::default().print(&manifest()).unwrap_err();
         assert!(error.contains("lack {a > force}"), "{error}");
         let error = Found::take(&manifest(), &BTreeMap::new()).unwrap_err();
@@ -231,29 +184,21 @@ mod tests {
     }
 
     #[test]
-    fn a_rerun_within_the_tolerance_is_well_and_one_beyond_it_is_named() {
+    fn a_rerun_beyond_the_tolerance_is_named_and_a_chaotic_one_on_the_same_kernels_alone() {
         let (old, manifest) = (found(100.0, 0.125, 4e-16), manifest());
         let differences = |new: &Found, same| old.differences(new, &manifest, same);
         assert_eq!(differences(&found(100.05, 0.125, 2e-16), true), Vec::<String>::new());
-        let beyond = differences(&found(100.2, 0.125, 1e-3), true);
-        assert_eq!(beyond.len(), 2, "{beyond:?}");
-        assert!(beyond[0].contains("{a > force} is 100.2 now, the document has 100.0"));
-        assert!(beyond[1].contains("a > rows > 0 > size > 0"));
-    }
-
-    #[test]
-    fn chaotic_runs_are_compared_on_the_same_kernels_alone() {
-        let (old, manifest) = (found(100.0, 0.125, 0.0), manifest());
-        let other = found(100.0, 0.15, 0.0);
-        assert_eq!(old.differences(&other, &manifest, true).len(), 1);
-        assert_eq!(old.differences(&other, &manifest, false).len(), 0);
-    }
-
-    #[test]
-    fn rows_that_came_or_went_are_told() {
-        let (mut fewer, all, manifest) = (found(1.0, 1.0, 1.0), found(1.0, 1.0, 1.0), manifest());
+        let wanted = [
+            "{a > force} is 100.2 now, the document has 100.0",
+            "{a > rows > 0 > size > 0} is 0.001 now, the document has 4e-16",
+        ];
+        assert_eq!(differences(&found(100.2, 0.125, 1e-3), true), wanted);
+        let chaotic = found(100.0, 0.15, 4e-16);
+        assert_eq!(differences(&chaotic, true).len(), 1);
+        assert_eq!(differences(&chaotic, false).len(), 0);
+        let mut fewer = found(100.0, 0.125, 4e-16);
         fewer.rows.get_mut("a > rows").unwrap().pop();
-        assert!(fewer.differences(&all, &manifest, true)[0].contains("2 rows instead of 1"));
-        assert!(all.differences(&fewer, &manifest, true)[0].contains("is nothing now"));
+        assert!(differences(&fewer, true)[0].contains("a > rows > 1 > name} is nothing now"));
+        assert!(fewer.differences(&old, &manifest, true)[0].contains("a > rows > 1 > name} came"));
     }
 }

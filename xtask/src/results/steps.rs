@@ -5,22 +5,21 @@
 
 use std::collections::BTreeMap;
 use std::env;
+use std::error::Error;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Instant, SystemTime};
 
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::extract::{document, table};
-use super::instruction_set::kernels;
 use super::manifest::{Manifest, Step};
 
-/// What runs, sweeps and verifications read.
-const INPUTS: [&str; 2] = ["cases", "meshes"];
+/// Prints sums of what runs, sweeps and verifications read.
+const INPUTS: &str = "find cases meshes -type f ! -path '*/[._]*' -exec cksum {} + | sort";
 
 /// The program and what it works on.
 pub struct Runner<'a> {
@@ -34,73 +33,48 @@ pub struct Runner<'a> {
     since: SystemTime,
 }
 
-/// What a table's commands gave.
-#[derive(Default)]
-pub struct Gathered {
-    /// By the name of the step.
-    pub documents: BTreeMap<String, Value>,
-    /// SHA-256 of the resolved case of each run, by its file.
-    pub cases: BTreeMap<String, String>,
-}
-
-/// What a command left when it ran.
-#[derive(Deserialize, Serialize)]
-struct Kept {
-    key: String,
-    said: String,
-    read: Option<String>,
-}
-
 impl<'a> Runner<'a> {
-    /// A runner of `program`; what it keeps lies below `target`. Commands find `python` in its folder.
-    /// What commands left before `since` is not taken.
+    /// A runner of `program`. What it keeps lies in the folder `kept`, and what commands left before `since` is not
+    /// taken. Commands find `python` in its folder.
     pub fn new(
         root: &'a Path,
-        target: &Path,
+        kept: PathBuf,
         program: &Path,
         python: Option<&Path>,
         since: SystemTime,
-    ) -> Result<Self, String> {
-        let mut inputs = Sha256::new();
-        for folder in INPUTS {
-            add(&mut inputs, &root.join(folder)).map_err(|error| format!("{folder}: {error}"))?;
-        }
-        let kept = target.join("results");
-        fs::create_dir_all(&kept).map_err(|error| format!("{}: {error}", kept.display()))?;
-        let (sum, folder) = own_copy(program, &kept)?;
-        let folders = [Some(folder.as_path()), python].into_iter().flatten().map(Path::to_owned);
+    ) -> std::io::Result<Self> {
+        // a copy of its own: a build meanwhile changes the program that others run, not the one that results name
+        let folder = kept.join("program");
+        fs::create_dir_all(&folder)?;
+        let copy = folder.join(format!("creepage{}", env::consts::EXE_SUFFIX));
+        fs::copy(program, &copy)?;
+        let folders =
+            [Some(folder.canonicalize()?), python.map(|python| python.with_file_name(""))];
         let before = env::var_os("PATH").unwrap_or_default();
-        let search = env::join_paths(folders.chain(env::split_paths(&before)))
-            .map_err(|error| error.to_string())?;
-        Ok(Self { root, kept, search, program: sum, inputs: hexadecimal(inputs), since })
+        let search =
+            env::join_paths(folders.into_iter().flatten().chain(env::split_paths(&before)))
+                .map_err(std::io::Error::other)?;
+        let (program, inputs) = (sum(&copy)?, String::new());
+        let mut runner = Self { root, kept, search, program, inputs, since };
+        runner.inputs = runner.execute(INPUTS, 0).map_err(std::io::Error::other)?;
+        Ok(runner)
     }
 
-    /// The program's version.
-    pub fn version(&self) -> Result<String, String> {
-        let said = self.execute("creepage --version", 0)?;
-        Ok(said.trim().trim_start_matches("creepage ").to_owned())
-    }
-
-    /// Runs the steps of a manifest.
-    pub fn gather(&self, manifest: &Manifest) -> Result<Gathered, String> {
-        let mut gathered = Gathered::default();
-        for step in &manifest.steps {
-            let at = |problem: String| format!("step `{}`: {problem}", step.name);
-            let document = self.step(step).map_err(at)?;
-            gathered.documents.insert(step.name.clone(), document);
-            for case in after(step, "--out").iter().flat_map(|folder| self.cases_of(folder)) {
-                gathered.cases.insert(case.clone(), sum(&self.root.join(case))?);
-            }
-        }
-        Ok(gathered)
+    /// Runs the steps of a manifest; gives what they left, by their names.
+    pub fn gather(&self, manifest: &Manifest) -> Result<BTreeMap<String, Value>, String> {
+        let run = |step: &Step| match self.step(step) {
+            Ok(document) => Ok((step.name.clone(), document)),
+            Err(problem) => Err(format!("step `{}`: {problem}", step.name)),
+        };
+        manifest.steps.iter().map(run).collect()
     }
 
     /// Runs a step, or finds that it ran, and reads what it left.
-    fn step(&self, step: &Step) -> Result<Value, String> {
-        let key = text_sum(&[&self.program, &self.inputs, kernels(), &step.command]);
-        let file = self.kept.join(format!("{}.json", text_sum(&[&step.command])));
+    fn step(&self, step: &Step) -> Result<Value, Box<dyn Error>> {
+        let key = sum_of([&self.program, &self.inputs, kernels(), &step.command].join("\n"));
+        let file = self.kept.join(key + ".json");
         let read = step.read.as_ref().map(|read| self.root.join(read));
-        let said = match self.kept(step, &file, &key, read.as_deref()) {
+        let said = match self.kept(step, &file, read.as_deref()) {
             Some(said) => said,
             None => {
                 eprintln!("  {}", step.command);
@@ -108,45 +82,32 @@ impl<'a> Runner<'a> {
                 let said = self.execute(&step.command, step.exit)?;
                 eprintln!("    {:.1} s", start.elapsed().as_secs_f64());
                 let read = read.as_deref().map(sum).transpose()?;
-                let kept = Kept { key, said, read };
-                let text = serde_json::to_string(&kept).map_err(|error| error.to_string())?;
-                fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
-                kept.said
+                fs::write(&file, json!([said, read]).to_string())?;
+                said
             }
         };
-        let Some(read) = read else { return Ok(document(&said)) };
-        let told = |error: String| format!("{}: {error}", read.display());
-        let text = fs::read_to_string(&read).map_err(|error| told(error.to_string()))?;
-        if read.extension().is_some_and(|extension| extension == "csv") {
-            return table(&text).map_err(|error| told(error.to_string()));
+        match read {
+            None => Ok(document(&said)),
+            Some(read) if read.extension().is_some_and(|extension| extension == "csv") => {
+                Ok(table(&fs::read_to_string(read)?)?)
+            }
+            Some(read) => Ok(serde_json::from_str(&fs::read_to_string(read)?)?),
         }
-        serde_json::from_str(&text).map_err(|error| told(error.to_string()))
-    }
-
-    /// The resolved cases of a run or of a sweep in a folder.
-    fn cases_of(&self, folder: &str) -> Vec<String> {
-        let entries = fs::read_dir(self.root.join(folder).join("cases")).into_iter().flatten();
-        let names = entries.flatten().map(|entry| entry.file_name());
-        let of_sweep = names.map(|name| format!("{folder}/cases/{}", name.to_string_lossy()));
-        let cases = of_sweep.chain([format!("{folder}/case.toml")]);
-        cases.filter(|case| self.root.join(case).is_file()).collect()
     }
 
     /// What a step said, if it ran with the same program and inputs and its file is as it left it, with the
     /// pictures that it drew.
-    fn kept(&self, step: &Step, file: &Path, key: &str, read: Option<&Path>) -> Option<String> {
-        let long = ["run", "sweep", "verify"];
-        if !long.iter().any(|word| step.command.starts_with(&format!("creepage {word} "))) {
-            return None;
-        }
+    fn kept(&self, step: &Step, file: &Path, read: Option<&Path>) -> Option<String> {
+        let command = step.command.strip_prefix("creepage ")?;
+        let takes_long = ["run ", "sweep ", "verify "].iter().any(|word| command.starts_with(word));
         let left = file.metadata().and_then(|file| file.modified()).ok()?;
-        let drawn = after(step, "--plot").iter().all(|folder| self.root.join(folder).exists());
-        if left < self.since || !drawn {
+        let drawn = after(command, "--plot").is_none_or(|folder| self.root.join(folder).exists());
+        if !takes_long || left < self.since || !drawn {
             return None;
         }
-        let kept: Kept = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
-        let same = kept.key == key && kept.read == read.map(sum).transpose().ok()?;
-        same.then_some(kept.said)
+        let kept = fs::read_to_string(file).ok()?;
+        let (said, left): (String, Option<String>) = serde_json::from_str(&kept).ok()?;
+        (left == read.map(sum).transpose().ok()?).then_some(said)
     }
 
     /// What a command says, if it ends with this code.
@@ -168,60 +129,34 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// The sum of the program, and the folder of a copy of it: a build meanwhile changes the program that others
-/// run, not the one that the results name.
-fn own_copy(program: &Path, kept: &Path) -> Result<(String, PathBuf), String> {
-    let told = |error: std::io::Error| format!("{}: {error}", program.display());
-    let folder = kept.join("program");
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(told)?;
-    }
-    fs::create_dir_all(&folder).map_err(told)?;
-    let copy = folder.join(format!("creepage{}", env::consts::EXE_SUFFIX));
-    fs::copy(program, &copy).map_err(told)?;
-    let folder = folder.canonicalize().map_err(told)?;
-    Ok((sum(&copy)?, folder))
-}
-
-/// The files and folders that a step's command names after an option.
-fn after(step: &Step, option: &str) -> Vec<String> {
-    let words = crate::shell::commands(&step.command).concat();
-    let pairs = words.windows(2).filter(|pair| pair[0] == option);
-    pairs.map(|pair| pair[1].clone()).collect()
-}
-
-/// Adds names and contents of the files of a folder, in order.
-fn add(sum: &mut Sha256, folder: &Path) -> std::io::Result<()> {
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
-    paths.sort();
-    for path in paths {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if name.starts_with(['.', '_']) {
-            continue;
+/// The instruction set that the program takes on this machine (`Level::detect` of `creepage-solid`): results of one
+/// differ from those of another in their last bits.
+pub fn kernels() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if std::is_x86_feature_detected!("avx512f") {
+            return "avx512";
         }
-        sum.update(format!("{name}\n"));
-        if path.is_dir() {
-            add(sum, &path)?;
-        } else {
-            sum.update(Sha256::digest(fs::read(&path)?));
+        if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
+            return "avx2";
         }
     }
-    Ok(())
+    if cfg!(target_arch = "aarch64") { "neon" } else { "portable" }
+}
+
+/// The folders that a command names after an option.
+pub fn after<'a>(command: &'a str, option: &str) -> Option<&'a str> {
+    command.split_whitespace().skip_while(|word| *word != option).nth(1)
 }
 
 /// SHA-256 of a file.
-pub fn sum(file: &Path) -> Result<String, String> {
-    let bytes = fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
-    Ok(hexadecimal(Sha256::new_with_prefix(bytes)))
+pub fn sum(file: &Path) -> std::io::Result<String> {
+    Ok(sum_of(fs::read(file)?))
 }
 
-fn text_sum(parts: &[&str]) -> String {
-    hexadecimal(Sha256::new_with_prefix(parts.join("\n")))
-}
-
-fn hexadecimal(sum: Sha256) -> String {
-    sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+/// SHA-256 of a text.
+pub fn sum_of(bytes: impl AsRef<[u8]>) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(all(test, unix))]
@@ -229,150 +164,69 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use std::os::unix::fs::PermissionsExt;
+    use std::time::Duration;
 
     use super::*;
 
-    /// A project in a folder of its own whose program counts its calls.
-    struct Project(PathBuf);
+    /// A project whose program counts its calls.
+    struct Project(tempfile::TempDir);
 
     impl Project {
-        fn new(name: &str) -> Self {
-            let root =
-                env::temp_dir().join(format!("creepage-steps-{name}-{}", std::process::id()));
-            for folder in INPUTS {
-                fs::create_dir_all(root.join(folder)).unwrap();
-            }
-            let project = Self(root);
-            project.program("echo x >> calls; echo '{\"n\": 1}' | tee out.json; exit 1");
+        fn new() -> Self {
+            let project = Self(tempfile::tempdir().unwrap());
+            fs::create_dir(project.0.path().join("cases")).unwrap();
+            fs::create_dir(project.0.path().join("meshes")).unwrap();
+            project.program("echo '{\"n\": 1}' | tee out.json");
             project
         }
 
         fn program(&self, text: &str) {
-            let file = self.0.join("creepage");
-            fs::write(&file, format!("#!/bin/sh\n{text}\n")).unwrap();
+            let file = self.0.path().join("creepage");
+            fs::write(&file, format!("#!/bin/sh\necho x >> calls\n{text}\n")).unwrap();
             fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
         }
 
-        fn step(&self, command: &str, read: Option<&str>, exit: i32) -> Result<Value, String> {
-            let step = Step {
-                name: "a".into(),
-                command: command.into(),
-                read: read.map(Into::into),
-                exit,
-                chaotic: false,
-            };
-            let target = self.0.join("target");
-            Runner::new(&self.0, &target, &self.0.join("creepage"), None, SystemTime::UNIX_EPOCH)?
-                .step(&step)
+        fn runner(&self, since: SystemTime) -> Runner<'_> {
+            let root = self.0.path();
+            Runner::new(root, root.join("kept"), &root.join("creepage"), None, since).unwrap()
         }
 
-        fn calls(&self) -> usize {
-            fs::read_to_string(self.0.join("calls")).unwrap_or_default().lines().count()
-        }
-    }
-
-    impl Drop for Project {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
+        /// Runs a command, and says how often the program was called so far.
+        fn calls(&self, command: &str, read: Option<&str>, since: SystemTime) -> usize {
+            let (name, command) = ("a".into(), command.into());
+            let step = Step { name, command, read: read.map(Into::into), exit: 0, chaotic: false };
+            assert_eq!(self.runner(since).step(&step).unwrap()["n"], 1);
+            fs::read_to_string(self.0.path().join("calls")).unwrap().lines().count()
         }
     }
 
     #[test]
     fn a_run_is_repeated_where_program_inputs_or_its_file_changed_and_not_otherwise() {
-        let project = Project::new("repeat");
-        let run = || project.step("creepage run a.toml", Some("out.json"), 1).unwrap();
-        assert_eq!(run()["n"], 1);
-        run();
-        assert_eq!(project.calls(), 1);
-        fs::write(project.0.join("cases/a.toml"), "changed").unwrap();
-        run();
-        assert_eq!(project.calls(), 2, "an input changed");
-        fs::write(project.0.join("out.json"), "{\"n\": 2}").unwrap();
-        assert_eq!((run()["n"].as_i64(), project.calls()), (Some(1), 3), "its file changed");
-        project.program("echo y >> calls; echo '{\"n\": 1}' | tee out.json; exit 1");
-        run();
-        assert_eq!(project.calls(), 4, "the program changed");
+        let project = Project::new();
+        let root = project.0.path();
+        let calls = |since| project.calls("creepage run a.toml", Some("out.json"), since);
+        let long_ago = SystemTime::UNIX_EPOCH;
+        assert_eq!((calls(long_ago), calls(long_ago)), (1, 1));
+        fs::write(root.join("cases/a.toml"), "changed").unwrap();
+        assert_eq!(calls(long_ago), 2, "an input changed");
+        fs::write(root.join("out.json"), "{\"n\": 2}").unwrap();
+        assert_eq!(calls(long_ago), 3, "its file changed");
+        project.program("echo '{\"n\": 1}' > out.json");
+        assert_eq!((calls(long_ago), calls(long_ago)), (4, 4), "the program changed");
+        assert_eq!(calls(SystemTime::now() + Duration::from_secs(60)), 5, "too old");
     }
 
     #[test]
-    fn a_verification_whose_pictures_are_gone_is_repeated() {
-        let project = Project::new("plot");
-        project.program("echo x >> calls; mkdir -p runs/p; echo '{\"n\": 1}'");
-        let verify = || project.step("creepage verify a --json --plot runs/p", None, 0).unwrap();
-        verify();
-        verify();
-        assert_eq!(project.calls(), 1);
-        fs::remove_dir_all(project.0.join("runs/p")).unwrap();
-        verify();
-        assert_eq!(project.calls(), 2);
-    }
-
-    #[test]
-    fn a_program_that_is_built_anew_meanwhile_does_not_take_part() {
-        let project = Project::new("meanwhile");
-        let (program, target) = (project.0.join("creepage"), project.0.join("target"));
-        let runner =
-            Runner::new(&project.0, &target, &program, None, SystemTime::UNIX_EPOCH).unwrap();
-        let before = sum(&program).unwrap();
-        project.program("echo other");
-        let said = runner.execute("creepage run a.toml", 1).unwrap();
-        assert_eq!((said.as_str(), &runner.program), ("{\"n\": 1}\n", &before));
-    }
-
-    #[test]
-    fn what_was_kept_before_a_comparison_began_is_made_anew() {
-        let project = Project::new("compare");
-        let step = || project.step("creepage run a.toml", None, 1);
-        step().unwrap();
-        let later = SystemTime::now() + std::time::Duration::from_secs(60);
-        let (target, program) = (project.0.join("target"), project.0.join("creepage"));
-        let manifest = Manifest::read(
-            "title = \"A\"\ndepends = [\"a\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
-             [[step]]\nname = \"a\"\ncommand = \"creepage run a.toml\"\nexit = 1\n",
-        );
-        let runner = Runner::new(&project.0, &target, &program, None, later).unwrap();
-        runner.gather(&manifest.unwrap()).unwrap();
-        assert_eq!(project.calls(), 2);
-    }
-
-    #[test]
-    fn what_reads_runs_is_always_done_again() {
-        let project = Project::new("check");
-        for _ in 0..2 {
-            assert_eq!(project.step("creepage check runs/a --json", None, 1).unwrap()["n"], 1);
-        }
-        assert_eq!(project.calls(), 2);
-    }
-
-    #[test]
-    fn the_cases_of_runs_and_of_sweeps_are_summed() {
-        let project = Project::new("cases");
-        project.program(
-            "mkdir -p runs/s/cases; echo a > runs/s/cases/000.toml; echo b > runs/s/case.toml",
-        );
-        let manifest = Manifest::read(
-            "title = \"A\"\ndepends = [\"a\"]\ntolerance = { relative = 0.0, absolute = 0.0 }\n\
-             [[step]]\nname = \"a\"\ncommand = \"creepage sweep a.toml --out runs/s\"\n",
-        );
-        let target = project.0.join("target");
-        let runner = Runner::new(
-            &project.0,
-            &target,
-            &project.0.join("creepage"),
-            None,
-            SystemTime::UNIX_EPOCH,
-        )
-        .unwrap();
-        let cases = runner.gather(&manifest.unwrap()).unwrap().cases;
-        let files: Vec<_> = cases.keys().map(String::as_str).collect();
-        assert_eq!(files, ["runs/s/case.toml", "runs/s/cases/000.toml"]);
-        assert_eq!(cases["runs/s/case.toml"], text_sum(&["b\n"]));
-    }
-
-    #[test]
-    fn another_exit_code_is_a_fault() {
-        let project = Project::new("exit");
-        let error = project.step("creepage check runs/a", None, 0).unwrap_err();
-        assert!(error.starts_with("exit code 1 instead of 0"), "{error}");
+    fn what_reads_runs_and_a_verification_whose_pictures_are_gone_are_repeated() {
+        let project = Project::new();
+        let calls = |command: &str| project.calls(command, None, SystemTime::UNIX_EPOCH);
+        let check = "creepage check runs/a --json";
+        assert_eq!((calls(check), calls(check)), (1, 2));
+        let verify = "creepage verify a --json --plot runs/p";
+        assert_eq!((calls(verify), calls(verify)), (3, 4));
+        fs::create_dir_all(project.0.path().join("runs/p")).unwrap();
+        assert_eq!(calls(verify), 4);
+        let error = project.runner(SystemTime::now()).execute(check, 1).unwrap_err();
+        assert!(error.starts_with("exit code 0 instead of 1"), "{error}");
     }
 }

@@ -186,7 +186,7 @@ fn a_damaged_result_file_ends_resuming_with_code_2_and_its_name_and_force_begins
     }
 }
 
-/// The short form of `cargo xtask kill-loop`.
+/// The short form of `cargo xtask soak kill-loop`.
 #[track_caller]
 fn survives_kills(method: &[&str], seed: u64) {
     let sets = [&BUSY[..], method, &["time.roll=0.003"]].concat();
