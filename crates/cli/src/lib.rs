@@ -11,10 +11,6 @@ mod report;
 mod run;
 mod stop;
 mod terminal;
-#[cfg(feature = "verify")]
-mod verify;
-#[cfg(not(feature = "verify"))]
-#[path = "verify_left_out.rs"]
 mod verify;
 
 use std::ffi::OsString;

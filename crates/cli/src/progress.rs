@@ -10,6 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use crate::args::Args;
 use crate::report::layout::{about, count, digits};
+use crate::stop::WRITING;
 
 const TICKS: u64 = 1000;
 
@@ -44,7 +45,7 @@ impl<'a> RunWatch<'a> {
 
 impl Listener for RunWatch<'_> {
     fn stop(&mut self) -> Arc<AtomicBool> {
-        self.args.stop.in_order()
+        self.args.stop.in_order(WRITING)
     }
 
     fn remark(&mut self, line: &str) {
@@ -130,7 +131,7 @@ impl<'a> SweepWatch<'a> {
 
 impl Listener for SweepWatch<'_> {
     fn stop(&mut self) -> Arc<AtomicBool> {
-        self.args.stop.in_order()
+        self.args.stop.in_order(WRITING)
     }
 
     fn remark(&mut self, line: &str) {
@@ -175,7 +176,7 @@ impl<'a> SliderWatch<'a> {
 
 impl Listener for SliderWatch<'_> {
     fn stop(&mut self) -> Arc<AtomicBool> {
-        self.args.stop.in_order()
+        self.args.stop.in_order(WRITING)
     }
 
     fn remark(&mut self, line: &str) {

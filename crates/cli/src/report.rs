@@ -9,8 +9,6 @@ pub mod mesh;
 pub mod run;
 pub mod slider;
 pub mod sweep;
-#[cfg(feature = "verify")]
-pub mod verify;
 
 use serde_json::Value;
 

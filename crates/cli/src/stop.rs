@@ -6,8 +6,8 @@
 
 #[cfg(unix)]
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use creepage::{Error, INTERRUPTED};
@@ -25,13 +25,17 @@ const PATIENCE: Duration = Duration::from_secs(5);
 #[derive(Clone, Debug, Default)]
 pub struct Stop {
     asked: Arc<AtomicBool>,
-    /// Whether the command ends in order.
-    in_order: Arc<AtomicBool>,
+    /// What a command that ends in order says when it is asked to; unset where it may end at once.
+    in_order: Arc<OnceLock<&'static str>>,
     /// Whether it looks at `asked` often enough, and ends by itself however long that takes.
     hears: Arc<AtomicBool>,
     /// Whether standard output must hold a document.
     json: bool,
 }
+
+/// What a command that writes its results says when it is asked to end.
+pub const WRITING: &str =
+    "\nstopping: results so far are being written (Ctrl-C again ends at once)";
 
 impl Stop {
     /// Listens to the signals from now on.
@@ -44,9 +48,9 @@ impl Stop {
         Ok(stop)
     }
 
-    /// From now on the command ends in order once this flag is set.
-    pub fn in_order(&self) -> Arc<AtomicBool> {
-        self.in_order.store(true, Ordering::SeqCst);
+    /// From now on the command ends in order once this flag is set, and says `ending` when it is.
+    pub fn in_order(&self, ending: &'static str) -> Arc<AtomicBool> {
+        self.in_order.get_or_init(|| ending);
         Arc::clone(&self.asked)
     }
 
@@ -57,12 +61,11 @@ impl Stop {
 
     /// Asks the command to end; the second time, it is ended.
     pub fn ask(&self) {
-        if !self.in_order.load(Ordering::SeqCst) || self.asked.swap(true, Ordering::SeqCst) {
+        let Some(ending) = self.in_order.get() else { self.end() };
+        if self.asked.swap(true, Ordering::SeqCst) {
             self.end();
         }
-        terminal::message(
-            "\nstopping: results so far are being written (Ctrl-C again ends at once)",
-        );
+        terminal::message(ending);
         let this = self.clone();
         let waits = std::thread::Builder::new().spawn(move || {
             std::thread::sleep(PATIENCE);

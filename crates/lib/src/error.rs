@@ -9,8 +9,6 @@ use post::{ImportError, PostError};
 use slider::BlowUp;
 use sweep::SweepError;
 use thiserror::Error;
-#[cfg(feature = "verify")]
-use verify::VerifyError;
 
 use crate::slider::SettingError;
 
@@ -59,11 +57,6 @@ pub enum Error {
     #[error("{0}")]
     #[diagnostic(help("`creepage slider --thresholds` prints the limits of the explicit method"))]
     BlowUp(BlowUp),
-    /// A verification problem could not be computed.
-    #[cfg(feature = "verify")]
-    #[error("{0}")]
-    #[diagnostic(help("this is a defect of the program or its build"))]
-    Verify(VerifyError),
     /// An option, or a file that it names, that cannot be used.
     #[error("{problem}")]
     Option {
@@ -86,8 +79,6 @@ impl Error {
             Self::Run(error) => error.exit_code(),
             Self::Sweep(error) => error.exit_code(),
             Self::BlowUp(_) | Self::System(_) => STOPPED_BY_GUARD,
-            #[cfg(feature = "verify")]
-            Self::Verify(_) => STOPPED_BY_GUARD,
             Self::Case(_)
             | Self::Post { .. }
             | Self::Deck(_)
@@ -142,12 +133,5 @@ impl From<Box<SettingError>> for Error {
 impl From<BlowUp> for Error {
     fn from(error: BlowUp) -> Self {
         Self::BlowUp(error)
-    }
-}
-
-#[cfg(feature = "verify")]
-impl From<VerifyError> for Error {
-    fn from(error: VerifyError) -> Self {
-        Self::Verify(error)
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! What the command line does and what Python does are functions here, each with a struct of options: [`run()`] a
 //! case, look at its [`mesh()`], [`check()`], [`plot()`], [`render()`] and [`report()`] what it gave, [`compare()`] runs, [`sweep()`]
-//! over a grid of parameters, [`verify()`] the program, compute with the 1-D [`slider()`]. Each function gives the
+//! over a grid of parameters, compute with the 1-D [`slider()`]. Each function gives the
 //! document that the command prints with `--json`. Nothing is written to the terminal; who wants to know how far
 //! a command is, or to end it, is a [`Listener`]. Numbers are in SI units.
 //!
@@ -76,8 +76,6 @@ mod bench;
 mod case_source;
 mod check;
 mod compare;
-#[cfg(feature = "verify")]
-mod convergence_plot;
 mod error;
 mod export_k;
 mod import_contact;
@@ -89,21 +87,15 @@ mod plot;
 mod render;
 mod report;
 mod run;
-#[cfg(feature = "verify")]
-mod rupture_plot;
 mod slider;
 mod sweep;
 mod sweep_folder;
 mod values;
-#[cfg(feature = "verify")]
-mod verify;
 
 pub use ::run::{BlockElement, Level};
 pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
 pub use ::sweep::{Column, Table, Watched};
-#[cfg(feature = "verify")]
-pub use ::verify::{PROBLEMS, Problem, Row};
 pub use bench::{BenchOptions, bench};
 pub use case::json_schema as schema;
 pub use case_source::CaseSource;
@@ -129,5 +121,3 @@ pub use slider::{
 };
 pub use sweep::{SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
-#[cfg(feature = "verify")]
-pub use verify::{Verified, VerifyOptions, verify};

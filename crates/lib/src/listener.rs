@@ -6,8 +6,6 @@ use std::sync::atomic::AtomicBool;
 
 use scenario::Progress;
 use sweep::Watched;
-#[cfg(feature = "verify")]
-use verify::{Problem, Row};
 
 /// Hears a command while it works, and may end it. Nothing has to be heard: `&mut ()` is a listener. A run tells it from a
 /// thread of its own.
@@ -31,10 +29,6 @@ pub trait Listener: Send {
 
     /// How far the slider is.
     fn slider(&mut self, _step: u64, _steps: u64) {}
-
-    /// What a verification problem gave, and in what time (s).
-    #[cfg(feature = "verify")]
-    fn verified(&mut self, _problem: &Problem, _rows: &[Row], _seconds: f64) {}
 }
 
 impl Listener for () {}

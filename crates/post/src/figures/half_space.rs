@@ -6,7 +6,7 @@ use crate::law::Law;
 
 /// Shear along y = 0 by CONTACT (E. A. H. Vollebregt, Apache-2.0) for steady rolling of the
 /// reference wheel; the head of the file states its parameters.
-const TABLE: &str = include_str!("../../../verify/data/steady-rolling-y0.csv");
+const TABLE: &str = include_str!("../../../../verification/data/steady-rolling-y0.csv");
 /// T/N of its columns of shear.
 const TRACTIONS: [(f64, usize); 3] = [(0.15, 2), (0.28, 4), (0.40, 6)];
 /// Its coefficient of friction, Poisson's ratio, half axes (m) and peak pressure (Pa).

@@ -1,0 +1,177 @@
+//! `creepage-verify`: runs verification problems, each beside its reference.
+
+mod page;
+mod plot;
+
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Parser;
+use figure::FigureError;
+use miette::{Diagnostic, MietteHandlerOpts, Report};
+use serde_json::{Value, json};
+use thiserror::Error;
+use verification::{PROBLEMS, Problem, Row, Size, VerifyError};
+
+/// Run verification problems against their references; exit code 1 if one misses its limit
+#[derive(Debug, Parser)]
+#[command(
+    name = "creepage-verify",
+    version,
+    after_help = "Examples:\n  creepage-verify --list\n  creepage-verify hertz-wheel\n  creepage-verify --quick --json > verify.json"
+)]
+struct Options {
+    /// Problems to run [default: all]
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Name all problems and run none
+    #[arg(long, conflicts_with_all = ["names", "quick", "plot"])]
+    list: bool,
+    /// Coarse meshes, for continuous integration
+    #[arg(long)]
+    quick: bool,
+    /// Draw error over mesh size (convergence.svg, .png) and rupture times (rupture.svg, .png) in this folder
+    #[arg(long, value_name = "FOLDER")]
+    plot: Option<PathBuf>,
+    /// Print exactly one JSON document on standard output, everything else on standard error
+    #[arg(long)]
+    json: bool,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Why the program cannot do what it was asked.
+#[derive(Debug, Diagnostic, Error)]
+enum Failure {
+    #[error("there is no verification problem '{0}'")]
+    #[diagnostic(help("`creepage-verify --list` names all problems"))]
+    Unknown(String),
+    #[error("--plot: {0}")]
+    #[diagnostic(help("give a folder that you may write to"))]
+    Plot(FigureError),
+    #[error("standard output cannot be written: {0}")]
+    #[diagnostic(help("make room where it goes, and print again"))]
+    Output(#[from] io::Error),
+    #[error("{0}")]
+    #[diagnostic(help("this is a defect of the program or its build"))]
+    Problem(#[from] VerifyError),
+}
+
+impl Failure {
+    /// Exit code: 2 for bad input, 3 where a solver failed.
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Unknown(_) | Self::Plot(_) | Self::Output(_) => 2,
+            Self::Problem(_) => 3,
+        }
+    }
+
+    /// The JSON document of a failure, as that of `creepage`.
+    fn document(&self) -> Value {
+        let help = self.help().map(|help| help.to_string()).unwrap_or_default();
+        json!({ "status": "failed", "exit_code": self.exit_code(), "error": self.to_string(), "help": help,
+            "others": [] })
+    }
+}
+
+fn main() -> ExitCode {
+    // set once, before any report is made
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
+    }));
+    let options = Options::parse();
+    ExitCode::from(verify(&options).unwrap_or_else(|failure| {
+        let code = failure.exit_code();
+        if options.json {
+            // where standard output takes nothing, its failure is the one that is told
+            let _ = print_document(&failure.document());
+        }
+        eprintln!("{:?}", Report::new(failure));
+        code
+    }))
+}
+
+/// Runs the problems, shows each as it is done, and returns the exit code.
+fn verify(options: &Options) -> Result<u8, Failure> {
+    let shown = !options.json && !options.quiet;
+    if options.list {
+        let named = |problem: &Problem| json!({ "name": problem.name, "about": problem.about });
+        let document = json!({ "problems": PROBLEMS.iter().map(named).collect::<Vec<_>>() });
+        if options.json {
+            print_document(&document)?;
+        } else if shown {
+            print(&page::names(PROBLEMS))?;
+        }
+        return Ok(0);
+    }
+    let size = if options.quick { Size::Quick } else { Size::Full };
+    let mut rows = Vec::new();
+    for problem in chosen(&options.names)? {
+        if !options.quiet {
+            eprintln!("{}: {}", problem.name, problem.about);
+        }
+        let clock = Instant::now();
+        let found = problem.run(size)?;
+        if shown {
+            print(&page::rows(problem, &found, clock.elapsed().as_secs_f64()))?;
+        }
+        rows.extend(found);
+    }
+    if let Some(folder) = &options.plot {
+        draw(&rows, folder)?;
+    }
+    let pass = rows.iter().all(|row| row.pass);
+    if options.json {
+        let results: Vec<Value> = rows.iter().map(document).collect();
+        print_document(&json!({ "results": results, "pass": pass }))?;
+    } else if shown {
+        print(&page::count(&rows))?;
+    }
+    Ok(if pass { 0 } else { 1 })
+}
+
+fn chosen(names: &[String]) -> Result<Vec<&'static Problem>, Failure> {
+    if names.is_empty() {
+        return Ok(PROBLEMS.iter().collect());
+    }
+    let find =
+        |name: &String| verification::find(name).ok_or_else(|| Failure::Unknown(name.clone()));
+    names.iter().map(find).collect()
+}
+
+fn draw(rows: &[Row], folder: &Path) -> Result<(), Failure> {
+    let figures = [
+        ("convergence", plot::convergence::figure(rows)),
+        ("rupture", plot::rupture::figure(rows)),
+    ];
+    for (name, figure) in figures {
+        if let Some(figure) = figure {
+            figure.write(folder, name).map_err(Failure::Plot)?;
+        }
+    }
+    Ok(())
+}
+
+/// A row with the signed error on each mesh beside the values, over the reference where that is not zero.
+fn document(row: &Row) -> Value {
+    let mut document = json!(row);
+    let scale = if row.reference == 0.0 { 1.0 } else { row.reference };
+    let errors: Vec<f64> =
+        row.meshes.iter().map(|sample| (sample.value - row.reference) / scale).collect();
+    document["mesh_errors"] = json!(errors);
+    document
+}
+
+fn print_document(document: &Value) -> io::Result<()> {
+    print(&format!("{document:#}\n"))
+}
+
+/// Writes on standard output. A reader that closed the pipe wants no more.
+fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
+}

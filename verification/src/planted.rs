@@ -1,0 +1,167 @@
+//! Mutation tests: deliberate errors in the physics, and the rows of the ladder that detect them at [`Size::Quick`].
+//!
+//! Problems take a deliberate error as an argument; the program itself contains none. The table in
+//! docs/verification.md names each error with its row; the numbers of that table are printed by
+//! `cargo test --release -p creepage-verify --lib planted -- --nocapture --test-threads=1`.
+#![allow(clippy::unwrap_used)]
+
+use crate::problem::Outcome;
+use crate::row::Row;
+use crate::{
+    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, patch,
+    shear_column, sliding,
+};
+use contact::{Contact, PenaltyContact};
+use friction::{Implicit, Lagged};
+use mesh::Mesh;
+use solid::Element;
+
+/// The document with the table of faults.
+const TABLE: &str = include_str!("../../docs/verification.md");
+
+/// Asserts that the row passes without the fault and fails with it, and that the table has it.
+fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: Outcome) {
+    let row = |found: Outcome| -> Row {
+        let found = found.unwrap().into_iter().find(|row| row.quantity.contains(quantity));
+        found.unwrap_or_else(|| panic!("{problem} has no row '{quantity}'"))
+    };
+    let (sound, planted) = (row(sound), row(planted));
+    let line = format!("| {fault} | `{problem}`: {} |", sound.quantity);
+    println!("{line} {:.1e} | {:.1e} | {:.1e} |", sound.error, planted.error, sound.limit);
+    assert!(TABLE.lines().any(|found| found == line), "docs/verification.md lacks: {line}");
+    assert!(sound.pass, "without the fault: {sound:?}");
+    assert!(!planted.pass, "with the fault: {planted:?}");
+    // a fault may also change its row's own limit: its error must exceed that of the sound problem
+    assert!(planted.error > sound.limit || planted.error.is_nan(), "{planted:?}");
+}
+
+#[test]
+fn friction_one_per_cent_off_is_caught_by_the_sliding_block() {
+    catches(
+        "mu 1 % off",
+        "block-slide-exact",
+        "distance to the stop",
+        sliding::stop_exact(Size::Quick),
+        sliding::stop_exact_with(Size::Quick, 1.01 * sliding::MU),
+    );
+}
+
+#[test]
+fn the_area_of_a_face_five_per_cent_off_is_caught_by_the_interface_patch() {
+    // the corner belongs to one face alone
+    let widen = |mesh: &mut Mesh| {
+        let surface = &mesh.bodies[0].surfaces["z-"];
+        let least = |n: &&u32| mesh.nodes[**n as usize].iter().sum::<f64>();
+        let nodes = surface.faces.iter().flat_map(|face| &face.nodes);
+        let corner = *nodes.min_by(|a, b| least(a).total_cmp(&least(b))).unwrap() as usize;
+        let edge = 10e-3 / 6.0;
+        mesh.nodes[corner][0] -= 0.1 * edge;
+    };
+    catches(
+        "area of one face 5 % off",
+        "interface-patch",
+        "6 on 6 elements, node to face: pressure over the applied one, less 1, largest",
+        interface_patch::run(Size::Quick),
+        interface_patch::run_with(Size::Quick, widen),
+    );
+}
+
+#[test]
+fn elements_without_hourglass_control_are_caught_by_the_energy_of_their_modes() {
+    catches(
+        "hourglass control off",
+        "patch",
+        "energy of an hourglass mode",
+        patch::patch(Size::Quick),
+        patch::patch_with(Element { hourglass: 0.0 }),
+    );
+}
+
+#[test]
+fn friction_of_the_step_before_is_caught_by_the_law_of_the_same_step() {
+    catches(
+        "lag in place of the same instant",
+        "shear-column",
+        "shear of slip off mu(s) p of the same step",
+        shear_column::run(Size::Quick),
+        shear_column::run_with(Size::Quick, || Box::new(Lagged(shear_column::LAW)), None),
+    );
+    // the same friction made in another way passes
+    let same = shear_column::run_with(Size::Quick, || Box::new(Implicit(shear_column::LAW)), None);
+    assert!(same.unwrap().iter().all(|row| row.pass));
+}
+
+#[test]
+fn gaps_of_the_polygon_are_caught_by_the_rolling_disk() {
+    let nothing = |_: &mut PenaltyContact, _: [f64; 3]| Ok(());
+    catches(
+        "gap without curvature",
+        "contact-turn",
+        "gaps under a rolling disk",
+        contact_turn::run_with(true, nothing),
+        contact_turn::run_with(false, nothing),
+    );
+}
+
+#[test]
+fn half_the_mass_of_a_surface_node_is_caught_by_the_free_block() {
+    catches(
+        "half the mass of a surface node",
+        "free-block",
+        "n = 4",
+        free_block::run(Size::Quick),
+        free_block::run_with(Size::Quick, |mass| mass[mass.len() - 1] *= 0.5),
+    );
+}
+
+#[test]
+fn friction_that_does_not_turn_with_the_face_is_caught_by_a_turn() {
+    /// Turns what the springs hold back by the part of the turn along the normal: it stays as it is in space.
+    fn back(contact: &mut PenaltyContact, turn: [f64; 3]) -> Result<(), crate::Cause> {
+        let mut state = toml::Value::try_from(contact.snapshot()).unwrap();
+        let reals = |value: &toml::Value| -> Vec<f64> { value.clone().try_into().unwrap() };
+        let passes = state["points"]["Penalty"].as_array_mut().unwrap();
+        for point in passes.iter_mut().flat_map(|pass| pass.as_array_mut().unwrap()) {
+            let (n, f) = (reals(&point["normal"]), reals(&point["framed"]));
+            let angle: f64 = (0..3).map(|k| n[k] * turn[k]).sum();
+            let (s, c) = libm::sincos(angle);
+            point["framed"] = vec![c * f[0] + s * f[1], c * f[1] - s * f[0]].into();
+        }
+        let state = state.try_into().unwrap();
+        Ok(contact.restore(&state)?)
+    }
+    catches(
+        "friction not turned with the face",
+        "contact-turn",
+        "force of friction after a turn",
+        contact_turn::run_with(true, |_, _| Ok(())),
+        contact_turn::run_with(true, back),
+    );
+}
+
+#[test]
+fn creepage_by_the_nominal_radius_is_caught_by_the_disk_on_the_bar() {
+    let found = finite_body::rolled(finite_body::QUICK).unwrap();
+    catches(
+        "creepage by the nominal radius",
+        "finite-body",
+        "creepage of free rolling",
+        Ok(finite_body::disk_on_bar(&found, |rolled| rolled.free)),
+        Ok(finite_body::disk_on_bar(&found, |_| 0.0)),
+    );
+}
+
+#[test]
+fn mass_missing_where_elements_grow_is_caught_by_the_wave_that_comes_back() {
+    let lighter = |mesh: &Mesh, mass: &mut [f64]| {
+        let below = mesh.nodes.iter().zip(mass).filter(|(x, _)| x[2] < -4.5e-3);
+        below.for_each(|(_, mass)| *mass *= 0.95);
+    };
+    catches(
+        "mass 5 % off below the fine zone",
+        "grading-reflection",
+        "P wave, 2:1, growth 1.35",
+        grading_reflection::run(Size::Quick),
+        grading_reflection::run_with(Size::Quick, lighter),
+    );
+}

@@ -1,0 +1,4 @@
+//! Figures of the rows of problems.
+
+pub mod convergence;
+pub mod rupture;
