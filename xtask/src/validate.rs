@@ -21,7 +21,6 @@ pub const STEPS: [(&str, Step); 21] = [
     ("documentation", documentation),
     ("other machines", sources::other_machines),
     ("tests", tests),
-    ("program without verify", without_verify),
     ("schema", schema),
     ("smoke run", smoke_run),
     ("tables of the documents", results::step),
@@ -80,12 +79,6 @@ fn tests(root: &Path) -> Outcome {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
     cargo(root, &["test", "--release", "--workspace"], &[("CREEPAGE_PYTHON", &python)])
-}
-
-/// The program of the README's first command, which leaves the verification problems out.
-fn without_verify(root: &Path) -> Outcome {
-    let test = ["test", "--release", "--package", "creepage", "--lib", "--no-default-features"];
-    cargo(root, &test, &[])
 }
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.
