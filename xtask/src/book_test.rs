@@ -60,7 +60,7 @@ target/release/creepage() { creepage "$@"; }
 cargo() {
     case "$*" in
     "run --release -- "*) creepage "${@:4}";;
-    "run --release --no-default-features -- "*) creepage "${@:5}";;
+    "run --release -p verification -- "*) creepage verify "${@:6}";;
     "xtask "*) "$XTASK" --check-args "${@:2}";;
     *) known "$@";;
     esac

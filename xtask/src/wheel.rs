@@ -1,5 +1,6 @@
 //! `cargo xtask wheel`: the wheel of the Python package; its tests, and the notebooks.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -34,7 +35,10 @@ pub fn tests(root: &Path) -> Outcome {
         let install = ["--force-reinstall", "--no-deps"];
         done(Command::new(&python).args(QUIET).args(install).arg(wheel))?;
         let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
-        done(Command::new(&python).args(pytest).current_dir(root.join("crates/python")))?;
+        let mut package = Command::new(&python);
+        package.args(pytest).current_dir(root.join("crates/python"));
+        // `creepage.verify` starts another program
+        done(package.env("PATH", path_with(&target(root).join("release"))?))?;
         let notebooks = ["--nbmake", "notebooks"];
         done(Command::new(&python).args(pytest).args(notebooks).current_dir(root))
     });
@@ -53,11 +57,15 @@ fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String
     command.args(maturin).arg(root.join("crates/python/Cargo.toml"));
     command.arg("--interpreter").arg(python).arg("--out").arg(&folder).args(options);
     // maturin looks for zig by the first `python3` on the path
-    let own = python.parent().map(Path::to_owned);
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let folders = own.into_iter().chain(std::env::split_paths(&path));
-    command.env("PATH", std::env::join_paths(folders).map_err(|error| error.to_string())?);
+    command.env("PATH", path_with(&python.with_file_name(""))?);
     done(&mut command)?;
     let wheel = fs::read_dir(&folder).map_err(|error| error.to_string())?.flatten().next();
     wheel.map(|wheel| wheel.path()).ok_or_else(|| format!("{} is empty", folder.display()))
+}
+
+/// The path on which programs are looked for, `folder` first.
+fn path_with(folder: &Path) -> Result<OsString, String> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders = [folder.to_owned()].into_iter().chain(std::env::split_paths(&path));
+    std::env::join_paths(folders).map_err(|error| error.to_string())
 }

@@ -91,15 +91,6 @@ pub fn slider<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     })
 }
 
-/// Runs verification problems.
-#[pyfunction]
-pub fn verify<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, told| {
-        let found = creepage::verify(&options, told)?;
-        Ok(Answer { code: found.exit_code(), document: found.document })
-    })
-}
-
 /// JSON Schema of a case, as JSON text.
 #[pyfunction]
 pub fn schema() -> String {

@@ -19,9 +19,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _creepage {
     #[pymodule_export]
-    use crate::commands::{
-        check, main, mesh, plot, render, report, run, schema, slider, sweep, verify,
-    };
+    use crate::commands::{check, main, mesh, plot, render, report, run, schema, slider, sweep};
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]

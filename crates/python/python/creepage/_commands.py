@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
+import subprocess
 from collections.abc import Mapping
 
 from . import _case, _creepage
-from ._errors import CaseError, RunError
+from ._errors import CaseError, CreepageError, RunError
 from ._execute import PROGRAM, execute
 from ._run import Run
 
@@ -124,10 +127,20 @@ def verify(*names, quick=False, list=False, plot=None):
 
     Returns:
         dict: ``results`` (name, quantity, reference, computed, error, limit, pass, source) and
-        ``pass``; with ``list`` the ``problems``. Ctrl-C takes effect between two problems.
+        ``pass``; with ``list`` the ``problems``.
     """
-    options = {"names": names, "quick": quick, "list": list, "plot": plot}
-    return execute(_creepage.verify, options)[0]
+    program = shutil.which("creepage-verify")
+    if program is None:
+        problem = "creepage-verify, the program of the verification problems, is not on PATH"
+        raise CaseError(f"{problem}: `cargo install --path verification` in the sources installs it")
+    flags = {"--quick": quick, "--list": list}
+    words = [flag for flag, given in flags.items() if given]
+    words += ["--plot", os.fspath(plot)] if plot is not None else []
+    done = subprocess.run([program, "--json", "--quiet", *words, "--", *names], capture_output=True, text=True)
+    document = json.loads(done.stdout or "{}")
+    if done.returncode > 1:
+        raise (CaseError if done.returncode == 2 else CreepageError)(document.get("error", done.stderr))
+    return document
 
 
 def schema() -> dict:
