@@ -107,3 +107,19 @@ fn a_disturbance_of_the_pressure_changes_the_force_by_as_little_and_by_its_seed(
     }
     assert_eq!(one, disturbed("preload.seed=1"));
 }
+
+#[test]
+fn a_creepage_that_a_table_holds_is_that_of_a_number() {
+    for model in [&["contact.enforcement=exact", "time.roll=0.002"][..], &MODEL] {
+        let with = |sets: &[&str]| small(&[model, sets].concat());
+        let number = with(&["drive.creepage=4e-3", "drive.ramp=0"]);
+        let table = with(&["drive.creepage=[[0,4e-3],[1e-3,4e-3]]"]);
+        let other = with(&["drive.creepage=[[0,0],[30e-6,4e-3]]"]);
+        for column in ["creepage", "tangential_force", "friction_dissipated"] {
+            assert_eq!(number.history(column), table.history(column), "{model:?}: {column}");
+            assert_ne!(number.history(column), other.history(column), "{model:?}: {column}");
+        }
+        let last = |run: &Results| run.history("creepage").last().copied().unwrap();
+        assert!((last(&other) / last(&number) - 1.0).abs() < 1e-9, "{model:?}");
+    }
+}

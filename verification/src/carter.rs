@@ -33,7 +33,7 @@ pub(crate) fn run(size: Size) -> Outcome {
         let body = LINE.body(LINE_EXTENT);
         rows.push(Row::extrapolated(&quantity, creepage, &creepages, body, SOURCE));
         let quantity = format!("{quantity} on the finest mesh");
-        rows.push(Row::asked(quantity, [creepage, creepages.finest()], 0.02, SOURCE));
+        rows.push(Row::asked(quantity, [creepage, creepages.finest()], 0.05, SOURCE));
         let Some((h, [_, at, astray])) = found.last() else { continue };
         let border = a - 2.0 * a * (1.0 - share).sqrt();
         let row = Row::new(

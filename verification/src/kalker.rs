@@ -58,7 +58,7 @@ fn compared(
         let values = [reference, row.computed];
         rows.push(row);
         let quantity = format!("{quantity}, extrapolated");
-        rows.push(Row::asked(quantity, values, 0.01, SOURCE));
+        rows.push(Row::asked(quantity, values, 0.05, SOURCE));
     }
     rows
 }

@@ -35,6 +35,7 @@ mod interface_patch;
 mod kalker;
 mod lamb;
 mod lysmer;
+mod mindlin;
 mod patch;
 mod perturbation_growth;
 #[cfg(test)]

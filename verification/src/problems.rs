@@ -3,7 +3,7 @@
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
-    interface_patch, kalker, lamb, lysmer, patch, perturbation_growth, rolling_dynamic,
+    interface_patch, kalker, lamb, lysmer, mindlin, patch, perturbation_growth, rolling_dynamic,
     rolling_limits, rolling_memory, rolling_steps, rupture, shear_column, shear_column_penalty,
     slider_tables, sliding, steady_rolling, waves,
 };
@@ -229,6 +229,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "half-space-memory",
         about: "The same: falling friction with memory, T/N of CONTACT",
         run: half_space_rolling::memory,
+    },
+    Problem {
+        name: "mindlin",
+        about: "A sphere shifted to and fro by a table of creepage: forces, stick and dissipation of a cycle",
+        run: mindlin::run,
     },
     Problem {
         name: "finite-body",

@@ -161,8 +161,17 @@ pub fn refused(key: &Key, value: &Value) -> Option<String> {
     let allowed = key.form.allowed(key.unit);
     let not_allowed = || Some(format!("{} must be {allowed}", show(value)));
     let fine = match (&key.form, value) {
-        (Form::Number(range) | Form::Crown(range), value) if float(value).is_some() => {
+        (Form::Number(range) | Form::Crown(range) | Form::OverTime(range), value)
+            if float(value).is_some() =>
+        {
             float(value).is_some_and(|x| range.holds(x))
+        }
+        (Form::OverTime(range), Value::Array(points)) => {
+            let Some(points) = crate::table::points(points) else { return not_allowed() };
+            match crate::creepage::mistake(&points, *range) {
+                None => true,
+                Some(problem) => return Some(format!("{}: {problem}", show(value))),
+            }
         }
         (Form::Crown(_), Value::String(word)) => word == "flat",
         (Form::Count(low, high), value) => {
@@ -208,7 +217,7 @@ fn remedy(key: &Key, value: &Value) -> String {
         (Form::Word(words), Value::String(word)) => {
             nearest(word, words.iter().copied()).map(|near| format!("\"{near}\""))
         }
-        (Form::Number(range) | Form::Crown(range), Value::String(text)) => {
+        (Form::Number(range) | Form::Crown(range) | Form::OverTime(range), Value::String(text)) => {
             quantity::in_unit(text, key.unit).filter(|x| range.holds(*x)).map(number)
         }
         _ => units::meant(key, value),

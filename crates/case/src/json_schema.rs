@@ -57,7 +57,7 @@ fn annotate(schema: &mut Map<String, Value>, key: &Key) {
             schema.insert("minimum".into(), json!(low));
             schema.insert("maximum".into(), json!(high));
         }
-        Form::Crown(range) => limit_form(schema, 0, "", range),
+        Form::Crown(range) | Form::OverTime(range) => limit_form(schema, 0, "", range),
         Form::Stiffness => {
             for (form, (name, range, _)) in STIFFNESS.into_iter().enumerate() {
                 limit_form(schema, form, name, range);

@@ -53,6 +53,8 @@ pub enum Form {
     Crown(Range),
     /// A penalty stiffness in one of its three forms.
     Stiffness,
+    /// A number in the range, or a list of pairs of a time and such a number.
+    OverTime(Range),
     /// A list of pairs of numbers in the range.
     Points(Range),
     /// A curve: pairs of numbers in the first and in the second range, the first of them rising from 0. In a file it may

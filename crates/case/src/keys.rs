@@ -1,7 +1,7 @@
 //! The table of all keys.
 
 use crate::friction_law;
-use crate::key::Form::{Count, Crown, Flag, Number, Points, Stiffness, Text, Word};
+use crate::key::Form::{Count, Crown, Flag, Number, OverTime, Points, Stiffness, Text, Word};
 use crate::key::{FLAG, Form, Key, STIFFNESS};
 use crate::schema::{
     Bar, Case, Checkpoint, Contact, Damping, Disk, Drive, Element, Evaluate, Guards, HalfSpace,
@@ -166,6 +166,11 @@ impl Form {
             Form::Curve(speed, mu) => format!(
                 "the path of a CSV file or a list of pairs [slip velocity {speed} m/s, coefficient {mu}]"
             ),
+            OverTime(range) => {
+                format!(
+                    "a number {range}{unit}, or a list of pairs [time, number], times in s rising from 0"
+                )
+            }
             Points(range) => format!("a list of pairs of numbers {range}{unit}"),
         }
     }

@@ -13,6 +13,7 @@ mod bodies;
 pub mod check;
 mod column;
 mod contact_layers;
+mod creepage;
 pub mod error;
 mod excerpt;
 pub mod forms;

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
 use crate::check;
+use crate::creepage;
 use crate::error::CaseError;
 use crate::keys;
 use crate::layers::{Layers, get, join};
@@ -125,6 +126,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     let left_out = leave_out(&mut layers)?;
     table::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
+    creepage::drop_ramp(&mut layers);
     check::keys(&layers)?;
     hold(&mut layers.table, "");
     let mut case = Case::deserialize(layers.table.clone()).map_err(|error| {
@@ -168,6 +170,9 @@ fn choose(case: &mut Case, layers: &Layers) {
 fn write_defaults(case: &mut Case) {
     if case.is_half_space() {
         case.half_space.inertia.get_or_insert(true);
+    }
+    if case.drive.rises() {
+        case.drive.ramp = Some(case.drive.ramp());
     }
     case.friction.write_defaults(case.contact.enforcement == Enforcement::Exact);
     if case.contact.enforcement == Enforcement::Exact {

@@ -7,9 +7,10 @@ pub use crate::bodies::{
     Bar, Disk, Ends, Grading, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Symmetry,
     Zone,
 };
+pub use crate::creepage::Creepage;
 pub use crate::forms::{Crown, Stiffness};
 use crate::hertz::hertz;
-use crate::key::Form::{Count, Number, Points, Text};
+use crate::key::Form::{Count, Number, OverTime, Points, Text};
 use crate::key::{
     FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, none_or_within, within, word,
 };
@@ -202,11 +203,13 @@ section! {
         #[serde(default)]
         mode: DriveMode => word(DriveMode::WORDS);
         /// Longitudinal creepage (omega R_eff - V)/V (dimensionless), positive when driving; R_eff is
-        /// the effective rolling radius that the preload gives.
+        /// the effective rolling radius that the preload gives. Either a number, or a table over time: pairs of
+        /// time (s of rolling, rising from 0) and creepage, which is linear between them and constant after the last.
         /// Required with `mode = "creepage"`, refused with `"torque"`.
-        creepage: Option<f64>
-            => needed(Number(within(-0.5, 0.5)), "-",
-                "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille")
+        creepage: Option<Creepage>
+            => needed(OverTime(within(-0.5, 0.5)), "-",
+                "give the creepage as a plain ratio, not per cent or per mille: `creepage = 2.4e-3` for 2.4 per mille; or \
+         over time: `creepage = [[0, 0], [1e-3, 2.4e-3]]`")
                 .only_with("drive.mode", &["creepage"]).instead_of("drive.torque")
                 .usually(within(-0.1, 0.1), OF_A_HUNDRED);
         /// Lateral velocity of the disk over V (dimensionless), positive in +y; it rises over `ramp`. With finite elements
@@ -230,15 +233,22 @@ section! {
         torque: Option<f64>
             => needed(Number(within(-1e7, 1e7)), "N m", "give the torque in N m: `torque = 12.9e3`")
                 .only_with("drive.mode", &["torque"]).instead_of("drive.creepage");
-        /// Time over which creepage or torque rises by a smoothstep (s). Default 0.74e-3.
-        #[serde(default = "Drive::default_ramp")]
-        ramp: f64 => key(Number(within(0.0, 1.0)), "s", "give a time in seconds: 0.74e-3");
+        /// Time over which creepage, torque, lateral creepage and spin rise by a smoothstep (s). Refused where
+        /// `creepage` is a table and neither of the last two is given. Default 0.74e-3.
+        ramp: Option<f64> => key(Number(within(0.0, 1.0)), "s", "give a time in seconds: 0.74e-3");
     }
 }
 
 impl Drive {
-    fn default_ramp() -> f64 {
-        0.74e-3
+    /// Time over which what drives rises (s).
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(0.74e-3)
+    }
+
+    /// Whether something rises over the ramp: all but a table of creepage.
+    pub(crate) fn rises(&self) -> bool {
+        let table = matches!(self.creepage, Some(Creepage::Table(_)));
+        !table || self.lateral_creepage != 0.0 || self.spin != 0.0
     }
 }
 

@@ -67,12 +67,21 @@ pub(crate) fn mistaken(case: &Table) -> Vec<String> {
 /// this quantity, where it is plausible then.
 pub(crate) fn meant(key: &Key, value: &Value) -> Option<String> {
     let usual = key.usual.as_ref()?;
-    let x = crate::forms::float(value).filter(|x| x.is_finite() && !usual.range.holds(*x))?;
+    let x = furthest(value).filter(|x| x.is_finite() && !usual.range.holds(*x))?;
     let readings = usual.also_in.iter().map(|(unit, size)| (unit, x * size));
     let plausible = readings.filter(|(_, meant)| usual.range.holds(*meant));
     let told = plausible.map(|(unit, meant)| format!("{} ({} {unit})", digits(meant), number(x)));
     let told: Vec<_> = told.collect();
     (!told.is_empty()).then(|| told.join(" or "))
+}
+
+/// The number, or that of a table over time with the largest size.
+fn furthest(value: &Value) -> Option<f64> {
+    let of_table = || {
+        let points = crate::table::points(value.as_array()?)?;
+        points.into_iter().map(|[_, x]| x).max_by(|a, b| a.abs().total_cmp(&b.abs()))
+    };
+    crate::forms::float(value).or_else(of_table)
 }
 
 /// A computed number with at most four digits, in messages.

@@ -121,6 +121,12 @@ fn check_choices(case: &Case, found: &mut Findings) {
         BodyModel::FiniteElements => sideways::check(case, found),
         BodyModel::HalfSpace => half_space::check(case, found),
     }
+    found.require(
+        case.drive.ramp.is_none() || case.drive.rises(),
+        &["drive.ramp", "drive.creepage"],
+        || "drive.ramp is not used where drive.creepage is a table over time".into(),
+        "leave drive.ramp out: the table says how the creepage rises",
+    );
     let friction = &case.friction;
     let exact = case.contact.enforcement == Enforcement::Exact;
     let implicit = case.theta().is_some();
@@ -781,11 +787,19 @@ pub fn warnings(case: &Case) -> Vec<String> {
         ),
     );
     warn(
-        case.drive.ramp > case.evaluation_window()[0],
+        case.drive.rises() && case.drive.ramp() > case.evaluation_window()[0],
         format!(
             "the evaluation window begins at {} ms, before the drive's ramp ends at {} ms",
             digits(1e3 * case.evaluation_window()[0]),
-            digits(1e3 * case.drive.ramp)
+            digits(1e3 * case.drive.ramp())
+        ),
+    );
+    let [from, _] = case.evaluation_window();
+    warn(
+        case.drive.creepage.as_ref().is_some_and(|creepage| creepage.changes_after(from)),
+        format!(
+            "drive.creepage still changes after {} ms, where the evaluation window begins: means are over the change",
+            digits(1e3 * from)
         ),
     );
     for (key, stiffness) in

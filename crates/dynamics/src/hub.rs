@@ -6,9 +6,10 @@ use exact_sum::ExactSum;
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What turns the hub about y.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Spin {
     /// Angular velocity omega_0 (1 + creepage(t)), the creepage rising by a smoothstep over `ramp`.
     Creepage {
@@ -18,6 +19,13 @@ pub enum Spin {
         creepage: f64,
         /// Duration of the ramp (s).
         ramp: f64,
+    },
+    /// The same with a creepage that is [`interpolated`] between points.
+    Table {
+        /// Angular velocity of free rolling omega_0 = V/R_eff (rad/s).
+        free: f64,
+        /// Points (s, creepage).
+        creepage: Arc<[[f64; 2]]>,
     },
     /// Torque about y (N m), rising by a smoothstep over `ramp`.
     Torque {
@@ -487,12 +495,15 @@ impl Hub {
         let [_, torque] = placement.along_and_across([load.moment[0], load.moment[1]]);
         let fz = load.force[2];
         let torque = torque - (sz * ax - turn.rise * second.yz - turn.rate * turn.rate * second.xz);
-        let given = match self.spin {
-            Spin::Creepage { free, creepage, ramp } => {
-                let omega = free * (1.0 + creepage * smoothstep(half, ramp));
-                Given::Acceleration((omega - old.omega) / dt)
+        let turned_at = |omega: f64| Given::Acceleration((omega - old.omega) / dt);
+        let given = match &self.spin {
+            &Spin::Creepage { free, creepage, ramp } => {
+                turned_at(free * (1.0 + creepage * smoothstep(half, ramp)))
             }
-            Spin::Torque { torque, ramp } => Given::Torque(torque * smoothstep(time, ramp)),
+            Spin::Table { free, creepage } => {
+                turned_at(free * (1.0 + interpolated(creepage, half)))
+            }
+            &Spin::Torque { torque, ramp } => Given::Torque(torque * smoothstep(time, ramp)),
         };
         // omega at the full step is the mean of the half steps about it
         let (_, about) = self.accelerations([sx, sz], old.omega, [fz, torque], given, dt);
@@ -653,4 +664,30 @@ pub fn smoothstep(t: f64, ramp: f64) -> f64 {
     }
     let s = (t / ramp).max(0.0);
     s * s * (3.0 - 2.0 * s)
+}
+
+/// The value at `time` (s) on straight lines between `points` (s, value) of rising times, and that of the last point after
+/// it.
+pub fn interpolated(points: &[[f64; 2]], time: f64) -> f64 {
+    let after = points.partition_point(|[t, _]| *t <= time);
+    match (points.get(after.wrapping_sub(1)), points.get(after)) {
+        (Some([t0, x0]), Some([t1, x1])) => x0 + (x1 - x0) * ((time - t0) / (t1 - t0)),
+        (Some([_, x]), None) | (None, Some([_, x])) => *x,
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_linear_between_its_points_and_stays_at_the_last_value() {
+        let table = [[0.0, 1.0], [2.0, 3.0], [2.5, -1.0]];
+        for (t, x) in
+            [(0.0, 1.0), (1.0, 2.0), (2.0, 3.0), (2.25, 1.0), (2.5, -1.0), (9.0, -1.0), (-1.0, 1.0)]
+        {
+            assert_eq!(interpolated(&table, t), x, "{t}");
+        }
+    }
 }

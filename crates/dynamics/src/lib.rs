@@ -32,7 +32,7 @@ mod window;
 pub use guard::{
     Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
 };
-pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical, smoothstep};
+pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical, interpolated, smoothstep};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use mesh_move::Moved;

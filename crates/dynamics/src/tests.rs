@@ -298,7 +298,7 @@ fn a_hub_whose_centre_of_mass_lies_off_its_axis_keeps_momentum_and_energy() {
     let free = Spin::Torque { torque: 0.0, ramp: 0.0 };
     let steady = Spin::Creepage { free: 1e4, creepage: 0.0, ramp: 0.0 };
     for spin in [free, steady] {
-        let (gained, error) = run(spin, Vertical::Load(0.0));
+        let (gained, error) = run(spin.clone(), Vertical::Load(0.0));
         assert!(gained < 3e-4 && error < 1e-5, "{gained:e} {error:e}");
         let (gained, error) = run(spin, Vertical::Held);
         assert!(gained > 0.1 && error < 1e-5, "{gained:e} {error:e}");

@@ -294,6 +294,8 @@ impl Basis {
         if let Some(dt) = at("/dt") {
             self.offer("dt", dt, "summary");
         }
+        // over a table the mean may vanish where slip does not
+        self.offer_largest_creepage();
         if let Some(creepage) = at("/contact/creepage") {
             self.offer("creepage", creepage, "summary, mean of the window");
         }
@@ -303,7 +305,19 @@ impl Basis {
         }
     }
 
+    /// The largest creepage of a table over time.
+    fn offer_largest_creepage(&mut self) {
+        let table =
+            self.case.as_ref().and_then(|case| value_at(case, "drive.creepage")?.as_array());
+        let values = table.into_iter().flatten().filter_map(|point| float(point.get(1)?));
+        let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        if let Some(largest) = largest {
+            self.offer("creepage", largest, "case, largest of drive.creepage");
+        }
+    }
+
     fn offer_driven_creepage(&mut self) {
+        self.offer_largest_creepage();
         if let Some(creepage) = self.number("drive.creepage") {
             self.offer("creepage", creepage, "case, drive.creepage");
         }
@@ -332,7 +346,10 @@ pub(crate) fn value_at<'a>(table: &'a toml::Table, path: &str) -> Option<&'a tom
 }
 
 pub(crate) fn number_at(table: &toml::Table, path: &str) -> Option<f64> {
-    let value = value_at(table, path)?;
+    float(value_at(table, path)?)
+}
+
+fn float(value: &toml::Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
 

@@ -5,8 +5,8 @@ use crate::error::ScenarioError;
 use crate::numbers::{DimensionlessNumbers, three};
 use case::friction_law;
 use case::hertz::hertz;
-use case::schema::{Case, DriveMode};
-use dynamics::smoothstep;
+use case::schema::{Case, Creepage, DriveMode};
+use dynamics::{interpolated, smoothstep};
 use friction::OwnLaw;
 use halfspace::{Along, Ellipse, HalfSpaces, Inertia, PressureFactor, Rigid, Rolling, Setup};
 use std::sync::Arc;
@@ -95,9 +95,13 @@ fn pressure_factor(case: &Case) -> Option<PressureFactor> {
 /// What drives the upper body at the time `time` (s); torque over the radius is the force of half-spaces, which have no
 /// inertia as a whole.
 pub fn drive(case: &Case, time: f64, width: f64) -> Rigid {
-    let ramp = smoothstep(time, case.drive.ramp);
+    let ramp = smoothstep(time, case.drive.ramp());
     let along = match case.drive.mode {
-        DriveMode::Creepage => Along::Creepage(ramp * case.drive.creepage.unwrap_or(0.0)),
+        DriveMode::Creepage => Along::Creepage(match &case.drive.creepage {
+            Some(Creepage::Table(points)) => interpolated(points, time),
+            Some(Creepage::Number(creepage)) => ramp * creepage,
+            None => 0.0,
+        }),
         DriveMode::Torque => {
             let torque = case.drive.torque.unwrap_or(0.0);
             Along::Force(ramp * torque / case.disk.radius / width)

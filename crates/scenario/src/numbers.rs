@@ -4,7 +4,7 @@
 use crate::model::{BAR, DISK, Model};
 use case::friction_law;
 use case::hertz::hertz;
-use case::schema::{Case, DriveMode, Enforcement};
+use case::schema::{Case, Creepage, DriveMode, Enforcement};
 use contact::PenaltyStiffness;
 use friction::{Falling, Interface};
 use serde_json::json;
@@ -66,7 +66,8 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
 fn slipping(case: &Case, mu: f64, half_length: f64) -> f64 {
     let share = match case.drive.mode {
         DriveMode::Creepage => {
-            case.drive.creepage.unwrap_or(0.0).abs() * case.disk.radius / (mu * half_length)
+            let creepage = case.drive.creepage.as_ref().map_or(0.0, Creepage::largest);
+            creepage * case.disk.radius / (mu * half_length)
         }
         DriveMode::Torque => {
             let force = case.drive.torque.unwrap_or(0.0).abs() / case.disk.radius;

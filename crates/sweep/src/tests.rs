@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Sweep;
 use crate::file::StepRule;
-use case::schema::Step;
+use case::schema::{Creepage, Step};
 use case::{Case, CaseError};
 
 /// The shortest case.
@@ -36,7 +36,12 @@ const TWO: &str = "[[axis]]\nkey = \"friction.static\"\nvalues = [0.2, 0.3]\n\
 fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
     let pairs: Vec<_> = cases(TWO)
         .iter()
-        .map(|c| (c.friction.static_.unwrap(), c.drive.creepage.unwrap()))
+        .map(|c| {
+            (
+                c.friction.static_.unwrap(),
+                c.drive.creepage.as_ref().and_then(Creepage::number).unwrap(),
+            )
+        })
         .collect();
     let all = [(0.2, 1e-3), (0.2, 2e-3), (0.2, 4e-3), (0.3, 1e-3), (0.3, 2e-3), (0.3, 4e-3)];
     assert_eq!(pairs, all);
@@ -68,7 +73,12 @@ fn a_zip_takes_the_values_together() {
     let zip = format!("mode = \"zip\"\n{}", TWO.replace(", 4e-3", ""));
     let pairs: Vec<_> = cases(&zip)
         .iter()
-        .map(|c| (c.friction.static_.unwrap(), c.drive.creepage.unwrap()))
+        .map(|c| {
+            (
+                c.friction.static_.unwrap(),
+                c.drive.creepage.as_ref().and_then(Creepage::number).unwrap(),
+            )
+        })
         .collect();
     assert_eq!(pairs, [(0.2, 1e-3), (0.3, 2e-3)]);
 }
@@ -192,7 +202,7 @@ fn every_sweep_of_the_project_resolves_and_its_runs_have_names_of_their_own() {
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
         .filter(|path| fs::read_to_string(path).unwrap().contains("[[axis]]"))
         .collect();
-    assert_eq!(sweeps.len(), 12, "{sweeps:?}");
+    assert_eq!(sweeps.len(), 13, "{sweeps:?}");
     for path in sweeps {
         let sweep = Sweep::load(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let points = sweep.points().unwrap_or_else(|e| panic!("{}: {e}", path.display()));

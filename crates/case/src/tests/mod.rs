@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod any_input;
+mod creepage;
 mod half_space;
 mod materials;
 mod refusals;

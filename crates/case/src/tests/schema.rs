@@ -66,7 +66,9 @@ fn every_key_of_the_schema_tells_unit_default_and_range() {
 /// The ranges of the numbers of a key.
 fn ranges(form: Form) -> Vec<Range> {
     match form {
-        Form::Number(range) | Form::Crown(range) | Form::Points(range) => vec![range],
+        Form::Number(range) | Form::Crown(range) | Form::OverTime(range) | Form::Points(range) => {
+            vec![range]
+        }
         Form::Curve(first, second) => vec![first, second],
         Form::Stiffness => STIFFNESS.map(|(_, range, _)| range).to_vec(),
         Form::Count(low, high) => {

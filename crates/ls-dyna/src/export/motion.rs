@@ -2,6 +2,7 @@
 
 use super::columns::{Cards, label};
 use super::{Rolling, by_load, by_torque, number};
+use case::schema::Creepage;
 
 /// Curves of the motion.
 mod curve {
@@ -63,6 +64,16 @@ impl Times {
         points.push([self.end.max(self.preload + 2.0 * ramp), last]);
         points
     }
+
+    /// A value that then follows a table over time, whose values `of` converts.
+    fn table(&self, table: &[[f64; 2]], of: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let mut points = vec![[0.0, 0.0], [self.preload, 0.0]];
+        points.extend(table.iter().map(|[t, x]| [self.preload + self.jump + t, of(*x)]));
+        if let Some([t, x]) = points.last().copied() {
+            points.push([self.end.max(2.0 * t), x]);
+        }
+        points
+    }
 }
 
 /// Times (s) and shares of a smoothstep of the duration `ramp`.
@@ -91,7 +102,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
         at_rest.push(degree::Y);
     } else {
         prescribe(cards, degree::Y, degree::VELOCITY, curve::ACROSS, 0.0);
-        cards.curve(curve::ACROSS, &times.ramp(case.drive.ramp, 0.0, across));
+        cards.curve(curve::ACROSS, &times.ramp(case.drive.ramp(), 0.0, across));
     }
     for dof in at_rest {
         prescribe(cards, dof, degree::VELOCITY, curve::REST, 0.0);
@@ -180,12 +191,18 @@ fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, abou
         let torque = rolling.share() * drive.torque.unwrap_or(0.0);
         let unit = units.force() * units.length();
         cards.card("LOAD_NODE_POINT", &loaded(rolling, about, curve::TORQUE, 1.0));
-        cards.curve(curve::TORQUE, &times.ramp(drive.ramp, 0.0, torque / unit));
+        cards.curve(curve::TORQUE, &times.ramp(drive.ramp(), 0.0, torque / unit));
     } else {
-        let creepage = drive.creepage.unwrap_or(0.0);
         prescribe(cards, about, degree::VELOCITY, curve::TURN, 0.0);
-        let [first, last] = [free, free * (1.0 + creepage)].map(|omega| omega * units.time());
-        cards.curve(curve::TURN, &times.ramp(drive.ramp, first, last));
+        let turn = |creepage: f64| free * (1.0 + creepage) * units.time();
+        let points = match &drive.creepage {
+            Some(Creepage::Table(points)) => times.table(points, turn),
+            Some(Creepage::Number(creepage)) => {
+                times.ramp(drive.ramp(), turn(0.0), turn(*creepage))
+            }
+            None => times.ramp(drive.ramp(), turn(0.0), turn(0.0)),
+        };
+        cards.curve(curve::TURN, &points);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Rolling, export, unsayable};
 use crate::{DeckError, Source, Translation, Units, translate};
 use case::Case;
-use case::schema::{BodyModel, ContactLayers, Ends, LoadMode, Stiffness, Symmetry};
+use case::schema::{BodyModel, ContactLayers, Creepage, Ends, LoadMode, Stiffness, Symmetry};
 use mesh::import::{Foreign, read_abaqus};
 use scenario::{BAR, DISK, Facts, Model};
 use std::path::Path;
@@ -125,6 +125,8 @@ fn a_case_comes_back_from_its_keyword_file_with_the_same_mesh() {
         }
         assert_eq!(a.friction.law, b.friction.law, "{sets:?}");
         assert_eq!(a.load.mode == LoadMode::Height, b.load.mode == LoadMode::Height, "{sets:?}");
+        let creepage =
+            |case: &Case| case.drive.creepage.as_ref().and_then(Creepage::number).unwrap();
         let penalty = |case: &Case| match case.contact.penalty.normal {
             Stiffness::Factor(factor) => factor,
             _ => f64::NAN,
@@ -132,8 +134,8 @@ fn a_case_comes_back_from_its_keyword_file_with_the_same_mesh() {
         for (what, x, y) in [
             ("load.normal", b.load.normal, a.load.normal),
             ("drive.speed", b.drive.speed, a.drive.speed),
-            ("drive.creepage", b.drive.creepage.unwrap(), a.drive.creepage.unwrap()),
-            ("drive.ramp", b.drive.ramp, a.drive.ramp),
+            ("drive.creepage", creepage(b), creepage(a)),
+            ("drive.ramp", b.drive.ramp(), a.drive.ramp()),
             ("time.duration", b.duration(), a.duration()),
             ("friction.static", b.friction.static_.unwrap(), a.friction.static_.unwrap()),
             ("contact.penalty.normal", penalty(b), penalty(a)),
@@ -201,6 +203,22 @@ fn torque_lateral_creepage_and_the_mass_of_the_hub_come_back() {
     let error = translated(&lines.join("\n"), "mm-ton-s").unwrap_err();
     assert!(error.to_string().contains("a hub with IYY = "), "{error}");
     assert_eq!(found.mesh.symmetry, Symmetry::Half);
+}
+
+#[test]
+fn a_creepage_over_time_is_the_curve_of_the_turn() {
+    let back = |table: &str| {
+        let case = small(&[&format!("drive.creepage={table}")]);
+        There::new(case, "mm-ton-s").back("mm-ton-s")
+    };
+    let found = read(&back("[[0,0],[3e-5,2e-3],[4e-5,2e-3]]"));
+    near("creepage", found.drive.creepage.as_ref().and_then(Creepage::number).unwrap(), 2e-3);
+    let ramp = found.drive.ramp();
+    assert!((ramp / 3e-5 - 1.0).abs() < 1e-3, "{ramp}");
+    // a case that is made of a keyword file has one ramp
+    let case = small(&["drive.creepage=[[0,0],[3e-5,2e-3],[5e-5,-2e-3]]"]);
+    let error = translated(&There::new(case, "mm-ton-s").deck, "mm-ton-s").unwrap_err();
+    assert!(error.to_string().contains("while the disk rolls"), "{error}");
 }
 
 #[test]

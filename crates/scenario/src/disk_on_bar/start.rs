@@ -11,7 +11,7 @@ use crate::model::{BAR, DISK, Model};
 use crate::numbers::numbers;
 use crate::progress::Progress;
 use crate::start::{Facts, Found, RollingRadius, Stability, Start};
-use case::schema::{Case, Drive, DriveMode, Enforcement, LoadMode, Step};
+use case::schema::{Case, Creepage, Drive, DriveMode, Enforcement, LoadMode, Step};
 use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{
     Fixed, Hub, QuietEnd, RollingField, Setup, Sideways, Simulation, SimulationState, Spin, System,
@@ -21,6 +21,7 @@ use mesh::Padded;
 use output::NotWritten;
 use solid::Solid;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -316,11 +317,13 @@ fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
 }
 
 fn spin(case: &Case, model: &Model, free: f64) -> Spin {
-    let ramp = case.drive.ramp;
+    let ramp = case.drive.ramp();
     match case.drive.mode {
-        DriveMode::Creepage => {
-            Spin::Creepage { free, creepage: case.drive.creepage.unwrap_or(0.0), ramp }
-        }
+        DriveMode::Creepage => match &case.drive.creepage {
+            Some(Creepage::Table(points)) => Spin::Table { free, creepage: Arc::clone(points) },
+            Some(Creepage::Number(creepage)) => Spin::Creepage { free, creepage: *creepage, ramp },
+            None => Spin::Creepage { free, creepage: 0.0, ramp },
+        },
         DriveMode::Torque => {
             Spin::Torque { torque: case.drive.torque.unwrap_or(0.0) / model.parts, ramp }
         }
@@ -329,8 +332,8 @@ fn spin(case: &Case, model: &Model, free: f64) -> Spin {
 
 /// What moves the hub sideways, if anything does.
 fn sideways(case: &Case) -> Option<Sideways> {
-    let &Drive { speed, lateral_creepage, spin, ramp, .. } = &case.drive;
-    let behind = case.patch_behind();
+    let &Drive { speed, lateral_creepage, spin, .. } = &case.drive;
+    let (ramp, behind) = (case.drive.ramp(), case.patch_behind());
     let sideways = Sideways { speed, lateral_creepage, spin, ramp, behind };
     (lateral_creepage != 0.0 || spin != 0.0).then_some(sideways)
 }
