@@ -32,7 +32,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-const CASE: &str = include_str!("../../../cases/half-space/mindlin.toml");
+const CASE: &str = include_str!("../../cases/half-space/mindlin.toml");
 const NAME: &str = "mindlin.toml";
 const SOURCE: &str = "Mindlin and Deresiewicz (1953)";
 
