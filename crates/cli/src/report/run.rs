@@ -335,7 +335,7 @@ mod tests {
 
     #[test]
     fn the_next_commands_can_be_given_to_a_shell_whatever_the_folder_is_called() {
-        let page = text(&summary(), Path::new("runs/it's \"2\" mm"));
+        let page = text(&summary(), Path::new("runs/it's \"2\" mm"), None);
         for line in [
             r#"  creepage report 'runs/it'\''s "2" mm'    one page: pictures, numbers, checks"#,
             r#"  creepage check 'runs/it'\''s "2" mm'     where the conditions of contact are violated"#,
