@@ -91,7 +91,8 @@ mod tests {
 
     #[test]
     fn a_panel_shows_the_error_on_each_mesh_and_rows_without_meshes_give_none() {
-        let study = verify::Convergence::new([4e-3, 2e-3, 1e-3].map(|h| (h, 5.0 + 5.0 * h)), 1.0);
+        let study =
+            verification::Convergence::new([4e-3, 2e-3, 1e-3].map(|h| (h, 5.0 + 5.0 * h)), 1.0);
         let row = Row::extrapolated("q", 5.0, &study, (0.0, ""), "");
         let drawn = figure(&[row]).unwrap();
         for (point, h) in drawn.panels[0].series[0].points.iter().zip([4.0, 2.0, 1.0]) {
@@ -104,7 +105,7 @@ mod tests {
 
     #[test]
     fn many_rows_of_a_problem_are_divided_evenly() {
-        let study = verify::Convergence::new([4e-3, 2e-3, 1e-3].map(|h| (h, 5.0 + h)), 1.0);
+        let study = verification::Convergence::new([4e-3, 2e-3, 1e-3].map(|h| (h, 5.0 + h)), 1.0);
         let rows = [(); 6].map(|()| Row::extrapolated("q", 5.0, &study, (0.0, ""), ""));
         let drawn = figure(&rows).unwrap();
         // with the line of first order
