@@ -48,6 +48,11 @@ impl<'a> Runner<'a> {
         fs::create_dir_all(&folder)?;
         let copy = folder.join(format!("creepage{}", env::consts::EXE_SUFFIX));
         fs::copy(program, &copy)?;
+        // which `creepage verify` starts
+        let verify = format!("creepage-verify{}", env::consts::EXE_SUFFIX);
+        if program.with_file_name(&verify).is_file() {
+            fs::copy(program.with_file_name(&verify), folder.join(&verify))?;
+        }
         let folders =
             [Some(folder.canonicalize()?), python.map(|python| python.with_file_name(""))];
         let before = env::var_os("PATH").unwrap_or_default();
