@@ -62,6 +62,7 @@ impl<'a> Runner<'a> {
         let (program, inputs) = (sum(&copy)?, String::new());
         let mut runner = Self { root, kept, search, program, inputs, since };
         runner.inputs = runner.execute(INPUTS, 0).map_err(std::io::Error::other)?;
+        runner.inputs += &sum(&folder.join(verify)).unwrap_or_default();
         Ok(runner)
     }
 
