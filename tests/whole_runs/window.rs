@@ -38,8 +38,8 @@ fn forces_patch_and_material_points_are_those_of_a_zone_as_long_as_the_roll() {
     for (name, limit) in [
         ("/contact/normal_force", 5e-4),
         ("/contact/traction_coefficient", 1e-3),
-        // a count of nodes: 3e-4 to 3e-3 on two meshes with either normals
-        ("/contact/stick_fraction", 4e-3),
+        // a count of nodes, of which the patch has 14: a tenth of one
+        ("/contact/stick_fraction", 7e-3),
         ("/contact/peak_pressure", 2e-4),
         ("/contact/patch_half_length", 3e-4),
     ] {
