@@ -59,7 +59,7 @@ const BEGINNING: &str = "time.roll=0.0004";
 fn fields_of_the_half_are_those_of_the_whole_while_that_keeps_its_symmetry() {
     let memory =
         ["friction.law=exponential", "friction.static=0.5", "friction.memory.distance=10e-6"];
-    // mortar rows integrate over pieces of faces, which the plane of symmetry cuts otherwise
+    // 5e-6 in shear, whose cause is not known; node to face has less than 1e-6
     let mortar = [&memory[..], &[MORTAR, "time.roll=0.0002"]].concat();
     for (keys, slack) in [(&["friction.law=coulomb"][..], 1e-6), (&memory, 1e-6), (&mortar, 1e-5)] {
         let sets = [&[EXACT, BEGINNING][..], keys].concat();
