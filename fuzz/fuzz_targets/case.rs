@@ -1,2 +1,2 @@
 #![no_main]
-libfuzzer_sys::fuzz_target!(|data: &[u8]| inputs::read("case", data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| runs::inputs::read("case", data));

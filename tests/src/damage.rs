@@ -192,10 +192,11 @@ impl Trial {
     /// Leaves a run that was interrupted, at the same step every time.
     fn stop(&self, out: &Path) -> Result<(), String> {
         let stop = AtomicBool::new(false);
-        let observe = &mut |progress: &scenario::Progress| {
+        let observe = &mut |progress: &creepage::scenario::Progress| {
             stop.store(progress.step >= STOP, Ordering::Relaxed);
         };
-        let summary = run::run(&load(&self.case, &SETS), &options(out, 1), &stop, observe);
+        let summary =
+            creepage::run::run(&load(&self.case, &SETS), &options(out, 1), &stop, observe);
         match summary.map_err(text)?["status"].as_str() {
             Some("interrupted") => Ok(()),
             status => Err(format!("the run to be interrupted ended as {status:?}")),

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use creepage::run::folder::RUN_FILES;
 use output::{CHECKPOINTS, Checkpoint, GridFile, HistoryFile};
-use run::folder::RUN_FILES;
 
 use crate::chance::Chance;
 use crate::{project, results, timeless};

@@ -3,6 +3,7 @@
 
 pub mod chance;
 pub mod damage;
+pub mod inputs;
 pub mod kill;
 pub mod kill_points;
 pub mod trace;
@@ -12,9 +13,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
 
-use case::Case;
+use creepage::case::Case;
+use creepage::run::RunOptions;
 use output::{GridFile, HistoryFile};
-use run::RunOptions;
 use serde_json::Value;
 
 /// The program, to be called with the system's own reactions to the signals that end it: what a script starts in the
@@ -66,7 +67,8 @@ pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, 
     let out = folder.path().join("run");
     let options =
         RunOptions { preload_cache: cache.map(Path::to_path_buf), ..options(&out, threads) };
-    let returned = run::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    let returned =
+        creepage::run::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
     let results = results(&out);
     assert_eq!(results.summary, returned, "summary.json holds what the run returns");
     (results, log(&out))
@@ -174,7 +176,7 @@ impl Results {
 pub fn timeless(summary: &Value) -> Value {
     let mut summary = summary.clone();
     let map = summary.as_object_mut().unwrap();
-    for key in sweep::collect::NOT_REPEATED {
+    for key in creepage::sweep::collect::NOT_REPEATED {
         assert!(map.remove(key).is_some(), "{key}");
     }
     summary

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use case::Case;
+use creepage::case::Case;
+use creepage::run::{RunError, RunOptions};
+use creepage::scenario::Stage;
 use output::{CHECKPOINTS, Checkpoint};
-use run::{RunError, RunOptions};
 use runs::{Results, load, log, options, project, results, run, timeless};
-use scenario::Stage;
 use serde_json::Value;
 
 /// The small case with every kind of output: a window of every step, and probes.
@@ -27,7 +27,7 @@ fn small(more: &[&str]) -> Case {
 /// Runs until at least `step`, then asks the run to stop; returns its summary.
 fn run_until(case: &Case, options: &RunOptions, step: u64) -> Result<Value, RunError> {
     let stop = AtomicBool::new(false);
-    run::run(case, options, &stop, &mut |progress| {
+    creepage::run::run(case, options, &stop, &mut |progress| {
         if progress.stage == Stage::Roll && progress.step >= step {
             stop.store(true, Ordering::SeqCst);
         }

@@ -35,7 +35,7 @@ fn one_and_two_threads_and_the_resolved_case_give_the_same_bits() {
         assert!(element.contains(line), "{line} is not in:\n{element}");
     }
     let path = std::path::Path::new("elsewhere/case.toml");
-    let again = case::Case::from_text(&first.resolved, path, &[]).unwrap();
+    let again = creepage::case::Case::from_text(&first.resolved, path, &[]).unwrap();
     assert_eq!(first.differing(&run(&again, 2)), Vec::<&str>::new());
 }
 

@@ -1,6 +1,6 @@
 //! The same case gives the same bits.
 
-use case::Case;
+use creepage::case::Case;
 use runs::{Results, load, project, run, timeless};
 
 /// The smoke case with every kind of output: a window of every step, and probes.

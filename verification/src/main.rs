@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
-use figure::FigureError;
+use creepage::chart::FigureError;
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use serde_json::{Value, json};
 use thiserror::Error;

@@ -22,12 +22,12 @@ use crate::convergence::Convergence;
 use crate::half_space::{column, sizes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use case::Case;
-use case::hertz::hertz;
+use creepage::case::Case;
+use creepage::case::hertz::hertz;
+use creepage::run::RunOptions;
 use output::HistoryFile;
 use output::layout::{HISTORY, file};
 use rayon::prelude::*;
-use run::RunOptions;
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -154,7 +154,7 @@ fn shifted(h: f64, steps: f64, exact: &Mindlin) -> Result<[f64; 7], Cause> {
         source: NAME.into(),
         law: None,
     };
-    run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
+    creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
     let history = HistoryFile::open(options.out.join(file::HISTORY))?;
     let read = |name: &str| history.read(name);
     let [time, force, area, stick, lost] = [

@@ -17,8 +17,8 @@ use crate::convergence::Convergence;
 use crate::half_space::WHEEL;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use case::Case;
-use run::RunOptions;
+use creepage::case::Case;
+use creepage::run::RunOptions;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -226,7 +226,7 @@ pub(crate) fn numbers_of_run(
         source: "a-coulomb.toml".into(),
         law: None,
     };
-    let summary = run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
+    let summary = creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
     Ok(move |section: &str, key| {
         let status = summary["status"].as_str().unwrap_or_default().to_owned();
         summary[section][key].as_f64().ok_or(Missing { status, key })

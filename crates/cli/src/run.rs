@@ -41,7 +41,7 @@ pub fn command(args: &Args, RunArgs { options, leash }: &RunArgs) -> Result<u8, 
 fn hold_leash(stop: Stop) -> Result<(), Error> {
     let held = std::thread::Builder::new().spawn(move || {
         for line in std::io::stdin().lines().map_while(Result::ok) {
-            if line == sweep::schedule::STOP {
+            if line == creepage::sweep::schedule::STOP {
                 stop.ask();
             }
         }

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use creepage::{Error, INTERRUPTED};
 #[cfg(unix)]
-use files::input;
+use output::files::input;
 
 use crate::failure::failure;
 use crate::report;

@@ -7,8 +7,8 @@
 //! headers; closing truncates the file to what is used. The order of the first two matters as well:
 //! libhdf5 refuses a file that is shorter than its superblock says.
 
+use crate::files::input;
 use crate::hdf5::PAGE;
-use files::input;
 use rust_hdf5::format::superblock::SuperblockV2V3;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, Write};

@@ -8,10 +8,10 @@
 use crate::OutputError;
 use crate::disk_space::free_space;
 use crate::file_end::{Extension, end_of_file};
+use crate::files::input;
 use crate::layout::{MESH, attribute, mesh_path};
 use crate::panics::catch_panic;
 use crate::provenance::Provenance;
-use files::input;
 use rust_hdf5::{
     DatatypeMessage, FileSpaceStrategy, H5Dataset, H5File, H5Group, H5Type, Hdf5Error, LibverBound,
 };

@@ -6,10 +6,10 @@
 
 use crate::OutputError;
 use crate::checksums::hexadecimal;
+use crate::files::input::{self, Fault, InputError};
 use crate::hdf5::damaged;
 use crate::layout::file;
 use crc32fast::Hasher;
-use files::input::{self, Fault, InputError};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};

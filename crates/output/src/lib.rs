@@ -35,6 +35,7 @@ mod disk_space;
 mod error;
 mod field;
 mod file_end;
+pub mod files;
 mod grid;
 mod hdf5;
 mod history;

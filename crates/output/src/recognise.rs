@@ -1,8 +1,8 @@
 //! How result files of this program are recognised.
 
+use crate::files::Made;
 use crate::hdf5::Source;
 use crate::layout::attribute;
-use files::Made;
 use std::path::Path;
 
 /// A grid that this program wrote, recognised by its root attribute `creepage_version`.

@@ -1,8 +1,8 @@
 //! A grid without time as a VTK XML unstructured grid (`.vtu`), for viewers that read no VTKHDF.
 
+use crate::files::made::XML_MARK;
 use crate::grid::{GridSpec, Values};
 use crate::{Cells, OutputError};
-use files::output::XML_MARK;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;

@@ -6,7 +6,6 @@
 
 mod exact;
 mod explicit;
-pub mod figures;
 mod implicit;
 mod map;
 mod parameters;
@@ -20,7 +19,7 @@ mod thresholds;
 pub use exact::{exact_step, memory_step};
 pub use explicit::explicit_step;
 pub use implicit::{ImplicitEquation, Iterations, implicit_step};
-pub use map::{MapPoint, map};
+pub use map::{MapPoint, SMALLEST_STEP, map, map_end};
 pub use parameters::{MOST_STEPS, ParameterError, Parameters};
 pub use penalty::{penalty_stable_step, penalty_step};
 pub use run::{BlowUp, Method, Outcome, run, unobserved};

@@ -15,10 +15,10 @@ pub struct MapPoint {
 }
 
 /// Smallest time step of the map (s).
-pub(crate) const SMALLEST_STEP: f64 = 1e-7;
+pub const SMALLEST_STEP: f64 = 1e-7;
 
 /// End of the map's runs (s): just after the first collapse.
-pub(crate) fn map_end(p: &Parameters) -> f64 {
+pub fn map_end(p: &Parameters) -> f64 {
     p.end.min(1.2 * p.reach() / p.belt.abs())
 }
 

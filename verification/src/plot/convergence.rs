@@ -1,6 +1,6 @@
 //! `--plot`: error over mesh size, one panel for each problem.
 
-use figure::{Axis, Draw, Figure, Panel, Series, colour};
+use creepage::chart::{Axis, Draw, Figure, Panel, Series, colour};
 use verification::Row;
 
 /// Width and height of a panel (points).

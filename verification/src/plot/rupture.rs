@@ -1,6 +1,6 @@
 //! `--plot`: rupture times over the fault on each mesh, and along its axes.
 
-use figure::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour, contour};
+use creepage::chart::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour, contour};
 use verification::{Field, Row};
 
 /// Width and height of a panel (points).

@@ -32,13 +32,14 @@ pub fn text(document: &Value) -> String {
         scale("slip_threshold", 1e3),
         word(document, "/limits_for"),
     );
-    let _ = writeln!(out, "  slip paired with traction: {}\n", post::slip_paired(document));
+    let _ =
+        writeln!(out, "  slip paired with traction: {}\n", creepage::check::slip_paired(document));
     let _ = writeln!(
         out,
         "  {:<20}{:>11} {:<4}{:>14}  {:<6}where",
         "measure", "value", "", "limit", ""
     );
-    for post::Measure { name, .. } in post::MEASURES {
+    for creepage::check::Measure { name, .. } in creepage::check::MEASURES {
         let metric = &document["metrics"][name];
         let line = format!(
             "  {name:<20}{:>11} {:<4}{:>14}  {:<6}{}",
@@ -73,14 +74,14 @@ fn limit(limit: &Value) -> String {
     match (limit.as_f64(), limit[0].as_f64(), limit[1].as_f64()) {
         (Some(most), ..) => digits(Some(most), 2),
         (None, Some(low), Some(high)) => {
-            format!("{}..{}", post::all_digits(low), post::all_digits(high))
+            format!("{}..{}", creepage::check::all_digits(low), creepage::check::all_digits(high))
         }
         _ => "-".into(),
     }
 }
 
 fn verdict(metric: &Value) -> &'static str {
-    match post::keeps_limit(metric) {
+    match creepage::check::keeps_limit(metric) {
         None => "",
         Some(true) => "pass",
         Some(false) => "FAIL",
@@ -148,7 +149,7 @@ fn patch(out: &mut String, document: &Value) {
         out,
         "Patch: mean with its 95 % confidence interval, standard deviation over the records",
     );
-    for post::PatchLine { label, key, factor, unit } in post::PATCH_TABLE {
+    for creepage::check::PatchLine { label, key, factor, unit } in creepage::check::PATCH_TABLE {
         let at = |part: &str| number(document, &format!("/patch/{key}/{part}"));
         let note = word(document, &format!("/patch/{key}/note"));
         let note = if note.is_empty() { String::new() } else { format!("  ({note})") };

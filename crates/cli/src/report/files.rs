@@ -56,7 +56,10 @@ pub fn case(document: &Value) -> String {
         "  cards: {used} used, {ignored} ignored (docs/ls-dyna.md lists which), none refused"
     );
     let (case, elements) = (word(document, "/case"), &document["elements"]);
-    page + &format!("{case}: {elements} elements; creepage run {}\n", sweep::plan::quoted(case))
+    page + &format!(
+        "{case}: {elements} elements; creepage run {}\n",
+        creepage::sweep::plan::quoted(case)
+    )
 }
 
 /// The keyword file of `export-k`, and what it says in another way than the case.

@@ -260,7 +260,7 @@ fn stability(out: &mut String, summary: &Value) {
 fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
     let name = |name: &str| word(summary, &format!("/files/{name}"));
     // a run that does not record its bodies shows its surfaces
-    let quoted = |path: &Path| sweep::plan::quoted(&path.to_string_lossy());
+    let quoted = |path: &Path| creepage::sweep::plan::quoted(&path.to_string_lossy());
     let run = quoted(folder);
     let (grid, look, render) = if name("fields").is_empty() {
         (name("contact"), "colour by pressure, shear, slip_velocity or state", String::new())

@@ -138,7 +138,7 @@ fn force_removes_the_checks_pages_and_figures_of_the_run_that_it_replaces_and_no
     let plotted: Value = serde_json::from_slice(&plotted.stdout).unwrap();
     for figure in plotted["figures"].as_array().unwrap() {
         let name = figure["name"].as_str().unwrap();
-        assert!(run::derived::FIGURE_NAMES.contains(&name), "{name} would stay");
+        assert!(creepage::run::derived::FIGURE_NAMES.contains(&name), "{name} would stay");
     }
     assert_eq!(creepage(&["report"], &out).status.code(), Some(0));
     fs::write(out.join("check.json"), creepage(&["check", "--json"], &out).stdout).unwrap();

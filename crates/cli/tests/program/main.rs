@@ -36,5 +36,5 @@ mod sweep;
 mod terminal;
 
 #[allow(dead_code)]
-#[path = "../../../post/tests/planted/mod.rs"]
+#[path = "../../../creepage/tests/planted/planted.rs"]
 mod planted;

@@ -1,0 +1,118 @@
+//! Hertz's contact of two bodies with aligned principal curvatures: the scale of a case.
+//!
+//! Source: Johnson (1985), *Contact Mechanics*, sections 4.1 and 4.2.
+
+use std::f64::consts::PI;
+
+use crate::case::schema::{BodyModel, Case};
+use contact::patch::PatchShape;
+
+/// Patch and pressure of Hertz's elliptic contact, or of its line contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hertz {
+    /// Half axis in the rolling direction (m).
+    pub a: f64,
+    /// Half axis across (m); half the common width for a line contact.
+    pub b: f64,
+    /// Largest pressure (Pa).
+    pub p0: f64,
+    /// Approach of the two bodies (m); zero for a line contact, where it is not defined.
+    pub approach: f64,
+}
+
+impl Hertz {
+    /// Area of the patch (m^2): an ellipse's, or a line contact's rectangle.
+    pub fn area(&self) -> f64 {
+        if self.approach > 0.0 { PI * self.a * self.b } else { 4.0 * self.a * self.b }
+    }
+}
+
+/// Sum of the curvatures across the rolling direction (1/m).
+fn across(case: &Case) -> f64 {
+    case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature()
+}
+
+/// Shape of the patch of a case: a rectangle where both bodies are straight across, as in plane strain, else an
+/// ellipse.
+pub fn patch_shape(case: &Case) -> PatchShape {
+    if across(case) > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
+}
+
+/// Hertz's contact of a case's disk on its bar under `load.normal`. A line contact has the width of the narrower
+/// body, or that of the fine zone on half-spaces.
+pub fn hertz(case: &Case) -> Hertz {
+    let compliance = |m: crate::case::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
+    let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
+    let along = 1.0 / case.disk.radius;
+    let across = across(case);
+    let load = case.load.normal;
+    if patch_shape(case) == PatchShape::Rectangle {
+        let width = match case.model {
+            BodyModel::FiniteElements => case.disk.width.min(case.bar.width),
+            BodyModel::HalfSpace => case.mesh.zone.width,
+        };
+        return line(load / width, along, modulus, width);
+    }
+    // Half the sum of the curvatures in each direction, the gap being A x^2 + B y^2.
+    let (gap_x, gap_y) = (along / 2.0, across / 2.0);
+    let ellipse = ellipse(load, gap_x.min(gap_y), gap_x.max(gap_y), modulus);
+    if gap_x <= gap_y { ellipse } else { Hertz { a: ellipse.b, b: ellipse.a, ..ellipse } }
+}
+
+/// Dundurs' constant beta of a case's disk and bar (dimensionless), zero for like materials (Johnson 1985, Eq 5.3):
+///
+/// beta = 1/2 ((1 - 2 nu_1)/G_1 - (1 - 2 nu_2)/G_2)/((1 - nu_1)/G_1 + (1 - nu_2)/G_2)
+///
+/// It couples slip to pressure: with beta, bodies have shear tractions in free rolling (Bufler 1959; Bentall and
+/// Johnson 1967). The disk is body 1.
+pub fn dundurs_beta(case: &Case) -> f64 {
+    let parts = |m: crate::case::schema::Material| {
+        let shear = m.young / (2.0 * (1.0 + m.poisson));
+        [(1.0 - 2.0 * m.poisson) / shear, (1.0 - m.poisson) / shear]
+    };
+    let ([disk, a], [bar, b]) = (parts(case.disk_material()), parts(case.bar_material()));
+    0.5 * (disk - bar) / (a + b)
+}
+
+/// Line contact (Johnson 1985, section 4.2): a^2 = 4 P R/(pi E*), p0 = 2 P/(pi a), P per width.
+fn line(load_per_width: f64, curvature: f64, modulus: f64, width: f64) -> Hertz {
+    let a = (4.0 * load_per_width / (PI * curvature * modulus)).sqrt();
+    Hertz { a, b: width / 2.0, p0: 2.0 * load_per_width / (PI * a), approach: 0.0 }
+}
+
+/// Elliptic contact with gap `low` x^2 + `high` y^2, `low <= high`, so that `a >= b`
+/// (Johnson 1985, Eqs 4.26 to 4.28), solved for the eccentricity by bisection.
+fn ellipse(load: f64, low: f64, high: f64, modulus: f64) -> Hertz {
+    // B/A = ((a/b)^2 E - K)/(K - E), from 1 for a circle to infinity for a line; in the modulus
+    // of the complete integrals m = e^2 = 1 - (b/a)^2.
+    let ratio = |m: f64| {
+        let (k, e) = elliptic(m);
+        (e / (1.0 - m) - k) / (k - e)
+    };
+    let (mut below, mut above) = (1e-9, 1.0 - 1e-12);
+    for _ in 0..200 {
+        let middle = 0.5 * (below + above);
+        if ratio(middle) < high / low { below = middle } else { above = middle }
+    }
+    let m = 0.5 * (below + above);
+    let (k, e) = elliptic(m);
+    // low = (p0/E*) b (K - E)/(m a^2) with p0 = 3 P/(2 pi a b): a^3 = 3 P (K - E)/(2 pi E* m low).
+    let a = libm::cbrt(1.5 * load * (k - e) / (PI * modulus * m * low));
+    let b = a * (1.0 - m).sqrt();
+    let p0 = 1.5 * load / (PI * a * b);
+    Hertz { a, b, p0, approach: p0 / modulus * b * k }
+}
+
+/// Complete elliptic integrals K(m) and E(m), m the squared modulus, by the arithmetic-geometric mean.
+fn elliptic(m: f64) -> (f64, f64) {
+    let (mut x, mut y, mut power) = (1.0, (1.0 - m).sqrt(), 0.5);
+    let mut sum = 0.5 * m;
+    for _ in 0..40 {
+        let c = 0.5 * (x - y);
+        (x, y) = (0.5 * (x + y), (x * y).sqrt());
+        power *= 2.0;
+        sum += power * c * c;
+    }
+    let k = PI / (2.0 * x);
+    (k, k * (1.0 - sum))
+}

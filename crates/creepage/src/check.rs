@@ -1,0 +1,201 @@
+//! What a run means: where and by how much the contact conditions, Eqs. (6) to (8) of Vollebregt's
+//! *Comments* (2017), are violated, the measures of the patch, and the figures and the page that show them.
+//!
+//! Runs are read through `output` alone, so that results of other codes can be judged once they
+//! have the layout of `contact.vtkhdf`. The friction laws are those of `friction`; of `contact` only the fit
+//! of the patch and the measure of mesh modes are used. The closest-point projection is written anew here
+//! (module `projection`), so that a check does not repeat an error of the solver.
+//!
+//! [`check`](check()) goes through a contact history record by record and returns the document of
+//! `creepage check`. Fields are never held for all records; what is kept of each record are its patch
+//! measures and its centre line.
+//!
+//! Units are SI. x is the direction of rolling, y is lateral, z is up. `p_n` is the pressure, `p_tau` the shear
+//! traction, `p_f` its size, `s` the slip velocity, `mu` the coefficient of friction.
+
+mod accumulator;
+pub(crate) mod basis;
+pub(crate) mod centreline;
+pub(crate) mod conditions;
+mod correlation;
+pub(crate) mod digits;
+mod document;
+pub(crate) mod error;
+mod evaluation;
+pub(crate) mod frames;
+mod import;
+mod integrity;
+pub(crate) mod law;
+pub(crate) mod limits;
+mod map;
+pub(crate) mod means;
+mod mesh_mode;
+pub(crate) mod patch_series;
+mod projection;
+mod recorded_law;
+mod replay;
+mod roughness;
+mod scales;
+pub(crate) mod slip_zone;
+pub(crate) mod statistics;
+pub(crate) mod surface;
+pub(crate) mod vector;
+pub(crate) mod welch;
+pub(crate) mod window;
+
+pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
+pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
+pub use digits::all_digits;
+pub use document::{keeps_limit, slip_paired};
+pub use error::PostError;
+pub use frames::{ContactHistory, Frame, Recorded};
+pub use import::{ImportError, ImportFiles, Imported, import_contact};
+pub use integrity::{Depth, prove, prove_case};
+pub use law::Law;
+pub use limits::{Limit, Limits, MEASURES, Measure};
+pub use output::layout::Pairing;
+pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
+pub use surface::{NO_BODY, Surface, body_name};
+pub use window::Span;
+
+use centreline::CentreLine;
+use evaluation::Evaluation;
+use map::MapWriter;
+use means::Sources;
+use serde_json::{Value, json};
+use slip_zone::SlipZone;
+use std::path::Path;
+use std::str::FromStr;
+use window::Window;
+
+pub(crate) use evaluation::judged_faces;
+pub(crate) use scales::Scales;
+
+/// Which pairing in time of slip and traction a check reports.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Report {
+    /// The one that the file states as its method's own, else the stricter.
+    #[default]
+    Stated,
+    /// The one with the larger violation, measure by measure.
+    Stricter,
+    /// This one.
+    Only(Pairing),
+}
+
+impl FromStr for Report {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "stricter" => Ok(Self::Stricter),
+            "before" => Ok(Self::Only(Pairing::Before)),
+            "after" => Ok(Self::Only(Pairing::After)),
+            _ => Err("one of stricter, before, after is needed"),
+        }
+    }
+}
+
+/// Options of a check.
+#[derive(Clone, Debug)]
+pub struct CheckOptions<'a> {
+    /// The window; `None` for the run's evaluation window, or all records where it has none.
+    pub window: Option<Span>,
+    /// Limits of the measures.
+    pub limits: Limits,
+    /// Which pairing is reported and judged.
+    pub report: Report,
+    /// Where to write the measures at each node over time, as VTKHDF; `None` for nowhere.
+    pub map: Option<&'a Path>,
+}
+
+/// The result of a check.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The JSON document of `creepage check`, as `docs/checks.md` describes it.
+    pub document: Value,
+    /// Whether every measure is within its limit.
+    pub pass: bool,
+    /// The patch over time, a row for each record of the window.
+    pub patch: Vec<PatchRow>,
+}
+
+/// Checks the contact conditions of a run by the law and scales of `basis`, to which it adds scales found in the
+/// records.
+///
+/// Each record is weighted with the time that it stands for, so that spans recorded at every step do not
+/// outweigh others.
+///
+/// # Errors
+/// Files that cannot be read or lack data or scales that the measures need; a window without a record, or
+/// without contact; a map that cannot be written.
+pub fn check(
+    paths: &RunPaths,
+    basis: &mut Basis,
+    options: &CheckOptions<'_>,
+) -> Result<Checked, PostError> {
+    let history = ContactHistory::open(&paths.contact)?;
+    let window = Window::resolve(options.window, basis, &history)?;
+    let records = window.records.clone();
+    let scales = Scales::resolve(basis, &history, &records)?;
+    let mut evaluation = Evaluation::new(&history, basis, scales);
+    evaluation.lead_in(records.start)?;
+    let mut map = options
+        .map
+        .map(|path| MapWriter::create(path, &history.surface, &paths.contact))
+        .transpose()?;
+    let weights = window.weights(&history.times);
+    let mut line = CentreLine::new(&history, basis);
+    let first = records.start;
+    history.stream_batches(records, |frames| {
+        if let Ok(line) = &mut line {
+            frames.iter().for_each(|frame| line.take(&history.surface, frame));
+        }
+        let weigh = |frame: Frame| {
+            let weight = weights[frame.index - first];
+            (frame, weight)
+        };
+        evaluation.take(frames.into_iter().map(weigh), map.as_mut())
+    })?;
+    if evaluation.node_times == 0 {
+        return Err(PostError::Lacks {
+            path: paths.contact.clone(),
+            what: format!(
+                "no node is in contact in the window: no pressure exceeds {IN_CONTACT} p0 = {:e} Pa",
+                IN_CONTACT * evaluation.scales.peak_pressure
+            ),
+        });
+    }
+    let sources = Sources::of(paths, basis, &window)?;
+    let patch = sources.patch(&evaluation.patch, &weights);
+    let mesh_mode = mesh_mode::document(&evaluation.mesh_mode, sources.summary(), basis);
+    let (mut document, holds) = evaluation.document(basis, options, &window, patch, mesh_mode);
+    document["slip_zone"] = match &line {
+        Ok(line) => {
+            let zone = SlipZone::of(line, &weights);
+            let note = zone.as_ref().and_then(SlipZone::note);
+            if let (Some(notes), Some(note)) = (document["notes"].as_array_mut(), note) {
+                notes.push(json!(note));
+            }
+            zone.map_or(Value::Null, |zone| zone.document(line))
+        }
+        Err(why) => json!({ "note": why.to_string() }),
+    };
+    Ok(Checked { document, pass: holds, patch: evaluation.patch })
+}
+
+/// What a run tells of slip that fluctuates much in its evaluation window, as a check notes it; `None` where it does not.
+///
+/// # Errors
+/// As of [`check`].
+pub fn fluctuating_slip(paths: &RunPaths, basis: &mut Basis) -> Result<Option<String>, PostError> {
+    let history = ContactHistory::open(&paths.contact)?;
+    let window = Window::resolve(None, basis, &history)?;
+    let weights = window.weights(&history.times);
+    let mut line = CentreLine::new(&history, basis)?;
+    history.stream_batches(window.records, |frames| {
+        frames.iter().for_each(|frame| line.take(&history.surface, frame));
+        Ok(())
+    })?;
+    Ok(SlipZone::of(&line, &weights).and_then(|zone| zone.note()))
+}

@@ -1,0 +1,100 @@
+//! The mesh of a contact history and the body of each node.
+
+use crate::check::PostError;
+use crate::check::vector::Vec3;
+use output::layout::{BODY_NAMES, CONSTANT};
+use output::{FieldSpec, GridFile};
+use std::path::Path;
+
+/// The contact surfaces of both bodies.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Reference coordinates (m).
+    pub points: Vec<Vec3>,
+    /// Faces, counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 4]>,
+    /// Body of each face: 0 disk, 1 bar; 0 where the file has one body only.
+    pub face_body: Vec<u8>,
+    /// Body of each node; `NO_BODY` for nodes without a face.
+    pub body: Vec<u8>,
+    /// Tributary area of each node (m2).
+    pub area: Vec<f64>,
+}
+
+/// Label in [`Surface::body`] of a node that no face uses.
+pub const NO_BODY: u8 = u8::MAX;
+
+/// The name of a body by its label: `disk`, `bar`, else `other`.
+pub fn body_name(body: u8) -> &'static str {
+    BODY_NAMES.get(usize::from(body)).copied().unwrap_or("other")
+}
+
+impl Surface {
+    pub(crate) fn read(file: &GridFile, path: &Path) -> Result<Self, PostError> {
+        let lacks = |what: &str| PostError::Lacks { path: path.into(), what: what.into() };
+        let points = file.points()?;
+        let connectivity = file.connectivity()?;
+        if file.cells().checked_mul(4) != Some(connectivity.len()) {
+            return Err(lacks("its cells are not quads; a contact history has four-node faces"));
+        }
+        let faces = connectivity.as_chunks::<4>().0.to_vec();
+        if connectivity.iter().any(|&node| node as usize >= points.len()) {
+            return Err(lacks("a face names a node that the file does not hold"));
+        }
+        if points.as_flattened().iter().any(|x| !x.is_finite()) {
+            return Err(lacks("a node has coordinates that are not numbers"));
+        }
+        let constant = |field: &FieldSpec| {
+            let has =
+                file.fields().iter().any(|f| f.name == field.name && f.on_cells == field.on_cells);
+            has.then(|| file.read(&field.name, field.on_cells, 0)).transpose()
+        };
+        let face_body: Vec<u8> = match constant(&CONSTANT.body)? {
+            Some(labels) => labels.into_iter().map(|b| b as u8).collect(),
+            None => vec![0; faces.len()],
+        };
+        let mut body = vec![NO_BODY; points.len()];
+        for (face, &label) in faces.iter().zip(&face_body) {
+            face.iter().for_each(|&node| body[node as usize] = label);
+        }
+        let area = constant(&CONSTANT.area)?.unwrap_or_else(|| tributary_areas(&points, &faces));
+        if area.iter().any(|a| !a.is_finite() || *a < 0.0) {
+            return Err(lacks("the field area holds values that are no areas"));
+        }
+        Ok(Self { points, faces, face_body, body, area })
+    }
+
+    /// Indices of a body's nodes nearest y = 0, sorted by their reference x; `size` is the edge of an element (m).
+    pub(crate) fn centreline(&self, body: u8, size: f64) -> Vec<usize> {
+        let of_body = |&row: &usize| self.body[row] == body;
+        let off = |row: usize| self.points[row][1].abs();
+        let rows = (0..self.points.len()).filter(of_body);
+        let least = rows.clone().map(off).fold(f64::INFINITY, f64::min);
+        let mut rows: Vec<usize> = rows.filter(|&row| off(row) <= least + 0.1 * size).collect();
+        let x = |row: usize| self.points[row][0];
+        rows.sort_by(|a, b| x(*a).total_cmp(&x(*b)));
+        // where no node is on y = 0 there may be a line on each side: one node is kept of each two alike in x
+        rows.dedup_by(|a, b| (x(*a) - x(*b)).abs() < 0.1 * size);
+        rows
+    }
+
+    /// Labels of the bodies that have faces, sorted, each once.
+    pub fn bodies(&self) -> Vec<u8> {
+        let mut labels: Vec<u8> = self.face_body.clone();
+        labels.sort_unstable();
+        labels.dedup();
+        labels
+    }
+}
+
+/// Area of each node (m2): a quarter of every face around it.
+fn tributary_areas(points: &[Vec3], faces: &[[u32; 4]]) -> Vec<f64> {
+    use crate::check::vector::{cross, norm, sub};
+    let mut area = vec![0.0; points.len()];
+    for face in faces {
+        let [a, b, c, d] = face.map(|node| points[node as usize]);
+        let part = 0.125 * norm(cross(sub(c, a), sub(d, b)));
+        face.iter().for_each(|&node| area[node as usize] += part);
+    }
+    area
+}

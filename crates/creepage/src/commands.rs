@@ -1,0 +1,41 @@
+//! What the command line and Python do, each command as a function with a struct of options.
+
+mod bench;
+mod case_source;
+mod check;
+mod compare;
+mod error;
+mod export_k;
+mod import_contact;
+mod import_k;
+mod listener;
+mod mesh;
+mod outputs;
+mod plot;
+mod render;
+mod report;
+mod run;
+mod slider;
+mod sweep;
+mod sweep_folder;
+mod values;
+
+pub use bench::{BenchOptions, bench};
+pub use case_source::CaseSource;
+pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
+pub use compare::{CompareOptions, compare};
+pub use error::{BAD_INPUT, Error, FAILED, INTERRUPTED, STOPPED_BY_GUARD};
+pub use export_k::{ExportKOptions, export_k};
+pub use import_contact::{ImportContactOptions, import_contact};
+pub use import_k::{ImportKOptions, import_k};
+pub use listener::Listener;
+pub use mesh::{MeshOptions, mesh};
+pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
+pub use render::{RenderOptions, render};
+pub use report::{ReportOptions, Reported, report};
+pub use run::{Ran, RunOptions, run};
+pub use slider::{
+    LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
+};
+pub use sweep::{SweepOptions, Swept, sweep};
+pub use sweep_folder::sweep_table;

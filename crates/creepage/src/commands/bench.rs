@@ -1,0 +1,55 @@
+//! How fast this machine computes.
+
+use std::path::PathBuf;
+
+use crate::run::{BlockElement, Level};
+use serde_json::Value;
+
+#[cfg(feature = "clap")]
+use crate::commands::values::words::{element, kernels};
+use crate::commands::values::{EDGE, KERNELS, ONE_PER_CORE, THREADS, all_cores};
+use crate::{CaseSource, Error};
+
+/// What to measure.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct BenchOptions {
+    /// Number of threads, at most one per core [default: one per core]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = |n: &str| THREADS.read(n)))]
+    pub threads: Option<usize>,
+    /// Instruction set of the element kernels [default: the best of this machine]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "avx512|avx2|neon|fused|portable",
+        value_parser = kernels))]
+    pub kernels: Option<Level>,
+    /// Set a key of the reference case, for example mesh.zone.size=2e-3; may be repeated
+    #[cfg_attr(feature = "clap", arg(long = "set", value_name = "KEY=VALUE"))]
+    pub sets: Vec<String>,
+    /// Instead of the reference case, a free block of N x N x N elements
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", conflicts_with = "sets",
+        value_parser = |n: &str| EDGE.read(n)))]
+    pub block: Option<usize>,
+    /// Elements of the block
+    #[cfg_attr(feature = "clap", arg(long, value_name = "one-point|full", value_parser = element,
+        requires = "block", default_value = "one-point"))]
+    pub element: BlockElement,
+}
+
+/// Measures the element kernel and the whole step on this machine, beside what its memory and arithmetic allow; returns
+/// the document of `creepage bench --json`.
+///
+/// # Errors
+/// A key of the reference case that cannot be used; kernels that this machine cannot run.
+pub fn bench(options: &BenchOptions) -> Result<Value, Error> {
+    THREADS.check("--threads", options.threads.as_ref())?;
+    ONE_PER_CORE.check("--threads", options.threads.as_ref())?;
+    EDGE.check("--block", options.block.as_ref())?;
+    KERNELS.check("--kernels", options.kernels.as_ref())?;
+    let threads = options.threads.unwrap_or_else(all_cores);
+    if let Some(n) = options.block {
+        return Ok(crate::run::bench_block(n, options.element, threads, options.kernels)?);
+    }
+    // the reference case is no file: a key that the error is about is looked for in the options
+    let (path, sets) = (PathBuf::from("reference.toml"), options.sets.clone());
+    crate::run::bench(threads, options.kernels, &options.sets)
+        .map_err(|error| CaseSource { path, sets, text: Some(String::new()) }.placed(error))
+}

@@ -1,0 +1,70 @@
+//! Cases as LS-DYNA keyword files.
+
+use std::path::PathBuf;
+
+use crate::ls_dyna::{Rolling, Units, export, unsayable};
+use output::files::made::KEYWORDS;
+use serde_json::{Value, json};
+
+use crate::commands::outputs::claim;
+#[cfg(feature = "clap")]
+use crate::commands::values::words::units;
+use crate::{CaseSource, Error, Listener};
+
+/// Whose keyword file, in which units, and where to write it.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct ExportKOptions {
+    /// The case.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub case: CaseSource,
+    /// The file to write [default: the case's name with .k]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.k"))]
+    pub out: Option<PathBuf>,
+    /// Units of the file: length (m, cm, mm, in), mass (kg, ton, g), time (s, ms, us)
+    #[cfg_attr(feature = "clap", arg(long, value_name = "mm-ton-s", value_parser = units, default_value = "mm-ton-s"))]
+    pub unit: Units,
+}
+
+/// Writes a case as a keyword file, and returns the document of `creepage export-k --json`: file, unit, nodes, elements, preload_time (s),
+/// notes.
+///
+/// The static preload is found first: the deck presses the hub down to its depth.
+///
+/// # Errors
+/// What of the case keyword files cannot say; a case that cannot be run; a file that cannot be written, or is not to be written over.
+pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result<Value, Error> {
+    let case = options.case.load(listener)?;
+    let cannot = unsayable(&case);
+    if !cannot.is_empty() {
+        let list: String = cannot.iter().map(|why| format!("\n  {why}")).collect();
+        let file = options.case.path.display();
+        return Err(Error::option(
+            format!("{file}: keyword files cannot say{list}"),
+            "change these keys with --set, or run the case here",
+        ));
+    }
+    let out = options.out.clone().unwrap_or_else(|| format!("{}.k", case.name).into());
+    claim("--out", &out, &KEYWORDS, &crate::case::inputs(&case, &options.case.path))?;
+    let placed = |error: crate::scenario::ScenarioError| options.case.placed(error.into());
+    let model = crate::scenario::model(&case).map_err(placed)?;
+    let stop = listener.stop();
+    let start = crate::scenario::start(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(()));
+    let facts = start.map_err(placed)?.facts;
+    let rolling = Rolling { case: &case, model: &model, facts: &facts };
+    let made = export(&rolling, options.unit);
+    std::fs::write(&out, made.deck).map_err(|cause| {
+        Error::option(
+            format!("--out {}: {cause}", out.display()),
+            "choose another file with --out FILE",
+        )
+    })?;
+    Ok(json!({
+        "file": out.display().to_string(),
+        "unit": options.unit.name(),
+        "nodes": model.mesh.nodes.len(),
+        "elements": model.mesh.hexes.len(),
+        "preload_time": rolling.preload_time(),
+        "notes": made.notes,
+    }))
+}

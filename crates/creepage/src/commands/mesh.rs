@@ -1,0 +1,39 @@
+//! The mesh of a case.
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::commands::outputs::claim_grid;
+use crate::commands::values::MESH;
+use crate::{CaseSource, Error, Listener};
+
+/// Whose mesh, and where to write it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct MeshOptions {
+    /// Write the mesh and its sets here; mesh.file reads it again
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.vtu|FILE.vtkhdf|FILE.msh",
+        value_parser = |file: &str| MESH.read(file)))]
+    pub out: Option<PathBuf>,
+    /// The case.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub case: CaseSource,
+}
+
+/// Builds the mesh of a case, and returns the document of `creepage mesh --json`: counts, quality, stable step (s),
+/// estimate of memory (MB) and time (s). The listener hears the case's warnings.
+///
+/// # Errors
+/// A case or a mesh that cannot be used; a file that cannot be written, or is not to be written over.
+pub fn mesh(options: &MeshOptions, listener: &mut dyn Listener) -> Result<Value, Error> {
+    MESH.check("--out", options.out.as_ref())?;
+    let case = options.case.load(listener)?;
+    if let Some(out) = &options.out {
+        claim_grid("--out", out, &crate::case::inputs(&case, &options.case.path))?;
+    }
+    let found = crate::run::mesh_report(&case, options.out.as_deref());
+    found.map_err(|error| options.case.placed(error))
+}

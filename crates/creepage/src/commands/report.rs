@@ -1,0 +1,130 @@
+//! The page about a run, a sweep or a folder of runs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::check::{CheckOptions, Depth, Limits, PostError, Report};
+use crate::report::ListedRun;
+use crate::trends::SweepVerdict;
+use output::files::input;
+use output::files::made::PAGE;
+use output::layout::file;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::Error;
+use crate::commands::check::{BasisOptions, basis, inputs};
+use crate::commands::outputs::claim;
+use crate::commands::sweep_folder;
+
+/// What to write a page about.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct ReportOptions {
+    /// Folder of a run, of a sweep, or of several runs, which are listed
+    #[cfg_attr(feature = "clap", arg(value_name = "RUN_OR_SWEEP"))]
+    pub run: PathBuf,
+    /// The page [default: report.html in that folder]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.html"))]
+    pub out: Option<PathBuf>,
+    /// What the run is measured against.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub basis: BasisOptions,
+}
+
+/// A page that was written.
+#[derive(Clone, Debug)]
+pub struct Reported {
+    /// The page.
+    pub page: PathBuf,
+    /// The document of `creepage report --json`: the page, whether the run holds every limit (null for a sweep), and
+    /// what a sweep says of its parameters.
+    pub document: Value,
+}
+
+/// Writes one self-contained HTML page about a run or a sweep: what happened, patch, checks, figures, details; or about a
+/// folder of runs: their list.
+///
+/// # Errors
+/// Results that cannot be read; a page that cannot be written, or would be written over another file.
+pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
+    let place = |folder: &Path| options.out.clone().unwrap_or_else(|| folder.join("report.html"));
+    let (text, page, mut document) = if let Some(found) = sweep_folder::read(&options.run)? {
+        let page = place(&options.run);
+        claim("--out", &page, &PAGE, &[options.run.join("sweep.json")])?;
+        let verdicts = crate::trends::sweep_verdicts(&options.run, &found)?;
+        let verdicts: Vec<Value> = verdicts.iter().map(SweepVerdict::document).collect();
+        (sweep_page(&options.run, &found)?, page, json!({ "pass": null, "verdicts": verdicts }))
+    } else if let Some(runs) = listed(&options.run) {
+        let page = place(&options.run);
+        claim("--out", &page, &PAGE, &[])?;
+        let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
+        let document = json!({ "pass": null, "runs": names });
+        (crate::report::runs_page(&sweep_folder::name(&options.run), &runs), page, document)
+    } else {
+        let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
+        let page = place(&paths.folder);
+        claim("--out", &page, &PAGE, &inputs(&paths))?;
+        let wanted = CheckOptions {
+            window: None,
+            limits: Limits::for_enforcement(against.enforcement.as_deref()),
+            report: Report::default(),
+            map: None,
+        };
+        let checked = crate::check::check(&paths, &mut against, &wanted)?;
+        let figures = crate::figures::figures(&paths, &mut against, None)?;
+        let text = crate::report::run_page(&against, &paths.folder, &checked.document, &figures)?;
+        (text, page, json!({ "pass": checked.pass }))
+    };
+    write("--out ", &page, &text)?;
+    document["page"] = json!(page.display().to_string());
+    Ok(Reported { page, document })
+}
+
+/// The runs below a folder that is no run itself, by name; `None` where there are none.
+fn listed(folder: &Path) -> Option<Vec<ListedRun>> {
+    if !folder.is_dir() || folder.join(file::CONTACT).exists() {
+        return None;
+    }
+    let mut runs = Vec::new();
+    for entry in fs::read_dir(folder).ok()?.flatten() {
+        let run = entry.path();
+        let Ok(text) = input::text(&run.join(file::SUMMARY), input::DOCUMENT) else {
+            continue;
+        };
+        // a summary that is no JSON shows as unknown
+        let summary = serde_json::from_str(&text).unwrap_or_default();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        runs.push(ListedRun { name, summary, page: run.join("report.html").is_file() });
+    }
+    runs.sort_by(|a, b| a.name.cmp(&b.name));
+    (!runs.is_empty()).then_some(runs)
+}
+
+/// Refuses a folder where the page of a sweep would replace what this program did not write.
+pub(crate) fn claim_sweep(folder: &Path) -> Result<(), Error> {
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    claim("", &folder.join("report.html"), &PAGE, &[])
+}
+
+/// Writes the page of a sweep into its folder.
+pub(crate) fn write_sweep(folder: &Path, results: &Value) -> Result<PathBuf, Error> {
+    let page = folder.join("report.html");
+    claim_sweep(folder)?;
+    write("", &page, &sweep_page(folder, results)?)?;
+    Ok(page)
+}
+
+fn sweep_page(folder: &Path, results: &Value) -> Result<String, Error> {
+    Ok(crate::report::sweep_page(&sweep_folder::name(folder), &folder.join("sweep.json"), results)?)
+}
+
+fn write(option: &str, page: &Path, text: &str) -> Result<(), Error> {
+    let failed = |error| {
+        PostError::Asked(format!("{option}{}: cannot write the page: {error}", page.display()))
+    };
+    Ok(fs::write(page, text).map_err(failed)?)
+}

@@ -1,0 +1,113 @@
+//! The figures of a run: those of the papers, and further ones over space and time.
+
+mod caption;
+mod half_space;
+mod histories;
+mod lines;
+mod maps;
+mod patch;
+mod scatter;
+mod scene;
+pub mod slider;
+mod spectrum;
+
+use crate::chart::Figure;
+use crate::check::PostError;
+use crate::check::Scales;
+use crate::check::basis::{Basis, RunPaths};
+use crate::check::frames::ContactHistory;
+use crate::check::means::Sources;
+use crate::check::window::{Span, Window};
+use output::layout::file;
+
+pub(crate) use scene::{FigureMeans, Instant, Scene};
+
+/// A figure with the name of its files.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// Name without extension.
+    pub stem: &'static str,
+    /// What it shows, in a phrase.
+    pub about: &'static str,
+    /// The figure.
+    pub figure: Figure,
+}
+
+/// All figures of a run for which it has the data. Lines and maps are drawn at the last record of the window and
+/// at two before it, 5.7 us apart (as in the papers) where records allow. `basis` gets scales found in the
+/// records; `window` as in [`CheckOptions`](crate::check::CheckOptions).
+///
+/// # Errors
+/// Files that cannot be read or lack data or scales that the figures need; a window without a record.
+pub fn figures(
+    paths: &RunPaths,
+    basis: &mut Basis,
+    window: Option<Span>,
+) -> Result<Vec<Named>, PostError> {
+    let history = ContactHistory::open(&paths.contact)?;
+    let window = Window::resolve(window, basis, &history)?;
+    let records = window.records.clone();
+    let scales = Scales::resolve(basis, &history, &records)?;
+    let body = history.surface.bodies().last().copied().unwrap_or(0);
+    let sources = Sources::of(paths, basis, &window)?;
+    let means = FigureMeans {
+        normal_force: sources.mean("normal_force"),
+        creepage: sources.mean("creepage"),
+        traction_coefficient: sources.mean("traction_coefficient"),
+    };
+    let window = window.ends(&history.times);
+    let instants = Vec::new();
+    let mut scene =
+        Scene { history: &history, basis, scales, body, records, window, means, instants };
+    for index in scene.instant_indices() {
+        let frame = history.record(index)?;
+        let centre = scene.centre(&frame);
+        scene.instants.push(Instant { frame, centre });
+    }
+    let band = maps::Band::gather(&scene)?;
+    let mut all = vec![
+        Named {
+            stem: "figure-1-velocities",
+            about: "velocities of the surface nodes of both bodies along y = 0, and their difference",
+            figure: lines::velocities(&scene),
+        },
+        Named {
+            stem: "figure-2-stick-slip",
+            about: "where the patch sticks and slips at three instants",
+            figure: maps::stick_slip(&scene),
+        },
+        Named {
+            stem: "figure-3-tractions",
+            about: "pressure, shear and the bound of friction along y = 0",
+            figure: lines::tractions(&scene),
+        },
+        Named {
+            stem: "figure-4-bound",
+            about: "the bound that the slip velocity implies, beside the shear",
+            figure: lines::bound(&scene),
+        },
+        Named {
+            stem: "figure-7-law",
+            about: "shear over pressure against slip speed, over the friction law",
+            figure: scatter::law(&scene, &band),
+        },
+        Named {
+            stem: "space-time",
+            about: "slip along y = 0 over time",
+            figure: maps::space_time(&scene, &band),
+        },
+    ];
+    if let Some(figure) = patch::maps(&scene) {
+        let about = "maps of the patch at the last instant: tractions, slip velocity, stick and slip, friction";
+        all.push(Named { stem: "contact-maps", about, figure });
+    }
+    if let Some(figure) = histories::histories(&scene, &paths.folder.join(file::HISTORY))? {
+        let about = "forces, creepage, patch and energies over time";
+        all.push(Named { stem: "histories", about, figure });
+    }
+    if let Some(figure) = spectrum::spectrum(&scene, &paths.folder.join(file::PROBES))? {
+        let about = "spectrum of the slip velocity at the probe nodes";
+        all.push(Named { stem: "spectrum", about, figure });
+    }
+    Ok(all)
+}

@@ -1,0 +1,42 @@
+//! Captions with the key numbers of a case.
+
+use super::scene::Scene;
+use crate::check::basis::number_at;
+use crate::check::law::Law;
+
+/// The caption of a figure: the key numbers of the case, then `text`.
+pub(super) fn caption(scene: &Scene<'_>, text: &str) -> String {
+    let basis = scene.basis;
+    let mut parts = Vec::new();
+    let asked = basis.case.as_ref().and_then(|case| number_at(case, "load.normal"));
+    if let Some(load) = scene.means.normal_force.or(asked) {
+        parts.push(format!("N = {:.1} kN", 1e-3 * load));
+    }
+    if let Some(speed) = basis.scale("speed") {
+        parts.push(format!("V = {speed:.2} m/s"));
+    }
+    if let Some(creepage) = scene.means.creepage.or(basis.scale("creepage")) {
+        parts.push(format!("creepage {:.3}\u{b7}10\u{207b}\u{b3}", 1e3 * creepage));
+    }
+    if let Some(traction) = scene.means.traction_coefficient {
+        parts.push(format!("T/N = {traction:.4}"));
+    }
+    match basis.law {
+        Some(Law::Coulomb(law)) => parts.push(format!("\u{3bc} = {}", law.mu)),
+        Some(Law::Exponential(law)) => parts.push(format!(
+            "\u{3bc}(|s|) = {} + {:.3} exp(\u{2212}{} s/m |s|)",
+            law.mu_dynamic,
+            law.mu_static - law.mu_dynamic,
+            law.decay
+        )),
+        None => {}
+    }
+    if let Some(enforcement) = &basis.enforcement {
+        parts.push(format!("contact by {enforcement}"));
+    }
+    parts.push(format!("h = {:.2} mm", 1e3 * scene.scales.size));
+    if let Some(dt) = scene.scales.dt {
+        parts.push(format!("dt = {:.1} ns", 1e9 * dt));
+    }
+    format!("{}: {}. {text}", basis.name, parts.join(", "))
+}

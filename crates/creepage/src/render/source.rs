@@ -1,0 +1,320 @@
+//! The records that are drawn: positions, deformations and values at all nodes.
+
+use super::RenderError;
+use super::quantity::{Drawable, Quantity};
+use super::rigid::Rigid;
+use crate::check::PostError;
+use crate::check::frames;
+use crate::check::vector::{Vec3, axpy, norm, sub};
+use output::layout::{BODIES, BODY_NAMES, CONSTANT, CONTACT, HALF, attribute};
+use output::{FieldSpec, GridFile, as_long_as_written, as_written, read_summary};
+use std::path::{Path, PathBuf};
+
+/// Label of the disk.
+pub(super) const DISK: u8 = 0;
+
+/// The mesh and the file of its records.
+pub(super) struct Source {
+    path: PathBuf,
+    file: GridFile,
+    pub(super) times: Vec<f64>,
+    /// Reference coordinates (m).
+    pub(super) points: Vec<Vec3>,
+    /// Corners of all cells, one cell after the other.
+    pub(super) corners: Vec<u32>,
+    /// Corners of each cell: 8 of the bodies, 4 of the surfaces.
+    pub(super) per_cell: usize,
+    /// Body of each cell.
+    pub(super) bodies: Vec<u8>,
+    /// Nodes of the disk, and the lowest and highest z of them before they moved (m).
+    disk: Vec<usize>,
+    pub(super) heights: [f64; 2],
+    /// Whether the part y >= 0 alone is modelled.
+    pub(super) half: bool,
+}
+
+/// One record.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Record {
+    /// Where the nodes are (m).
+    pub(super) placed: Vec<Vec3>,
+    /// What of their displacement is no rigid motion of their body (m).
+    pub(super) deformation: Vec<Vec3>,
+    /// The quantity shown, in the unit of its label.
+    pub(super) values: Vec<f64>,
+    /// Contact pressure (Pa); of surfaces alone.
+    pub(super) pressure: Vec<f64>,
+    /// Below the axis of the disk, as deep as the disk reaches.
+    pub(super) lowest: Vec3,
+}
+
+impl Record {
+    /// Where the nodes are with their deformation `times` as large.
+    pub(super) fn magnified(&self, times: f64) -> Vec<Vec3> {
+        let pairs = self.placed.iter().zip(&self.deformation);
+        pairs.map(|(p, d)| axpy(*p, times - 1.0, *d)).collect()
+    }
+}
+
+impl Source {
+    /// Opens the records of a run, after a check of the file's checksum where the run has ended.
+    pub(super) fn open(folder: &Path, what: Drawable) -> Result<Self, RenderError> {
+        let path = folder.join(what.file());
+        if !path.is_file() {
+            return Err(RenderError::NoFile { folder: folder.into(), what });
+        }
+        if let Some(summary) = read_summary(folder)? {
+            let this = |name: &str| name == what.file();
+            if as_long_as_written(folder, &summary, this)? {
+                as_written(folder, &summary, this)?;
+            }
+        }
+        let file = frames::open(&path)?;
+        let times = file.times()?;
+        if times.is_empty() {
+            return Err(RenderError::NoRecord(path));
+        }
+        let per_cell = if what == Drawable::Fields { 8 } else { 4 };
+        let half = file.provenance(attribute::SYMMETRY).is_ok_and(|text| text == HALF)
+            && what == Drawable::Fields;
+        let mut source = Self {
+            points: file.points()?,
+            corners: file.connectivity()?,
+            bodies: vec![DISK; file.cells()],
+            disk: Vec::new(),
+            heights: [0.0; 2],
+            path,
+            file,
+            times,
+            per_cell,
+            half,
+        };
+        source.check()?;
+        if source.has(&CONSTANT.body) {
+            let labels = source.file.read(&CONSTANT.body.name, true, 0)?;
+            source.bodies = labels.into_iter().map(|label| label as u8).collect();
+        }
+        source.disk = source.nodes_of(DISK);
+        source.heights = ends(source.disk.iter().map(|&node| source.points[node][2]));
+        Ok(source)
+    }
+
+    /// Refuses a mesh that does not fit together.
+    fn check(&self) -> Result<(), RenderError> {
+        let lacks = |what: &str| {
+            Err(PostError::Lacks { path: self.path.clone(), what: what.into() }.into())
+        };
+        if self.file.cells().checked_mul(self.per_cell) != Some(self.corners.len()) {
+            return lacks(&format!("its cells do not have {} corners each", self.per_cell));
+        }
+        if self.corners.iter().any(|&node| node as usize >= self.points.len()) {
+            return lacks("a cell names a node that the file does not hold");
+        }
+        let finite = self.points.as_flattened().iter().chain(&self.times).all(|x| x.is_finite());
+        if finite { Ok(()) } else { lacks("a coordinate or a time is not a number") }
+    }
+
+    fn has(&self, field: &FieldSpec) -> bool {
+        let same = |f: &output::FieldInfo| {
+            f.name == field.name && f.on_cells == field.on_cells && f.components == field.components
+        };
+        self.file.fields().iter().any(same)
+    }
+
+    /// Whether the run wrote what `quantity` is made of.
+    pub(super) fn shows(&self, quantity: Quantity) -> bool {
+        quantity.dataset().is_none_or(|field| self.has(field))
+    }
+
+    /// Nodes of a body, sorted.
+    fn nodes_of(&self, wanted: u8) -> Vec<usize> {
+        let cells = self.corners.chunks_exact(self.per_cell).zip(&self.bodies);
+        let mine = cells.filter(|(_, body)| **body == wanted).flat_map(|(cell, _)| cell);
+        let mut nodes: Vec<usize> = mine.map(|&node| node as usize).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Centre of each cell before it moved.
+    pub(super) fn centre(&self, cell: usize) -> Vec3 {
+        let corners = &self.corners[cell * self.per_cell..][..self.per_cell];
+        let add =
+            |sum, &node: &u32| axpy(sum, 1.0 / corners.len() as f64, self.points[node as usize]);
+        corners.iter().fold([0.0; 3], add)
+    }
+
+    /// The record `index` with `quantity` at its nodes.
+    pub(super) fn record(&self, index: usize, quantity: Quantity) -> Result<Record, RenderError> {
+        let displacement = if quantity.of() == Drawable::Contact && !self.has(&CONTACT.displacement)
+        {
+            // contact histories of other codes need not have it
+            vec![[0.0; 3]; self.points.len()]
+        } else {
+            self.vectors(&BODIES.displacement, index, quantity)?
+        };
+        let placed: Vec<Vec3> =
+            self.points.iter().zip(&displacement).map(|(p, u)| axpy(*p, 1.0, *u)).collect();
+        let deformation = if self.has(&BODIES.deformation) {
+            self.vectors(&BODIES.deformation, index, quantity)?
+        } else {
+            self.less_rigid(displacement, &placed)
+        };
+        let pressure = if quantity.of() == Drawable::Contact {
+            self.numbers(&CONTACT.pressure, index, quantity)?
+        } else {
+            Vec::new()
+        };
+        let lowest = self.lowest(&placed, &deformation);
+        let mut record = Record { placed, deformation, values: Vec::new(), pressure, lowest };
+        record.values = self.values(index, quantity, &record)?;
+        let size = quantity.label().1;
+        record.values.iter_mut().for_each(|value| *value /= size);
+        Ok(record)
+    }
+
+    /// The place below the axis of the disk, which moves without jumps from node to node.
+    fn lowest(&self, placed: &[Vec3], deformation: &[Vec3]) -> Vec3 {
+        let of_disk = |node: &usize| sub(placed[*node], deformation[*node]);
+        let before: Vec<Vec3> = self.disk.iter().map(|&node| self.points[node]).collect();
+        let after: Vec<Vec3> = self.disk.iter().map(of_disk).collect();
+        let [low, high] = self.heights;
+        let axis = [0.0, 0.0, 0.5 * (low + high)];
+        let moved = Rigid::fit(&before, &after).map_or(axis, |rigid| rigid.of(axis));
+        let [bottom, _] = ends(self.disk.iter().map(|&node| placed[node][2]));
+        [moved[0], 0.0, bottom]
+    }
+
+    /// The displacements, those of the disk's nodes without its rigid motion; the bar has none, as in the field
+    /// `deformation`.
+    fn less_rigid(&self, mut displacement: Vec<Vec3>, placed: &[Vec3]) -> Vec<Vec3> {
+        let of_disk = |all: &[Vec3]| self.disk.iter().map(|&n| all[n]).collect::<Vec<_>>();
+        if let Some(rigid) = Rigid::fit(&of_disk(&self.points), &of_disk(placed)) {
+            for &node in &self.disk {
+                displacement[node] = sub(placed[node], rigid.of(self.points[node]));
+            }
+        }
+        displacement
+    }
+
+    /// The quantity at every node (SI).
+    fn values(
+        &self,
+        index: usize,
+        quantity: Quantity,
+        record: &Record,
+    ) -> Result<Vec<f64>, RenderError> {
+        let sizes = |vectors: Vec<Vec3>| vectors.into_iter().map(norm).collect();
+        match (quantity, quantity.dataset()) {
+            (Quantity::VonMises, Some(field)) => {
+                let stress = self.numbers(field, index, quantity)?;
+                let stress: Vec<f64> = stress.as_chunks().0.iter().map(von_mises).collect();
+                Ok(self.to_nodes(&stress))
+            }
+            (Quantity::Pressure, _) => Ok(record.pressure.clone()),
+            (Quantity::SlipVelocity, Some(field)) => {
+                let mut values: Vec<f64> = sizes(self.vectors(field, index, quantity)?);
+                // surfaces that do not touch move past one another, and that is no slip
+                let open = |pressure: &f64| *pressure <= 0.0;
+                let pairs = values.iter_mut().zip(&record.pressure);
+                pairs.filter(|(_, pressure)| open(pressure)).for_each(|(value, _)| *value = 0.0);
+                Ok(values)
+            }
+            (_, Some(field)) => Ok(sizes(self.vectors(field, index, quantity)?)),
+            (_, None) => Ok(sizes(record.deformation.clone())),
+        }
+    }
+
+    /// The mean at each node of the cells around it.
+    fn to_nodes(&self, of_cells: &[f64]) -> Vec<f64> {
+        let mut sums = vec![(0.0, 0u32); self.points.len()];
+        for (cell, value) in self.corners.chunks_exact(self.per_cell).zip(of_cells) {
+            for &node in cell {
+                let (sum, count) = &mut sums[node as usize];
+                *sum += value;
+                *count += 1;
+            }
+        }
+        sums.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect()
+    }
+
+    fn vectors(
+        &self,
+        field: &'static FieldSpec,
+        index: usize,
+        quantity: Quantity,
+    ) -> Result<Vec<Vec3>, RenderError> {
+        Ok(self.numbers(field, index, quantity)?.as_chunks().0.to_vec())
+    }
+
+    /// A field of a record, as many numbers as it must have, all finite.
+    fn numbers(
+        &self,
+        field: &'static FieldSpec,
+        index: usize,
+        quantity: Quantity,
+    ) -> Result<Vec<f64>, RenderError> {
+        if !self.has(field) {
+            let (path, field) = (self.path.clone(), field.name.as_ref());
+            return Err(RenderError::NoField { path, field, quantity });
+        }
+        let values = self.file.read(&field.name, field.on_cells, index)?;
+        let rows = if field.on_cells { self.file.cells() } else { self.points.len() };
+        if values.len() != field.components * rows {
+            return Err(PostError::Damaged { path: self.path.clone() }.into());
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(values),
+            Some(at) => {
+                let (time, row) = (self.times[index], at / field.components);
+                let what = format!(
+                    "{} is not a number at {} {row} at t = {time:e} s; the run went wrong before",
+                    field.name,
+                    if field.on_cells { "element" } else { "node" },
+                );
+                Err(PostError::Lacks { path: self.path.clone(), what }.into())
+            }
+        }
+    }
+}
+
+/// The lowest and highest of numbers.
+pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
+/// Name of a body in titles.
+pub(super) fn body_name(body: u8) -> &'static str {
+    BODY_NAMES.get(usize::from(body)).copied().unwrap_or("other body")
+}
+
+/// Of a stress xx yy zz xy yz xz.
+fn von_mises([xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
+    let square = |x: f64| x * x;
+    let normal = square(xx - yy) + square(yy - zz) + square(zz - xx);
+    (0.5 * normal + 3.0 * (square(*xy) + square(*yz) + square(*xz))).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn von_mises_of_pull_of_shear_and_of_pressure() {
+        assert_eq!(von_mises(&[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 3.0);
+        assert!((von_mises(&[0.0, 0.0, 0.0, 0.0, 2.0, 0.0]) - 12f64.sqrt()).abs() < 1e-15);
+        assert_eq!(von_mises(&[7.0, 7.0, 7.0, 0.0, 0.0, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn magnified_bodies_keep_their_place_and_only_their_deformation_grows() {
+        let record = Record {
+            placed: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+            deformation: vec![[0.0; 3], [0.0, 0.0, 1e-3]],
+            ..Record::default()
+        };
+        assert_eq!(record.magnified(100.0)[0], [1.0, 2.0, 3.0]);
+        assert!((record.magnified(100.0)[1][2] - 6.099).abs() < 1e-12);
+        assert_eq!(record.magnified(1.0), record.placed);
+    }
+}

@@ -1,0 +1,383 @@
+//! Self-contained HTML pages of a run and of a sweep, with figures inline: no network is needed.
+
+mod numbers;
+mod overview;
+mod runs;
+mod sweep;
+mod verdict;
+
+use crate::check::PostError;
+use crate::check::basis::Basis;
+use crate::check::digits::{all_digits, digits};
+use crate::check::limits::MEASURES;
+use crate::check::patch_series::{PATCH_TABLE, PatchLine};
+use crate::check::{keeps_limit, slip_paired};
+use crate::figures::Named;
+use output::files::made::PAGE_MARK;
+use output::layout::file;
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+pub use runs::{ListedRun, runs_page};
+pub use sweep::sweep_page;
+
+const STYLE: &str = "
+body{font-family:\"DejaVu Sans\",sans-serif;max-width:min(110rem,96vw);margin:2rem auto;padding:0 1rem;
+color:#111;line-height:1.45}p,li{max-width:70rem;overflow-wrap:anywhere}
+h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #bbb}
+table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
+td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
+td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.wide{overflow-x:auto}.wide td:last-child:not(.n){min-width:14rem}nav a{margin-right:1rem}.csv{font-size:.8rem}
+.overview{display:flex;flex-wrap:wrap;gap:1.5rem;align-items:flex-start}
+.overview>*{flex:1 1 24rem;min-width:0}img{max-width:100%;height:auto;border:1px solid #ddd}
+.pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
+.note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
+#values{position:fixed;z-index:1;pointer-events:none;background:#fffe;border:1px solid #999;padding:.3rem .6rem;
+font-size:.8rem;max-width:90vw}#values i{display:inline-block;width:1em;height:.6em;margin-right:.5em}
+#rule{stroke:#999;stroke-width:3;pointer-events:none}
+pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
+@media(max-width:600px){figure{overflow-x:auto}figure svg{min-width:44rem}
+.measures table,.measures tbody{display:block}.measures tr{display:grid;grid-template-columns:1fr 5rem 4rem 2.7rem}
+.measures td,.measures th{padding:.2rem .3rem}.measures td:last-child{grid-column:1/-1}
+.measures th:last-child{display:none}.measures td:not(:last-child){border-bottom:none}}
+@media print{body{max-width:none}figure{break-inside:avoid}}";
+
+/// Offers each table as CSV: a link that the browser makes of the table, without a request.
+const TABLES: &str = "
+for (const table of document.querySelectorAll('table')) {
+  const text = cell => '\\\"' + cell.innerText.trim().replaceAll('\\\"', '\\\"\\\"') + '\\\"';
+  const rows = [...table.rows].map(row => [...row.cells].map(text).join(','));
+  const link = document.createElement('a');
+  link.textContent = 'CSV'; link.className = 'csv'; link.download = 'table.csv';
+  link.href = 'data:text/csv;charset=utf-8,' + encodeURIComponent(rows.join('\\n'));
+  table.after(link);
+}";
+
+/// Shows values under the pointer in figures, from the attributes that they have for it.
+const VALUES: &str = include_str!("report/values.js");
+
+/// The HTML page of a run in `folder`, from the document of its check ([`Checked`](crate::check::Checked)) and its
+/// figures.
+///
+/// # Errors
+/// A figure that cannot be drawn.
+pub fn run_page(
+    basis: &Basis,
+    folder: &Path,
+    checked: &Value,
+    figures: &[Named],
+) -> Result<String, PostError> {
+    let mut out = head(&basis.name);
+    let _ = write!(out, "<h1>{}</h1>\n<p>{}</p>\n", escape(&basis.name), title(basis, checked));
+    overview::contents(&mut out);
+    overview::section(&mut out, basis, folder, checked);
+    out.push_str("<h2 id=\"patch\">The patch</h2>\n");
+    patch(&mut out, basis, checked);
+    drawn(&mut out, figures, &PATCH_FIGURES)?;
+    verdicts(&mut out, checked);
+    drawn(&mut out, figures, &CONDITION_FIGURES)?;
+    out.push_str("<h2 id=\"details\">Details</h2>\n");
+    case(&mut out, basis, checked);
+    numbers::section(&mut out, basis);
+    energy(&mut out, basis);
+    let shown = |stem: &&str| PATCH_FIGURES.contains(stem) || CONDITION_FIGURES.contains(stem);
+    let rest: Vec<&str> = figures.iter().map(|named| named.stem).filter(|s| !shown(s)).collect();
+    drawn(&mut out, figures, &rest)?;
+    reproduce(&mut out, basis, folder);
+    overview::data(&mut out, checked);
+    end(&mut out);
+    Ok(out)
+}
+
+/// Figures of the section about the patch, and of that about the contact conditions.
+const PATCH_FIGURES: [&str; 3] = ["figure-3-tractions", "contact-maps", "figure-2-stick-slip"];
+const CONDITION_FIGURES: [&str; 2] = ["figure-4-bound", "figure-7-law"];
+
+/// Appends those of the figures that have these names, in the order of the names.
+fn drawn(out: &mut String, figures: &[Named], stems: &[&str]) -> Result<(), PostError> {
+    for stem in stems {
+        for named in figures.iter().filter(|named| named.stem == *stem) {
+            let svg = named.figure.svg_element()?;
+            let about = escape(named.about);
+            let _ = writeln!(out, "<figure id=\"{stem}\" aria-label=\"{about}\">{svg}</figure>");
+        }
+    }
+    Ok(())
+}
+
+/// Ends a page, with its scripts.
+fn end(out: &mut String) {
+    let _ =
+        writeln!(out, "<script>{TABLES}</script>\n<script>\n{VALUES}</script>\n</body>\n</html>");
+}
+
+fn head(name: &str) -> String {
+    // an empty icon keeps browsers from asking a server for one
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n{PAGE_MARK}\n\
+         <title>{}</title>\n\
+         <link rel=\"icon\" href=\"data:,\">\n<style>{}{STYLE}</style>\n</head>\n<body>\n",
+        escape(name),
+        crate::chart::font_face()
+    )
+}
+
+/// Text as HTML.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// What Hertz's theory gives for a patch measure (SI), where it is known apart from the records.
+fn half_space(basis: &Basis, key: &str) -> Option<f64> {
+    let known = ["half_length", "half_width", "peak_pressure"].contains(&key);
+    let scale = basis.scales.get(key).filter(|scale| !scale.from.contains("last record"));
+    scale.filter(|_| known).map(|scale| scale.value)
+}
+
+/// A mean to the digit that half its 95 % interval leaves it, at most four; to four where it has none.
+fn worth(mean: f64, half: Option<f64>) -> String {
+    let known = |half: f64| libm::floor(libm::log10(mean.abs() / half)) as i32 + 2;
+    let significant = half.filter(|half| *half > 0.0 && mean != 0.0).map_or(4, known);
+    digits(mean, significant.clamp(1, 4))
+}
+
+fn number(document: &Value, pointer: &str) -> Option<f64> {
+    document.pointer(pointer).and_then(Value::as_f64)
+}
+
+fn title(basis: &Basis, checked: &Value) -> String {
+    let text = basis.case.as_ref().and_then(|case| case.get("title")).and_then(|t| t.as_str());
+    let ms = |pointer| number(checked, pointer).map_or("?".into(), |t| digits(1e3 * t, 5));
+    format!(
+        "{} All means are those from {} to {} ms, in {} records.",
+        text.map(|text| format!("{}.", escape(text.trim_end_matches('.')))).unwrap_or_default(),
+        ms("/window/0"),
+        ms("/window/1"),
+        checked["steps"]
+    )
+}
+
+fn verdicts(out: &mut String, checked: &Value) {
+    let _ = write!(
+        out,
+        "<h2 id=\"conditions\">Contact conditions</h2>\n\
+         <p>The limits are those of {} methods. The slip velocity paired with a traction is {}. \
+         Definitions and scales: docs/checks.md of Creepage.</p>\n\
+         <div class=\"wide measures\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
+         <th></th><th>what it says</th></tr>\n",
+        checked["limits_for"].as_str().unwrap_or_default(),
+        slip_paired(checked)
+    );
+    for measure in MEASURES {
+        let metric = &checked["metrics"][measure.name];
+        let value = metric["value"].as_f64();
+        let limit = match (&metric["limit"], metric["limit"].as_f64()) {
+            (_, Some(most)) => digits(most, 2),
+            (Value::Array(ends), _) => ends
+                .iter()
+                .filter_map(Value::as_f64)
+                .map(all_digits)
+                .collect::<Vec<_>>()
+                .join(" to "),
+            _ => String::new(),
+        };
+        let word = match keeps_limit(metric) {
+            None => "",
+            Some(true) => "pass",
+            Some(false) => "fail",
+        };
+        let units = if measure.units == "1" { "" } else { measure.units };
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td class=\"n\">{} {units}</td><td class=\"n\">{limit}</td>\
+             <td class=\"{word}\">{word}</td><td>{}</td></tr>",
+            measure.name,
+            value.map_or("\u{2013}".into(), |value| digits(value, 3)),
+            escape(&verdict::verdict(measure.name, metric))
+        );
+    }
+    out.push_str("</table></div>\n");
+    for note in checked["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        let _ = writeln!(out, "<p class=\"note\">Note: {}.</p>", escape(note));
+    }
+}
+
+fn case(out: &mut String, basis: &Basis, checked: &Value) {
+    out.push_str("<h3>The case</h3>\n<table>\n");
+    let mut row = |label: &str, text: String| {
+        let _ = writeln!(out, "<tr><td>{label}</td><td>{}</td></tr>", escape(&text));
+    };
+    let law = &checked["law"];
+    let at = |key: &str| law[key].as_f64().map_or("?".into(), |value| digits(value, 3));
+    match law["law"].as_str() {
+        Some("coulomb") => row("friction", format!("Coulomb, \u{3bc} = {}", at("static"))),
+        Some(_) => row(
+            "friction",
+            format!(
+                "falls with slip velocity, Eq. (8): \u{3bc}_S = {}, \u{3bc}_D = {}, k = {} s/m",
+                at("static"),
+                at("dynamic"),
+                at("decay")
+            ),
+        ),
+        None => row("friction", "the coefficient that the data give".into()),
+    }
+    if let Some(enforcement) = &basis.enforcement {
+        row("contact", enforcement.clone());
+    }
+    for (name, entry) in checked["scales"].as_object().into_iter().flatten() {
+        let value = entry["value"].as_f64().map_or("?".into(), |value| digits(value, 5));
+        let units = entry["units"].as_str().filter(|u| *u != "1");
+        let units = units.map(|u| format!(" {u}")).unwrap_or_default();
+        let about = entry["about"].as_str().unwrap_or_default();
+        let from = entry["from"].as_str().unwrap_or_default();
+        row(&name.replace('_', " "), format!("{value}{units}: {about} (from: {from})"));
+    }
+    if let Some(summary) = &basis.summary {
+        let count = |key: &str| summary[key].as_u64().map_or("?".into(), |n| n.to_string());
+        row(
+            "model",
+            format!(
+                "{} elements, {} nodes, {} steps",
+                count("elements"),
+                count("nodes"),
+                count("steps")
+            ),
+        );
+    }
+    out.push_str("</table>\n");
+}
+
+fn patch(out: &mut String, basis: &Basis, checked: &Value) {
+    out.push_str(
+        "<div class=\"wide\"><table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
+         <th></th><th class=\"n\">95 % interval</th><th class=\"n\">deviation</th>\
+         <th class=\"n\">half-space</th></tr>\n",
+    );
+    for PatchLine { label, key, factor, unit } in PATCH_TABLE {
+        let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));
+        let note = checked.pointer(&format!("/patch/{key}/note")).and_then(Value::as_str);
+        let Some(mean) = at("mean") else {
+            if let Some(note) = note {
+                let _ = writeln!(
+                    out,
+                    "<tr><td>{label}</td><td class=\"n\">\u{2013}</td><td colspan=\"4\">{}</td></tr>",
+                    escape(note)
+                );
+            }
+            continue;
+        };
+        let reference = half_space(basis, key).map(|value| digits(factor * value, 4));
+        let _ = writeln!(
+            out,
+            "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td>\
+             <td class=\"n\">{}</td><td class=\"n\">{}</td>{}</tr>",
+            worth(factor * mean, at("ci95").map(|half| factor * half)),
+            at("ci95")
+                .map(|half| format!("\u{b1} {}", digits(factor * half, 2)))
+                .unwrap_or_default(),
+            at("deviation").map(|d| digits(factor * d, 2)).unwrap_or_default(),
+            reference.unwrap_or_default(),
+            note.map(|note| format!("<td>{}</td>", escape(note))).unwrap_or_default()
+        );
+    }
+    out.push_str(
+        "</table></div>\n<p class=\"note\">95 % interval: that of the mean, from batches of records. It is missing where \
+         the value drifts during the window. Deviation: the standard deviation over the records.</p>\n",
+    );
+}
+
+fn energy(out: &mut String, basis: &Basis) {
+    let Some(energy) = basis.summary.as_ref().and_then(|s| s["energy"].as_object()) else {
+        return;
+    };
+    out.push_str("<h3>Energy at the end</h3>\n<table>\n");
+    for (label, key) in [
+        ("kinetic", "kinetic"),
+        ("strain", "internal"),
+        ("hourglass stiffness", "hourglass"),
+        ("contact springs", "contact_stored"),
+        ("heat of friction", "friction_dissipated"),
+        ("heat of damping", "damping_dissipated"),
+        ("work of drive and load", "external_work"),
+    ] {
+        if let Some(value) = energy.get(key).and_then(Value::as_f64) {
+            let _ = writeln!(
+                out,
+                "<tr><td>{label}</td><td class=\"n\">{} J</td></tr>",
+                digits(value, 4)
+            );
+        }
+    }
+    out.push_str("</table>\n");
+    if let Some(error) = energy.get("balance_error").and_then(Value::as_f64) {
+        let _ = writeln!(
+            out,
+            "<p>The energy balance closes to {} of the largest energy exchanged.</p>",
+            digits(error, 2)
+        );
+    }
+    let share = |key: &str| energy.get(key).and_then(Value::as_f64);
+    if let (Some(hourglass), Some(internal)) = (share("hourglass"), share("internal"))
+        && internal > 0.0
+    {
+        let _ = writeln!(
+            out,
+            "<p>Hourglass energy is {} % of the strain energy (commonly kept below 1 %).</p>",
+            digits(100.0 * hourglass / internal, 2)
+        );
+    }
+}
+
+fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
+    out.push_str("<h3 id=\"reproduce\">How to reproduce</h3>\n");
+    let friction = basis.case.as_ref().and_then(|case| case.get("friction"));
+    // every run writes its history; records of another program have none
+    if basis.summary.is_none() && !output::is_ours(&folder.join(file::HISTORY)) {
+        out.push_str(
+            "<p>The records are of another program, which alone can make them again.</p>\n",
+        );
+    } else if friction.and_then(|f| f.get("law")).is_some_and(|law| law.as_str() == Some("python"))
+    {
+        out.push_str(
+            "<p>In Python, with the friction law of the run: <code>creepage.run(case, law=law)</code>, where case is \
+             the one below.</p>\n",
+        );
+    } else {
+        out.push_str(
+            "<p>In the folder of the run, or where the case below is saved as case.toml:</p>\n<pre>creepage run \
+             case.toml --out again\ncreepage check again\ncreepage plot again\ncreepage report again</pre>\n\
+             <p>Running the resolved case again gives the same bits on the same kind of processor.</p>\n",
+        );
+    }
+    let _ = writeln!(out, "<p>Made by Creepage {}.</p>", env!("CARGO_PKG_VERSION"));
+    if let Some(text) = basis.case.as_ref().and_then(|case| toml::to_string_pretty(case).ok()) {
+        let _ = writeln!(
+            out,
+            "<details><summary>case.toml, as resolved</summary><pre>{}</pre></details>",
+            escape(&text)
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_has_the_digits_that_its_interval_leaves_it() {
+        assert_eq!(worth(0.261_23, Some(0.02)), "0.261");
+        assert_eq!(worth(1212.7, Some(300.0)), "1213");
+        assert_eq!(worth(0.261_23, Some(0.3)), "0.3");
+        assert_eq!(worth(0.261_23, None), "0.2612");
+        assert_eq!(worth(0.261_23, Some(1e-9)), "0.2612");
+    }
+
+    #[test]
+    fn text_cannot_become_markup() {
+        assert_eq!(escape("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+    }
+}

@@ -1,0 +1,78 @@
+//! The characteristic numbers of a run and what they mean.
+
+use crate::check::basis::Basis;
+use crate::check::digits::digits;
+use std::fmt::Write;
+
+/// For each key of `numbers` in the summary: its label and its meaning.
+const MEANINGS: [(&str, &str, &str); 8] = [
+    (
+        "r",
+        "R = p0 k \u{394}\u{3bc}/Z",
+        "above 1 Eq. (8) alone is ill-posed between elastic bodies: three states are possible at one load, \
+         disturbances grow the faster the finer the mesh, and no refinement converges point by point; below 1 \
+         the bodies radiate energy faster than falling friction feeds it",
+    ),
+    (
+        "n2",
+        "N2 = dt p0 k \u{394}\u{3bc}/m*",
+        "negative damping per step of falling friction against the mass of the surface layer; below 1 it is \
+         a small correction to the step",
+    ),
+    (
+        "n1",
+        "N1 = dt\u{b2} k_t/m*",
+        "friction spring against the mass of the surface layer, per step squared: with soft springs, \
+         nodes that stick move more",
+    ),
+    ("f_min", "f_min/p0", "the least shear over pressure at which slip goes on by Eq. (8) alone"),
+    ("s_m", "s_m (m/s)", "between rest and this slip speed no state is stable by Eq. (8) alone"),
+    (
+        "s_jump",
+        "s_jump (m/s)",
+        "slip speed to which a point jumps by Eq. (8) alone when it begins to slip",
+    ),
+    (
+        "nucleation_length",
+        "h_n (m)",
+        "nucleation length of friction with memory: shorter zones of slip are stable",
+    ),
+    (
+        "gamma",
+        "\u{393} = l_slip/h_n",
+        "zone of slip, by Carter, over the nucleation length; above 1 slip may oscillate by itself",
+    ),
+];
+
+/// Appends the section: the numbers of the summary, and the resolution of the patch in time and space.
+pub(super) fn section(out: &mut String, basis: &Basis) {
+    let mut rows: Vec<(&str, f64, String)> = Vec::new();
+    let numbers = basis.summary.as_ref().map(|summary| &summary["numbers"]);
+    for (key, name, meaning) in MEANINGS {
+        if let Some(value) = numbers.and_then(|numbers| numbers[key].as_f64()) {
+            rows.push((name, value, meaning.into()));
+        }
+    }
+    let size = basis.scale("size");
+    if let (Some(a), Some(speed), Some(dt)) =
+        (basis.scale("half_length"), basis.scale("speed"), basis.scale("dt"))
+    {
+        let meaning = "time steps in which a node passes the patch".into();
+        rows.push(("2a/(V dt)", 2.0 * a / speed / dt, meaning));
+    }
+    if let (Some(a), Some(size)) = (basis.scale("half_length"), size) {
+        rows.push(("2a/h", 2.0 * a / size, "elements along the patch".into()));
+    }
+    if rows.is_empty() {
+        return;
+    }
+    out.push_str("<h3>Dimensionless numbers</h3>\n<table>\n");
+    for (name, value, meaning) in rows {
+        let _ = writeln!(
+            out,
+            "<tr><td>{name}</td><td class=\"n\">{}</td><td>{meaning}</td></tr>",
+            digits(value, 3)
+        );
+    }
+    out.push_str("</table>\n");
+}

@@ -1,0 +1,180 @@
+//! The page of a sweep: its verdicts, its table and its figures.
+
+use super::{escape, head};
+use crate::check::PostError;
+use crate::check::digits::digits;
+use crate::trends::{
+    MEASURES, RULE, Sweep, SweepVerdict, steps, sweep_figures, sweep_verdicts, value_text,
+};
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+/// The HTML page of a sweep: `name` is its title, `path` its `sweep.json`, `sweep` the content of that.
+///
+/// # Errors
+/// A document that is no sweep; a figure that cannot be drawn.
+pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, PostError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let known = Sweep::of(folder, sweep)?;
+    let verdicts = sweep_verdicts(folder, sweep)?;
+    let mut out = head(name);
+    let completed = known.completed().count();
+    let _ = writeln!(
+        out,
+        "<h1>{}</h1>\n<p>{} {} over {}; {completed} completed.</p>",
+        escape(name),
+        known.runs.len(),
+        if known.ensemble { "points of an ensemble" } else { "runs" },
+        escape(&known.axes.join(", "))
+    );
+    if let Some(text) = time_step(&known, &sweep["step"]) {
+        let _ = writeln!(out, "<p>{text}</p>");
+    }
+    if known.ensemble {
+        out.push_str(
+            "<p>Each value is the mean over the members of its point, which differ by a disturbance of the \
+             preload alone, with half the width of the 95 % confidence interval of that mean.</p>\n",
+        );
+    }
+    trends(&mut out, &verdicts);
+    table(&mut out, &known);
+    out.push_str("<h2>Figures</h2>\n");
+    for (stem, figure) in sweep_figures(folder, sweep)? {
+        let svg = figure.svg_element()?;
+        let _ = writeln!(out, "<figure id=\"{stem}\">{svg}</figure>");
+    }
+    if let Some(name) = known.runs.iter().find_map(|run| run.entry["name"].as_str()) {
+        let name = escape(name);
+        let _ = writeln!(
+            out,
+            "<h2>How to reproduce</h2>\n<p>The cases of the runs are in the folder of the sweep, each with all its values. \
+             There, for one of them:</p>\n<pre>creepage run cases/{name}.toml --out again/{name}</pre>"
+        );
+    }
+    let _ = writeln!(
+        out,
+        "<p>Made by Creepage {} from {}.</p>",
+        env!("CARGO_PKG_VERSION"),
+        escape(&path.file_name().unwrap_or_default().to_string_lossy())
+    );
+    super::end(&mut out);
+    Ok(out)
+}
+
+/// The time step of the runs, in a sentence, with the rule that it follows; `None` where no run has one.
+fn time_step(sweep: &Sweep<'_>, rule: &Value) -> Option<String> {
+    let Some(differing) = steps(sweep.completed()) else {
+        let step = sweep.completed().find_map(|run| run.step())?;
+        return Some(format!("Time step of all runs: {}.", nanoseconds([step, step])));
+    };
+    let why = match rule["rule"].as_str() {
+        Some("bound") => {
+            " (rule \u{201c}bound\u{201d}: time.factor times the stability limit of each run)"
+        }
+        _ => "",
+    };
+    Some(format!("The time step differs from run to run: {}{why}.", nanoseconds(differing)))
+}
+
+/// Time steps (s) in nanoseconds.
+fn nanoseconds([least, most]: [f64; 2]) -> String {
+    let of = |step: f64| digits(1e9 * step, 4);
+    if least == most {
+        format!("{} ns", of(least))
+    } else {
+        format!("{} to {} ns", of(least), of(most))
+    }
+}
+
+/// The verdicts, for each axis and each combination of values of the others.
+fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
+    out.push_str("<h2>What settles, and what does not</h2>\n");
+    if verdicts.is_empty() {
+        out.push_str(
+            "<p>No axis of numbers has two runs that completed: nothing can be said.</p>\n",
+        );
+        return;
+    }
+    let _ = writeln!(
+        out,
+        "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to the last points of each measure, r growing as the \
+         axis is refined; T/N and shear over k<sub>t</sub> by springs in series, 1/v = 1/v\u{221e} + c/k<sub>t</sub>. \
+         {RULE} More: docs/checks.md of Creepage, Verdicts on a sweep.</p>"
+    );
+    let section = |a: &SweepVerdict, b: &SweepVerdict| a.axis == b.axis && a.others == b.others;
+    for verdicts in verdicts.chunk_by(section) {
+        let (axis, others) = (escape(&verdicts[0].axis), escape(&verdicts[0].others));
+        let others = if others.is_empty() { others } else { format!(", {others}") };
+        let _ = writeln!(out, "<h3>{axis}{others}</h3>");
+        if let Some(steps) = verdicts[0].steps {
+            let _ = writeln!(
+                out,
+                "<p>The time step changes along this axis, from {}: the trends may be of either.</p>",
+                nanoseconds(steps)
+            );
+        }
+        let most = verdicts.iter().map(|verdict| verdict.points).max().unwrap_or(0);
+        if most < 3 {
+            let _ = writeln!(out, "<p>Cannot be told: {most} points; three are the least.</p>");
+            continue;
+        }
+        out.push_str(
+            "<table>\n<tr><th>measure</th><th class=\"n\">points</th><th>verdict</th>\
+             <th>trend</th></tr>\n",
+        );
+        for verdict in verdicts {
+            let _ = writeln!(
+                out,
+                "<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>",
+                escape(verdict.measure),
+                verdict.points,
+                verdict.trend.word(),
+                escape(&verdict.trend.sentence(verdict.points, verdict.unit))
+            );
+        }
+        out.push_str("</table>\n");
+    }
+}
+
+/// The table of all runs, with the reason of those that failed.
+fn table(out: &mut String, sweep: &Sweep<'_>) {
+    out.push_str(if sweep.ensemble { "<h2>Points</h2>" } else { "<h2>Runs</h2>" });
+    out.push_str("\n<div class=\"wide\"><table>\n<tr>");
+    for axis in &sweep.axes {
+        let _ = write!(out, "<th class=\"n\">{}</th>", escape(axis));
+    }
+    out.push_str("<th>status</th>");
+    let has = |measure: &&crate::trends::SweepMeasure| {
+        measure.in_table && sweep.runs.iter().any(|run| measure.of(*run).is_some())
+    };
+    let columns: Vec<_> = MEASURES.iter().filter(has).collect();
+    for measure in &columns {
+        let _ = write!(out, "<th class=\"n\">{}</th>", escape(&measure.heading()));
+    }
+    out.push_str("<th>checks</th></tr>\n");
+    for run in &sweep.runs {
+        out.push_str("<tr>");
+        for axis in &sweep.axes {
+            let value = value_text(&run.parameter(axis));
+            let _ = write!(out, "<td class=\"n\">{}</td>", escape(&value));
+        }
+        let reason = run.entry["reason"].as_str().map(|reason| format!(": {reason}"));
+        let status = format!("{}{}", run.status(), reason.unwrap_or_default());
+        let _ = write!(out, "<td>{}</td>", escape(&status));
+        for measure in &columns {
+            let point = measure.of(*run);
+            let half = point.and_then(|point| point.half);
+            let half = half.map_or(String::new(), |half| format!(" \u{b1} {}", digits(half, 2)));
+            let text = point.map_or("\u{2013}".into(), |point| digits(point.value, 4) + &half);
+            let _ = write!(out, "<td class=\"n\">{text}</td>");
+        }
+        let (word, class) = match run.entry.pointer("/check/pass").and_then(Value::as_bool) {
+            Some(true) => ("pass", "pass"),
+            Some(false) => ("fail", "fail"),
+            None => ("", ""),
+        };
+        let _ = writeln!(out, "<td class=\"{class}\">{word}</td></tr>");
+    }
+    out.push_str("</table></div>\n");
+}

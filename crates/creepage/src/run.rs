@@ -1,0 +1,31 @@
+//! The run of a case: its folder, the time loop, records, checkpoints, summary.
+
+mod bench;
+mod checkpoint;
+mod cost;
+pub mod derived;
+mod disk;
+mod error;
+pub mod folder;
+mod held;
+mod log;
+mod means;
+mod mesh_file;
+mod mesh_mode;
+pub mod mesh_report;
+mod postmortem;
+mod probes;
+mod record;
+pub mod resume;
+mod run;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod text_file;
+
+pub use bench::{BlockElement, bench, bench_block};
+pub use error::RunError;
+pub use log::REFUSED;
+pub use mesh_report::mesh_report;
+pub use run::{RunOptions, run};
+pub use solid::Level;

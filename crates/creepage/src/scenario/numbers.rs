@@ -1,0 +1,166 @@
+//! The dimensionless numbers of a case, before it rolls: what to expect of its friction law. Their definitions:
+//! docs/theory.md.
+
+use crate::case::friction_law;
+use crate::case::hertz::hertz;
+use crate::case::schema::{Case, Creepage, DriveMode, Enforcement};
+use crate::scenario::model::{BAR, DISK, Model};
+use contact::PenaltyStiffness;
+use friction::{Falling, Interface};
+use serde_json::json;
+use solid::Material;
+
+/// The numbers at Hertz's peak pressure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DimensionlessNumbers {
+    at: Interface,
+    /// `N_1 = dt^2 k_t/m*` (dimensionless) of the friction springs of penalty contact.
+    n1: Option<f64>,
+    /// The numbers of falling friction; none for a law that does not fall.
+    falling: Option<Falling>,
+    /// Length of the zone of slip (m) by Carter's theory; at most the length of the patch.
+    slip_length: f64,
+    /// Nucleation length (m) of friction with memory.
+    nucleation: Option<f64>,
+}
+
+/// The numbers of a case at Hertz's largest pressure, with the time step `dt` (s).
+pub fn numbers(case: &Case, model: &Model, dt: f64) -> DimensionlessNumbers {
+    let [disk, bar] = [&model.materials[DISK], &model.materials[BAR]];
+    let depth = case.mesh.zone.size;
+    let impedance = |m: &Material| m.density * m.c_s();
+    // the compliance (1 - nu)/G of mode II, both bodies
+    let compliance = |m: &Material| (1.0 - m.poisson) / m.shear();
+    let surface = |m: &Material| 0.5 * m.density * depth;
+    let in_series = |a: f64, b: f64| a * b / (a + b);
+    let at = Interface {
+        pressure: hertz(case).p0,
+        impedance: in_series(impedance(disk), impedance(bar)),
+        modulus: 2.0 / (compliance(disk) + compliance(bar)),
+        surface_mass: in_series(surface(disk), surface(bar)),
+        dt,
+    };
+    let mu = friction_law::law(case, model.law.as_ref()).map_or(f64::NAN, |law| law.mu_static());
+    let n1 = tangential(case, model, depth).map(|k| friction::spring_number(k, &at));
+    DimensionlessNumbers { n1, ..DimensionlessNumbers::of(case, at, mu) }
+}
+
+/// Areal stiffness of the friction springs of both passes (N/m^3) between cubes of the size `depth`,
+/// if there are any.
+fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
+    if case.contact.enforcement == Enforcement::Exact {
+        return None;
+    }
+    match crate::scenario::model::stiffness(case.contact.penalty.tangential) {
+        PenaltyStiffness::Scale(factor) => {
+            Some([DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum())
+        }
+        PenaltyStiffness::Areal(both) => Some(both),
+        // a fraction of 4 m*/dt^2 less the part of the bodies' own frequency, which is not known here
+        PenaltyStiffness::StabilityFraction(_) => None,
+    }
+}
+
+/// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
+/// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
+fn slipping(case: &Case, mu: f64, half_length: f64) -> f64 {
+    let share = match case.drive.mode {
+        DriveMode::Creepage => {
+            let creepage = case.drive.creepage.as_ref().map_or(0.0, Creepage::largest);
+            creepage * case.disk.radius / (mu * half_length)
+        }
+        DriveMode::Torque => {
+            let force = case.drive.torque.unwrap_or(0.0).abs() / case.disk.radius;
+            1.0 - (1.0 - force / (mu * case.load.normal)).max(0.0).sqrt()
+        }
+    };
+    share.min(1.0)
+}
+
+impl DimensionlessNumbers {
+    /// Those of a case without friction springs, `at` its interface, whose coefficient of friction at rest is `mu`.
+    pub(crate) fn of(case: &Case, at: Interface, mu: f64) -> Self {
+        let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
+        let memory = case.friction.memory.map(|memory| memory.distance);
+        let half_length = hertz(case).a;
+        Self {
+            n1: None,
+            falling: falls.and_then(|law| friction::falling(&law, &at)),
+            nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
+            slip_length: 2.0 * half_length * slipping(case, mu, half_length),
+            at,
+        }
+    }
+
+    /// The line of the log; none for a law that does not fall.
+    pub fn line(&self) -> Option<String> {
+        let f = self.falling?;
+        let mut line =
+            format!("falling friction at {} MPa: R {}", three(self.at.pressure * 1e-6), three(f.r));
+        if let Some(n1) = self.n1 {
+            line += &format!(", N1 {}", three(n1));
+        }
+        line += &format!(", N2 {}", three(f.n2));
+        if let (Some(least), Some(s_m), Some(jump)) = (f.f_min, f.s_m, f.s_jump) {
+            line += &format!(
+                ", f_min/p {least:.4}, s_m {} m/s, jump to {} m/s",
+                three(s_m),
+                three(jump)
+            );
+        }
+        if let (Some(length), Some(gamma)) = (self.nucleation, self.gamma()) {
+            line += &format!(", h_n {} mm, Gamma {}", three(1e3 * length), three(gamma));
+        }
+        Some(line)
+    }
+
+    /// `Gamma = l_slip/h_n` of friction with memory.
+    fn gamma(&self) -> Option<f64> {
+        self.nucleation.map(|length| self.slip_length / length)
+    }
+
+    /// One sentence on what to expect of the run, where there is reason for a warning.
+    pub fn expectation(&self) -> Option<String> {
+        let f = self.falling?;
+        match self.gamma() {
+            Some(gamma) if gamma > 1.0 => Some(format!(
+                "Gamma = {} is above 1: the zone of slip is longer than the nucleation length, and slip \
+                 may oscillate by itself",
+                three(gamma)
+            )),
+            None if f.r > 1.0 => Some(format!(
+                "R = {} is above 1 and friction has no memory: Eq. (8) has no solution that meshes \
+                 converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in \
+                 its place",
+                three(f.r),
+                f.s_jump.unwrap_or(0.0)
+            )),
+            _ => None,
+        }
+    }
+
+    /// The section `numbers` of the summary. Lengths in m, speeds in m/s, pressure in Pa, impedance in Pa s/m.
+    pub fn json(&self) -> serde_json::Value {
+        let f = self.falling;
+        json!({
+            "pressure": self.at.pressure,
+            "impedance": self.at.impedance,
+            "r": f.map(|f| f.r),
+            "n1": self.n1,
+            "n2": f.map(|f| f.n2),
+            "f_min": f.and_then(|f| f.f_min),
+            "s_m": f.and_then(|f| f.s_m),
+            "s_jump": f.and_then(|f| f.s_jump),
+            "slip_length": self.slip_length,
+            "nucleation_length": self.nucleation,
+            "gamma": self.gamma(),
+            "expect": self.expectation(),
+        })
+    }
+}
+
+/// A number with three significant digits and no exponent.
+pub(crate) fn three(x: f64) -> String {
+    let after = (2.0 - libm::log10(x.abs()).floor()).clamp(0.0, 9.0);
+    format!("{x:.0$}", after as usize)
+}

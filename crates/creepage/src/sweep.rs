@@ -1,0 +1,22 @@
+//! A sweep file becomes many runs.
+//!
+//! [`Sweep::load`] reads and checks the file, [`Sweep::points`] resolves the case of every
+//! run, [`plan::prepare`] lays the sweep's folder out, [`schedule::run`] runs what is not yet done
+//! as child processes of this program, and [`collect::collect`] gathers the results.
+
+pub mod collect;
+mod ensemble;
+pub mod file;
+pub mod plan;
+pub mod points;
+pub mod schedule;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use collect::collect;
+pub use file::Sweep;
+pub use plan::{Plan, SweepError};
+pub use points::Point;
+pub use schedule::{Budget, Watched};
+pub use table::{Column, Table};
