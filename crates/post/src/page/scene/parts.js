@@ -198,11 +198,15 @@ const sceneParts = (() => {
     addArrows(spacing) {
       this.arrowLength = Math.max(meanEdge(this), spacing);
       this.arrowNodes = thinned(this.points, this.arrowLength);
-      const flat = [0, -0.07, 0, 0.6, -0.07, 0, 0.6, 0.07, 0, 0, -0.07, 0, 0.6, 0.07, 0, 0, 0.07, 0,
-        0.55, -0.24, 0, 1, 0, 0, 0.55, 0.24, 0];
+      // dark with a light edge, to be seen on all colours; of length one in the plane
+      const flat = (edge, z) => [[-edge, -0.07 - edge], [0.6, -0.07 - edge], [0.6, 0.07 + edge],
+        [-edge, -0.07 - edge], [0.6, 0.07 + edge], [-edge, 0.07 + edge],
+        [0.55 - edge, -0.24 - 2 * edge], [1 + 2 * edge, 0], [0.55 - edge, 0.24 + 2 * edge]].flatMap(at => [...at, z]);
       const shape = new THREE.BufferGeometry();
-      shape.setAttribute('position', new THREE.BufferAttribute(new Float32Array(flat), 3));
-      const material = new THREE.MeshBasicMaterial({ color: '#0a0a0a', ...nearer(3, 40) });
+      const points = new Float32Array([...flat(0.035, 0), ...flat(0, 0.01)]);
+      shape.setAttribute('position', new THREE.BufferAttribute(points, 3));
+      shape.setAttribute('color', new THREE.BufferAttribute(new Float32Array(54).fill(1, 0, 27), 3));
+      const material = new THREE.MeshBasicMaterial({ vertexColors: true, ...nearer(3, 40) });
       this.arrows = new THREE.InstancedMesh(shape, material, this.arrowNodes.length);
       this.object.add(this.arrows);
     }
@@ -265,7 +269,7 @@ const sceneParts = (() => {
       const position = this.geometry.attributes.position;
       const up = new THREE.Vector3(0, 0, UP[this.name] ?? 1);
       const [along, side, at] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
-      const matrix = new THREE.Matrix4();
+      const [matrix, thick] = [new THREE.Matrix4(), up.clone().multiplyScalar(this.arrowLength)];
       let count = 0;
       for (const node of shear && top > 0 ? this.arrowNodes : []) {
         along.fromArray(shear, 3 * node).multiplyScalar(1.25 * this.arrowLength / top);
@@ -275,7 +279,7 @@ const sceneParts = (() => {
         at.fromBufferAttribute(position, node).addScaledVector(along, -0.5);
         at.addScaledVector(up, 0.03 * this.arrowLength);
         side.crossVectors(up, along);
-        matrix.makeBasis(along, side, up).setPosition(at);
+        matrix.makeBasis(along, side, thick).setPosition(at);
         this.arrows.setMatrixAt(count++, matrix);
       }
       this.arrows.count = count;

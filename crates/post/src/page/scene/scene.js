@@ -125,7 +125,7 @@
         element('span', { className: 'times' }, this.play, this.time), fields('bodies'), fields('contact'), this.factor,
         this.disk, this.cutBar, this.mesh);
       if (data.frames.some(({ meshes }) => meshes.some(state => state.shear_vector))) controls.append(arrows);
-      const hint = 'Drag to turn, with the right button to move; click, then the wheel zooms.';
+      const hint = 'Drag to turn; drag with the right button or two fingers to move; after a click the wheel zooms.';
       const note = element('p', { className: 'note', textContent: [data.note, hint].filter(Boolean).join(' ') });
       this.stage.after(this.bars, controls, note);
     }
