@@ -19,7 +19,7 @@
       Object.assign(this, { figure, data, largest: largestDeformation(data) });
       this.fieldsOf = group => data.fields.filter(field => field.group === group);
       this.chosen = { frame: data.frames.length - 1, disk: 'cut', cutBar: true, arrows: true,
-        bodies: this.fieldsOf('bodies')[0]?.name, contact: this.fieldsOf('contact')[0]?.name };
+        bodies: this.fieldsOf('bodies')[0]?.name ?? 'none', contact: this.fieldsOf('contact')[0]?.name ?? 'none' };
       this.addStage(context);
       this.addBodies();
       this.addControls();
