@@ -3,7 +3,7 @@
 //!
 //! A [`Figure`] is a grid of [`Panel`]s with a caption below them; a panel has two axes, coloured
 //! cells (a map), series of points, and vertical marks, all named in a legend above the plot, where
-//! it can cover nothing. A [`Picture`] shows surfaces in space.
+//! it can cover nothing.
 
 mod arrow;
 mod axes;
@@ -13,14 +13,12 @@ mod contour;
 mod draw;
 mod figure;
 mod fill;
-mod film;
 mod font;
 mod group;
 mod label;
 mod layout;
 mod legend;
 mod palette;
-mod picture;
 mod raster;
 mod thin;
 mod write;
@@ -28,9 +26,8 @@ mod write;
 pub use axis::{Axis, Scale};
 pub use contour::contour;
 pub use figure::{Draw, Figure, Mark, Panel, Series};
-pub use fill::{Cell, Fill, Key, viridis};
-pub use film::{Film, FilmError, FilmFormat};
+pub use fill::{Cell, Face, Fill, Key, viridis};
 pub use font::font_face;
-pub use picture::{Camera, Pane, Picture, PictureError, Pixels, Surface, round_down};
+pub(crate) use raster::Pixels;
 pub use thin::thin;
 pub use write::{FigureError, Format};

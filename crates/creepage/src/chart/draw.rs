@@ -145,6 +145,13 @@ fn content<DB: DrawingBackend>(
         }
         group::close(pen)?;
     }
+    for face in &panel.faces {
+        let corners: Option<Vec<_>> = face.corners.iter().map(|at| plot.pixel(*at)).collect();
+        if let Some(corners) = corners {
+            let corners: Vec<_> = corners.into_iter().map(whole).collect();
+            pen.area.draw(&Polygon::new(corners, rgb(face.colour).filled()))?;
+        }
+    }
     for mark in &panel.marks {
         let ends = [plot.down.end, plot.down.start].map(f64::from);
         if let Some(x) = plot.x_pixel(mark.x) {

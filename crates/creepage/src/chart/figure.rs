@@ -1,6 +1,6 @@
 //! What a figure shows, as plain data.
 
-use crate::chart::{Axis, Fill};
+use crate::chart::{Axis, Face, Fill};
 
 /// A grid of panels.
 ///
@@ -30,6 +30,8 @@ pub struct Panel {
     pub to_scale: bool,
     /// Coloured cells under the series.
     pub fill: Option<Fill>,
+    /// Faces over the cells, later ones on top.
+    pub faces: Vec<Face>,
     /// The series, later ones on top.
     pub series: Vec<Series>,
     /// Vertical lines, under the series.
@@ -45,6 +47,7 @@ impl Panel {
             y,
             to_scale: false,
             fill: None,
+            faces: Vec::new(),
             series: Vec::new(),
             marks: Vec::new(),
         }

@@ -13,6 +13,15 @@ pub struct Cell {
     pub colour: [u8; 3],
 }
 
+/// A quadrilateral of one colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Face {
+    /// Its corners (x, y) in the units of the axes, in order around it.
+    pub corners: [[f64; 2]; 4],
+    /// Its colour: red, green, blue, 0 to 255.
+    pub colour: [u8; 3],
+}
+
 /// Cells and what their colours mean.
 #[derive(Clone, Debug)]
 pub struct Fill {

@@ -1,8 +1,19 @@
 //! A figure as pixels.
 
 use crate::chart::layout::Medium;
-use crate::chart::{Figure, Pixels, draw};
+use crate::chart::{Figure, draw};
 use plotters::prelude::*;
+
+/// A picture as pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Pixels {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Red, green and blue of each pixel, row by row from the top.
+    pub rgb: Vec<u8>,
+}
 
 /// A pixel is the mean of so many in each direction: the drawing library places lines on whole pixels.
 const FINE: u32 = 3;

@@ -1,13 +1,14 @@
 //! The records that are drawn: positions, deformations and values at all nodes.
 
-use super::RenderError;
+use super::SceneError;
 use super::quantity::{Drawable, Quantity};
 use super::rigid::Rigid;
 use crate::check::PostError;
 use crate::check::frames;
 use crate::check::vector::{Vec3, axpy, norm, sub};
-use output::layout::{BODIES, BODY_NAMES, CONSTANT, CONTACT, HALF, attribute};
+use output::layout::{BODIES, CONSTANT, CONTACT, HALF, attribute};
 use output::{FieldSpec, GridFile, as_long_as_written, as_written, read_summary};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Label of the disk.
@@ -40,10 +41,10 @@ pub(super) struct Record {
     pub(super) placed: Vec<Vec3>,
     /// What of their displacement is no rigid motion of their body (m).
     pub(super) deformation: Vec<Vec3>,
-    /// The quantity shown, in the unit of its label.
-    pub(super) values: Vec<f64>,
-    /// Contact pressure (Pa); of surfaces alone.
-    pub(super) pressure: Vec<f64>,
+    /// The quantities by their names, each in the unit of its label.
+    pub(super) values: BTreeMap<&'static str, Vec<f64>>,
+    /// Shear traction (Pa); of surfaces alone.
+    pub(super) shear: Option<Vec<Vec3>>,
     /// Below the axis of the disk, as deep as the disk reaches.
     pub(super) lowest: Vec3,
 }
@@ -58,10 +59,10 @@ impl Record {
 
 impl Source {
     /// Opens the records of a run, after a check of the file's checksum where the run has ended.
-    pub(super) fn open(folder: &Path, what: Drawable) -> Result<Self, RenderError> {
+    pub(super) fn open(folder: &Path, what: Drawable) -> Result<Self, SceneError> {
         let path = folder.join(what.file());
         if !path.is_file() {
-            return Err(RenderError::NoFile { folder: folder.into(), what });
+            return Err(SceneError::NoFile { folder: folder.into(), what });
         }
         if let Some(summary) = read_summary(folder)? {
             let this = |name: &str| name == what.file();
@@ -72,11 +73,11 @@ impl Source {
         let file = frames::open(&path)?;
         let times = file.times()?;
         if times.is_empty() {
-            return Err(RenderError::NoRecord(path));
+            return Err(SceneError::NoRecord(path));
         }
-        let per_cell = if what == Drawable::Fields { 8 } else { 4 };
+        let per_cell = if what == Drawable::Bodies { 8 } else { 4 };
         let half = file.provenance(attribute::SYMMETRY).is_ok_and(|text| text == HALF)
-            && what == Drawable::Fields;
+            && what == Drawable::Bodies;
         let mut source = Self {
             points: file.points()?,
             corners: file.connectivity()?,
@@ -100,7 +101,7 @@ impl Source {
     }
 
     /// Refuses a mesh that does not fit together.
-    fn check(&self) -> Result<(), RenderError> {
+    fn check(&self) -> Result<(), SceneError> {
         let lacks = |what: &str| {
             Err(PostError::Lacks { path: self.path.clone(), what: what.into() }.into())
         };
@@ -136,6 +137,12 @@ impl Source {
         nodes
     }
 
+    /// The outer faces of the cells that `keep` takes, outward.
+    pub(super) fn outside(&self, keep: impl Fn(usize) -> bool) -> Vec<[u32; 4]> {
+        let faces = mesh::outer_faces(self.corners.as_chunks().0, keep);
+        faces.into_iter().map(|(_, face)| face).collect()
+    }
+
     /// Centre of each cell before it moved.
     pub(super) fn centre(&self, cell: usize) -> Vec3 {
         let corners = &self.corners[cell * self.per_cell..][..self.per_cell];
@@ -144,32 +151,36 @@ impl Source {
         corners.iter().fold([0.0; 3], add)
     }
 
-    /// The record `index` with `quantity` at its nodes.
-    pub(super) fn record(&self, index: usize, quantity: Quantity) -> Result<Record, RenderError> {
-        let displacement = if quantity.of() == Drawable::Contact && !self.has(&CONTACT.displacement)
-        {
+    /// The record `index` with these quantities at its nodes.
+    pub(super) fn record(
+        &self,
+        index: usize,
+        quantities: &[Quantity],
+    ) -> Result<Record, SceneError> {
+        let displacement = if self.per_cell == 4 && !self.has(&CONTACT.displacement) {
             // contact histories of other codes need not have it
             vec![[0.0; 3]; self.points.len()]
         } else {
-            self.vectors(&BODIES.displacement, index, quantity)?
+            self.vectors(&BODIES.displacement, index)?
         };
         let placed: Vec<Vec3> =
             self.points.iter().zip(&displacement).map(|(p, u)| axpy(*p, 1.0, *u)).collect();
         let deformation = if self.has(&BODIES.deformation) {
-            self.vectors(&BODIES.deformation, index, quantity)?
+            self.vectors(&BODIES.deformation, index)?
         } else {
             self.less_rigid(displacement, &placed)
         };
-        let pressure = if quantity.of() == Drawable::Contact {
-            self.numbers(&CONTACT.pressure, index, quantity)?
-        } else {
-            Vec::new()
-        };
         let lowest = self.lowest(&placed, &deformation);
-        let mut record = Record { placed, deformation, values: Vec::new(), pressure, lowest };
-        record.values = self.values(index, quantity, &record)?;
-        let size = quantity.label().1;
-        record.values.iter_mut().for_each(|value| *value /= size);
+        let mut record = Record { placed, deformation, lowest, ..Record::default() };
+        for &quantity in quantities {
+            let mut values = self.values(index, quantity, &record)?;
+            let size = quantity.label().1;
+            values.iter_mut().for_each(|value| *value /= size);
+            record.values.insert(quantity.name(), values);
+        }
+        if quantities.contains(&Quantity::Shear) {
+            record.shear = Some(self.vectors(&CONTACT.shear, index)?);
+        }
         Ok(record)
     }
 
@@ -203,24 +214,24 @@ impl Source {
         index: usize,
         quantity: Quantity,
         record: &Record,
-    ) -> Result<Vec<f64>, RenderError> {
+    ) -> Result<Vec<f64>, SceneError> {
         let sizes = |vectors: Vec<Vec3>| vectors.into_iter().map(norm).collect();
         match (quantity, quantity.dataset()) {
             (Quantity::VonMises, Some(field)) => {
-                let stress = self.numbers(field, index, quantity)?;
+                let stress = self.numbers(field, index)?;
                 let stress: Vec<f64> = stress.as_chunks().0.iter().map(von_mises).collect();
                 Ok(self.to_nodes(&stress))
             }
-            (Quantity::Pressure, _) => Ok(record.pressure.clone()),
+            (Quantity::Pressure, Some(field)) => self.numbers(field, index),
             (Quantity::SlipVelocity, Some(field)) => {
-                let mut values: Vec<f64> = sizes(self.vectors(field, index, quantity)?);
+                let mut values: Vec<f64> = sizes(self.vectors(field, index)?);
                 // surfaces that do not touch move past one another, and that is no slip
-                let open = |pressure: &f64| *pressure <= 0.0;
-                let pairs = values.iter_mut().zip(&record.pressure);
-                pairs.filter(|(_, pressure)| open(pressure)).for_each(|(value, _)| *value = 0.0);
+                let pressure = self.numbers(&CONTACT.pressure, index)?;
+                let pairs = values.iter_mut().zip(pressure);
+                pairs.filter(|(_, pressure)| *pressure <= 0.0).for_each(|(value, _)| *value = 0.0);
                 Ok(values)
             }
-            (_, Some(field)) => Ok(sizes(self.vectors(field, index, quantity)?)),
+            (_, Some(field)) => Ok(sizes(self.vectors(field, index)?)),
             (_, None) => Ok(sizes(record.deformation.clone())),
         }
     }
@@ -238,25 +249,15 @@ impl Source {
         sums.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect()
     }
 
-    fn vectors(
-        &self,
-        field: &'static FieldSpec,
-        index: usize,
-        quantity: Quantity,
-    ) -> Result<Vec<Vec3>, RenderError> {
-        Ok(self.numbers(field, index, quantity)?.as_chunks().0.to_vec())
+    fn vectors(&self, field: &FieldSpec, index: usize) -> Result<Vec<Vec3>, SceneError> {
+        Ok(self.numbers(field, index)?.as_chunks().0.to_vec())
     }
 
     /// A field of a record, as many numbers as it must have, all finite.
-    fn numbers(
-        &self,
-        field: &'static FieldSpec,
-        index: usize,
-        quantity: Quantity,
-    ) -> Result<Vec<f64>, RenderError> {
+    fn numbers(&self, field: &FieldSpec, index: usize) -> Result<Vec<f64>, SceneError> {
         if !self.has(field) {
-            let (path, field) = (self.path.clone(), field.name.as_ref());
-            return Err(RenderError::NoField { path, field, quantity });
+            let what = format!("it holds no field {}", field.name);
+            return Err(PostError::Lacks { path: self.path.clone(), what }.into());
         }
         let values = self.file.read(&field.name, field.on_cells, index)?;
         let rows = if field.on_cells { self.file.cells() } else { self.points.len() };
@@ -281,11 +282,6 @@ impl Source {
 /// The lowest and highest of numbers.
 pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-}
-
-/// Name of a body in titles.
-pub(super) fn body_name(body: u8) -> &'static str {
-    BODY_NAMES.get(usize::from(body)).copied().unwrap_or("other body")
 }
 
 /// Of a stress xx yy zz xy yz xz.

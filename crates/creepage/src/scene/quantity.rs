@@ -1,31 +1,24 @@
-//! What a picture can show.
+//! What the colours of a scene can show.
 
 use output::FieldSpec;
 use output::layout::{BODIES, CONTACT, file};
-use std::str::FromStr;
+use serde::Serialize;
 
 /// What is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Drawable {
     /// Both bodies, of `fields.vtkhdf`.
-    Fields,
+    Bodies,
     /// Both contact surfaces, of `contact.vtkhdf`.
     Contact,
 }
 
 impl Drawable {
-    /// Name in options.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fields => "fields",
-            Self::Contact => "contact",
-        }
-    }
-
     /// The file of the run that holds it.
     pub fn file(self) -> &'static str {
         match self {
-            Self::Fields => file::FIELDS,
+            Self::Bodies => file::FIELDS,
             Self::Contact => file::CONTACT,
         }
     }
@@ -36,16 +29,7 @@ impl Drawable {
     }
 }
 
-impl FromStr for Drawable {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let all = [Self::Fields, Self::Contact];
-        all.into_iter().find(|what| what.name() == text).ok_or("fields or contact is needed")
-    }
-}
-
-/// What the colours of a picture show.
+/// What the colours of a scene show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Von Mises stress, at a node the mean of the elements around it.
@@ -63,7 +47,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// All, those of the bodies first; the first of each is the one that is shown unless another is asked for.
+    /// All, those of the bodies first; the first of each is the one that is shown unless another is chosen.
     pub const ALL: [Self; 6] = [
         Self::VonMises,
         Self::Velocity,
@@ -73,7 +57,7 @@ impl Quantity {
         Self::SlipVelocity,
     ];
 
-    /// Name in options.
+    /// Name in the data of a scene.
     pub fn name(self) -> &'static str {
         match self {
             Self::VonMises => "von_mises",
@@ -88,7 +72,7 @@ impl Quantity {
     /// What it is of.
     pub fn of(self) -> Drawable {
         match self {
-            Self::VonMises | Self::Velocity | Self::Deformation => Drawable::Fields,
+            Self::VonMises | Self::Velocity | Self::Deformation => Drawable::Bodies,
             Self::Pressure | Self::Shear | Self::SlipVelocity => Drawable::Contact,
         }
     }
@@ -114,35 +98,6 @@ impl Quantity {
             Self::Pressure => Some(&CONTACT.pressure),
             Self::Shear => Some(&CONTACT.shear),
             Self::SlipVelocity => Some(&CONTACT.slip_velocity),
-        }
-    }
-}
-
-impl FromStr for Quantity {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Self::ALL.into_iter().find(|quantity| quantity.name() == text).ok_or(
-            "one of von_mises, velocity, deformation (of fields), pressure, shear, slip_velocity (of contact) is \
-             needed",
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_quantity_is_found_by_its_name_and_the_refusal_names_all() {
-        let refusal = "temperature".parse::<Quantity>().unwrap_err();
-        for quantity in Quantity::ALL {
-            assert_eq!(quantity.name().parse(), Ok(quantity));
-            assert!(refusal.contains(quantity.name()));
-        }
-        for what in [Drawable::Fields, Drawable::Contact] {
-            assert_eq!(what.name().parse(), Ok(what));
-            assert_eq!(what.quantities().count(), 3);
         }
     }
 }

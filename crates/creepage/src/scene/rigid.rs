@@ -34,6 +34,13 @@ impl Rigid {
         Some(Self { sine, cosine, centre, moved })
     }
 
+    /// The rows of its matrix: three numbers of the rotation, and what is added (m).
+    pub(super) fn rows(self) -> [f64; 12] {
+        let [x, y, z] = self.of([0.0; 3]);
+        let (c, s) = (self.cosine, self.sine);
+        [c, 0.0, -s, x, 0.0, 1.0, 0.0, y, s, 0.0, c, z]
+    }
+
     /// Where the motion brings a point.
     pub(super) fn of(&self, point: Vec3) -> Vec3 {
         let [x, y, z] = sub(point, self.centre);
