@@ -6,6 +6,7 @@ their label.
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -57,7 +58,10 @@ class Source:
         name = _NAMES["body"]
         self.body = self.records[name][:] if name in self.records else np.zeros(len(self.cells), int)
         self.disk = np.unique(self.cells[self.body == DISK])
-        self.half = what == "fields" and self.records._file.attribute("symmetry") == "half"
+        # whether the part y >= 0 alone is in the file; of whole bodies it does not say
+        self.half = False
+        with contextlib.suppress(OSError):
+            self.half = what == "fields" and self.records._file.attribute("symmetry") == "half"
 
     def shows(self, quantity):
         """Whether the run wrote what the quantity is made of."""

@@ -67,7 +67,7 @@ class Pane:
             fitting = self.share * self.span / max(bounds.deformation, ROUND_OFF * self.span)
             self.magnify = rounded(max(fitting, 1.0), down=True) if self.deforms else 1.0
         if self.on_bodies is not None:  # so far that it does not hide the patch
-            self.lift = min(0.6 * bounds.patch[1] * abs(toward[2] / toward[1]), 0.25 * self.span)
+            self.lift = min(0.75 * bounds.patch[1] * abs(toward[2] / toward[1]), 0.25 * self.span)
 
 
 @dataclass
@@ -86,7 +86,9 @@ class Bounds:
         """Adds tractions."""
         peak = found.pressure.max()
         self.pressure = max(self.pressure, peak)
-        self.arrow = max(self.arrow, np.linalg.norm(found.arrows, axis=1).max())
+        longest = np.linalg.norm(found.arrows, axis=1).max()
+        if longest > ROUND_OFF * 1e6 * peak:  # of a pressure in MPa
+            self.arrow = max(self.arrow, longest)
         on_bar = np.unique(contact.cells[contact.body == BAR])
         loaded = on_bar[found.loaded(peak)[on_bar]]
         if len(loaded):
@@ -279,6 +281,7 @@ class Scene:
         for chosen, colour in ((found.sticks, "white"), (~found.sticks, "black")):
             name = f"{colour} {pane.title}"
             mine = nodes[chosen[nodes] & (np.linalg.norm(found.arrows[nodes], axis=1) > 0.02 * self.bounds.arrow)]
+            mine = mine if self.bounds.arrow > 0 else mine[:0]
             self.plotter.remove_actor(name, reset_camera=False, render=False)
             if len(mine):
                 cloud = pyvista.PolyData(points[mine])

@@ -56,8 +56,8 @@ def render(folder, out=None, **given) -> dict:
     out = Path(out)
     film = _film.kind(out) != ".png"
     exclude(options, what, film)
-    _film.check(out)
     source = opened(folder, what, options)
+    _film.check(out)
     optional("pyvista", "render")
     from ._render import Scene  # pictures are drawn by few, and PyVista takes a second to load
 
