@@ -30,6 +30,8 @@ DISK, BAR = 0, 1
 
 # pressure below this share of the largest is the ragged edge of the patch
 EDGE = 0.01
+# shear below this share of the pressure is what a preload without friction leaves
+ROUND_OFF = 1e-6
 DISK, BAR = 0, 1
 
 
@@ -154,6 +156,8 @@ def tractions(contact, record, arrows="shear"):
     frame = contact.frame(record, "pressure")
     touching = frame.values > 0
     vectors = contact.read(arrows, record) if contact.has(arrows) else np.zeros_like(contact.points)
+    if arrows == "shear" and np.abs(vectors).max() < ROUND_OFF * 1e6 * frame.values.max():
+        vectors = np.zeros_like(vectors)
     sticks = contact.read("state", record) == 1 if contact.has("state") else np.zeros(len(touching), bool)
     return Tractions(frame, frame.values, np.where(touching[:, None], vectors, 0.0), sticks)
 

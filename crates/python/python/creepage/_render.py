@@ -4,25 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import math
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from ._frames import BAR, DISK, EDGE, QUANTITIES, Source, outside, tractions
 from ._optional import optional
+from ._views import APART, ARROW, Bounds, Pane, Seen, behind, rounded, scale, thinned
 
-# directions in which the cameras look; z is up, x to the right in all
-WHOLE, CUT, SIDE = (-0.35, 1.0, -0.3), (-0.18, 1.0, -1.0), (-0.07, 1.0, -0.19)
-ABOVE, BELOW = (-0.25, 0.8, -1.0), (-0.25, 0.8, 1.0)
-# what the largest deformation takes of the height of a view, unless the magnification is given
-SHARE_WHOLE, SHARE_CUT, SHARE_SURFACE = 0.02, 0.12, 0.05
-# height of a close view over the length of the patch; where there is none, over the height of the disk
-PATCHES, HEIGHTS = 1.8, 0.07
-# deformation below this share of a view is round-off
-ROUND_OFF = 1e-9
-# longest arrow, and the least distance of two, over the height of a view
-ARROW, APART = 0.065, 0.045
 INK, LINES = "#202020", "#606060"
 # colour map, and where it begins: bodies are not as white as the paper
 COLOURS = {"fields": ("Blues", 0.12), "contact": ("YlOrRd", 0.0)}
@@ -30,69 +19,6 @@ COLOURS = {"fields": ("Blues", 0.12), "contact": ("YlOrRd", 0.0)}
 HEADING, TITLES, KEYS = 0.035, 0.04, 0.07
 # width of each view, and height of the views, over the width of the picture
 LAYOUTS = {"both": ((0.3, 0.7), 0.44), "one": ((1.0,), 0.6), "surfaces": ((0.5, 0.5), 0.4)}
-
-
-@dataclass
-class Pane:
-    """A view: which faces are seen from where, and by how much deformation is magnified."""
-
-    title: str
-    faces: np.ndarray
-    toward: np.ndarray
-    share: float
-    mirrored: bool = False
-    whole: bool = False  # the camera stays, and shows all
-    on_bodies: np.ndarray | None = None  # faces of the bar's contact surface, in the records of the contact
-    span: float = math.nan  # height of the view (m)
-    magnify: float = math.nan
-    deforms: bool = True
-    lift: float = 0.0  # of the disk (m)
-    centre: np.ndarray | None = None
-    arrows: np.ndarray | None = None  # nodes of the contact that may have one
-
-    def fix(self, bounds, aspect):
-        """Fixes what is to be the same in all pictures; ``aspect`` is the width of the view over its height."""
-        size = bounds.high - bounds.low
-        toward = np.array(self.toward) / np.linalg.norm(self.toward)
-        if self.whole:
-            self.centre = 0.5 * (bounds.low + bounds.high)
-            right = np.cross(toward, (0.0, 0.0, 1.0)) / math.hypot(*toward[:2])
-            height, width = (size @ np.abs(axis) for axis in (np.cross(right, toward), right))
-            self.span = 1.05 * max(height, width / aspect)
-        if not math.isfinite(self.span):
-            known = bounds.patch.max() > 0
-            self.span = PATCHES * bounds.patch.max() if known else HEIGHTS * size.max()
-        self.deforms = bounds.deformation > ROUND_OFF * self.span
-        if not math.isfinite(self.magnify):
-            fitting = self.share * self.span / max(bounds.deformation, ROUND_OFF * self.span)
-            self.magnify = rounded(max(fitting, 1.0), down=True) if self.deforms else 1.0
-        if self.on_bodies is not None:  # so far that it does not hide the patch
-            self.lift = min(0.75 * bounds.patch[1] * abs(toward[2] / toward[1]), 0.25 * self.span)
-
-
-@dataclass
-class Bounds:
-    """What is largest in the records that are drawn."""
-
-    value: float = 0.0
-    deformation: float = 0.0
-    pressure: float = 0.0
-    arrow: float = 0.0
-    patch: np.ndarray = field(default_factory=lambda: np.zeros(2))  # length and width (m)
-    low: np.ndarray = field(default_factory=lambda: np.full(3, np.inf))
-    high: np.ndarray = field(default_factory=lambda: np.full(3, -np.inf))
-
-    def take(self, found, contact):
-        """Adds tractions."""
-        peak = found.pressure.max()
-        self.pressure = max(self.pressure, peak)
-        longest = np.linalg.norm(found.arrows, axis=1).max()
-        if longest > ROUND_OFF * 1e6 * peak:  # of a pressure in MPa
-            self.arrow = max(self.arrow, longest)
-        on_bar = np.unique(contact.cells[contact.body == BAR])
-        loaded = on_bar[found.loaded(peak)[on_bar]]
-        if len(loaded):
-            self.patch = np.maximum(self.patch, np.ptp(found.frame.placed[loaded, :2], axis=0))
 
 
 class Scene:
@@ -126,15 +52,15 @@ class Scene:
 
     def of_whole(self):
         """Both bodies."""
-        return Pane("whole", outside(self.source.cells), WHOLE, SHARE_WHOLE, self.source.half, whole=True)
+        return Pane("whole", outside(self.source.cells), *Seen.WHOLE, self.source.half, whole=True)
 
     def of_contact(self):
         """The contact from near, cut along the middle, the disk lifted where the tractions on the bar are known."""
         kept = behind(self.source)
         title = "contact, cut at y = 0" if self.source.half or not kept.all() else "contact"
-        pane = Pane(title, outside(self.source.cells[kept]), CUT, SHARE_CUT)
+        pane = Pane(title, outside(self.source.cells[kept]), *Seen.CUT)
         if self.contact is None:
-            pane.toward = SIDE
+            pane.toward, pane.share = Seen.SIDE
         else:
             on_bar = behind(self.contact) if title != "contact" else True
             pane.on_bodies = self.contact.cells[on_bar & (self.contact.body == BAR)]
@@ -143,11 +69,9 @@ class Scene:
     def of_surfaces(self):
         """Each contact surface by itself, since one hides the other."""
         cells, body = self.source.cells, self.source.body
-        sides = ((BAR, "bar from above", ABOVE), (DISK, "disk from below", BELOW))
+        sides = ((BAR, "bar from above", Seen.ABOVE), (DISK, "disk from below", Seen.BELOW))
         return [
-            Pane(f"surface of the {name}", cells[body == of], toward, SHARE_SURFACE)
-            for of, name, toward in sides
-            if np.any(body == of)
+            Pane(f"surface of the {name}", cells[body == of], *seen) for of, name, seen in sides if np.any(body == of)
         ]
 
     def scale_to(self, records):
@@ -230,13 +154,15 @@ class Scene:
             what, unit = ("slip velocity", "m/s") if self.of_arrows == "slip_velocity" else ("shear", "MPa")
             length = self.bounds.arrow * (1.0 if unit == "m/s" else 1e-6)
             on = " on the bar" if pane.on_bodies is not None else ""
-            lines.append(f"arrows: {what}{on}, longest {length:.3g} {unit}" + ("; white: stick, black: slip" if self.contact.has("state") else ""))
+            meaning = "; white: stick, black: slip" if self.contact.has("state") else ""
+            lines.append(f"arrows: {what}{on}, longest {length:.3g} {unit}{meaning}")
         for line, height in zip(lines, (0.58, 0.12), strict=False):
             self.text(line, 0.012 / self.shares[column], height, 0.31 * TITLES)
 
     def text(self, text, x, y, size, name=None):
         """Puts text at a place of the view (0 to 1), so high over the width of the picture."""
-        actor = self.plotter.add_text(text, position=(x, y), viewport=True, color=INK, name=name, font_file=font(), render=False)
+        looks = {"color": INK, "font_file": font(), "name": name}
+        actor = self.plotter.add_text(text, position=(x, y), viewport=True, render=False, **looks)
         actor.prop.font_size = max(8, round(size * self.width))
 
     def draw(self, pane, frame, found):
@@ -245,34 +171,32 @@ class Scene:
         points = frame.magnified(pane.magnify)
         points[self.source.disk] += (0.0, 0.0, pane.lift)
         mesh = surface(points, pane.faces, frame.values, pane.mirrored)
-        key = QUANTITIES[self.quantity][2], COLOURS[self.source.what], self.top
-        keys = [(*key, self.add(mesh, f"bodies {pane.title}", key, show_edges=True, lighting=not surfaces))]
+        keys = [(QUANTITIES[self.quantity][2], COLOURS[self.source.what], self.top)]
+        self.add(mesh, f"bodies {pane.title}", keys[0], show_edges=True, lighting=not surfaces)
         if pane.arrows is None:
             return keys
-        toward = np.array(pane.toward) / np.linalg.norm(pane.toward)
         if pane.on_bodies is not None:
             # towards the camera, which does not show, to lie on the bodies also where these are coarser
-            points = found.frame.magnified(pane.magnify) - 0.3 * pane.span * toward
+            points = found.frame.magnified(pane.magnify) - 0.3 * pane.span * pane.towards
             patch = surface(points, pane.on_bodies, found.pressure).clip_scalar(
                 scalars="value", value=EDGE * self.bounds.pressure, invert=False
             )
-            key = "pressure on the bar (MPa)", COLOURS["contact"], scale(self.bounds.pressure)[0]
-            keys += [(*key, self.add(patch, f"patch {pane.title}", key, lighting=False))]
-        self.draw_arrows(pane, points - 0.1 * pane.span * toward, found)
+            keys.append(("pressure on the bar (MPa)", COLOURS["contact"], scale(self.bounds.pressure)[0]))
+            self.add(patch, f"patch {pane.title}", keys[1], lighting=False)
+        self.draw_arrows(pane, points - 0.1 * pane.span * pane.towards, found)
         return keys
 
     def add(self, mesh, name, key, **looks):
-        """Draws a surface in the place of that of the last record; returns its actor's mapper."""
+        """Draws a surface in the place of that of the last record; without contact there is none."""
+        self.plotter.remove_actor(name, reset_camera=False, render=False)
         if not mesh.n_cells:
-            self.plotter.remove_actor(name, reset_camera=False, render=False)
-            return None
+            return
         edges = {"edge_color": LINES, "edge_opacity": 0.22, "line_width": max(1.0, self.width / 1600)}
         light = {"ambient": 0.55, "diffuse": 0.58, "specular": 0.0}
-        actor = self.plotter.add_mesh(
+        self.plotter.add_mesh(
             mesh, name=name, scalars="value", cmap=colours(*key[1]), clim=(0.0, key[2]), show_scalar_bar=False,
             reset_camera=False, render=False, **edges, **light, **looks,
         )  # fmt: skip
-        return actor.mapper
 
     def draw_arrows(self, pane, points, found):
         """Draws the arrows of a view, white where the nodes stick and black where they slip."""
@@ -281,9 +205,8 @@ class Scene:
         for chosen, colour in ((found.sticks, "white"), (~found.sticks, "black")):
             name = f"{colour} {pane.title}"
             mine = nodes[chosen[nodes] & (np.linalg.norm(found.arrows[nodes], axis=1) > 0.02 * self.bounds.arrow)]
-            mine = mine if self.bounds.arrow > 0 else mine[:0]
             self.plotter.remove_actor(name, reset_camera=False, render=False)
-            if len(mine):
+            if len(mine) and self.bounds.arrow > 0:
                 cloud = pyvista.PolyData(points[mine])
                 cloud["arrow"] = found.arrows[mine] * (ARROW * pane.span / self.bounds.arrow)
                 shape = pyvista.Arrow(tip_length=0.35, tip_radius=0.14, shaft_radius=0.06, tip_resolution=16)
@@ -301,18 +224,20 @@ class Scene:
             pressure = found.pressure[nodes]
             weights = pressure if pressure.sum() > 0 else None
             centre = np.average(frame.placed[nodes], axis=0, weights=weights)
-        toward = np.array(pane.toward) / np.linalg.norm(pane.toward)
         reach = 2.0 * max(pane.span, np.linalg.norm(self.bounds.high - self.bounds.low))
         camera = self.plotter.camera
         camera.parallel_projection, camera.up = True, (0.0, 0.0, 1.0)
-        camera.focal_point, camera.position = centre, centre - reach * toward
+        camera.focal_point, camera.position = centre, centre - reach * pane.towards
         camera.parallel_scale, camera.clipping_range = 0.5 * pane.span, (0.1 * reach, 3.0 * reach)
 
     def keys(self, keys):
         """The colour bars."""
         self.plotter.subplot(3, 0)
         wide, middles = (0.4, (0.27, 0.75)) if len(keys) > 1 else (0.5, (0.5,))
-        for (label, _, top, mapper), middle in zip(keys, middles, strict=True):
+        pyvista = optional("pyvista", "render")
+        for (label, map_, top), middle in zip(keys, middles, strict=True):
+            mapper = pyvista.DataSetMapper()
+            mapper.lookup_table = pyvista.LookupTable(cmap=colours(*map_), scalar_range=(0.0, top))
             bar = self.plotter.add_scalar_bar(
                 label, mapper=mapper, n_labels=scale(top)[1] + 1, fmt="{:g}", color=INK, width=wide, height=0.62,
                 position_x=middle - 0.5 * wide, position_y=0.3, unconstrained_font_size=True, render=False,
@@ -350,12 +275,6 @@ class Scene:
             self.plotter.close()
 
 
-def behind(source):
-    """The cells with y > 0; all of a slice of one element, which has none there."""
-    kept = source.points[source.cells, 1].mean(axis=1) > 0
-    return kept if kept.any() else np.ones(len(kept), bool)
-
-
 def surface(points, faces, values, mirrored=False):
     """Faces of the points as a mesh with the array ``value``, and, if asked for, their image at y = 0."""
     pyvista = optional("pyvista", "render")
@@ -367,37 +286,6 @@ def surface(points, faces, values, mirrored=False):
     mesh = pyvista.PolyData.from_regular_faces(points, corners)
     mesh["value"] = values
     return mesh
-
-
-def thinned(source, faces, apart):
-    """Nodes of faces that are about so far apart: of a regular mesh every one, every second..."""
-    nodes = np.unique(faces)
-    places = source.points[nodes]
-    edges = source.points[faces] - source.points[np.roll(faces, 1, axis=1)]
-    edge = np.median(np.linalg.norm(edges, axis=2))
-    step = edge * max(1, round(apart / edge))
-    cells = np.floor((places[:, :2] - places[0, :2]) / step + 0.5)
-    off = np.linalg.norm(places[:, :2] - places[0, :2] - cells * step, axis=1)
-    order = np.argsort(off, kind="stable")
-    _, first = np.unique(cells[order], axis=0, return_index=True)
-    return np.sort(nodes[order[first]])
-
-
-def rounded(size, down=False):
-    """The nearest of 1, 2 and 5 times a power of ten that is not below ``size``, or not above."""
-    power = 10.0 ** math.floor(math.log10(size))
-    steps = [float(f"{factor * power:.6g}") for factor in (1, 2, 5, 10)]
-    near = 1e-9 * size
-    return max(s for s in steps if s <= size + near) if down else min(s for s in steps if s >= size - near)
-
-
-def scale(largest):
-    """The round end of a colour bar, and the equal parts into which it is divided."""
-    if not largest > 0:
-        return 1.0, 4
-    step = rounded(largest / 6)
-    parts = math.ceil(largest / step - 1e-9)
-    return parts * step, parts
 
 
 def colours(name, start):

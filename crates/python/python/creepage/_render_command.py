@@ -8,10 +8,12 @@ import math
 import sys
 from pathlib import Path
 
+import numpy as np
+
 from . import _creepage, _film
 from ._errors import CaseError, CreepageError
 from ._film import refuse
-from ._frames import QUANTITIES, Source
+from ._frames import BAR, QUANTITIES, Source
 from ._optional import optional
 from ._run import _NAMES
 
@@ -56,13 +58,17 @@ def render(folder, out=None, **given) -> dict:
     out = Path(out)
     film = _film.kind(out) != ".png"
     exclude(options, what, film)
-    source = opened(folder, what, options)
+    try:
+        source = opened(folder, what, options)
+        contact = surfaces(folder, source, options)
+    except OSError as error:
+        refuse(str(error), "copy it again from where it is whole, or run it again")
     _film.check(out)
     optional("pyvista", "render")
     from ._render import Scene  # pictures are drawn by few, and PyVista takes a second to load
 
     options["width"] = options["width"] or (1000 if out.suffix.lower() == ".gif" else 1600)
-    scene = Scene(source, surfaces(folder, source, options), options, title(folder))
+    scene = Scene(source, contact, options, title(folder))
     records = spread(source.records.steps, options["frames"]) if film else [chosen(source, options["time"])]
     try:
         scene.scale_to(records)
@@ -131,10 +137,7 @@ def opened(folder, what, options) -> Source:
             "contact": "its contact surfaces are written every output.contact_interval",
         }
         refuse(f"{folder} holds no {name}", f"give the folder of a run; {writes[what]}")
-    try:
-        source = Source(folder, what)
-    except OSError as error:
-        refuse(str(error), "copy it again from where it is whole, or run it again")
+    source = Source(folder, what)
     if not source.records.steps:
         refuse(f"{folder / name} holds no record yet", "wait until the run rolls")
     shown = [quantity for quantity, row in QUANTITIES.items() if row[0] == what and source.shows(quantity)]
@@ -154,7 +157,7 @@ def surfaces(folder, source, options):
     if options["view"] == "whole" or not (folder / _NAMES["contact"]).is_file():
         return None
     contact = Source(folder, "contact")
-    return contact if contact.records.steps and contact.shows("pressure") else None
+    return contact if contact.records.steps and contact.shows("pressure") and np.any(contact.body == BAR) else None
 
 
 def title(folder) -> str:
