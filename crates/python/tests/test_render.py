@@ -154,6 +154,7 @@ def test_what_cannot_be_drawn_is_refused_with_a_remedy(copy, capsys, tmp_path):
     assert "velocity is not a number at node 0" in refused(capsys, copy.path, "--out", tmp_path / "a.png")
     with h5py.File(copy.path / "fields.vtkhdf", "r+") as file:
         file["VTKHDF/Steps"].attrs["NSteps"] = 0
+        file["VTKHDF/Steps/Values"].resize(0, axis=0)
     assert "holds no record yet\n  help: wait until the run rolls" in refused(capsys, copy.path)
     (copy.path / "fields.vtkhdf").write_bytes(b"nothing")
     assert "help: copy it again" in refused(capsys, copy.path)
