@@ -179,6 +179,13 @@ def test_without_pyvista_a_line_says_what_to_install(small, monkeypatch, tmp_pat
         small.render(tmp_path / "a.png")
 
 
+def test_without_ffmpeg_a_film_as_gif_is_advised(small, capsys, monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    said = refused(capsys, small.path, "--out", tmp_path / "film.mp4")
+    assert "ffmpeg, which is not on the path" in said and "ends in .gif" in said
+
+
 def test_a_wheel_that_only_rolled_has_no_deformation():
     angles = np.arange(24) * 0.2618
     ring = np.column_stack([np.cos(angles), 0.1 * angles, np.sin(angles)])

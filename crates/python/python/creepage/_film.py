@@ -103,22 +103,27 @@ def write_gif(path, pictures):
 def write_mp4(path, pictures):
     """Writes a film in all colours by ffmpeg."""
     process = None
-    for picture in pictures:
-        if process is None:
-            height, width = picture.shape[:2]
-            raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(RATE), "-i", "-"]
-            coded = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2"]
-            marked = ["-metadata", f"comment={MARK}", "-movflags", "+faststart", "-f", "mp4"]
-            words = [encoder(path), "-loglevel", "error", "-y", *raw, *coded, *marked, os.fspath(path)]
-            process = subprocess.Popen(words, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
-        try:
+    try:
+        for picture in pictures:
+            process = process or encoding(path, picture)
             process.stdin.write(picture.tobytes())
-        except BrokenPipeError:  # what ffmpeg says tells more
-            break
-    _, said = process.communicate()
+    except BrokenPipeError:  # what ffmpeg says tells more
+        pass
+    finally:
+        _, said = process.communicate() if process else (b"", b"")
     if process.returncode:
         last = said.decode(errors="replace").strip().splitlines()
         refuse(f"--out {path}: ffmpeg failed: {last[-1] if last else process.returncode}", INSTALL)
+
+
+def encoding(path, picture):
+    """Starts ffmpeg for pictures of the size of this one."""
+    height, width = picture.shape[:2]
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(RATE), "-i", "-"]
+    coded = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2"]
+    marked = ["-metadata", f"comment={MARK}", "-movflags", "+faststart", "-f", "mp4"]
+    words = [encoder(path), "-loglevel", "error", "-y", *raw, *coded, *marked, os.fspath(path)]
+    return subprocess.Popen(words, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
 def image(picture):

@@ -163,7 +163,7 @@ class Scene:
         """Puts text at a place of the view (0 to 1), so high over the width of the picture."""
         looks = {"color": INK, "font_file": font(), "name": name}
         actor = self.plotter.add_text(text, position=(x, y), viewport=True, render=False, **looks)
-        actor.prop.font_size = max(8, round(size * self.width))
+        actor.prop.font_size = max(5, round(size * self.width))
 
     def draw(self, pane, frame, found):
         """Draws a view of a record; returns what the colours show, by the label of their bar."""
