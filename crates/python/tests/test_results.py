@@ -90,16 +90,6 @@ def test_a_check_is_the_document_of_the_command_line(small):
         small.check(limits={"no_such_measure": 1.0})
 
 
-def test_a_picture_and_a_film_are_written(small, tmp_path):
-    picture = small.render(tmp_path / "pressure.png", field="pressure", time=5e-6, width=400)
-    assert picture.read_bytes()[:4] == b"\x89PNG"
-    film = small.render(tmp_path / "film.gif", frames=2, width=300)
-    assert film.read_bytes()[:6] == b"GIF89a"
-    with pytest.raises(creepage.CaseError) as caught:
-        small.render(tmp_path / "x.png", field="temperature")
-    assert "von_mises" in str(caught.value)
-
-
 def test_figures_and_the_page_are_written(small, tmp_path):
     figures = small.figures(tmp_path, format="svg")
     assert figures and all(file.stat().st_size > 0 for files in figures.values() for file in files)

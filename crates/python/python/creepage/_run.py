@@ -436,24 +436,30 @@ class Run:
         """Draw the run in three dimensions, deformation magnified: a picture, or a film.
 
         Args:
-            out: the file, .png, .gif or .mp4 (which needs ffmpeg) [default: in the run's folder render.png, of
-                contact surfaces render-contact.png].
+            out: the file, .png, .gif or .mp4 [default: in the run's folder render.png, of contact surfaces
+                render-contact.png].
             time: draw the record nearest to this time (s) [default: the last]; a film shows all.
             field: "von_mises", "velocity" or "deformation" of the bodies, "pressure", "shear" or
                 "slip_velocity" of the contact surfaces.
             what: "fields" (both bodies) or "contact" (both surfaces) [default: that which ``field`` is of].
             view: "whole", "contact" or "both", of the bodies.
             magnify: how many times larger deformation is drawn [default: a round number that shows it].
-            span: side of what a view of the contact shows (m).
-            width: width in pixels.
+            span: height of what a view of the contact shows (m).
+            width: width in pixels [default: 1600, of a GIF 1000].
             frames: at most so many pictures in a film.
 
         Returns:
             Path: the file.
+
+        Raises:
+            CaseError: bad input.
+            ImportError: PyVista is not installed; ``pip install 'creepage[render]'`` installs it.
         """
-        options = {"run": self.path, "out": out, "time": time, "field": field, "what": what}
-        options |= {"view": view, "magnify": magnify, "span": span, "width": width, "frames": frames}
-        return Path(execute(_creepage.render, options)[0]["file"])
+        from ._render_command import render  # which itself reads runs
+
+        options = {"time": time, "field": field, "what": what, "view": view}
+        options |= {"magnify": magnify, "span": span, "width": width, "frames": frames}
+        return Path(render(self.path, out, **options)["file"])
 
     def report(self, out=None) -> Path:
         """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path."""
