@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
-    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, RenderOptions, ReportOptions,
-    RunOptions, SliderOptions, SweepOptions,
+    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
+    SliderOptions, SweepOptions, ViewOptions,
 };
 use serde_json::Value;
 
 use crate::args::Args;
 use crate::progress::{Remarks, SliderWatch, SweepWatch};
+use crate::render::RenderArgs;
 use crate::report::{self, bench, check, compare, files, mesh, slider};
 use crate::run::RunArgs;
 use crate::verify::VerifyArgs;
@@ -34,6 +35,17 @@ pub struct Line {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// What to view, and whether in the browser at once.
+#[derive(Debug, clap::Args)]
+pub struct ViewArgs {
+    /// What to view.
+    #[command(flatten)]
+    options: ViewOptions,
+    /// Write the page and start no browser
+    #[arg(long)]
+    no_open: bool,
 }
 
 /// The commands.
@@ -76,10 +88,17 @@ pub enum Command {
     #[command(
         after_help = "Examples:\n  creepage render runs/quick\n  creepage render runs/quick --field pressure \
         --time 1e-3\n  creepage render runs/quick --view contact --magnify 100 --out contact.png\n  creepage render \
-        runs/quick --out quick.gif\n\nA PNG shows one record, a GIF or MP4 all; MP4 needs the program ffmpeg. The \
-        rigid motion of the disk is not magnified. What the views show: docs/files.md."
+        runs/quick --out quick.gif\n\nA PNG shows one record, a GIF or MP4 all. They are drawn by PyVista: \
+        pip install 'creepage[render]'. The rigid motion of the disk is not magnified. What the views show: \
+        docs/python.md."
     )]
-    Render(RenderOptions),
+    Render(RenderArgs),
+    /// Show the bodies and the contact of a run in the browser: turn, zoom, play, read values
+    #[command(
+        after_help = "Examples:\n  creepage view runs/quick\n  creepage view runs/quick --out quick.html \
+        --no-open\n\nThe page holds its data and works without a network. The scene is that of creepage report."
+    )]
+    View(ViewArgs),
     /// Write one self-contained HTML page about a run or a sweep: case, numbers, checks, figures
     #[command(after_help = "Examples:\n  creepage report runs/quick\n  creepage report \
         runs/b-falling --out b-falling.html")]
@@ -183,7 +202,8 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         }
         Command::Compare(options) => done(&creepage::compare(options)?, compare::text),
         Command::Plot(options) => done(&creepage::plot(options)?.document(), files::figures),
-        Command::Render(options) => done(&creepage::render(options)?, files::picture),
+        Command::Render(options) => crate::render::command(args, options),
+        Command::View(options) => view(args, options),
         Command::Report(options) => done(&creepage::report(options)?.document, files::page),
         Command::Sweep(options) => sweep(args, options),
         Command::ImportContact(options) => {
@@ -211,6 +231,19 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         Command::Man { out: Some(folder), .. } => crate::manual::pages(folder).map(|()| 0),
         Command::Man { command, out: None } => crate::manual::page(command.as_deref()).map(|()| 0),
     }
+}
+
+fn view(args: &Args, ViewArgs { options, no_open }: &ViewArgs) -> Result<u8, Error> {
+    let document = creepage::view(options)?;
+    args.show(&document, || files::page(&document));
+    if !no_open
+        && !args.json
+        && let Some(page) = document["page"].as_str()
+        && open::that_detached(page).is_err()
+    {
+        args.say("no browser could be started: open the page by hand");
+    }
+    Ok(0)
 }
 
 fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {

@@ -7,6 +7,7 @@ mod commands;
 mod failure;
 mod manual;
 mod progress;
+mod render;
 mod report;
 mod run;
 mod stop;

@@ -12,13 +12,13 @@ mod listener;
 mod mesh;
 mod outputs;
 mod plot;
-mod render;
 mod report;
 mod run;
 mod slider;
 mod sweep;
 mod sweep_folder;
 mod values;
+mod view;
 
 pub use bench::{BenchOptions, bench};
 pub use case_source::CaseSource;
@@ -31,7 +31,6 @@ pub use import_k::{ImportKOptions, import_k};
 pub use listener::Listener;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
-pub use render::{RenderOptions, render};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
 pub use slider::{
@@ -39,3 +38,4 @@ pub use slider::{
 };
 pub use sweep::{SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
+pub use view::{ViewOptions, view};

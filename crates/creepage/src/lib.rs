@@ -1,7 +1,7 @@
 //! Creepage as a library: an elastic disk rolls on an elastic bar, by explicit finite elements.
 //!
 //! What the command line does and what Python does are functions here, each with a struct of options: [`run()`] a
-//! case, look at its [`mesh()`], [`check()`], [`plot()`], [`render()`] and [`report()`] what it gave, [`compare()`] runs, [`sweep()`]
+//! case, look at its [`mesh()`], [`check()`], [`plot()`], [`view()`] and [`report()`] what it gave, [`compare()`] runs, [`sweep()`]
 //! over a grid of parameters, compute with the 1-D [`slider()`]. Each function gives the
 //! document that the command prints with `--json`. Nothing is written to the terminal; who wants to know how far
 //! a command is, or to end it, is a [`Listener`]. Numbers are in SI units.
@@ -79,10 +79,10 @@ mod commands;
 pub mod compare;
 pub mod figures;
 pub mod ls_dyna;
-pub mod render;
 pub mod report;
 pub mod run;
 pub mod scenario;
+pub mod scene;
 pub mod sweep;
 pub mod trends;
 
@@ -94,7 +94,6 @@ pub use check::{Checked, Pairing, Report as PairingReport};
 pub use commands::*;
 pub use friction::OwnLaw;
 pub use ls_dyna::Units;
-pub use render::{Drawable, Quantity, View};
 pub use run::{BlockElement, Level};
 pub use scenario::{Cost, Progress, Stage};
 pub use sweep::{Column, Table, Watched};

@@ -3,6 +3,7 @@
 mod numbers;
 mod overview;
 mod runs;
+mod scene;
 mod sweep;
 mod verdict;
 
@@ -13,6 +14,7 @@ use crate::check::limits::MEASURES;
 use crate::check::patch_series::{PATCH_TABLE, PatchLine};
 use crate::check::{keeps_limit, slip_paired};
 use crate::figures::Named;
+use crate::scene::SceneError;
 use output::files::made::PAGE_MARK;
 use output::layout::file;
 use serde_json::Value;
@@ -30,8 +32,6 @@ table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
 td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .wide{overflow-x:auto}.wide td:last-child:not(.n){min-width:14rem}nav a{margin-right:1rem}.csv{font-size:.8rem}
-.overview{display:flex;flex-wrap:wrap;gap:1.5rem;align-items:flex-start}
-.overview>*{flex:1 1 24rem;min-width:0}img{max-width:100%;height:auto;border:1px solid #ddd}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
 #values{position:fixed;z-index:1;pointer-events:none;background:#fffe;border:1px solid #999;padding:.3rem .6rem;
@@ -88,6 +88,19 @@ pub fn run_page(
     reproduce(&mut out, basis, folder);
     overview::data(&mut out, checked);
     end(&mut out);
+    Ok(out)
+}
+
+/// The page with the scene of the run in `folder` alone.
+///
+/// # Errors
+/// A scene that cannot be read.
+pub fn scene_page(folder: &Path) -> Result<String, SceneError> {
+    let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy().into_owned();
+    let mut out = head(&name);
+    let _ = writeln!(out, "<h1>{}</h1>", escape(&name));
+    out.push_str(&scene::element(folder)?);
+    out.push_str("</body>\n</html>\n");
     Ok(out)
 }
 

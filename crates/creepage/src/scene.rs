@@ -205,7 +205,8 @@ impl Scene {
         let fields: Vec<Field> = shown.iter().flat_map(|shown| shown.fields(&frames)).collect();
         let centre = frames.last().map_or([0.0; 3], |frame| frame.centre);
         let time = frames.last().map_or(0.0, |frame| frame.time);
-        let still = still::still(&shown[0], &last[0], &fields[0], still::View { centre, span, time });
+        let still =
+            still::still(&shown[0], &last[0], &fields[0], still::View { centre, span, time });
         Ok(Self {
             title: case.get("title").and_then(|title| title.as_str()).unwrap_or_default().into(),
             half: shown[0].source.half,
@@ -301,9 +302,10 @@ impl Shown {
             let before: Vec<Vec3> = rows.iter().map(|&row| self.source.points[row]).collect();
             let rigid = |row: &usize| axpy(record.placed[*row], -1.0, record.deformation[*row]);
             let after: Vec<Vec3> = rows.iter().map(rigid).collect();
-            let values = record.values.iter().map(|(name, values)| {
-                (*name, Packed::of(rows.iter().map(|&row| values[row])))
-            });
+            let values = record
+                .values
+                .iter()
+                .map(|(name, values)| (*name, Packed::of(rows.iter().map(|&row| values[row]))));
             let shear = record.shear.as_ref().map(|shear| {
                 Packed::of(rows.iter().flat_map(|&row| shear[row].map(|traction| 1e-6 * traction)))
             });

@@ -57,10 +57,10 @@ pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, _| Ok(creepage::plot(&options)?.document().into()))
 }
 
-/// Draws a run in three dimensions.
+/// Writes the page with the interactive scene of a run.
 #[pyfunction]
-pub fn render<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(creepage::render(&options)?.into()))
+pub fn view<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(creepage::view(&options)?.into()))
 }
 
 /// Writes the page about a run.

@@ -19,7 +19,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _creepage {
     #[pymodule_export]
-    use crate::commands::{check, main, mesh, plot, render, report, run, schema, slider, sweep};
+    use crate::commands::{check, main, mesh, plot, report, run, schema, slider, sweep, view};
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]

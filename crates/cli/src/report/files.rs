@@ -17,23 +17,7 @@ pub fn figures(document: &Value) -> String {
     page
 }
 
-/// The picture or film of `render`.
-pub fn picture(document: &Value) -> String {
-    let times = |list: &str| -> Vec<f64> {
-        document[list].as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
-    };
-    let shown = times("times");
-    let when = match shown[..] {
-        [time] => format!("at t = {:.3} ms", 1e3 * time),
-        _ => format!("in {} pictures of {} records", shown.len(), document["records"]),
-    };
-    let magnified: Vec<_> =
-        times("magnifications").iter().map(|times| format!("× {times}")).collect();
-    let (file, label) = (word(document, "/file"), word(document, "/label"));
-    format!("{file}: {label} {when}, deformation {}\n", magnified.join(" and "))
-}
-
-/// The page of `report`.
+/// The page of `report` or `view`.
 pub fn page(document: &Value) -> String {
     format!("{}\n", word(document, "/page"))
 }

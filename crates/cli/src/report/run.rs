@@ -262,19 +262,19 @@ fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
     // a run that does not record its bodies shows its surfaces
     let quoted = |path: &Path| creepage::sweep::plan::quoted(&path.to_string_lossy());
     let run = quoted(folder);
-    let (grid, look, render) = if name("fields").is_empty() {
-        (name("contact"), "colour by pressure, shear, slip_velocity or state", String::new())
+    let (grid, look) = if name("fields").is_empty() {
+        (name("contact"), "colour by pressure, shear, slip_velocity or state")
     } else {
         let look = "Filters > Warp By Vector: displacement; colour by velocity or stress";
-        let render = format!("  creepage render {run}    the bodies, in three dimensions\n");
-        (name("fields"), look, render)
+        (name("fields"), look)
     };
     let _ = write!(
         out,
         "\nWhat next
+  creepage view {run}      the bodies and their contact, in the browser
   creepage report {run}    one page: pictures, numbers, checks
   creepage plot {run}      figures
-{render}  creepage check {run}     where the conditions of contact are violated
+  creepage check {run}     where the conditions of contact are violated
   paraview {}    Apply; {look}
   Python: import creepage; creepage.Run({})
   all numbers: {}

@@ -190,9 +190,18 @@ fn the_schema_is_one_json_document() {
 
 #[test]
 fn help_shows_examples() {
-    for command in
-        ["run", "mesh", "check", "plot", "render", "report", "import-contact", "schema", "bench"]
-    {
+    for command in [
+        "run",
+        "mesh",
+        "check",
+        "plot",
+        "render",
+        "view",
+        "report",
+        "import-contact",
+        "schema",
+        "bench",
+    ] {
         let output = creepage(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
         assert!(String::from_utf8_lossy(&output.stdout).contains("Example"));

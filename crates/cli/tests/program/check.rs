@@ -285,7 +285,7 @@ fn a_case_in_the_place_of_a_run_is_told_by_its_name() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("case-of-mine.toml");
     fs::write(&case, "[load]\nnormal = 1.0\n").unwrap();
-    for command in ["check", "plot", "report", "render"] {
+    for command in ["check", "plot", "report", "view"] {
         refused(&[command, text(&case)], &["case-of-mine.toml is a case or a sweep", "run it"]);
     }
 }

@@ -40,7 +40,7 @@ fn a_run_tells_its_cost_before_it_rolls_and_what_to_do_next_after_it() {
     assert!(time == "less than 1 s" || whole(time), "more digits than an estimate has: {time}");
     let page = String::from_utf8_lossy(&output.stdout);
     let next = page.split("What next").nth(1).unwrap();
-    for command in ["report", "plot", "render", "check"] {
+    for command in ["view", "report", "plot", "check"] {
         assert!(next.contains(&format!("creepage {command} runs/wheel ")), "{next}");
     }
 }

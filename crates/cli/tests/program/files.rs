@@ -104,10 +104,10 @@ fn pipes_and_devices_are_no_inputs_and_are_not_waited_for() {
         place.refused(args, &["is a pipe"]);
     }
     place.refused(&["check", "raw"], &["holds no contact.vtkhdf"]);
-    place.refused(&["render", "run/contact.vtkhdf"], &["is a file: give the folder of the run"]);
+    place.refused(&["view", "run/contact.vtkhdf"], &["is a file: give the folder of the run"]);
     place.write("swept/sweep.json", r#"{ "parameters": [], "runs": [] }"#);
     place.refused(&["plot", "swept", "--with", "gone"], &["--with gone: there is no such"]);
-    for words in [&["check"][..], &["plot"], &["report"], &["render"], &["compare", "raw"]] {
+    for words in [&["check"][..], &["plot"], &["report"], &["view"], &["compare", "raw"]] {
         for gone in ["rums/quick", "run/contact.vtkhfd", "gone/contact.vtkhdf"] {
             let wanted = format!("{gone}: there is no such file or folder");
             let order = [&words[..1], &[gone], &words[1..]].concat();

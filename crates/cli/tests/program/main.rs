@@ -22,7 +22,6 @@ mod mesh_file;
 mod one_window;
 mod own_mu;
 mod plot;
-mod render;
 mod report;
 #[cfg(unix)]
 mod resume;
@@ -34,6 +33,7 @@ mod summary;
 mod sweep;
 #[cfg(unix)]
 mod terminal;
+mod view;
 
 #[allow(dead_code)]
 #[path = "../../../creepage/tests/planted/planted.rs"]

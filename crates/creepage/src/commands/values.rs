@@ -52,25 +52,6 @@ pub const FIGURE: Rule<PathBuf> = Rule {
     wanted: "the file's name must end in .svg or .png",
 };
 
-/// A time (s).
-pub const TIME: Rule<f64> =
-    Rule { holds: |t| t.is_finite(), wanted: "a number of seconds is needed" };
-/// How many times larger deformation is drawn.
-pub const MAGNIFY: Rule<f64> =
-    Rule { holds: |n| n.is_finite() && *n >= 0.0, wanted: "a number of at least 0 is needed" };
-/// Length that a picture shows (m).
-pub const SPAN: Rule<f64> = Rule { holds: TRANSITS.holds, wanted: TRANSITS.wanted };
-/// Width of a picture (pixels).
-pub const WIDTH: Rule<u32> = Rule {
-    holds: |n| (200..=8000).contains(n),
-    wanted: "a whole number of pixels from 200 to 8000 is needed",
-};
-/// Pictures of a film.
-pub const FRAMES: Rule<usize> = Rule {
-    holds: |n| (1..=100_000).contains(n),
-    wanted: "a whole number from 1 to 100000 is needed",
-};
-
 fn ends(path: &Path, endings: &[&str]) -> bool {
     path.extension().and_then(|ending| ending.to_str()).is_some_and(|it| endings.contains(&it))
 }
@@ -138,7 +119,6 @@ pub mod words {
     use std::str::FromStr;
 
     use crate::ls_dyna::Units;
-    use crate::render::{Drawable, Quantity, View};
     use crate::run::{BlockElement, Level};
 
     use super::{KERNELS, Rule, WINDOW};
@@ -182,21 +162,6 @@ pub mod words {
             .into_iter()
             .find(|element| element.name() == text)
             .ok_or("one of one-point, full is needed")
-    }
-
-    /// What the colours of a picture show.
-    pub fn quantity(text: &str) -> Result<Quantity, &'static str> {
-        text.parse()
-    }
-
-    /// What a picture shows.
-    pub fn drawable(text: &str) -> Result<Drawable, &'static str> {
-        text.parse()
-    }
-
-    /// A view of the bodies.
-    pub fn view(text: &str) -> Result<View, &'static str> {
-        text.parse()
     }
 
     /// Units of a keyword file.

@@ -5,15 +5,11 @@ use crate::check::basis::Basis;
 use crate::check::digits::digits;
 use crate::check::limits::MEASURES;
 use crate::check::patch_series::{PATCH_TABLE, PatchLine};
-use crate::render::{RenderError, Rendering, Wanted};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
-
-/// Width of the picture (pixels).
-const WIDTH: u32 = 1200;
 
 /// Appends the table of contents.
 pub(super) fn contents(out: &mut String) {
@@ -38,10 +34,8 @@ pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &
     let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
     let (class, text) = conditions(checked);
     let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
-    out.push_str("<div class=\"overview\">\n");
     let _ = writeln!(out, "<div class=\"wide\">{}</div>", numbers(basis, checked));
-    out.push_str(&picture(folder));
-    out.push_str("</div>\n");
+    out.push_str(&super::scene::section(folder));
 }
 
 /// Whether the run ended as it should.
@@ -130,33 +124,6 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
     }
     out.push_str("</table>");
     out
-}
-
-/// The last record in three dimensions as an element of the page; why there is none where it cannot be drawn, and
-/// nothing where the run has no records of its bodies.
-fn picture(folder: &Path) -> String {
-    match drawn(folder) {
-        Ok((url, about)) => {
-            let about = escape(&about);
-            format!("<div><img src=\"{url}\" alt=\"{about}\"/><p>{about}</p></div>\n")
-        }
-        Err(RenderError::NoFile { .. } | RenderError::NoRecord(_)) => String::new(),
-        Err(error) => {
-            format!("<p class=\"note\">No picture: {}.</p>\n", escape(&error.to_string()))
-        }
-    }
-}
-
-/// The picture as an address for `<img>`, and what it shows.
-fn drawn(folder: &Path) -> Result<(String, String), RenderError> {
-    let mut rendering = Rendering::open(folder, &Wanted::default())?;
-    // a rendering has at least one record
-    let last = rendering.times().len() - 1;
-    rendering.scale_to(&[last])?;
-    let url = rendering.picture(last)?.pixels(WIDTH).and_then(|pixels| pixels.data_url())?;
-    let time = digits(1e3 * rendering.times()[last], 4);
-    let (label, _) = rendering.colours();
-    Ok((url, format!("The bodies at t = {time} ms; colours: {label}. Deformation is magnified.")))
 }
 
 /// Appends a link to the document of `creepage check --json`.

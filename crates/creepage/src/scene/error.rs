@@ -1,6 +1,7 @@
 //! Why a run cannot be shown.
 
 use super::quantity::Drawable;
+use crate::chart::FigureError;
 use crate::check::PostError;
 use output::OutputError;
 use output::layout::file;
@@ -13,6 +14,9 @@ pub enum SceneError {
     /// A file of the run cannot be read, is damaged or lacks data.
     #[error(transparent)]
     Post(#[from] PostError),
+    /// The still picture cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     /// The file with the records is not there.
     #[error("{} holds no {}", folder.display(), what.file())]
     NoFile {
@@ -39,7 +43,7 @@ impl SceneError {
             Self::Post(PostError::Output(OutputError::Damaged { .. })) => {
                 Some("copy it again from where it is whole, or run it again".into())
             }
-            Self::Post(_) => None,
+            Self::Post(_) | Self::Figure(_) => None,
             Self::NoFile { .. } => Some(format!(
                 "give the folder of a run; a run writes {} every output.fields_interval and {} every \
                  output.contact_interval",

@@ -6,7 +6,7 @@ use super::quantity::Drawable;
 use super::source::Record;
 use crate::chart::{Axis, Face, Figure, Fill, Key, Panel, Scale};
 use crate::check::digits::digits;
-use crate::check::vector::{Vec3, axpy, cross, dot, norm, sub};
+use crate::check::vector::{Vec3, cross, dot, norm, sub};
 
 /// What the largest deformation takes of the side of the view.
 const SHARE: f64 = 0.05;
@@ -30,7 +30,8 @@ pub(super) fn still(shown: &Shown, record: &Record, field: &Field, view: View) -
         scale: Scale::Linear,
     };
     let largest = record.deformation.iter().map(|d| norm(*d)).fold(0.0, f64::max);
-    let times = if largest > 0.0 { round_down((SHARE * view.span / largest).max(1.0)) } else { 1.0 };
+    let times =
+        if largest > 0.0 { round_down((SHARE * view.span / largest).max(1.0)) } else { 1.0 };
     let placed = record.magnified(times);
     let values = &record.values[field.name];
     let half = 0.5 * view.span;
@@ -64,7 +65,8 @@ pub(super) fn still(shown: &Shown, record: &Record, field: &Field, view: View) -
             Axis::linear("z (mm)").over(z[0], z[1]),
         )
     };
-    let caption = "Both bodies around their contact, from the plane y = 0 on; the axes hold in that plane.";
+    let caption =
+        "Both bodies around their contact, from the plane y = 0 on; the axes hold in that plane.";
     Figure { size: [760, 760], columns: 1, panels: vec![panel], caption: caption.into() }
 }
 

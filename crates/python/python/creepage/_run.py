@@ -461,6 +461,10 @@ class Run:
         options |= {"magnify": magnify, "span": span, "width": width, "frames": frames}
         return Path(render(self.path, out, **options)["file"])
 
+    def view(self, out=None) -> Path:
+        """Write a page with the interactive scene of the run [default: scene.html in its folder]; returns its path."""
+        return Path(execute(_creepage.view, {"run": self.path, "out": out})[0]["page"])
+
     def report(self, out=None) -> Path:
         """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path."""
         return Path(execute(_creepage.report, {"run": self.path, "out": out})[0]["page"])
