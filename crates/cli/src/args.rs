@@ -1,7 +1,5 @@
 //! The options that all commands share.
 
-use std::ffi::OsString;
-
 use clap::ArgAction;
 use serde_json::Value;
 
@@ -25,9 +23,6 @@ pub struct Args {
     /// the documents are checked
     #[arg(long, global = true, hide = true)]
     pub check_args: bool,
-    /// The program, and its first arguments, that does the runs of a sweep; empty for this one.
-    #[arg(skip)]
-    pub program: Vec<OsString>,
     /// Ctrl-C and SIGTERM.
     #[arg(skip)]
     pub stop: Stop,

@@ -14,7 +14,6 @@ use crate::args::Args;
 use crate::progress::{Remarks, SliderWatch, SweepWatch};
 use crate::render::RenderArgs;
 use crate::report::{self, bench, check, compare, files, mesh, slider};
-use crate::run::RunArgs;
 use crate::verify::VerifyArgs;
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
@@ -59,7 +58,7 @@ pub enum Command {
         what was computed so far is readable. --resume goes on from the last checkpoint (one every five \
         minutes, and on Ctrl-C) and leaves the same bits as a run that was not interrupted; on any \
         number of threads, also after kill -9. In a batch script, --resume --force begins the run or goes on with it.")]
-    Run(RunArgs),
+    Run(RunOptions),
     /// Build the mesh of a case: counts, quality, stable step, memory and run-time estimate
     #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
         cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
@@ -247,16 +246,7 @@ fn view(args: &Args, ViewArgs { options, no_open }: &ViewArgs) -> Result<u8, Err
 }
 
 fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {
-    let mut program = args.program.clone();
-    if program.is_empty() {
-        let this = std::env::current_exe().map_err(|error| {
-            let problem = format!("this program cannot find itself to start its runs: {error}");
-            Error::Option { problem, help: None }
-        })?;
-        program.push(this.into());
-    }
-    let options = SweepOptions { program, ..options.clone() };
-    let done = creepage::sweep(&options, &mut SweepWatch::new(args))?;
+    let done = creepage::sweep(options, &mut SweepWatch::new(args))?;
     args.show(&done.document, || match (&done.page, &options.plan) {
         (Some(page), _) => report::sweep::text(&done.document, &done.folder, page),
         (None, plan) => plan.iter().map(|plan| format!("{}\n", plan.display())).collect(),
@@ -268,7 +258,7 @@ fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {
 fn check_args(line: &Line) -> Result<u8, Error> {
     let mut remarks = Remarks(&line.args);
     match &line.command {
-        Command::Run(RunArgs { options: RunOptions { case, .. }, .. })
+        Command::Run(RunOptions { case, .. })
         | Command::Mesh(MeshOptions { case, .. }) => case.load(&mut remarks).map(|_| 0),
         Command::Sweep(options) => options.load().map(|_| 0),
         _ => Ok(0),

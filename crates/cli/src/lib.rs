@@ -27,16 +27,14 @@ use args::Args;
 use commands::Line;
 
 /// Runs the command that `words` write, the first of which is the program's name, for the terminal; returns
-/// the exit code. `program` and its first arguments do the runs of a sweep; where it is empty, the program
-/// that calls this.
-pub fn main(words: impl IntoIterator<Item = OsString>, program: Vec<OsString>) -> u8 {
+/// the exit code.
+pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<_> = words.into_iter().collect();
     let mut line = match Line::try_parse_from(&words) {
         Ok(line) => line,
         Err(error) => return usage(&error, &words),
     };
-    let args = &mut line.args;
-    args.program = program;
+    let args = &line.args;
     set_up_messages(args);
     let json = args.json;
     let done = full_disks_are_errors().and_then(|()| stop::Stop::listening(json));

@@ -1,9 +1,9 @@
 //! What the terminal shows of a command under way: remarks, and a bar where it is a terminal.
 
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use creepage::{Cost, Listener, Progress, Stage, Watched};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
@@ -14,9 +14,6 @@ use crate::stop::WRITING;
 
 const TICKS: u64 = 1000;
 
-/// How often a run tells the sweep that it belongs to how far it is.
-const TOLD: Duration = Duration::from_millis(200);
-
 /// Says the remarks of a command, and leaves Ctrl-C to end it at once.
 pub struct Remarks<'a>(pub &'a Args);
 
@@ -26,20 +23,18 @@ impl Listener for Remarks<'_> {
     }
 }
 
-/// Watches a run: a bar on standard error where that is a terminal, silence elsewhere. For a sweep
-/// it also writes the share that is done to standard output, a number a line.
+/// Watches a run: a bar on standard error where that is a terminal, silence elsewhere.
 pub struct RunWatch<'a> {
     args: &'a Args,
     bar: ProgressBar,
     stage: Option<Stage>,
-    told: Option<Instant>,
 }
 
 impl<'a> RunWatch<'a> {
     /// A watch that has seen nothing yet.
-    pub fn new(args: &'a Args, for_sweep: bool) -> Self {
+    pub fn new(args: &'a Args) -> Self {
         let bar = bar(args.quiet, of_stage(Stage::Mesh));
-        Self { args, bar, stage: None, told: for_sweep.then(Instant::now) }
+        Self { args, bar, stage: None }
     }
 }
 
@@ -55,15 +50,6 @@ impl Listener for RunWatch<'_> {
     fn run(&mut self, progress: &Progress) {
         if progress.stage == Stage::Roll {
             self.args.stop.hears();
-        }
-        if let Some(told) = self.told.as_mut().filter(|told| told.elapsed() >= TOLD)
-            && progress.stage == Stage::Roll
-        {
-            *told = Instant::now();
-            let done = progress.step as f64 / progress.steps.max(1) as f64;
-            let mut out = std::io::stdout();
-            // A sweep that is gone ends this run by another way.
-            let _ = writeln!(out, "{done:.4}").and_then(|()| out.flush());
         }
         if let Some(cost) = &progress.cost {
             let said = cost_line(cost);

@@ -9,7 +9,7 @@ mod ensemble;
 pub mod file;
 pub mod plan;
 pub mod points;
-pub mod schedule;
+pub mod pool;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -18,5 +18,5 @@ pub use collect::collect;
 pub use file::Sweep;
 pub use plan::{Plan, SweepError};
 pub use points::Point;
-pub use schedule::{Budget, Watched};
+pub use pool::{Budget, Watched};
 pub use table::{Column, Table};

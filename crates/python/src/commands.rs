@@ -7,7 +7,7 @@
 
 use crate::held::{Answer, held};
 use crate::law::PythonLaw;
-use creepage::{FAILED, OwnLaw, RunOptions, SweepOptions};
+use creepage::{FAILED, OwnLaw, RunOptions};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::ffi::OsString;
@@ -69,15 +69,11 @@ pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, _| Ok(creepage::report(&options)?.document.into()))
 }
 
-/// Runs a sweep; `program` and its first arguments are the command line that does its runs.
+/// Runs a sweep.
 #[pyfunction]
-pub fn sweep<'py>(
-    options: &str,
-    program: Vec<OsString>,
-    listen: &Bound<'py, PyAny>,
-) -> Answered<'py> {
-    held(options, listen, |options: SweepOptions, told| {
-        let done = creepage::sweep(&SweepOptions { program, ..options }, told)?;
+pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, told| {
+        let done = creepage::sweep(&options, told)?;
         Ok(Answer { code: done.exit_code(), document: done.document })
     })
 }
@@ -97,9 +93,8 @@ pub fn schema() -> String {
     creepage::schema().to_string()
 }
 
-/// Runs the command line for the terminal; `words` begin with the program's name, `program` does the runs of a
-/// sweep. Returns the exit code.
+/// Runs the command line for the terminal; `words` begin with the program's name. Returns the exit code.
 #[pyfunction]
-pub fn main(py: Python<'_>, words: Vec<OsString>, program: Vec<OsString>) -> u8 {
-    py.detach(|| cli::main(words, program))
+pub fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| cli::main(words))
 }

@@ -1,14 +1,17 @@
 //! A case many times, over a grid of parameters.
 
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::chart::Format;
 use crate::check::PostError;
-use crate::sweep::plan::{self, Existing};
-use crate::sweep::{Budget, Plan, Sweep, collect, schedule};
+use crate::scenario::{Progress, Stage as StageOfRun};
+use crate::sweep::plan::{self, CHECK, Existing};
+use crate::sweep::points::Point;
+use crate::sweep::pool::{self, Done, Stage};
+use crate::sweep::{Budget, Plan, Sweep, collect};
 use output::files::made::PLAN;
 use serde::Deserialize;
 use serde_json::Value;
@@ -16,6 +19,7 @@ use serde_json::Value;
 use crate::commands::error::{FAILED, INTERRUPTED};
 use crate::commands::outputs::claim;
 use crate::commands::report::{claim_sweep, write_sweep};
+use crate::commands::{CheckOptions, RunOptions, check, run};
 use crate::commands::values::{MEGABYTES, THREADS, all_cores, exclude};
 use crate::{Error, Listener};
 
@@ -57,10 +61,6 @@ pub struct SweepOptions {
     /// Run nothing: gather the results of runs from the sweep's folder and these
     #[cfg_attr(feature = "clap", arg(long, value_name = "DIR", num_args = 0..))]
     pub collect: Option<Vec<PathBuf>>,
-    /// The command line that does the runs: the program, and its first arguments [default: `creepage`].
-    #[serde(skip)]
-    #[cfg_attr(feature = "clap", arg(skip))]
-    pub program: Vec<OsString>,
 }
 
 impl SweepOptions {
@@ -115,7 +115,7 @@ impl Swept {
     }
 }
 
-/// Runs a case over a grid of parameters, each run in a process of its own; with [`SweepOptions::plan`] or
+/// Runs a case over a grid of parameters; with [`SweepOptions::plan`] or
 /// [`SweepOptions::collect`] it runs nothing.
 ///
 /// The listener hears how far the sweep is; its flag ends the runs under way in order. A run that fails is told in the
@@ -175,18 +175,68 @@ fn runs(
     let cores = all_cores();
     let jobs = options.jobs.unwrap_or(cores).clamp(1, plan.runs.len());
     let threads = options.threads.unwrap_or((cores / jobs).max(1));
-    let budget = Budget { jobs, threads, memory_mb: options.memory };
+    let budget = Budget { jobs, memory_mb: options.memory };
     listener.remark(&format!(
         "{name}: {} runs in {}, {jobs} at a time, {threads} thread{} each",
         plan.runs.len(),
         plan.folder.display(),
         if threads == 1 { "" } else { "s" }
     ));
-    let default = ["creepage".into()];
-    let program = if options.program.is_empty() { &default[..] } else { &options.program };
     let stop = listener.stop();
+    let work = |point: &Point, stage: Stage, done: &Done| {
+        let outcome = match stage {
+            Stage::Run => run_one(plan, point, threads, OfRun { stop: &stop, done }),
+            Stage::Check => check_one(plan, point),
+        };
+        outcome.map_err(|error| error.to_string())
+    };
     let mut watch = |now: &_| listener.sweep(name, now);
-    Ok(schedule::run(plan, program, &budget, &stop, &mut watch)?)
+    Ok(pool::run(plan, &work, &budget, &stop, &mut watch)?)
+}
+
+/// Hears a run for its sweep.
+struct OfRun<'a> {
+    stop: &'a Arc<AtomicBool>,
+    done: &'a Done,
+}
+
+impl Listener for OfRun<'_> {
+    fn stop(&mut self) -> Arc<AtomicBool> {
+        Arc::clone(self.stop)
+    }
+
+    fn run(&mut self, progress: &Progress) {
+        if progress.stage == StageOfRun::Roll {
+            self.done.set(progress.step as f64 / progress.steps.max(1) as f64);
+        }
+    }
+}
+
+/// Runs a point of a plan: from its checkpoint, or else in the place of what is there.
+fn run_one(
+    plan: &Plan,
+    point: &Point,
+    threads: usize,
+    mut listener: OfRun<'_>,
+) -> Result<(), Error> {
+    let options = RunOptions {
+        case: plan::case_file(&plan.folder, &point.name).into(),
+        out: Some(plan::run_folder(&plan.folder, &point.name)),
+        threads: Some(threads),
+        preload_cache: Some(plan::preloads(&plan.folder)),
+        resume: true,
+        force: true,
+        ..RunOptions::default()
+    };
+    run(&options, &mut listener).map(drop)
+}
+
+/// Checks a point of a plan. That a measure is beyond its limit is a result.
+fn check_one(plan: &Plan, point: &Point) -> Result<(), Error> {
+    let folder = plan::run_folder(&plan.folder, &point.name);
+    let checked = check(&CheckOptions { run: folder.clone(), ..CheckOptions::default() })?;
+    Ok(output::write_json_atomically(folder.join(CHECK), &checked.document)
+        .map_err(crate::sweep::SweepError::from)?)
 }
 
 /// A plan has one command a line, in UTF-8: its folder must be written so.

@@ -5,7 +5,6 @@
 //! | `plan.json` | the sweep: its hash, axes, step, and the runs with their parameters |
 //! | `cases/NAME.toml` | the resolved case of each run |
 //! | `runs/NAME/` | the run, with `check.json` beside its own files |
-//! | `logs/NAME.log` | standard error of the run and of its check |
 //! | `preload/` | preloads that runs share |
 //! | `sweep.json`, `sweep.csv` | the results |
 //! | `sweep.lock` | locked by the process that works in the folder |
@@ -255,7 +254,7 @@ pub fn prepare(
         "step": { "rule": sweep.step.map(|rule| rule.word()), "step": step },
         "runs": runs.iter().map(described).collect::<Vec<_>>(),
     });
-    for name in ["cases", "runs", "logs"] {
+    for name in ["cases", "runs"] {
         let path = folder.join(name);
         fs::create_dir_all(&path).map_err(failed(path))?;
     }
@@ -329,7 +328,7 @@ fn smallest_step(
 /// Refuses to replace a sweep that holds what this one is made of: its file, its base or what that extends.
 fn spare(folder: &Path, sweep: &Sweep) -> Result<(), SweepError> {
     let place = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-    let written = ["cases", "runs", "logs", "preload", PLAN, RESULTS[0], RESULTS[1]];
+    let written = ["cases", "runs", "preload", PLAN, RESULTS[0], RESULTS[1]];
     let lost = |path: &PathBuf| {
         let path = path.canonicalize().unwrap_or_default();
         written.iter().any(|name| path.starts_with(place.join(name)))
@@ -356,9 +355,8 @@ fn clear(folder: &Path) -> Result<(), SweepError> {
         let Some(name) = run["name"].as_str().filter(|name| !name.contains(['/', '\\'])) else {
             continue;
         };
-        for path in [case_file(folder, name), log_file(folder, name)] {
-            gone(path.clone(), fs::remove_file(path))?;
-        }
+        let path = case_file(folder, name);
+        gone(path.clone(), fs::remove_file(path))?;
         let path = run_folder(folder, name);
         gone(path.clone(), fs::remove_dir_all(path))?;
     }
@@ -390,11 +388,6 @@ pub fn case_file(folder: &Path, name: &str) -> PathBuf {
 /// Path of the folder of a run.
 pub fn run_folder(folder: &Path, name: &str) -> PathBuf {
     folder.join("runs").join(name)
-}
-
-/// Path of the log of a run and its check.
-pub fn log_file(folder: &Path, name: &str) -> PathBuf {
-    folder.join("logs").join(format!("{name}.log"))
 }
 
 /// Path of the folder of the preloads that the runs share.

@@ -4,7 +4,6 @@ import signal
 import sys
 
 from . import _creepage, _render_command
-from ._execute import PROGRAM
 
 
 def main() -> None:
@@ -15,7 +14,7 @@ def main() -> None:
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         # Python's own would raise KeyboardInterrupt after the program has ended in order
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    sys.exit(_creepage.main(["creepage", *sys.argv[1:]], PROGRAM))
+    sys.exit(_creepage.main(["creepage", *sys.argv[1:]]))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from . import _case, _creepage
 from ._errors import CaseError, CreepageError, RunError
-from ._execute import PROGRAM, execute
+from ._execute import execute
 from ._run import Run
 
 
@@ -94,7 +94,7 @@ def sweep(
     """
     options = {"sweep": file, "out": out, "jobs": jobs, "threads": threads, "memory": memory}
     options |= {"resume": resume, "force": force}
-    return execute(_creepage.sweep, options, PROGRAM, progress=progress)[0]
+    return execute(_creepage.sweep, options, progress=progress)[0]
 
 
 def slider(**settings):

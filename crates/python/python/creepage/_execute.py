@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import json
 import logging
-import sys
 import warnings
 from pathlib import Path
 
 from . import _case
 from ._errors import CaseError, Interrupted, RunError
 from ._progress import listener
-
-# what does the runs of a sweep
-PROGRAM = [sys.executable, "-m", "creepage"]
 
 
 def execute(function, options, *more, progress=None):
