@@ -25,7 +25,7 @@ use crate::row::Row;
 use contact::{ExactContact, ExactSettings};
 use dynamics::{Fixed, Setup, Simulation};
 use faer::c64 as Complex;
-use friction::{Exponential, FrictionLaw, Memory, NodeFriction, Place, Remembering};
+use friction::{Exponential, FrictionLaw, Memory, NodeConditions, NodeFriction, Remembering};
 use mesh::Padded;
 use solid::{Level, Solid, Viscosity, Volumetric};
 use std::f64::consts::PI;
@@ -277,15 +277,15 @@ struct MemoryFromMode {
 }
 
 impl NodeFriction for MemoryFromMode {
-    fn begin(&self, at: &Place) -> [f64; 2] {
+    fn begin(&self, at: &NodeConditions) -> [f64; 2] {
         [self.steady + self.mode * libm::cos(self.wave_number * at.position[0]), 0.0]
     }
 
-    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions, dt: f64) -> [f64; 2] {
         self.law.advance(state, slip_speed, at, dt)
     }
 
-    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions) -> f64 {
         self.law.mu(state, slip_speed, at)
     }
 

@@ -43,7 +43,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::{Field, Row};
 use contact::{Contact, ExactContact, ExactSettings, NodalContact};
 use dynamics::{Fixed, Setup, Simulation};
-use friction::{NodeFriction, Place, SlipWeakening};
+use friction::{NodeConditions, NodeFriction, SlipWeakening};
 use mesh::{Mesh, quad_corner_areas};
 use solid::{Elements, Material, Volumetric};
 
@@ -110,7 +110,7 @@ pub(crate) const ON_FAULT: OnFault = OnFault(LAW);
 const BARRIER: f64 = 1e4;
 
 impl OnFault {
-    fn holds(at: &Place) -> bool {
+    fn holds(at: &NodeConditions) -> bool {
         on_fault([at.position[0], at.position[1]])
     }
 }
@@ -121,15 +121,15 @@ fn on_fault(x: [f64; 2]) -> bool {
 }
 
 impl NodeFriction for OnFault {
-    fn begin(&self, at: &Place) -> [f64; 2] {
+    fn begin(&self, at: &NodeConditions) -> [f64; 2] {
         self.0.begin(at)
     }
 
-    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions, dt: f64) -> [f64; 2] {
         self.0.advance(state, slip_speed, at, dt)
     }
 
-    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions) -> f64 {
         if Self::holds(at) { self.0.mu(state, slip_speed, at) } else { BARRIER }
     }
 
@@ -316,7 +316,7 @@ impl Monitor {
     /// Reads the contact of the step of `dt` (s) that starts at `time` (s), and updates the checks.
     fn read(&mut self, table: &NodalContact, time: f64, dt: f64, checks: &mut Checks) {
         let middle = time + 0.5 * dt;
-        let at = Place::default();
+        let at = NodeConditions::default();
         for (i, &row) in self.rows.iter().enumerate() {
             let (p, shear, s) = (table.pressure[row], table.shear[row], table.slip_velocity[row]);
             let speed = norm(s);
@@ -596,7 +596,8 @@ mod tests {
 
     #[test]
     fn the_edge_of_the_fault_belongs_to_the_barrier() {
-        let at = |x: f64, y: f64| Place { position: [x, y, 0.0], ..Place::default() };
+        let at =
+            |x: f64, y: f64| NodeConditions { position: [x, y, 0.0], ..NodeConditions::default() };
         let law = OnFault(LAW);
         let weak = [1.0, 0.0];
         assert_eq!(law.mu(weak, 0.0, &at(14.9e3, 7.4e3)), 0.525);

@@ -258,8 +258,9 @@ fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {
 fn check_args(line: &Line) -> Result<u8, Error> {
     let mut remarks = Remarks(&line.args);
     match &line.command {
-        Command::Run(RunOptions { case, .. })
-        | Command::Mesh(MeshOptions { case, .. }) => case.load(&mut remarks).map(|_| 0),
+        Command::Run(RunOptions { case, .. }) | Command::Mesh(MeshOptions { case, .. }) => {
+            case.load(&mut remarks).map(|_| 0)
+        }
         Command::Sweep(options) => options.load().map(|_| 0),
         _ => Ok(0),
     }

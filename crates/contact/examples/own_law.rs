@@ -9,7 +9,7 @@
 use contact::{
     BodyMaterial, Contact, ExactContact, ExactSettings, FreeMotion, TraceFields, TraceStep,
 };
-use friction::{NodeFriction, Place};
+use friction::{NodeConditions, NodeFriction};
 use mesh::{Face, Mesh, Padded, Surface};
 use std::error::Error;
 
@@ -24,16 +24,22 @@ struct Polishing {
 }
 
 impl NodeFriction for Polishing {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [0.0; 2]
     }
 
-    fn advance(&self, [work, _]: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        [work, _]: [f64; 2],
+        slip_speed: f64,
+        at: &NodeConditions,
+        dt: f64,
+    ) -> [f64; 2] {
         let power = self.mu([work, 0.0], slip_speed, at) * at.pressure * slip_speed;
         [work + power * dt, 0.0]
     }
 
-    fn mu(&self, [work, _]: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+    fn mu(&self, [work, _]: [f64; 2], _slip_speed: f64, _at: &NodeConditions) -> f64 {
         self.smooth + (self.rough - self.smooth) * libm::exp(-work / self.work)
     }
 

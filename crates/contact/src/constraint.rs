@@ -100,12 +100,12 @@ impl MasterPoint {
 
 /// A node of the master in the rows of one step.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(crate) struct Leg {
+pub(crate) struct MasterNode {
     /// The node, in its surface.
     pub node: u32,
     pub weight: f64,
     /// `d b_J`.
-    pub lever: Vec3,
+    pub rotation: Vec3,
 }
 
 /// A contact point at which the conditions of contact and friction hold by Lagrange multipliers.
@@ -114,8 +114,8 @@ pub(crate) type Constraint = ContactPoint<Multipliers>;
 /// What exact contact keeps of a contact point.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Multipliers {
-    /// Its legs in the list of the step: the first, and how many.
-    legs: [u32; 2],
+    /// Its master_nodes in the list of the step: the first, and how many.
+    master_nodes: [u32; 2],
     /// `dt W_ii`: the velocity (m/s) that a force of 1 N on slave and master makes in the step.
     #[serde(skip)]
     pub delassus: f64,
@@ -130,20 +130,20 @@ pub(crate) struct Multipliers {
 
 impl Enforced for Multipliers {
     fn follow(&mut self, other: &Self) {
-        *self = Self { legs: self.legs, on_plane: self.on_plane, ..*other };
+        *self = Self { master_nodes: self.master_nodes, on_plane: self.on_plane, ..*other };
     }
 }
 
 impl Constraint {
-    /// Its legs in the list of the step.
+    /// Its master_nodes in the list of the step.
     #[inline]
-    pub fn legs(&self) -> Range<usize> {
-        let [first, count] = self.enforcement.legs.map(|n| n as usize);
+    pub fn master_nodes(&self) -> Range<usize> {
+        let [first, count] = self.enforcement.master_nodes.map(|n| n as usize);
         first..first + count
     }
 
     /// Sets up the rows of a node at `x`, maybe `on_plane` of symmetry, over a projection with unit normal `n`, and adds
-    /// their legs to the list of the step.
+    /// their master_nodes to the list of the step.
     #[inline]
     pub fn set_up(
         &mut self,
@@ -152,45 +152,50 @@ impl Constraint {
         n: Vec3,
         x: Vec3,
         on_plane: bool,
-        legs: &mut Vec<Leg>,
+        master_nodes: &mut Vec<MasterNode>,
     ) {
         self.normal = n;
         self.enforcement.on_plane = on_plane;
         self.enforcement.frame = master_point.frame(n, on_plane);
-        self.enforcement.legs = [legs.len() as u32, shares.len() as u32];
+        self.enforcement.master_nodes = [master_nodes.len() as u32, shares.len() as u32];
         let [g1, g2] = master_point.duals(n);
         let to_node = sub(x, master_point.x);
         let beside = [dot(g1, to_node), dot(g2, to_node)];
         let [a1, a2] = master_point.tangents;
         let under = axpy(scale(beside[0], a1), beside[1], a2);
         let distance = dot(n, sub(to_node, under));
-        legs.extend(shares.iter().map(|share| {
+        master_nodes.extend(shares.iter().map(|share| {
             let [d1, d2] = share.gradient;
-            let lever = axpy(scale(distance * d1, g1), distance * d2, g2);
-            Leg {
+            let rotation = axpy(scale(distance * d1, g1), distance * d2, g2);
+            MasterNode {
                 node: share.node,
                 weight: share.weight + d1 * beside[0] + d2 * beside[1],
                 // with its mirror image a master that turns about x does not turn on the plane
-                lever: if on_plane { in_plane(lever) } else { lever },
+                rotation: if on_plane { in_plane(rotation) } else { rotation },
             }
         }));
     }
 
-    /// Takes the legs, the last in the list, from it again.
-    pub fn withdraw(&mut self, legs: &mut Vec<Leg>) {
-        legs.truncate(self.enforcement.legs[0] as usize);
-        self.enforcement.legs = [0; 2];
+    /// Takes the master_nodes, the last in the list, from it again.
+    pub fn withdraw(&mut self, master_nodes: &mut Vec<MasterNode>) {
+        master_nodes.truncate(self.enforcement.master_nodes[0] as usize);
+        self.enforcement.master_nodes = [0; 2];
     }
 
     /// Rate of the gap (m/s) and slip velocity (m/s) from the velocities of slave and master.
     #[inline]
-    pub fn rates(&self, slave: Vec3, legs: &[Leg], velocity: impl Fn(u32) -> Vec3) -> (f64, Vec3) {
+    pub fn rates(
+        &self,
+        slave: Vec3,
+        master_nodes: &[MasterNode],
+        velocity: impl Fn(u32) -> Vec3,
+    ) -> (f64, Vec3) {
         let mut w = slave;
         let mut turn = [0.0; 3];
-        for leg in legs {
-            let v = velocity(leg.node);
-            w = axpy(w, -leg.weight, v);
-            turn = axpy(turn, dot(self.normal, v), leg.lever);
+        for master_node in master_nodes {
+            let v = velocity(master_node.node);
+            w = axpy(w, -master_node.weight, v);
+            turn = axpy(turn, dot(self.normal, v), master_node.rotation);
         }
         if self.enforcement.on_plane {
             // with its mirror image the master does not move across the plane
@@ -200,21 +205,22 @@ impl Constraint {
         (opening, add(axpy(w, -opening, self.normal), turn))
     }
 
-    /// Force on the node of a leg where `normal` and `friction` act on the slave (N).
+    /// Force on the node of a master_node where `normal` and `friction` act on the slave (N).
     #[inline]
-    pub fn reaction(&self, leg: &Leg, normal: f64, friction: Vec3) -> Vec3 {
-        let along = dot(leg.lever, friction) - leg.weight * normal;
-        axpy(scale(-leg.weight, friction), along, self.normal)
+    pub fn reaction(&self, master_node: &MasterNode, normal: f64, friction: Vec3) -> Vec3 {
+        let along = dot(master_node.rotation, friction) - master_node.weight * normal;
+        axpy(scale(-master_node.weight, friction), along, self.normal)
     }
 }
 
 impl Constraint {
-    /// The matrix `-weight + lever n^T` that takes the velocity of the node of a leg to its part of the relative velocity; its transpose takes
+    /// The matrix `-weight + rotation n^T` that takes the velocity of the node of a master_node to its part of the relative velocity; its transpose takes
     /// a force on the slave to that on the node.
-    pub fn on_leg(&self, leg: &Leg) -> [[f64; 3]; 3] {
-        let [n, lever] = [self.normal, leg.lever];
+    pub fn on_leg(&self, master_node: &MasterNode) -> [[f64; 3]; 3] {
+        let [n, rotation] = [self.normal, master_node.rotation];
         [0, 1, 2].map(|i| {
-            [0, 1, 2].map(|j: usize| lever[i] * n[j] - if i == j { leg.weight } else { 0.0 })
+            [0, 1, 2]
+                .map(|j: usize| rotation[i] * n[j] - if i == j { master_node.weight } else { 0.0 })
         })
     }
 

@@ -18,7 +18,7 @@ mod implicit;
 
 pub use implicit::{Corrected, Matrix3};
 
-use crate::constraint::{Constraint, Leg, MasterPoint, Rows, face_shares, within};
+use crate::constraint::{Constraint, MasterNode, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{Contact, FreeMotion};
 use crate::face::{EDGE, Positions, shape};
 use crate::mortar::{Mean, Mortar};
@@ -34,7 +34,7 @@ use crate::surface::ContactSurface;
 use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
 use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError, Trace};
 use friction::slip_speed;
-use friction::{NodeFriction, Place, Slid};
+use friction::{NodeConditions, NodeFriction, NodeHistory};
 use mesh::{Face, Mesh, Padded, Surface};
 
 /// Sweeps end when no force changes by more than this part of the largest.
@@ -94,13 +94,13 @@ pub struct ExactContact {
     normals: Option<NodalNormals>,
     /// Integration of mortar constraints, and the mean that each slave follows.
     mortar: Option<(Mortar, Vec<Mean>)>,
-    /// Constraints that may carry force in this step, and their legs.
+    /// Constraints that may carry force in this step, and their master_nodes.
     active: Vec<u32>,
-    legs: Vec<Leg>,
+    master_nodes: Vec<MasterNode>,
     /// The nodes of the trace that bear these.
     loaded: Vec<u32>,
     /// What the law of friction is told about those that were closed before, in their order.
-    slid: Vec<Slid>,
+    slid: Vec<NodeHistory>,
     /// Mortar constraints whose integrals were taken in this step.
     integrated: usize,
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step; `dt/m` is zero in a direction
@@ -145,7 +145,7 @@ impl ExactContact {
             law,
             curvature: settings.curvature,
             active: Vec::new(),
-            legs: Vec::new(),
+            master_nodes: Vec::new(),
             slid: Vec::new(),
             integrated: 0,
             velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
@@ -194,7 +194,7 @@ impl ExactContact {
         constraint.sleep = sleep(constraint.gap, speed, self.search.margin, motion.dt);
         let may_close = constraint.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed;
         if !may_close {
-            constraint.withdraw(&mut self.legs);
+            constraint.withdraw(&mut self.master_nodes);
         }
         may_close
     }
@@ -226,7 +226,7 @@ impl ExactContact {
             None => projection.point.normal,
         };
         let on_plane = master.is_on_plane(x);
-        constraint.set_up(&shares, &master_point, normal, x, on_plane, &mut self.legs);
+        constraint.set_up(&shares, &master_point, normal, x, on_plane, &mut self.master_nodes);
         Some(frame(old.tangent, old.normal))
     }
 
@@ -269,7 +269,7 @@ impl ExactContact {
             kinematics.normal,
             x,
             sides[1].is_on_plane(x),
-            &mut self.legs,
+            &mut self.master_nodes,
         );
         Some(old.unwrap_or(constraint.enforcement.frame))
     }
@@ -299,7 +299,9 @@ impl ExactContact {
     fn rates(&self, constraint: &Constraint) -> (f64, Vec3) {
         let master = &self.velocity[1 - self.slave];
         let slave = self.velocity[self.slave][constraint.slave as usize];
-        constraint.rates(slave, &self.legs[constraint.legs()], |node| master[node as usize])
+        constraint.rates(slave, &self.master_nodes[constraint.master_nodes()], |node| {
+            master[node as usize]
+        })
     }
 
     /// Rates at the velocities of a motion.
@@ -307,7 +309,9 @@ impl ExactContact {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
         let at = |node: u32| motion.velocity[node as usize].xyz();
         let slave = at(own.node(constraint.slave));
-        constraint.rates(slave, &self.legs[constraint.legs()], |node| at(master.node(node)))
+        constraint.rates(slave, &self.master_nodes[constraint.master_nodes()], |node| {
+            at(master.node(node))
+        })
     }
 
     /// Notes which nodes bear the constraints that may carry force.
@@ -315,9 +319,10 @@ impl ExactContact {
         let [own, master] = [&self.sides[self.slave], &self.sides[1 - self.slave]];
         let constraints = &self.constraints[self.slave];
         self.loaded.clear();
-        self.loaded.reserve(self.active.capacity() + self.legs.capacity());
+        self.loaded.reserve(self.active.capacity() + self.master_nodes.capacity());
         self.loaded.extend(self.active.iter().map(|&i| own.node(constraints[i as usize].slave)));
-        self.loaded.extend(self.legs.iter().map(|leg| master.node(leg.node)));
+        self.loaded
+            .extend(self.master_nodes.iter().map(|master_node| master.node(master_node.node)));
     }
 
     /// Adds what the forces of a constraint change in the velocities.
@@ -326,17 +331,22 @@ impl ExactContact {
         let on_slave = axpy(friction, normal, constraint.normal);
         self.velocity[own][i] = pushed(self.velocity[own][i], self.dt_by_mass[own][i], on_slave);
         let (velocity, dt_by_mass) = (&mut self.velocity[1 - own], &self.dt_by_mass[1 - own]);
-        for leg in &self.legs[constraint.legs()] {
-            let node = leg.node as usize;
+        for master_node in &self.master_nodes[constraint.master_nodes()] {
+            let node = master_node.node as usize;
             velocity[node] = pushed(
                 velocity[node],
                 dt_by_mass[node],
-                constraint.reaction(leg, normal, friction),
+                constraint.reaction(master_node, normal, friction),
             );
         }
     }
 
-    fn at(&self, constraint: &Constraint, positions: &Positions<'_>, motion: &Motion<'_>) -> Place {
+    fn at(
+        &self,
+        constraint: &Constraint,
+        positions: &Positions<'_>,
+        motion: &Motion<'_>,
+    ) -> NodeConditions {
         let own = &self.sides[self.slave];
         let position = positions.at(own.node(constraint.slave));
         constraint.place(own, position, motion.time)
@@ -415,8 +425,8 @@ impl ExactContact {
         let own = self.slave;
         self.release(own, constraint.slave, free_motion, force, motion);
         constraint.enforcement.delassus = self.dt_by_mass[own][constraint.slave as usize][0];
-        for k in constraint.legs() {
-            let Leg { node, weight, .. } = self.legs[k];
+        for k in constraint.master_nodes() {
+            let MasterNode { node, weight, .. } = self.master_nodes[k];
             self.release(1 - own, node, free_motion, force, motion);
             constraint.enforcement.delassus +=
                 weight * weight * self.dt_by_mass[1 - own][node as usize][0];
@@ -543,9 +553,10 @@ impl ExactContact {
         let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
         add_to(&mut force[self.sides[own].node(constraint.slave) as usize], on_slave);
         let mut on_masters = [0.0; 3];
-        for leg in &self.legs[constraint.legs()] {
-            let on_leg = constraint.reaction(leg, constraint.normal_force, constraint.friction);
-            add_to(&mut force[self.sides[1 - own].node(leg.node) as usize], on_leg);
+        for master_node in &self.master_nodes[constraint.master_nodes()] {
+            let on_leg =
+                constraint.reaction(master_node, constraint.normal_force, constraint.friction);
+            add_to(&mut force[self.sides[1 - own].node(master_node.node) as usize], on_leg);
             on_masters = add(on_masters, on_leg);
         }
         [on_slave, on_masters]
@@ -585,7 +596,7 @@ impl ExactContact {
             }
             None => (0, 0),
         };
-        [self.legs.capacity(), self.active.capacity(), mortar, means]
+        [self.master_nodes.capacity(), self.active.capacity(), mortar, means]
     }
 }
 
@@ -604,12 +615,12 @@ impl Contact for ExactContact {
             self.constraints[1 - own].clear();
             let most = self.constraints[own].len();
             self.active.reserve(most.saturating_sub(self.active.len()));
-            self.legs.reserve((4 * most).saturating_sub(self.legs.len()));
+            self.master_nodes.reserve((4 * most).saturating_sub(self.master_nodes.len()));
             self.slid.reserve(most.saturating_sub(self.slid.len()));
         }
         let mut constraints = std::mem::take(&mut self.constraints[own]);
         self.active.clear();
-        self.legs.clear();
+        self.master_nodes.clear();
         self.integrated = 0;
         self.normals.iter_mut().for_each(NodalNormals::expire);
         for (i, constraint) in constraints.iter_mut().enumerate() {
@@ -700,9 +711,13 @@ impl Contact for ExactContact {
             others.iter().filter(|constraint| constraint.is_closed()).flat_map(|constraint| {
                 // Beyond an edge that a slave lies over, weights are zero to round-off. The forces keep them for their
                 // balance; shown, they would pull a node.
-                let bears = |leg: &&Leg| leg.weight >= 0.0 || leg.weight <= -EDGE;
-                let legs = self.legs[constraint.legs()].iter().filter(bears);
-                legs.map(move |leg| (constraint, leg.node, leg.weight))
+                let bears = |master_node: &&MasterNode| {
+                    master_node.weight >= 0.0 || master_node.weight <= -EDGE
+                };
+                let master_nodes =
+                    self.master_nodes[constraint.master_nodes()].iter().filter(bears);
+                master_nodes
+                    .map(move |master_node| (constraint, master_node.node, master_node.weight))
             });
         let (margin, mu) = (self.search.margin, self.law.mu_static());
         table.fill(&self.sides, own, others, margin, mu, is_slave);
@@ -714,14 +729,15 @@ impl Contact for ExactContact {
 
     fn snapshot(&self) -> ContactState {
         let means = self.mortar.as_ref().map(|(_, means)| means.clone()).unwrap_or_default();
-        let (constraints, legs) = (self.constraints[self.slave].clone(), self.legs.clone());
-        let points = Points::Exact(constraints, legs, means);
+        let (constraints, master_nodes) =
+            (self.constraints[self.slave].clone(), self.master_nodes.clone());
+        let points = Points::Exact(constraints, master_nodes, means);
         ContactState { points, search: self.search.clone(), origin: self.sides[0].origin }
     }
 
     fn restore(&mut self, state: &ContactState) -> Result<(), StateError> {
         let own = self.slave;
-        let Points::Exact(constraints, legs, kept) = &state.points else {
+        let Points::Exact(constraints, master_nodes, kept) = &state.points else {
             return Err(StateError::Method);
         };
         if kept.is_empty() != self.mortar.is_none() {
@@ -729,15 +745,15 @@ impl Contact for ExactContact {
         }
         let sides = [&self.sides[own], &self.sides[1 - own]];
         check_points(constraints, sides[0], sides[1])?;
-        check_legs(constraints, legs, sides[1])?;
+        check_legs(constraints, master_nodes, sides[1])?;
         if let Some((mortar, means)) = &mut self.mortar {
             mortar.check_means(kept, sides)?;
             means.clone_from(kept);
         }
         self.active.reserve(constraints.len());
         self.slid.reserve(constraints.len());
-        self.legs.clone_from(legs);
-        self.legs.reserve((4 * constraints.len()).saturating_sub(legs.len()));
+        self.master_nodes.clone_from(master_nodes);
+        self.master_nodes.reserve((4 * constraints.len()).saturating_sub(master_nodes.len()));
         self.constraints[own].clone_from(constraints);
         self.sides.iter_mut().for_each(|side| side.origin = state.origin);
         self.search.restore(&state.search, &self.sides)

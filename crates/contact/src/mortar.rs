@@ -626,7 +626,7 @@ mod tests {
             let mut constraint = crate::search::Listed::near(slave as u32, 0);
             let x = rig.slave(slave);
             let kinematics = rig.kinematics(slave, &old);
-            let mut legs = Vec::new();
+            let mut master_nodes = Vec::new();
             crate::constraint::Constraint::set_up(
                 &mut constraint,
                 &old.shares,
@@ -634,11 +634,11 @@ mod tests {
                 kinematics.normal,
                 x,
                 false,
-                &mut legs,
+                &mut master_nodes,
             );
             let weight =
                 |node| new.shares.iter().find(|s| s.node == node).map_or(0.0, |s| s.weight);
-            legs.iter().map(|l| (l.weight - weight(l.node)).abs()).fold(0.0, f64::max)
+            master_nodes.iter().map(|l| (l.weight - weight(l.node)).abs()).fold(0.0, f64::max)
         };
         let [small, large] = [0.005, 0.01].map(|s| differ(s * 1.6e-3));
         assert!(large < 2e-4, "{large:e}");

@@ -11,7 +11,7 @@ use crate::vector::axpy;
 use crate::{
     BodyMaterial, ContactError, ContactSums, Motion, PenaltyStiffness, StabilityScale, Trace,
 };
-use friction::{NodeFriction, Slid};
+use friction::{NodeFriction, NodeHistory};
 use mesh::{Mesh, Padded, Surface};
 
 /// Settings of [`PenaltyContact`].
@@ -46,7 +46,7 @@ pub struct PenaltyContact {
     /// The nodes of the trace that bear the closed points.
     pub(crate) loaded: Vec<u32>,
     /// What the law is told about the closed points of a pass, in their order.
-    slid: Vec<Slid>,
+    slid: Vec<NodeHistory>,
     pub(crate) search: Search,
     /// Whether the search was refreshed in the last step.
     searched: bool,

@@ -8,7 +8,7 @@ use crate::search::Listed;
 use crate::stiffness::{PenaltyStiffness, StabilityScale};
 use crate::surface::{ContactSurface, MasterFace};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
-use friction::{NodeFriction, Slid};
+use friction::{NodeFriction, NodeHistory};
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
 
@@ -276,7 +276,7 @@ impl Pass<'_> {
     }
 
     /// What the law of friction is told about a closed point: the slip speed of the step before.
-    pub fn slid(&self, point: &PenaltyPoint, positions: &Positions<'_>, time: f64) -> Slid {
+    pub fn slid(&self, point: &PenaltyPoint, positions: &Positions<'_>, time: f64) -> NodeHistory {
         let x = positions.at(self.slave.node(point.slave));
         point.slid(point.place(self.slave, x, time))
     }
@@ -292,7 +292,7 @@ impl Pass<'_> {
     /// minus the energy stored and minus the dissipation `-1/2 (f^n + f^{n+1}).Delta_p`, exactly.
     /// The dissipation is negative only where the motion of one step turns a full friction force
     /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
-    pub fn return_mapping(&self, point: &mut PenaltyPoint, slid: &Slid, dt: f64) {
+    pub fn return_mapping(&self, point: &mut PenaltyPoint, slid: &NodeHistory, dt: f64) {
         point.mu = self.law.mu(slid.state, slid.slip_speed, &slid.at);
         let Trial { held, delta, start, tangent } = point.enforcement.trial;
         if !held {

@@ -4,7 +4,7 @@ use crate::face::{Followed, Positions, Projection, project};
 use crate::search::Listed;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, axpy, dot, norm, scale, tangential};
-use friction::{Place, Slid};
+use friction::{NodeConditions, NodeHistory};
 use mesh::Padded;
 use serde::{Deserialize, Serialize};
 
@@ -148,15 +148,15 @@ impl<E: Enforced> ContactPoint<E> {
     }
 
     /// Where and when the law of friction is asked, for a node of `surface` at `position`.
-    pub fn place(&self, surface: &ContactSurface, position: Vec3, time: f64) -> Place {
+    pub fn place(&self, surface: &ContactSurface, position: Vec3, time: f64) -> NodeConditions {
         let pressure = self.normal_force / surface.area[self.slave as usize];
         let [x, y, z] = position;
-        Place { position: [x + surface.origin, y, z], time, pressure }
+        NodeConditions { position: [x + surface.origin, y, z], time, pressure }
     }
 
     /// What the law of friction is told: the slip speed of the step before.
-    pub fn slid(&self, at: Place) -> Slid {
-        Slid { state: self.memory, slip_speed: norm(self.slip_velocity), at }
+    pub fn slid(&self, at: NodeConditions) -> NodeHistory {
+        NodeHistory { state: self.memory, slip_speed: norm(self.slip_velocity), at }
     }
 
     /// What tables of nodes show of it.

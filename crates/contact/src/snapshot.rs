@@ -4,7 +4,7 @@
 //! what a step computes anew and nothing reads before. The search keeps where the surfaces were when it last looked:
 //! that decides when the lists are made anew, and so the order in which forces are added.
 
-use crate::constraint::{Constraint, Leg};
+use crate::constraint::{Constraint, MasterNode};
 use crate::mortar::Mean;
 use crate::penalty_point::PenaltyPoint;
 use crate::point::{ContactPoint, Enforced};
@@ -26,8 +26,8 @@ pub struct ContactState {
 pub(crate) enum Points {
     /// The springs of each pass.
     Penalty([Vec<PenaltyPoint>; 2]),
-    /// The rows of the slaves' side with their legs, and of mortar rows the means that they follow.
-    Exact(Vec<Constraint>, Vec<Leg>, Vec<Mean>),
+    /// The rows of the slaves' side with their master_nodes, and of mortar rows the means that they follow.
+    Exact(Vec<Constraint>, Vec<MasterNode>, Vec<Mean>),
 }
 
 /// A state that is not of the contact that is to go on from it.
@@ -61,16 +61,16 @@ pub(crate) fn check_points<E: Enforced>(
     if points.iter().all(projects) { Ok(()) } else { Err(StateError::Range { name: "face" }) }
 }
 
-/// That the closed constraints have legs, which are nodes of `masters`.
+/// That the closed constraints have master_nodes, which are nodes of `masters`.
 pub(crate) fn check_legs(
     constraints: &[Constraint],
-    legs: &[Leg],
+    master_nodes: &[MasterNode],
     masters: &ContactSurface,
 ) -> Result<(), StateError> {
     let mut closed = constraints.iter().filter(|constraint| constraint.is_closed());
-    let fits = closed.all(|constraint| legs.get(constraint.legs()).is_some())
-        && legs.iter().all(|leg| (leg.node as usize) < masters.len());
-    if fits { Ok(()) } else { Err(StateError::Range { name: "legs" }) }
+    let fits = closed.all(|constraint| master_nodes.get(constraint.master_nodes()).is_some())
+        && master_nodes.iter().all(|master_node| (master_node.node as usize) < masters.len());
+    if fits { Ok(()) } else { Err(StateError::Range { name: "master_nodes" }) }
 }
 
 impl Search {

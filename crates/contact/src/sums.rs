@@ -50,19 +50,19 @@ pub struct ContactSums {
 }
 
 impl ContactSums {
-    /// Those of bodies made of `parts` parts alike, of which these are the sums of one. Counts are of the whole surfaces
+    /// Those of bodies made of `multiplicity` parts alike, of which these are the sums of one. Counts are of the whole surfaces
     /// already. The lateral forces of mirror images cancel; here they stand as if they did not, so that action and
     /// reaction can be compared.
-    pub fn of_parts(self, parts: f64) -> Self {
+    pub fn times(self, multiplicity: f64) -> Self {
         Self {
-            force: self.force.map(|force| force.map(|f| parts * f)),
-            normal_force: parts * self.normal_force,
-            stored_normal: parts * self.stored_normal,
-            stored_tangential: parts * self.stored_tangential,
-            friction_work: parts * self.friction_work,
-            damping_work: parts * self.damping_work,
-            friction_ahead: parts * self.friction_ahead,
-            damping_ahead: parts * self.damping_ahead,
+            force: self.force.map(|force| force.map(|f| multiplicity * f)),
+            normal_force: multiplicity * self.normal_force,
+            stored_normal: multiplicity * self.stored_normal,
+            stored_tangential: multiplicity * self.stored_tangential,
+            friction_work: multiplicity * self.friction_work,
+            damping_work: multiplicity * self.damping_work,
+            friction_ahead: multiplicity * self.friction_ahead,
+            damping_ahead: multiplicity * self.damping_ahead,
             ..self
         }
     }

@@ -50,7 +50,7 @@ pub use document::{keeps_limit, slip_paired};
 pub use error::PostError;
 pub use frames::{ContactHistory, Frame, Recorded};
 pub use import::{ImportError, ImportFiles, Imported, import_contact};
-pub use integrity::{Depth, prove, prove_case};
+pub use integrity::{Depth, verify_case, verify_files};
 pub use law::Law;
 pub use limits::{Limit, Limits, MEASURES, Measure};
 pub use output::layout::Pairing;

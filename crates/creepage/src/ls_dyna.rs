@@ -32,8 +32,8 @@ mod translate;
 mod units;
 
 pub use deck::Account;
-pub use error::{DeckError, Fault, Place};
-pub use export::{Exported, Rolling, export, unsayable};
+pub use error::{DeckError, DeckLine, Fault};
+pub use export::{Exported, RollingMotion, export, unsayable};
 pub use sources::Source;
 pub use translate::{Translation, translate};
 pub use units::Units;

@@ -28,4 +28,4 @@ pub use preload::{PreloadError, PreloadReport};
 pub use progress::{Cost, Progress, Stage};
 pub use remedy::Remedy;
 pub use size::{elements, stable_limit};
-pub use start::{Facts, Found, RollingRadius, Start};
+pub use start::{InitialState, KeptState, RollingRadius, Start};

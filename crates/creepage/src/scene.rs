@@ -45,7 +45,7 @@ pub struct Scene {
     half: bool,
     fields: Vec<Field>,
     meshes: Vec<Mesh>,
-    frames: Vec<Frame>,
+    frames: Vec<Snapshot>,
     /// Side of what the view of the contact shows (m).
     span: f64,
     /// What a reader should know of it; may be empty.
@@ -79,7 +79,7 @@ struct Mesh {
 
 /// A record.
 #[derive(Debug, Serialize)]
-struct Frame {
+struct Snapshot {
     time: f64,
     /// The middle of the patch; without contact the lowest place of the disk (m).
     centre: Vec3,
@@ -198,7 +198,7 @@ impl Scene {
             patch = patch.max(pressed.map_or(0.0, |(_, extent)| extent));
             let centre = pressed.map_or(last[0].lowest, |(centre, _)| centre);
             let states = shown.iter().zip(&last).flat_map(|(shown, record)| shown.states(record));
-            frames.push(Frame { time: times[index], centre, meshes: states.collect() });
+            frames.push(Snapshot { time: times[index], centre, meshes: states.collect() });
         }
         let [low, high] = shown[0].source.heights;
         let span = if patch > 0.0 { PATCHES * patch } else { DIAMETERS * (high - low) };
@@ -269,7 +269,7 @@ impl Shown {
         Some((part.rows.iter().fold([0.0; 3], middle), extent(0).max(extent(1))))
     }
 
-    fn fields(&self, frames: &[Frame]) -> impl Iterator<Item = Field> {
+    fn fields(&self, frames: &[Snapshot]) -> impl Iterator<Item = Field> {
         let largest = |name: &str| {
             let states = frames.iter().flat_map(|frame| &frame.meshes);
             let values = states.filter_map(|state| state.values.get(name)).flat_map(|all| &all.0);

@@ -54,20 +54,20 @@ impl Simulation {
         let moved = Instant::now();
 
         // from here on of the whole bodies
-        let parts = system.parts;
+        let multiplicity = system.multiplicity;
         let viscous = 0.5 * dt * (sums.viscous_power + updated.dashpot_power);
         self.ledger.add(&Works {
-            friction: parts * contact.friction_work,
-            damping: parts * (contact.damping_work + viscous + quiet.dissipated_before),
-            contact_damping: parts * contact.damping_work,
-            external: parts * (hub.before + quiet.external_before + given_before),
+            friction: multiplicity * contact.friction_work,
+            damping: multiplicity * (contact.damping_work + viscous + quiet.dissipated_before),
+            contact_damping: multiplicity * contact.damping_work,
+            external: multiplicity * (hub.before + quiet.external_before + given_before),
         });
         let energies = read.then(|| {
             let now = Energies {
-                kinetic: parts * (updated.kinetic + hub.kinetic),
-                internal: parts * sums.internal,
-                hourglass: parts * sums.hourglass,
-                contact_stored: parts * (contact.stored_normal + contact.stored_tangential),
+                kinetic: multiplicity * (updated.kinetic + hub.kinetic),
+                internal: multiplicity * sums.internal,
+                hourglass: multiplicity * sums.hourglass,
+                contact_stored: multiplicity * (contact.stored_normal + contact.stored_tangential),
                 friction_dissipated: self.ledger.friction,
                 damping_dissipated: self.ledger.damping,
                 contact_damping: self.ledger.contact_damping,
@@ -77,10 +77,10 @@ impl Simulation {
             now
         });
         self.ledger.add(&Works {
-            friction: parts * contact.friction_ahead,
-            damping: parts * (contact.damping_ahead + viscous + quiet.dissipated_after),
-            contact_damping: parts * contact.damping_ahead,
-            external: parts * (hub.after + quiet.external_after + given_after),
+            friction: multiplicity * contact.friction_ahead,
+            damping: multiplicity * (contact.damping_ahead + viscous + quiet.dissipated_after),
+            contact_damping: multiplicity * contact.damping_ahead,
+            external: multiplicity * (hub.after + quiet.external_after + given_after),
         });
 
         let following = following / rayon::current_num_threads() as u32;
@@ -90,10 +90,10 @@ impl Simulation {
         self.timers.nodes += moved - contacted;
         self.step += 1;
         let (drive, omega) = match &system.hub {
-            Some(h) => (h.reaction.times(parts), 0.5 * (omega_before + h.state.omega)),
+            Some(h) => (h.reaction.times(multiplicity), 0.5 * (omega_before + h.state.omega)),
             None => Default::default(),
         };
-        let contact = contact.of_parts(parts);
+        let contact = contact.times(multiplicity);
         StepReport { step: n, time, contact, energies, drive, omega, unsolved: None }
     }
 }

@@ -502,7 +502,7 @@ impl Simulation {
         } else {
             let displacement = &self.nodes.displacement;
             let energy = || self.system.solid.hourglass_energy(displacement, USUAL_HOURGLASS);
-            looks.then(|| self.system.parts * energy())
+            looks.then(|| self.system.multiplicity * energy())
         }
     }
 

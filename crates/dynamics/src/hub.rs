@@ -86,15 +86,15 @@ pub struct DriveReaction {
 }
 
 impl DriveReaction {
-    /// That of `parts` hubs alike.
-    pub(crate) fn times(self, parts: f64) -> Self {
+    /// That of `multiplicity` hubs alike.
+    pub(crate) fn times(self, multiplicity: f64) -> Self {
         let Self { force_x, force_y, force_z, torque, moment_z } = self;
         Self {
-            force_x: parts * force_x,
-            force_y: parts * force_y,
-            force_z: parts * force_z,
-            torque: parts * torque,
-            moment_z: parts * moment_z,
+            force_x: multiplicity * force_x,
+            force_y: multiplicity * force_y,
+            force_z: multiplicity * force_z,
+            torque: multiplicity * torque,
+            moment_z: multiplicity * moment_z,
         }
     }
 }

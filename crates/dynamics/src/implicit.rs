@@ -139,13 +139,13 @@ impl Simulation {
         let begun = Instant::now();
         let mut report = StepReport { step: n, time, energies, ..StepReport::default() };
         match self.take(Span { time, dt, cuts: 0 }) {
-            Ok(contact) => report.contact = contact.of_parts(self.system.parts),
+            Ok(contact) => report.contact = contact.times(self.system.multiplicity),
             Err(unsolved) => report.unsolved = Some(unsolved),
         }
         self.timers.nodes += begun.elapsed();
         self.step += 1;
         if let Some(hub) = &self.system.hub {
-            report.drive = hub.reaction.times(self.system.parts);
+            report.drive = hub.reaction.times(self.system.multiplicity);
             report.omega = 0.5 * (omega_before + hub.state.omega);
         }
         report
@@ -153,7 +153,7 @@ impl Simulation {
 
     /// The energies of the present state, read into the ledger.
     fn energies(&mut self) -> Energies {
-        let parts = self.system.parts;
+        let multiplicity = self.system.multiplicity;
         let nodes = &mut self.nodes;
         let sums =
             self.system.solid.subtract_elastic_force(&nodes.displacement, &mut nodes.force, true);
@@ -164,9 +164,9 @@ impl Simulation {
         });
         let hub = self.system.hub.as_ref().map_or(0.0, |hub| hub.kinetic());
         let now = Energies {
-            kinetic: parts * (exact_sum::sum(kinetic) + hub),
-            internal: parts * sums.internal,
-            hourglass: parts * sums.hourglass,
+            kinetic: multiplicity * (exact_sum::sum(kinetic) + hub),
+            internal: multiplicity * sums.internal,
+            hourglass: multiplicity * sums.hourglass,
             contact_stored: 0.0,
             friction_dissipated: self.ledger.friction,
             damping_dissipated: self.ledger.damping,
@@ -215,7 +215,7 @@ impl Simulation {
 
     /// Moves nodes and hub to the end of a solved span, and books the works.
     fn finish(&mut self, implicit: &mut Implicit, span: Span, solved: &Solved) {
-        let (theta, dt, parts) = (implicit.theta, span.dt, self.system.parts);
+        let (theta, dt, multiplicity) = (implicit.theta, span.dt, self.system.multiplicity);
         let (system, nodes) = (&mut self.system, &mut self.nodes);
         // the mean velocity of the step is all that the stiffness product needs
         let stiffness = implicit.operator.stiffness_energy(system, &implicit.w);
@@ -254,11 +254,11 @@ impl Simulation {
         }
         let contact = &solved.contact;
         self.ledger.add(&Works {
-            friction: parts * contact.friction_ahead,
-            damping: parts * (contact.damping_ahead + dt * solved.dissipated + lost),
-            contact_damping: parts * contact.damping_ahead,
+            friction: multiplicity * contact.friction_ahead,
+            damping: multiplicity * (contact.damping_ahead + dt * solved.dissipated + lost),
+            contact_damping: multiplicity * contact.damping_ahead,
             // the drive acts over the whole step at the velocity of the step
-            external: parts * (2.0 * work.after + dt * solved.given),
+            external: multiplicity * (2.0 * work.after + dt * solved.given),
         });
     }
 }

@@ -75,8 +75,8 @@ impl Simulation {
         let report = self.step(true);
         self.restore(&state)?;
         let read = report.energies.unwrap_or_default();
-        let parts = self.system.parts;
-        let force = report.contact.force.map(|force| force.map(|f| f / parts));
+        let multiplicity = self.system.multiplicity;
+        let force = report.contact.force.map(|force| force.map(|f| f / multiplicity));
         Ok((read.total() - read.external_work, force))
     }
 

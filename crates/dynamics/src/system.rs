@@ -40,7 +40,7 @@ pub struct System {
     pub mass_damping: f64,
     /// How many parts alike make up the bodies, of which this is one: 2 for half a symmetric model. Forces, works and
     /// energies are reported of all of them.
-    pub parts: f64,
+    pub multiplicity: f64,
 }
 
 impl System {
@@ -58,7 +58,7 @@ impl System {
             disk: 0..0,
             mass,
             mass_damping: 0.0,
-            parts: 1.0,
+            multiplicity: 1.0,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Friction given by a formula.
 
 use crate::operators::Operators;
-use crate::{FrictionLaw, Place};
+use crate::{FrictionLaw, NodeConditions};
 use exmex::{Express, FlatEx, MatchLiteral};
 use std::sync::Arc;
 use thiserror::Error;
@@ -236,11 +236,11 @@ impl FrictionLaw for Expression {
         self.at_rest
     }
 
-    fn mu_at(&self, slip_speed: f64, at: &Place) -> f64 {
+    fn mu_at(&self, slip_speed: f64, at: &NodeConditions) -> f64 {
         self.value([slip_speed, at.pressure, at.time, at.position[0]])
     }
 
-    fn slope_at(&self, slip_speed: f64, at: &Place) -> f64 {
+    fn slope_at(&self, slip_speed: f64, at: &NodeConditions) -> f64 {
         let step = 1e-6 * (1.0 + slip_speed);
         let low = (slip_speed - step).max(0.0);
         (self.mu_at(slip_speed + step, at) - self.mu_at(low, at)) / (slip_speed + step - low)
@@ -286,12 +286,12 @@ mod tests {
     #[test]
     fn a_formula_of_place_time_and_pressure_takes_each_where_it_stands() {
         let law = Expression::over("0.1 + x + 2*t + p*1e-10 + exp(-s)", &DOMAIN).unwrap();
-        let at = Place { position: [0.02, 7.0, 9.0], time: 5e-4, pressure: 3e8 };
+        let at = NodeConditions { position: [0.02, 7.0, 9.0], time: 5e-4, pressure: 3e8 };
         let expected = 0.1 + 0.02 + 1e-3 + 0.03 + libm::exp(-0.5f64);
         assert!((law.mu_at(0.5, &at) - expected).abs() < 1e-15);
         assert!((law.slope_at(0.5, &at) + libm::exp(-0.5f64)).abs() < 1e-8);
         let wave = Expression::over("0.3 + 0.05*sin(628*x)", &DOMAIN).unwrap();
-        let mu = wave.mu_at(1.0, &Place { position: [2.5e-3, 0.0, 0.0], ..at });
+        let mu = wave.mu_at(1.0, &NodeConditions { position: [2.5e-3, 0.0, 0.0], ..at });
         assert!((mu - (0.3 + 0.05 * libm::sin(1.57f64))).abs() < 1e-15);
     }
 
@@ -323,7 +323,7 @@ mod tests {
     #[test]
     fn outside_its_domain_a_bad_value_is_no_number() {
         let law = Expression::over("0.5 - 9*x", &DOMAIN).unwrap();
-        let at = Place { position: [0.07, 0.0, 0.0], ..Place::default() };
+        let at = NodeConditions { position: [0.07, 0.0, 0.0], ..NodeConditions::default() };
         assert!(law.mu_at(0.0, &at).is_nan());
     }
 

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 /// Position, time and pressure of a contact node, on which a law may depend.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct NodeConditions {
     /// Current position in the global frame (m).
     pub position: [f64; 3],
     /// Time (s).
@@ -30,11 +30,11 @@ pub trait FrictionLaw: Send + Sync + Debug {
         (self.mu(slip_speed + step) - self.mu(low)) / (slip_speed + step - low)
     }
     /// Coefficient of friction at the slip speed `slip_speed >= 0` (m/s) of a node at `_at`.
-    fn mu_at(&self, slip_speed: f64, _at: &Place) -> f64 {
+    fn mu_at(&self, slip_speed: f64, _at: &NodeConditions) -> f64 {
         self.mu(slip_speed)
     }
     /// Derivative of [`mu_at`](Self::mu_at) with respect to the slip speed (s/m).
-    fn slope_at(&self, slip_speed: f64, _at: &Place) -> f64 {
+    fn slope_at(&self, slip_speed: f64, _at: &NodeConditions) -> f64 {
         self.slope(slip_speed)
     }
 }

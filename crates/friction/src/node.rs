@@ -1,17 +1,17 @@
 //! Friction laws of a contact node, whose state is kept from step to step.
 
-use crate::{Coulomb, FrictionLaw, Memory, Place};
+use crate::{Coulomb, FrictionLaw, Memory, NodeConditions};
 use std::fmt::Debug;
 
 /// A node that was already in contact in the step before, whose state is to be advanced.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slid {
+pub struct NodeHistory {
     /// State of the step before; [`NodeFriction::advance_all`] overwrites it with that of this step.
     pub state: [f64; 2],
     /// Slip speed of the step before (m/s).
     pub slip_speed: f64,
     /// Its position, time and pressure now.
-    pub at: Place,
+    pub at: NodeConditions,
 }
 
 /// How much of a node's history the coefficient of a law depends on.
@@ -34,14 +34,14 @@ pub enum Remembers {
 /// before; then [`mu`](Self::mu) gives the coefficient of this step.
 pub trait NodeFriction: Send + Sync + Debug {
     /// State at the beginning of contact.
-    fn begin(&self, at: &Place) -> [f64; 2];
+    fn begin(&self, at: &NodeConditions) -> [f64; 2];
 
     /// State after a step `dt` (s) in which the node slipped at `slip_speed >= 0` (m/s).
-    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2];
+    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions, dt: f64) -> [f64; 2];
 
     /// [`advance`](Self::advance) for all nodes of a step at once, for laws that are expensive to call, such as a
     /// Python function. The order of the nodes does not depend on the number of threads.
-    fn advance_all(&self, nodes: &mut [Slid], dt: f64) {
+    fn advance_all(&self, nodes: &mut [NodeHistory], dt: f64) {
         for node in nodes {
             node.state = self.advance(node.state, node.slip_speed, &node.at, dt);
         }
@@ -49,10 +49,10 @@ pub trait NodeFriction: Send + Sync + Debug {
 
     /// Coefficient of friction in this state at the slip speed `slip_speed >= 0` (m/s) of the same
     /// instant. Does not depend on the latter unless [`is_implicit`](Self::is_implicit).
-    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &Place) -> f64;
+    fn mu(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions) -> f64;
 
     /// Derivative of [`mu`](Self::mu) with respect to the slip speed (s/m).
-    fn slope(&self, _state: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+    fn slope(&self, _state: [f64; 2], _slip_speed: f64, _at: &NodeConditions) -> f64 {
         0.0
     }
 
@@ -72,15 +72,21 @@ pub trait NodeFriction: Send + Sync + Debug {
 }
 
 impl NodeFriction for Coulomb {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [0.0; 2]
     }
 
-    fn advance(&self, state: [f64; 2], _slip_speed: f64, _at: &Place, _dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        state: [f64; 2],
+        _slip_speed: f64,
+        _at: &NodeConditions,
+        _dt: f64,
+    ) -> [f64; 2] {
         state
     }
 
-    fn mu(&self, _state: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+    fn mu(&self, _state: [f64; 2], _slip_speed: f64, _at: &NodeConditions) -> f64 {
         self.mu
     }
 
@@ -99,15 +105,21 @@ impl NodeFriction for Coulomb {
 pub struct Lagged<L>(pub L);
 
 impl<L: FrictionLaw> NodeFriction for Lagged<L> {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [0.0; 2]
     }
 
-    fn advance(&self, _state: [f64; 2], slip_speed: f64, _at: &Place, _dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        _state: [f64; 2],
+        slip_speed: f64,
+        _at: &NodeConditions,
+        _dt: f64,
+    ) -> [f64; 2] {
         [slip_speed, 0.0]
     }
 
-    fn mu(&self, state: [f64; 2], _slip_speed: f64, at: &Place) -> f64 {
+    fn mu(&self, state: [f64; 2], _slip_speed: f64, at: &NodeConditions) -> f64 {
         self.0.mu_at(state[0], at)
     }
 
@@ -125,19 +137,25 @@ impl<L: FrictionLaw> NodeFriction for Lagged<L> {
 pub struct Implicit<L>(pub L);
 
 impl<L: FrictionLaw> NodeFriction for Implicit<L> {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [0.0; 2]
     }
 
-    fn advance(&self, state: [f64; 2], _slip_speed: f64, _at: &Place, _dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        state: [f64; 2],
+        _slip_speed: f64,
+        _at: &NodeConditions,
+        _dt: f64,
+    ) -> [f64; 2] {
         state
     }
 
-    fn mu(&self, _state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+    fn mu(&self, _state: [f64; 2], slip_speed: f64, at: &NodeConditions) -> f64 {
         self.0.mu_at(slip_speed, at)
     }
 
-    fn slope(&self, _state: [f64; 2], slip_speed: f64, at: &Place) -> f64 {
+    fn slope(&self, _state: [f64; 2], slip_speed: f64, at: &NodeConditions) -> f64 {
         self.0.slope_at(slip_speed, at)
     }
 
@@ -165,15 +183,21 @@ pub struct Remembering<L> {
 }
 
 impl<L: FrictionLaw> NodeFriction for Remembering<L> {
-    fn begin(&self, at: &Place) -> [f64; 2] {
+    fn begin(&self, at: &NodeConditions) -> [f64; 2] {
         [self.steady.mu_at(0.0, at), 0.0]
     }
 
-    fn advance(&self, [mu, _]: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        [mu, _]: [f64; 2],
+        slip_speed: f64,
+        at: &NodeConditions,
+        dt: f64,
+    ) -> [f64; 2] {
         [self.memory.advance(mu, self.steady.mu_at(slip_speed, at), slip_speed, dt), 0.0]
     }
 
-    fn mu(&self, [mu, _]: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+    fn mu(&self, [mu, _]: [f64; 2], _slip_speed: f64, _at: &NodeConditions) -> f64 {
         mu
     }
 
@@ -191,7 +215,7 @@ mod tests {
 
     #[test]
     fn lagged_friction_is_that_of_the_speed_before() {
-        let (law, at) = (Lagged(PAPER), Place::default());
+        let (law, at) = (Lagged(PAPER), NodeConditions::default());
         let state = law.begin(&at);
         assert_eq!(law.mu(state, 3.0, &at), 0.5);
         let state = law.advance(state, 0.2, &at, 1e-7);
@@ -200,7 +224,7 @@ mod tests {
 
     #[test]
     fn implicit_friction_has_the_slope_of_its_law() {
-        let (law, at) = (Implicit(PAPER), Place::default());
+        let (law, at) = (Implicit(PAPER), NodeConditions::default());
         let state = law.begin(&at);
         for s in [0.01, 0.3, 2.0] {
             let by_difference = (PAPER.mu(s + 1e-6) - PAPER.mu(s - 1e-6)) / 2e-6;
@@ -211,7 +235,7 @@ mod tests {
     #[test]
     fn remembered_friction_begins_at_rest_and_ends_at_the_steady_coefficient() {
         let memory = Memory { distance: 1e-6, floor: 1e-2 };
-        let (law, at) = (Remembering { steady: PAPER, memory }, Place::default());
+        let (law, at) = (Remembering { steady: PAPER, memory }, NodeConditions::default());
         let mut state = law.begin(&at);
         assert_eq!(law.mu(state, 0.7, &at), 0.5);
         for _ in 0..1000 {

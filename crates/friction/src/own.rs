@@ -1,6 +1,6 @@
 //! A friction law that the caller of the program supplies: `friction.law = "python"`.
 
-use crate::{Memory, NodeFriction, Place, Remembers, Slid};
+use crate::{Memory, NodeConditions, NodeFriction, NodeHistory, Remembers};
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -59,11 +59,11 @@ impl Own {
 }
 
 impl NodeFriction for Own {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [self.at_rest, 0.0]
     }
 
-    fn advance(&self, state: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(&self, state: [f64; 2], slip_speed: f64, _at: &NodeConditions, dt: f64) -> [f64; 2] {
         if self.implicit {
             return state;
         }
@@ -71,7 +71,7 @@ impl NodeFriction for Own {
         self.follow(state[0], steady, slip_speed, dt)
     }
 
-    fn advance_all(&self, nodes: &mut [Slid], dt: f64) {
+    fn advance_all(&self, nodes: &mut [NodeHistory], dt: f64) {
         if self.implicit || nodes.is_empty() {
             return;
         }
@@ -86,12 +86,12 @@ impl NodeFriction for Own {
         }
     }
 
-    fn mu(&self, [mu, _]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+    fn mu(&self, [mu, _]: [f64; 2], slip_speed: f64, _at: &NodeConditions) -> f64 {
         if self.implicit { self.at([slip_speed])[0] } else { mu }
     }
 
     /// By central difference, one-sided at rest.
-    fn slope(&self, _state: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+    fn slope(&self, _state: [f64; 2], slip_speed: f64, _at: &NodeConditions) -> f64 {
         if !self.implicit {
             return 0.0;
         }
@@ -159,9 +159,9 @@ mod tests {
 
     /// The coefficients of three nodes over steps, asked one by one or all at once.
     fn coefficients(law: &dyn NodeFriction, together: bool) -> Vec<f64> {
-        let at = Place::default();
+        let at = NodeConditions::default();
         let mut nodes =
-            [0.0, 0.3, 2.0].map(|slip_speed| Slid { state: law.begin(&at), slip_speed, at });
+            [0.0, 0.3, 2.0].map(|slip_speed| NodeHistory { state: law.begin(&at), slip_speed, at });
         let mut found = Vec::new();
         for _ in 0..3 {
             if together {
@@ -197,7 +197,7 @@ mod tests {
     fn the_slope_at_the_same_instant_is_that_of_the_law() {
         let own = Own::new(Arc::new(Brought), None, true);
         for s in [0.0, 0.01, 0.3, 2.0] {
-            let slope = own.slope([0.0; 2], s, &Place::default());
+            let slope = own.slope([0.0; 2], s, &NodeConditions::default());
             assert!((slope - PAPER.slope(s)).abs() < 1e-5, "{s}: {slope}");
         }
     }

@@ -1,6 +1,6 @@
 //! Friction whose shear strength follows changes of pressure gradually.
 
-use crate::{NodeFriction, Place};
+use crate::{NodeConditions, NodeFriction};
 
 /// `d tau_s/dt = -((|s| + V*)/L) (tau_s - mu p)`: the shear strength `tau_s` relaxes towards Coulomb's
 /// over the distance `L` of slip, and at rest in the time `L/V*`. Prakash and Clifton's (1993) response to
@@ -32,17 +32,23 @@ impl PrakashClifton {
 }
 
 impl NodeFriction for PrakashClifton {
-    fn begin(&self, at: &Place) -> [f64; 2] {
+    fn begin(&self, at: &NodeConditions) -> [f64; 2] {
         [self.mu * at.pressure.max(0.0), 0.0]
     }
 
-    fn advance(&self, [strength, _]: [f64; 2], slip_speed: f64, at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        [strength, _]: [f64; 2],
+        slip_speed: f64,
+        at: &NodeConditions,
+        dt: f64,
+    ) -> [f64; 2] {
         let target = self.mu * at.pressure.max(0.0);
         let decay = libm::exp(-(slip_speed + self.speed) * dt / self.distance);
         [target + (strength - target) * decay, 0.0]
     }
 
-    fn mu(&self, [strength, _]: [f64; 2], _slip_speed: f64, at: &Place) -> f64 {
+    fn mu(&self, [strength, _]: [f64; 2], _slip_speed: f64, at: &NodeConditions) -> f64 {
         // a comparison without a division, which also holds at zero pressure
         let most = Self::MOST * self.mu;
         if strength < most * at.pressure { strength / at.pressure } else { most }
@@ -59,8 +65,8 @@ mod tests {
 
     const LAW: PrakashClifton = PrakashClifton { mu: 0.5, distance: 1e-5, speed: 1.0 };
 
-    fn pressed(pressure: f64) -> Place {
-        Place { pressure, ..Place::default() }
+    fn pressed(pressure: f64) -> NodeConditions {
+        NodeConditions { pressure, ..NodeConditions::default() }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Friction of rate and state.
 
-use crate::{NodeFriction, Place};
+use crate::{NodeConditions, NodeFriction};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_2;
@@ -52,7 +52,7 @@ impl RateState {
     /// Coefficient of steady sliding at `speed > 0` (m/s), where `theta = L/V`.
     pub fn steady(&self, speed: f64) -> f64 {
         let state = [self.distance / speed, speed];
-        self.mu(state, speed, &Place::default())
+        self.mu(state, speed, &NodeConditions::default())
     }
 
     /// `ln( V/(2 V_0) exp(..) )`, the logarithm of the argument of `asinh`; the argument itself may overflow.
@@ -66,11 +66,17 @@ impl RateState {
 const LARGE: f64 = 20.0;
 
 impl NodeFriction for RateState {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [self.initial, 0.0]
     }
 
-    fn advance(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        [theta, _]: [f64; 2],
+        slip_speed: f64,
+        _at: &NodeConditions,
+        dt: f64,
+    ) -> [f64; 2] {
         let x = slip_speed * dt / self.distance;
         // 1 - e^-x and (1 - e^-x)/x
         let decayed = -libm::expm1(-x);
@@ -86,12 +92,12 @@ impl NodeFriction for RateState {
         [theta, slip_speed]
     }
 
-    fn mu(&self, [theta, before]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+    fn mu(&self, [theta, before]: [f64; 2], slip_speed: f64, _at: &NodeConditions) -> f64 {
         let x = self.log_argument(theta, if self.lagged { before } else { slip_speed });
         self.direct * if x > LARGE { x + LN_2 } else { libm::asinh(libm::exp(x)) }
     }
 
-    fn slope(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &Place) -> f64 {
+    fn slope(&self, [theta, _]: [f64; 2], slip_speed: f64, _at: &NodeConditions) -> f64 {
         if self.lagged {
             return 0.0;
         }
@@ -134,7 +140,7 @@ mod tests {
 
     #[test]
     fn the_coefficient_is_the_regularised_formula() {
-        let at = Place::default();
+        let at = NodeConditions::default();
         for (theta, v) in [(2e4, 1e-9), (1.0, 1e-3), (1e-3, 0.1), (1e-8, 1e-12), (1e-30, 1e-6)] {
             let psi = 0.6 + 0.012 * libm::log(1e-6 * theta / 0.02_f64);
             let direct = 0.008 * libm::asinh(v / 2e-6 * libm::exp(psi / 0.008_f64));
@@ -147,7 +153,7 @@ mod tests {
     #[test]
     fn large_parameters_do_not_overflow() {
         let sharp = RateState { direct: 1e-5, ..LAW };
-        let mu = sharp.mu([2e4, 0.0], 1e-6, &Place::default());
+        let mu = sharp.mu([2e4, 0.0], 1e-6, &NodeConditions::default());
         assert!((mu - 0.6).abs() < 1e-12, "{mu}");
     }
 
@@ -162,7 +168,7 @@ mod tests {
     #[test]
     fn a_jump_in_speed_has_the_direct_effect_at_once_and_the_steady_one_in_the_end() {
         for law in [LAW, SLIP] {
-            let at = Place::default();
+            let at = NodeConditions::default();
             let mut state = [law.distance / 1e-3, 0.0];
             let jump = law.mu(state, 1e-2, &at) - law.mu(state, 1e-3, &at);
             assert!((jump - 0.008 * libm::log(10f64)).abs() < 1e-14);
@@ -185,7 +191,7 @@ mod tests {
         ] {
             for steps in [1, 7, 1000] {
                 let dt = time / f64::from(steps);
-                let at = Place::default();
+                let at = NodeConditions::default();
                 let end = (0..steps).fold([0.3, 0.0], |state, _| law.advance(state, v, &at, dt));
                 assert!((end[0] - expected).abs() < 1e-13 * expected * f64::from(steps), "{steps}");
             }
@@ -194,14 +200,14 @@ mod tests {
 
     #[test]
     fn at_rest_the_ageing_law_ages_and_the_slip_law_does_not() {
-        let at = Place::default();
+        let at = NodeConditions::default();
         assert_eq!(LAW.advance([2.0, 0.0], 0.0, &at, 0.5)[0], 2.5);
         assert_eq!(SLIP.advance([2.0, 0.0], 0.0, &at, 0.5)[0], 2.0);
     }
 
     #[test]
     fn lagged_it_is_the_coefficient_at_the_speed_before() {
-        let at = Place::default();
+        let at = NodeConditions::default();
         let lagged = RateState { lagged: true, ..LAW };
         let state = lagged.advance([2.0, 0.0], 0.3, &at, 1e-7);
         assert_eq!(lagged.mu(state, 5.0, &at), LAW.mu(state, 0.3, &at));
@@ -210,7 +216,7 @@ mod tests {
 
     #[test]
     fn the_slope_is_the_derivative() {
-        let at = Place::default();
+        let at = NodeConditions::default();
         for (theta, v) in [(2e4, 1e-9), (1.0, 1e-3), (1e-30, 1e-6), (1e-32, 1e-6)] {
             let state = [theta, 0.0];
             let h = 1e-5 * v;

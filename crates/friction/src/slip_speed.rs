@@ -103,7 +103,7 @@ fn fastest(free: f64, c: f64, mu: &impl Curve) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{NodeFriction, Place, RateState, StateLaw};
+    use crate::{NodeConditions, NodeFriction, RateState, StateLaw};
     use proptest::prelude::*;
 
     #[test]
@@ -118,7 +118,7 @@ mod tests {
             initial: 10.0,
             lagged: false,
         };
-        let (state, at) = ([10.0, 0.0], Place::default());
+        let (state, at) = ([10.0, 0.0], NodeConditions::default());
         let curve = |s: f64| (law.mu(state, s, &at), law.slope(state, s, &at));
         // far below the reference coefficient mu = a asinh(..) inverts to V in closed form
         for share in [1e-3, 0.1, 0.3, 0.6, 0.65] {

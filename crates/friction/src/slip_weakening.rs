@@ -1,6 +1,6 @@
 //! Friction that weakens with accumulated slip.
 
-use crate::{NodeFriction, Place};
+use crate::{NodeConditions, NodeFriction};
 
 /// `mu = mu_S - (mu_S - mu_D) min(|slip|/d_0, 1)`: linear slip weakening (Ida 1972; Andrews 1976), the
 /// law of the dynamic rupture benchmarks (Harris et al. 2009, TPV3).
@@ -18,15 +18,21 @@ pub struct SlipWeakening {
 }
 
 impl NodeFriction for SlipWeakening {
-    fn begin(&self, _at: &Place) -> [f64; 2] {
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
         [0.0; 2]
     }
 
-    fn advance(&self, [slip, _]: [f64; 2], slip_speed: f64, _at: &Place, dt: f64) -> [f64; 2] {
+    fn advance(
+        &self,
+        [slip, _]: [f64; 2],
+        slip_speed: f64,
+        _at: &NodeConditions,
+        dt: f64,
+    ) -> [f64; 2] {
         [slip + slip_speed * dt, 0.0]
     }
 
-    fn mu(&self, [slip, _]: [f64; 2], _slip_speed: f64, _at: &Place) -> f64 {
+    fn mu(&self, [slip, _]: [f64; 2], _slip_speed: f64, _at: &NodeConditions) -> f64 {
         self.mu_static - (self.mu_static - self.mu_dynamic) * (slip / self.distance).min(1.0)
     }
 
@@ -44,7 +50,7 @@ mod tests {
 
     #[test]
     fn friction_falls_linearly_over_the_distance_and_no_further() {
-        let at = Place::default();
+        let at = NodeConditions::default();
         let mut state = TPV3.begin(&at);
         for i in 0..60 {
             let slip = f64::from(i) * 0.01;
@@ -57,7 +63,7 @@ mod tests {
     #[test]
     fn the_work_of_weakening_is_half_the_drop_over_the_distance() {
         // fracture energy G_c/p = (mu_S - mu_D) d_0/2
-        let at = Place::default();
+        let at = NodeConditions::default();
         let (mut state, mut work) = (TPV3.begin(&at), 0.0);
         for _ in 0..4000 {
             let before = TPV3.mu(state, 1.0, &at);
@@ -69,7 +75,7 @@ mod tests {
 
     #[test]
     fn rest_does_not_heal_and_new_contact_does() {
-        let at = Place::default();
+        let at = NodeConditions::default();
         let slid = TPV3.advance(TPV3.begin(&at), 1.0, &at, 0.3);
         assert_eq!(TPV3.advance(slid, 0.0, &at, 1e3), slid);
         assert_eq!(TPV3.mu(TPV3.begin(&at), 0.0, &at), 0.677);

@@ -1,7 +1,7 @@
 //! The steady friction laws that a user can choose by name.
 
 use crate::expression::{self, Expression};
-use crate::{Coulomb, Exponential, FrictionLaw, Place, Table};
+use crate::{Coulomb, Exponential, FrictionLaw, NodeConditions, Table};
 use thiserror::Error;
 
 /// A friction law without state, as plain data.
@@ -109,14 +109,14 @@ impl FrictionLaw for SteadyLaw {
         }
     }
 
-    fn mu_at(&self, slip_speed: f64, at: &Place) -> f64 {
+    fn mu_at(&self, slip_speed: f64, at: &NodeConditions) -> f64 {
         match self {
             Self::Expression(law) => law.mu_at(slip_speed, at),
             _ => self.mu(slip_speed),
         }
     }
 
-    fn slope_at(&self, slip_speed: f64, at: &Place) -> f64 {
+    fn slope_at(&self, slip_speed: f64, at: &NodeConditions) -> f64 {
         match self {
             Self::Expression(law) => law.slope_at(slip_speed, at),
             _ => self.slope(slip_speed),

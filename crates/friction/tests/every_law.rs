@@ -1,7 +1,9 @@
 //! What every friction law keeps. A new law is tested by one line in [`laws!`] below.
 #![allow(clippy::unwrap_used)]
 
-use friction::{Expression, Mode, NodeFriction, Parameters, Place, Remembers, Slid, slip_speed};
+use friction::{
+    Expression, Mode, NodeConditions, NodeFriction, NodeHistory, Parameters, Remembers, slip_speed,
+};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -47,12 +49,12 @@ fn histories() -> impl Strategy<Value = (Vec<(f64, f64)>, f64)> {
     (prop::collection::vec((speed, duration), 1..20), 1e6..2e9)
 }
 
-fn at(pressure: f64) -> Place {
-    Place { position: [0.01, 0.0, 0.0], time: 1e-3, pressure }
+fn at(pressure: f64) -> NodeConditions {
+    NodeConditions { position: [0.01, 0.0, 0.0], time: 1e-3, pressure }
 }
 
 /// The states that a node comes through.
-fn states(law: &dyn NodeFriction, history: &[(f64, f64)], at: &Place) -> Vec<[f64; 2]> {
+fn states(law: &dyn NodeFriction, history: &[(f64, f64)], at: &NodeConditions) -> Vec<[f64; 2]> {
     let mut state = law.begin(at);
     let mut all = vec![state];
     for &(speed, duration) in history {
@@ -62,7 +64,7 @@ fn states(law: &dyn NodeFriction, history: &[(f64, f64)], at: &Place) -> Vec<[f6
     all
 }
 
-fn for_histories(test: impl Fn(&[(f64, f64)], &Place)) {
+fn for_histories(test: impl Fn(&[(f64, f64)], &NodeConditions)) {
     let mut runner = TestRunner::new(Config::with_cases(64));
     let tried = runner.run(&histories(), |(history, pressure)| {
         test(&history, &at(pressure));
@@ -157,8 +159,9 @@ fn has_the_same_bits_for_one_node_and_for_all_at_once(law: &Law) {
     for_histories(|history, at| {
         let all = states(&*law, history, at);
         let nodes = all.iter().zip(history);
-        let mut nodes: Vec<Slid> =
-            nodes.map(|(&state, &(slip_speed, _))| Slid { state, slip_speed, at: *at }).collect();
+        let mut nodes: Vec<NodeHistory> = nodes
+            .map(|(&state, &(slip_speed, _))| NodeHistory { state, slip_speed, at: *at })
+            .collect();
         let one_by_one: Vec<_> =
             nodes.iter().map(|n| law.advance(n.state, n.slip_speed, at, 1e-7)).collect();
         law.advance_all(&mut nodes, 1e-7);

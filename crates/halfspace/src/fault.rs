@@ -4,8 +4,8 @@ use crate::compliance::HalfSpaces;
 use crate::history::{History, Symmetry};
 use crate::kernel::{Extent, Kernel, KernelError};
 use crate::plane::Plane;
-use crate::return_mapping::{Point, return_mapping};
-use friction::{NodeFriction, Place, Slid};
+use crate::return_mapping::{TrialPoint, return_mapping};
+use friction::{NodeConditions, NodeFriction, NodeHistory};
 use realfft::num_complex::Complex64;
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ pub struct Fault {
     left: [Vec<f64>; 2],
     tractions: [Vec<f64>; 2],
     spectra: [[Vec<Complex64>; 2]; 2],
-    slid: Vec<Slid>,
+    slid: Vec<NodeHistory>,
 }
 
 impl Fault {
@@ -146,7 +146,7 @@ impl Fault {
                 let at = whereabouts(setup, at, time);
                 let (state, slipped) = (fields.state[k], fields.slips[k]);
                 let found = return_mapping(
-                    &Point { law: &*setup.law, state, at, slipped },
+                    &TrialPoint { law: &*setup.law, state, at, slipped },
                     free,
                     compliance,
                 );
@@ -194,7 +194,7 @@ impl Fault {
         slid.extend(points.iter().enumerate().map(|(k, (_, at))| {
             let [x, y] = [0, 1].map(|c| fields.slip_velocity[c][k]);
             let at = whereabouts(setup, *at, time);
-            Slid { state: fields.state[k], slip_speed: libm::hypot(x, y), at }
+            NodeHistory { state: fields.state[k], slip_speed: libm::hypot(x, y), at }
         }));
         setup.law.advance_all(slid, setup.step);
         fields.state.iter_mut().zip(&*slid).for_each(|(state, slid)| *state = slid.state);
@@ -205,7 +205,7 @@ impl Fault {
         self.steps as f64 * self.setup.step
     }
 
-    /// Place (m), slip velocity (m/s) and shear traction on the upper body (Pa) of each point of
+    /// NodeConditions (m), slip velocity (m/s) and shear traction on the upper body (Pa) of each point of
     /// the quarter `x >= 0`, `y >= 0`.
     pub fn points(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2], [f64; 2])> + '_ {
         let Fields { initial, change, slip_velocity, .. } = &self.fields;
@@ -217,6 +217,6 @@ impl Fault {
 }
 
 /// What the law is told of a point.
-fn whereabouts(setup: &FaultSetup, [x, y]: [f64; 2], time: f64) -> Place {
-    Place { position: [x, y, 0.0], time, pressure: setup.pressure }
+fn whereabouts(setup: &FaultSetup, [x, y]: [f64; 2], time: f64) -> NodeConditions {
+    NodeConditions { position: [x, y, 0.0], time, pressure: setup.pressure }
 }

@@ -1,12 +1,12 @@
 //! Friction at a point of the patch.
 
-use friction::{NodeFriction, Place, slip_speed};
+use friction::{NodeConditions, NodeFriction, slip_speed};
 
 /// A point of the patch, and what its law of friction needs.
-pub(crate) struct Point<'a> {
+pub(crate) struct TrialPoint<'a> {
     pub(crate) law: &'a dyn NodeFriction,
     pub(crate) state: [f64; 2],
-    pub(crate) at: Place,
+    pub(crate) at: NodeConditions,
     /// Whether it slipped in the step before.
     pub(crate) slipped: bool,
 }
@@ -21,7 +21,7 @@ pub(crate) struct Friction {
 }
 
 /// Whether adhesion and slip both are solutions at a point; arguments as of [`return_mapping`].
-pub(crate) fn is_non_unique(point: &Point<'_>, free: [f64; 2], compliance: f64) -> bool {
+pub(crate) fn is_non_unique(point: &TrialPoint<'_>, free: [f64; 2], compliance: f64) -> bool {
     let (speed, bound) = (libm::hypot(free[0], free[1]), compliance * point.at.pressure);
     let curve = |s: f64| {
         (point.law.mu(point.state, s, &point.at), point.law.slope(point.state, s, &point.at))
@@ -31,7 +31,7 @@ pub(crate) fn is_non_unique(point: &Point<'_>, free: [f64; 2], compliance: f64) 
 
 /// Friction at a point whose slip velocity is `free + compliance * shear` (m/s, m/s per Pa): the traction that holds it, or
 /// where that is beyond the bound the traction of the bound against the slip.
-pub(crate) fn return_mapping(point: &Point<'_>, free: [f64; 2], compliance: f64) -> Friction {
+pub(crate) fn return_mapping(point: &TrialPoint<'_>, free: [f64; 2], compliance: f64) -> Friction {
     let pressure = point.at.pressure;
     let speed = libm::hypot(free[0], free[1]);
     let bound = compliance * pressure;

@@ -8,8 +8,8 @@ use crate::ellipse::Ellipse;
 use crate::history::{History, Symmetry};
 use crate::kernel::{Extent, Kernel, KernelError};
 use crate::plane::Plane;
-use crate::return_mapping::{Friction, Point, is_non_unique};
-use friction::{NodeFriction, Place, Slid};
+use crate::return_mapping::{Friction, TrialPoint, is_non_unique};
+use friction::{NodeConditions, NodeFriction, NodeHistory};
 use realfft::num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -48,7 +48,7 @@ pub struct Setup {
     pub offset: f64,
     /// Rolling speed V (m/s).
     pub speed: f64,
-    /// Place of the patch's centre at t = 0 (m).
+    /// NodeConditions of the patch's centre at t = 0 (m).
     pub start: f64,
     /// Time step (s).
     pub step: f64,
@@ -128,7 +128,7 @@ pub struct StepSums {
     pub step: usize,
     /// Its time (s).
     pub time: f64,
-    /// Place of the patch's centre (m).
+    /// NodeConditions of the patch's centre (m).
     pub centre: f64,
     /// Normal force (N; N/m in plane strain).
     pub normal: f64,
@@ -230,7 +230,7 @@ pub(crate) struct Work {
     /// Free velocity of each point of the patch (m/s), rigid slip included.
     pub(crate) free: Vec<[f64; 2]>,
     pub(crate) found: Vec<Friction>,
-    pub(crate) slid: Vec<Slid>,
+    pub(crate) slid: Vec<NodeHistory>,
 }
 
 impl Rolling {
@@ -400,8 +400,8 @@ impl Rolling {
         (column.rem_euclid(nx) + nx * line.rem_euclid(ny)) as usize
     }
 
-    pub(crate) fn place(&self, index: usize, at: [f64; 2]) -> Place {
-        Place {
+    pub(crate) fn place(&self, index: usize, at: [f64; 2]) -> NodeConditions {
+        NodeConditions {
             position: [at[0] + self.centre, at[1], 0.0],
             time: self.time(),
             pressure: self.fields.pressure[index],
@@ -420,7 +420,7 @@ impl Rolling {
             }
             let s = [0, 1].map(|c| self.fields.slip_velocity[c][i]);
             let slip_speed = libm::hypot(s[0], s[1]);
-            slid.push(Slid { state: self.fields.state[i], slip_speed, at });
+            slid.push(NodeHistory { state: self.fields.state[i], slip_speed, at });
         }
         self.setup.law.advance_all(&mut slid, self.setup.step);
         let Fields { contact, state, .. } = &mut self.fields;
@@ -450,8 +450,8 @@ impl Rolling {
         }
     }
 
-    pub(crate) fn point(&self, i: usize, at: [f64; 2]) -> Point<'_> {
-        Point {
+    pub(crate) fn point(&self, i: usize, at: [f64; 2]) -> TrialPoint<'_> {
+        TrialPoint {
             law: &*self.setup.law,
             state: self.fields.state[i],
             at: self.place(i, at),
@@ -583,7 +583,7 @@ impl Rolling {
         Ok(())
     }
 
-    /// Place of the patch's centre (m).
+    /// NodeConditions of the patch's centre (m).
     pub fn centre(&self) -> f64 {
         self.centre
     }
@@ -621,7 +621,7 @@ pub struct PatchPoint {
     pub column: i64,
     /// Line of the material, y over the spacing.
     pub line: i64,
-    /// Place relative to the patch's centre (m).
+    /// NodeConditions relative to the patch's centre (m).
     pub at: [f64; 2],
     /// Pressure (Pa).
     pub pressure: f64,

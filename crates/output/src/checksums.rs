@@ -143,7 +143,7 @@ fn fixed(source: &Source) -> Result<u32, OutputError> {
 /// # Errors
 /// [`OutputError::Damaged`] where datasets or records are missing or a checksum differs;
 /// [`OutputError::Read`] where the file cannot be read.
-pub fn prove(path: impl AsRef<Path>, kept: &Kept) -> Result<(), OutputError> {
+pub fn verify(path: impl AsRef<Path>, kept: &Kept) -> Result<(), OutputError> {
     let path = path.as_ref();
     let source = Source::open(path)?;
     let mut growing = Vec::new();

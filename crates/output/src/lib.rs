@@ -52,7 +52,7 @@ mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
 pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
-pub use checksums::{Kept, hexadecimal, prove};
+pub use checksums::{Kept, hexadecimal, verify};
 pub use disk_space::{free_space, room_left};
 pub use error::{NotWritten, OutputError};
 pub use field::FieldSpec;

@@ -4,7 +4,7 @@
 
 use output::{
     CHECKPOINTS, Cells, Checkpoint, FieldSpec, GridFile, GridSpec, History, HistoryFile, Kept,
-    OutputError, Provenance, Results, StaticField, TransientGrid, Values, prove,
+    OutputError, Provenance, Results, StaticField, TransientGrid, Values, verify,
 };
 use std::path::Path;
 
@@ -163,13 +163,13 @@ fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
             let then = writer.kept();
             append(&mut writer, kept..600);
             let whole = writer.kept();
-            prove(&path, &then).unwrap();
+            verify(&path, &then).unwrap();
             let mut writer = TransientGrid::reopen(&path, grid, fields, &then).unwrap();
             assert_eq!(GridFile::open(&path).unwrap().steps(), kept);
             assert_eq!(writer.steps(), kept);
             append(&mut writer, kept..600);
             assert_eq!(writer.kept(), whole, "cut off at {kept}");
-            prove(&path, &whole).unwrap();
+            verify(&path, &whole).unwrap();
             assert_eq!(numbers(&path), numbers(&at_once), "cut off at {kept}");
         }
     });
@@ -188,7 +188,7 @@ fn a_history_cut_off_and_continued_holds_what_one_written_at_once_holds() {
         history.append(&rows(0..kept)).unwrap();
         let then = history.kept();
         history.append(&rows(kept..700)).unwrap();
-        prove(&path, &then).unwrap();
+        verify(&path, &then).unwrap();
         let mut history = History::reopen(&path, &columns, &then).unwrap();
         assert_eq!(HistoryFile::open(&path).unwrap().rows(), kept);
         history.append(&rows(kept..710)).unwrap();
@@ -227,7 +227,7 @@ fn nothing_passes_changed<T: PartialEq + std::fmt::Debug>(
         let mut damaged = whole.clone();
         damaged[at] ^= 0x10;
         std::fs::write(path, &damaged).unwrap();
-        match prove(path, kept) {
+        match verify(path, kept) {
             Ok(()) => assert_eq!(read(path), expected, "byte {at} was changed unnoticed"),
             Err(error) => {
                 assert!(error.damaged().is_some(), "{error}");
@@ -238,7 +238,7 @@ fn nothing_passes_changed<T: PartialEq + std::fmt::Debug>(
     assert!(refused > whole.len() / 37 / 10, "only {refused} changes noticed");
     for length in (0..whole.len()).step_by(211) {
         std::fs::write(path, &whole[..length]).unwrap();
-        assert!(prove(path, kept).is_err(), "cut off at {length} unnoticed");
+        assert!(verify(path, kept).is_err(), "cut off at {length} unnoticed");
         assert!(GridFile::open(path).is_err() && HistoryFile::open(path).is_err(), "{length}");
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use creepage::case::Case;
 use creepage::sweep::Sweep;
-use friction::{Domain, Expression, FrictionLaw, Place};
+use friction::{Domain, Expression, FrictionLaw, NodeConditions};
 use tempfile::TempDir;
 
 /// A case file, from its text to the resolved case and to the file that a run writes of it.
@@ -55,7 +55,7 @@ pub fn formula(data: &[u8]) {
             Ok(law) => {
                 for i in -40..40 {
                     let s = 10f64.powi(i);
-                    let at = Place { position: [s, -s, 0.0], time: s, pressure: 1e9 * s };
+                    let at = NodeConditions { position: [s, -s, 0.0], time: s, pressure: 1e9 * s };
                     for mu in [law.mu(s), law.mu_at(s, &at)] {
                         assert!(mu.is_nan() || (mu >= 0.0 && mu.is_finite()), "mu = {mu}");
                     }

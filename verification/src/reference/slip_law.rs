@@ -2,7 +2,7 @@
 
 use crate::reference::Point;
 use crate::reference::friction::SlipBound;
-use friction::{NodeFriction, Place};
+use friction::{NodeConditions, NodeFriction};
 use std::sync::Arc;
 
 /// A friction law and the speed of rolling, which turns the slip of a step into a slip velocity.
@@ -28,10 +28,10 @@ pub(crate) struct Patch<'a> {
 
 impl Patch<'_> {
     /// Position, time and pressure of the contact points.
-    fn places(&self, time: f64) -> Vec<Place> {
+    fn places(&self, time: f64) -> Vec<NodeConditions> {
         let place = |(&i, normal): (&usize, &f64)| {
             let Point { at, area, .. } = self.points[i];
-            Place { position: at, time, pressure: normal / area }
+            NodeConditions { position: at, time, pressure: normal / area }
         };
         self.contact.iter().zip(self.normal).map(place).collect()
     }
@@ -66,7 +66,7 @@ impl Particles {
     /// Friction bounds of particles that stay where they are and do not slip (N).
     pub fn at_rest(&self, patch: &Patch<'_>) -> Vec<f64> {
         let places = patch.places(self.time);
-        let bound = |(k, at): (usize, &Place)| {
+        let bound = |(k, at): (usize, &NodeConditions)| {
             let state = self.states[patch.contact[k]].unwrap_or_else(|| self.law.begin(at));
             patch.normal[k] * self.law.mu(state, 0.0, at)
         };
@@ -121,7 +121,7 @@ enum Before {
 pub(crate) struct Step {
     law: Arc<dyn NodeFriction>,
     dt: f64,
-    places: Vec<Place>,
+    places: Vec<NodeConditions>,
     normal: Vec<f64>,
     before: Vec<Before>,
 }

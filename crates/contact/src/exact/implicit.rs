@@ -110,8 +110,10 @@ impl ExactContact {
         let constraints = &self.constraints[self.slave];
         self.implicit.solved.iter().flat_map(move |&i| {
             let constraint = &constraints[i as usize];
-            let legs = self.legs[constraint.legs()].iter().map(|leg| master.node(leg.node));
-            std::iter::once(own.node(constraint.slave)).chain(legs)
+            let master_nodes = self.master_nodes[constraint.master_nodes()]
+                .iter()
+                .map(|master_node| master.node(master_node.node));
+            std::iter::once(own.node(constraint.slave)).chain(master_nodes)
         })
     }
 
@@ -125,11 +127,13 @@ impl ExactContact {
         place.clear();
         place.resize(master.len(), u32::MAX);
         masters.clear();
-        for leg in solved.iter().flat_map(|&i| &self.legs[constraints[i as usize].legs()]) {
-            let at = &mut place[leg.node as usize];
+        for master_node in
+            solved.iter().flat_map(|&i| &self.master_nodes[constraints[i as usize].master_nodes()])
+        {
+            let at = &mut place[master_node.node as usize];
             if *at == u32::MAX {
                 *at = masters.len() as u32;
-                masters.push(leg.node);
+                masters.push(master_node.node);
             }
         }
         let n = solved.len();
@@ -140,18 +144,18 @@ impl ExactContact {
             answer.clear();
             answer.extend(masters.iter().map(|&node| {
                 let mut sum = [[0.0; 3]; 3];
-                for leg in &self.legs[on.legs()] {
-                    let c = compliance(master.node(node), master.node(leg.node));
-                    add_product(&mut sum, &c, &transposed(&on.on_leg(leg)));
+                for master_node in &self.master_nodes[on.master_nodes()] {
+                    let c = compliance(master.node(node), master.node(master_node.node));
+                    add_product(&mut sum, &c, &transposed(&on.on_leg(master_node)));
                 }
                 sum
             }));
             for (i, &of) in solved.iter().enumerate() {
                 let of = &constraints[of as usize];
                 let mut block = compliance(own.node(of.slave), own.node(on.slave));
-                for leg in &self.legs[of.legs()] {
-                    let velocity = &answer[place[leg.node as usize] as usize];
-                    add_product(&mut block, &of.on_leg(leg), velocity);
+                for master_node in &self.master_nodes[of.master_nodes()] {
+                    let velocity = &answer[place[master_node.node as usize] as usize];
+                    add_product(&mut block, &of.on_leg(master_node), velocity);
                 }
                 delassus[i * n + k] = of.within_plane(on, block);
             }
@@ -339,7 +343,9 @@ impl ExactContact {
         let [own, master] = [&self.sides[self.slave], &self.sides[1 - self.slave]];
         let held = |node: u32| motion.inverse_mass[node as usize] == 0.0;
         held(own.node(constraint.slave))
-            && self.legs[constraint.legs()].iter().all(|leg| held(master.node(leg.node)))
+            && self.master_nodes[constraint.master_nodes()]
+                .iter()
+                .all(|master_node| held(master.node(master_node.node)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! What every enforcement keeps. A new one is tested by one line in `enforcements!` below: its name, how it is
 //! built, and over how many steps its forces turn with the bodies.
 
-use crate::constraint::{Constraint, Leg};
+use crate::constraint::{Constraint, MasterNode};
 use crate::plates::{STEEL, plate, together, tread};
 use crate::point::State;
 use crate::snapshot::Points;
@@ -264,18 +264,18 @@ fn a_state_of_other_rows_or_with_places_that_there_are_not_is_refused() {
     assert_eq!(restored(penalty, node_to_face), Err(StateError::Method));
     assert_eq!(restored(exact::<0, true>, node_to_face), Err(StateError::Rows));
     assert_eq!(restored(exact::<0, false>, mortar), Err(StateError::Rows));
-    let changed = |change: fn(&mut Vec<Constraint>, &mut Vec<Leg>)| {
+    let changed = |change: fn(&mut Vec<Constraint>, &mut Vec<MasterNode>)| {
         let mut state = node_to_face.clone();
-        let Points::Exact(constraints, legs, _) = &mut state.points else { panic!() };
-        change(constraints, legs);
+        let Points::Exact(constraints, master_nodes, _) = &mut state.points else { panic!() };
+        change(constraints, master_nodes);
         restored(exact::<0, false>, &state)
     };
     let range = |name| Err(StateError::Range { name });
     assert_eq!(changed(|_, _| ()), Ok(()));
-    assert_eq!(changed(|_, legs| legs.truncate(1)), range("legs"));
-    assert_eq!(changed(|_, legs| legs[0].node = u32::MAX), range("legs"));
+    assert_eq!(changed(|_, master_nodes| master_nodes.truncate(1)), range("master_nodes"));
+    assert_eq!(changed(|_, master_nodes| master_nodes[0].node = u32::MAX), range("master_nodes"));
     // an open node that the search never lists: it has no face
-    let off = |constraints: &mut Vec<Constraint>, _: &mut Vec<Leg>| {
+    let off = |constraints: &mut Vec<Constraint>, _: &mut Vec<MasterNode>| {
         constraints.iter_mut().for_each(|point| point.state = State::Open);
         constraints[0].face = u32::MAX;
     };

@@ -3,7 +3,7 @@ use crate::search::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use crate::{Contact, PenaltySettings, PenaltyStiffness};
 use friction::{
-    Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeFriction, Place, Remembering,
+    Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeConditions, NodeFriction, Remembering,
 };
 use mesh::Padded;
 
@@ -277,15 +277,15 @@ fn a_coefficient_that_is_no_number_shows_in_the_forces() {
 struct Lost;
 
 impl NodeFriction for Lost {
-    fn begin(&self, _: &Place) -> [f64; 2] {
+    fn begin(&self, _: &NodeConditions) -> [f64; 2] {
         [0.0; 2]
     }
 
-    fn advance(&self, state: [f64; 2], _: f64, _: &Place, _: f64) -> [f64; 2] {
+    fn advance(&self, state: [f64; 2], _: f64, _: &NodeConditions, _: f64) -> [f64; 2] {
         state
     }
 
-    fn mu(&self, _: [f64; 2], _: f64, _: &Place) -> f64 {
+    fn mu(&self, _: [f64; 2], _: f64, _: &NodeConditions) -> f64 {
         f64::NAN
     }
 

@@ -247,7 +247,7 @@ words! {
 
 impl Symmetry {
     /// How many parts alike make up the bodies, of which one is modelled.
-    pub fn parts(self) -> f64 {
+    pub fn multiplicity(self) -> f64 {
         match self {
             Self::Whole => 1.0,
             Self::Half => 2.0,

@@ -14,7 +14,7 @@ use crate::check::surface::{Surface, body_name};
 use crate::check::vector::{Vec3, axpy, norm};
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
-use friction::Place;
+use friction::NodeConditions;
 use output::layout::Pairing;
 
 /// A part of the interface on which the tangential conditions are judged.
@@ -320,7 +320,7 @@ fn recomputed_mu(
 ) -> Option<f64> {
     let moved = frame.motion.as_ref().map_or([0.0; 3], |[displacement, _]| displacement[row]);
     let position = axpy(surface.points[row], 1.0, moved);
-    let at = Place { position, time: frame.time, pressure: frame.pressure[row] };
+    let at = NodeConditions { position, time: frame.time, pressure: frame.pressure[row] };
     replay.at_once(norm(slip), &at).or_else(|| {
         let (used, allowed) = (frame.mu.as_ref()?[row], allowed[row]?);
         Some(if allowed.known { allowed.nearest(used) } else { used })

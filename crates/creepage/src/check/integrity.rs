@@ -23,7 +23,7 @@ const READ: [&str; 4] = [file::CASE, file::CONTACT, file::HISTORY, file::PROBES]
 ///
 /// # Errors
 /// A file that is not as it was written, cannot be read, or is gone though it is needed.
-pub fn prove(paths: &RunPaths, depth: Depth) -> Result<Option<String>, PostError> {
+pub fn verify_files(paths: &RunPaths, depth: Depth) -> Result<Option<String>, PostError> {
     let folder = &paths.folder;
     let is_read = |name: &str| READ.contains(&name);
     let unproven = |why: &str| {
@@ -49,7 +49,7 @@ pub fn prove(paths: &RunPaths, depth: Depth) -> Result<Option<String>, PostError
 ///
 /// # Errors
 /// A contact history that cannot be read or names another hash.
-pub fn prove_case(paths: &RunPaths, hash: &str, version: &str) -> Result<(), PostError> {
+pub fn verify_case(paths: &RunPaths, hash: &str, version: &str) -> Result<(), PostError> {
     let file = frames::open(&paths.contact)?;
     let of_this_version = file.provenance(attribute::VERSION).is_ok_and(|found| found == version);
     match file.provenance(attribute::CASE_HASH) {

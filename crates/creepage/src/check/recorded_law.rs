@@ -57,7 +57,7 @@ fn interpolation_error(points: &[[f64; 2]]) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use friction::{Exponential, Implicit, OwnLaw, Place, sampled};
+    use friction::{Exponential, Implicit, NodeConditions, OwnLaw, sampled};
 
     const PAPER: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
 
@@ -82,7 +82,7 @@ mod tests {
             "[friction]\nlaw = \"python\"\nsource = \"-\"\nmode = \"exact\"".parse().unwrap();
         let RecordedLaw { law, known_to } = recorded_law(&case, Some(&points)).unwrap();
         assert!(known_to < 1e-4, "{known_to:e}");
-        let (at, same) = (Place::default(), Implicit(PAPER));
+        let (at, same) = (NodeConditions::default(), Implicit(PAPER));
         for s in [0.0, 3e-7, 0.0123, 0.17, 2.9] {
             let off = law.mu([0.0; 2], s, &at) / same.mu([0.0; 2], s, &at) - 1.0;
             assert!(off.abs() <= known_to, "{s}: {off:e}");

@@ -18,7 +18,7 @@ use crate::check::projection::Pair;
 use crate::check::recorded_law::RecordedLaw;
 use crate::check::surface::Surface;
 use crate::check::vector::{Vec3, axpy, norm};
-use friction::{NodeFriction, Place, Remembers};
+use friction::{NodeConditions, NodeFriction, Remembers};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -153,7 +153,7 @@ impl Replay {
 
     /// The law's coefficient at the slip speed `speed` (m/s) of the same instant; `None` for a law that remembers
     /// more than one step.
-    pub fn at_once(&self, speed: f64, at: &Place) -> Option<f64> {
+    pub fn at_once(&self, speed: f64, at: &NodeConditions) -> Option<f64> {
         (self.law.remembers() != Remembers::Contact).then(|| {
             let state = self.law.advance(self.law.begin(at), speed, at, self.dt);
             self.law.mu(state, speed, at)
@@ -288,7 +288,7 @@ impl NodeUpdate<'_> {
         };
         let pressure = frame.pass_pressure.as_ref().unwrap_or(&frame.pressure)[row];
         let slip = norm(frame.slip_velocity[row]);
-        let at = Place { position, time: frame.time, pressure };
+        let at = NodeConditions { position, time: frame.time, pressure };
         let old = *node;
         (node.slip, node.pressure, node.position) = (slip, pressure, position);
 
@@ -298,7 +298,7 @@ impl NodeUpdate<'_> {
         node.states = match elapsed {
             // the pressure of the preload lacks the part of the dampers, which is not known
             Elapsed::Start if self.method == Method::Passes => [0.0, 2.0, 1.0, 1.0].map(|part| {
-                let preload = Place { pressure: part * pressure, ..at };
+                let preload = NodeConditions { pressure: part * pressure, ..at };
                 self.law.advance(self.law.begin(&preload), 0.0, &at, self.dt)
             }),
             Elapsed::Start => [begun; 4],
@@ -334,27 +334,27 @@ impl NodeUpdate<'_> {
     }
 
     /// The state at the beginning of contact.
-    fn begin(&self, at: &Place) -> [f64; 2] {
+    fn begin(&self, at: &NodeConditions) -> [f64; 2] {
         match self.method {
-            Method::Exact { .. } => self.law.begin(&Place { pressure: 0.0, ..*at }),
+            Method::Exact { .. } => self.law.begin(&NodeConditions { pressure: 0.0, ..*at }),
             Method::Passes => self.law.begin(at),
         }
     }
 
     /// The arguments of the law's update over a step that ends at `at`; `before` is the pressure (Pa) at its
     /// beginning.
-    fn state_inputs(&self, at: &Place, before: f64) -> Place {
+    fn state_inputs(&self, at: &NodeConditions, before: f64) -> NodeConditions {
         match self.method {
-            Method::Exact { .. } => Place { pressure: before, ..*at },
+            Method::Exact { .. } => NodeConditions { pressure: before, ..*at },
             Method::Passes => *at,
         }
     }
 
     /// The states of contact that has just begun, and of contact that has slipped fast, for long and under more
     /// pressure.
-    fn extremes(&self, at: &Place) -> [[f64; 2]; 2] {
-        let new = self.law.begin(&Place { pressure: 0.0, ..*at });
-        let more = Place { pressure: 4.0 * at.pressure, ..*at };
+    fn extremes(&self, at: &NodeConditions) -> [[f64; 2]; 2] {
+        let new = self.law.begin(&NodeConditions { pressure: 0.0, ..*at });
+        let more = NodeConditions { pressure: 4.0 * at.pressure, ..*at };
         [new, self.law.advance(new, FAST_SLIP, &more, LONG_TIME)]
     }
 
@@ -365,14 +365,14 @@ impl NodeUpdate<'_> {
         mut state: [f64; 2],
         speed: f64,
         from: &NodeState,
-        to: &Place,
+        to: &NodeConditions,
         steps: u64,
     ) -> [f64; 2] {
         let parts = steps.min(SUBSTEPS);
         for part in 1..=parts {
             let left = 1.0 - part as f64 / parts as f64;
             let between = |a: f64, b: f64| b + left * (a - b);
-            let at = Place {
+            let at = NodeConditions {
                 position: [0, 1, 2].map(|i| between(from.position[i], to.position[i])),
                 time: to.time - left * self.interval,
                 pressure: between(from.pressure, to.pressure),
@@ -382,7 +382,7 @@ impl NodeUpdate<'_> {
         state
     }
 
-    fn allowed(&self, states: &States, slip: f64, at: &Place) -> Option<Allowed> {
+    fn allowed(&self, states: &States, slip: f64, at: &NodeConditions) -> Option<Allowed> {
         // `min` and `max` alone would hide a NaN
         let widened = |[low, high]: [f64; 2], mu: f64| {
             if mu.is_nan() || low.is_nan() { [f64::NAN; 2] } else { [mu.min(low), mu.max(high)] }

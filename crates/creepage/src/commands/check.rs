@@ -112,7 +112,7 @@ pub fn check(options: &CheckOptions) -> Result<Checked, Error> {
 /// The files of a run, proven as far as asked, and what it is measured against.
 pub fn basis(run: &Path, options: &BasisOptions, depth: Depth) -> Result<(RunPaths, Basis), Error> {
     let mut paths = RunPaths::of(run)?;
-    if let Some(warning) = crate::check::prove(&paths, depth)? {
+    if let Some(warning) = crate::check::verify_files(&paths, depth)? {
         tracing::warn!("{warning}");
     }
     if let Some(case) = &options.case {
@@ -132,7 +132,7 @@ pub fn basis(run: &Path, options: &BasisOptions, depth: Depth) -> Result<(RunPat
         && let Ok(case) = crate::case::Case::load(&paths.case, &[])
     {
         if options.case.is_none() {
-            crate::check::prove_case(&paths, &case.hash(), env!("CARGO_PKG_VERSION"))?;
+            crate::check::verify_case(&paths, &case.hash(), env!("CARGO_PKG_VERSION"))?;
         }
         let named = basis.case.as_ref().is_some_and(|case| case.contains_key("evaluate"));
         basis.window = basis.window.or(named.then(|| case.evaluation_window()));

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::ls_dyna::{Rolling, Units, export, unsayable};
+use crate::ls_dyna::{RollingMotion, Units, export, unsayable};
 use output::files::made::KEYWORDS;
 use serde_json::{Value, json};
 
@@ -51,7 +51,7 @@ pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result
     let stop = listener.stop();
     let start = crate::scenario::start(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(()));
     let facts = start.map_err(placed)?.facts;
-    let rolling = Rolling { case: &case, model: &model, facts: &facts };
+    let rolling = RollingMotion { case: &case, model: &model, facts: &facts };
     let made = export(&rolling, options.unit);
     std::fs::write(&out, made.deck).map_err(|cause| {
         Error::option(

@@ -19,8 +19,8 @@ use serde_json::Value;
 use crate::commands::error::{FAILED, INTERRUPTED};
 use crate::commands::outputs::claim;
 use crate::commands::report::{claim_sweep, write_sweep};
-use crate::commands::{CheckOptions, RunOptions, check, run};
 use crate::commands::values::{MEGABYTES, THREADS, all_cores, exclude};
+use crate::commands::{CheckOptions, RunOptions, check, run};
 use crate::{Error, Listener};
 
 /// Which sweep, and how its runs are done.

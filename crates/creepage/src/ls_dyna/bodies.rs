@@ -3,7 +3,7 @@
 use crate::ls_dyna::cards::Card;
 use crate::ls_dyna::contact_card;
 use crate::ls_dyna::deck::{Deck, Hourglass, Inertia, Material, Node, Part, Solid, Target};
-use crate::ls_dyna::error::{DeckError, Place, second, syntax, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, second, syntax, unsupported};
 use crate::ls_dyna::fields::{
     Layout, absent, number, other_axis, output, real, real_or, rests, whole, zero,
 };
@@ -254,7 +254,7 @@ impl Deck {
 }
 
 /// Refuses hourglass control that is not one of the stiffness forms of Flanagan and Belytschko, IHQ 4 and 5.
-pub(super) fn stiffness_form(form: f64, card: &Card, at: &Place) -> Result<(), DeckError> {
+pub(super) fn stiffness_form(form: f64, card: &Card, at: &DeckLine) -> Result<(), DeckError> {
     if form == 4.0 || form == 5.0 {
         return Ok(());
     }

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::ls_dyna::error::{DeckError, Fault, Place, syntax, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, Fault, syntax, unsupported};
 use crate::ls_dyna::fields::{Field, Layout, Role, Taken, zero};
 use crate::ls_dyna::parameters::{NO_PARAMETERS, Parameters};
 
@@ -17,7 +17,7 @@ use crate::ls_dyna::parameters::{NO_PARAMETERS, Parameters};
 pub(super) struct Card<'a> {
     /// The keyword in capitals, without its asterisk, the mark of its format, and the options `_TITLE` and `_ID`.
     pub(super) name: String,
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     pub(super) format: Format,
     /// Its data lines without comments, with their numbers.
     data: Vec<(usize, Cow<'a, str>)>,
@@ -46,7 +46,7 @@ pub(super) fn cards<'a>(
     mut format: Format,
 ) -> Result<Vec<Card<'a>>, DeckError> {
     let mut cards: Vec<Card> = Vec::new();
-    let at = |line| Place { file: file.clone(), line };
+    let at = |line| DeckLine { file: file.clone(), line };
     let bytes = without_mark(bytes, &at(1))?;
     // lines of old Macs end with a carriage return alone
     let line_end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
@@ -104,7 +104,7 @@ pub(super) fn cards<'a>(
 }
 
 /// The text after the byte order mark of UTF-8, if there is one.
-fn without_mark<'a>(bytes: &'a [u8], first: &Place) -> Result<&'a [u8], DeckError> {
+fn without_mark<'a>(bytes: &'a [u8], first: &DeckLine) -> Result<&'a [u8], DeckError> {
     // a letter of an 8-bit encoding has no zero byte beside it
     let wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     if wide || bytes.iter().take(4).any(|byte| *byte == 0) {
@@ -122,7 +122,7 @@ fn late_keyword(text: &str) -> Option<&str> {
 }
 
 /// The format that `*KEYWORD` gives to all cards after it, if it gives one.
-fn deck_format(keyword: &str, place: &Place) -> Result<Option<Format>, DeckError> {
+fn deck_format(keyword: &str, place: &DeckLine) -> Result<Option<Format>, DeckError> {
     let words = keyword.replace(" =", "=").replace("= ", "=");
     let mut words = words.split([' ', ',']).filter(|word| !word.is_empty());
     let mut format = None;
@@ -262,8 +262,8 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn place(&self) -> Place {
-        Place { file: self.card.place.file.clone(), line: self.at }
+    pub(super) fn place(&self) -> DeckLine {
+        DeckLine { file: self.card.place.file.clone(), line: self.at }
     }
 
     /// The numbers of the fields that a case takes, in their order.

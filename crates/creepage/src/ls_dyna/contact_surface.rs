@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use mesh::import::{Foreign, Set};
 
 use crate::ls_dyna::deck::Side;
-use crate::ls_dyna::error::{DeckError, Place, lacks, syntax, unknown};
+use crate::ls_dyna::error::{DeckError, DeckLine, lacks, syntax, unknown};
 use crate::ls_dyna::model::Bodies;
 
 /// Cosine of the largest angle (60 degrees) at which an outer face may stand to the direction in which the other body
@@ -56,7 +56,7 @@ fn outer_faces(
     bodies: &Bodies,
     foreign: &Foreign,
     parts: &[u64],
-    at: &Place,
+    at: &DeckLine,
 ) -> Result<Vec<[u32; 4]>, DeckError> {
     let body = |part: &u64| {
         let body = bodies.parts.iter().position(|of_body| of_body.contains(part));

@@ -3,7 +3,7 @@
 use crate::ls_dyna::cards::Card;
 use crate::ls_dyna::cards::six;
 use crate::ls_dyna::deck::Deck;
-use crate::ls_dyna::error::{DeckError, Place, lacks, syntax, unknown, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, lacks, syntax, unknown, unsupported};
 use crate::ls_dyna::fields::{Layout, number, real, real_or, zero};
 
 const HEAD: Layout<5> = Layout::new(&[
@@ -23,7 +23,7 @@ const POINT: Layout<2> = Layout::new(&[real("A1").wide(20), real("O1").wide(20)]
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     id: u64,
-    place: Place,
+    place: DeckLine,
     points: Vec<[f64; 2]>,
 }
 
@@ -162,7 +162,7 @@ impl Deck {
     ///
     /// # Errors
     /// No such curve; one whose points do not cover that time.
-    pub(crate) fn course(&self, curve: u64, at: &Place) -> Result<Course, DeckError> {
+    pub(crate) fn course(&self, curve: u64, at: &DeckLine) -> Result<Course, DeckError> {
         let found = self.curves.get(&curve).filter(|curve| !curve.points.is_empty());
         let curve = found.ok_or_else(|| unknown(at, "the card", format!("curve {curve}")))?;
         let (begins, end) = (self.begins, self.end()?);

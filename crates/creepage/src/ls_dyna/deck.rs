@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::ls_dyna::cards::{AFTER_END, Card};
 use crate::ls_dyna::curve::Curve;
-use crate::ls_dyna::error::{DeckError, Place, second};
+use crate::ls_dyna::error::{DeckError, DeckLine, second};
 use crate::ls_dyna::ignored::{ignored, refusal, unremarkable};
 use crate::ls_dyna::motion::{Damping, Motion};
 
@@ -56,14 +56,14 @@ pub(super) struct Deck {
     /// The curves by their number.
     pub(super) curves: BTreeMap<u64, Curve>,
     /// Units that the deck names: those of length, mass and time.
-    pub(super) units: Option<(Place, [&'static str; 3])>,
+    pub(super) units: Option<(DeckLine, [&'static str; 3])>,
     /// Keywords that were ignored, each once.
     pub(super) passed_over: Vec<String>,
     /// Where keywords follow `*END`.
-    pub(super) after_end: Vec<Place>,
+    pub(super) after_end: Vec<DeckLine>,
     pub(super) account: Account,
     /// Where things of which a deck has one, and things with a number, were given.
-    given: BTreeMap<(&'static str, u64), Place>,
+    given: BTreeMap<(&'static str, u64), DeckLine>,
 }
 
 /// What became of the cards of a deck.
@@ -81,7 +81,7 @@ pub struct Account {
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) id: u64,
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     pub(super) point: [f64; 3],
 }
 
@@ -90,7 +90,7 @@ pub(super) struct Node {
 pub(super) struct Solid {
     pub(super) id: u64,
     pub(super) part: u64,
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     pub(super) nodes: [u64; 8],
 }
 
@@ -100,7 +100,7 @@ pub(super) struct Part {
     pub(super) section: u64,
     pub(super) material: u64,
     pub(super) hourglass: u64,
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
 }
 
 /// RO, E and PR of an elastic material.
@@ -123,7 +123,7 @@ pub(super) struct Hourglass {
 /// The contact card.
 #[derive(Clone, Debug)]
 pub(super) struct Contact {
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     pub(super) sides: [Side; 2],
     /// Coefficient of friction at rest.
     pub(super) fs: f64,
@@ -134,7 +134,7 @@ pub(super) struct Contact {
     /// Viscous damping in per cent of critical.
     pub(super) vdc: f64,
     /// `DT`, when it ends, and the line that says so.
-    pub(super) ends: (Place, f64),
+    pub(super) ends: (DeckLine, f64),
     /// `SFS` and `SFM`, which are equal.
     pub(super) sf: f64,
 }
@@ -156,14 +156,14 @@ pub(super) struct Target {
     /// Whether `id` is the number of a set.
     pub(super) set: bool,
     pub(super) id: u64,
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
 }
 
 /// A force or a torque: `factor` times a curve.
 #[derive(Clone, Debug)]
 pub(super) struct Load {
     pub(super) on: Loaded,
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     /// The keyword.
     pub(super) card: String,
     /// 1 to 3 for forces along x, y and z, 5 to 7 for torques about them.
@@ -184,7 +184,7 @@ pub(super) enum Loaded {
 /// What the card of the hub says of its mass.
 #[derive(Clone, Debug)]
 pub(super) struct Inertia {
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     /// `TM`.
     pub(super) mass: f64,
     /// `XC`, `YC` and `ZC`.
@@ -199,7 +199,7 @@ pub(super) struct Inertia {
 #[derive(Clone, Debug)]
 pub(super) struct Initial {
     /// The line of the keyword.
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     /// The keyword.
     pub(super) card: String,
     /// Velocity in x.
@@ -213,10 +213,10 @@ pub(super) struct Initial {
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
     /// The line of `OMEGA`.
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     pub(super) omega: f64,
     /// The line of the axis.
-    pub(super) axis_place: Place,
+    pub(super) axis_place: DeckLine,
     /// `XC`, `YC` and `ZC`, a point of the axis.
     pub(super) centre: [f64; 3],
     /// `NX`, `NY` and `NZ`, its direction.
@@ -287,7 +287,7 @@ impl Deck {
         &mut self,
         kind: &'static str,
         id: u64,
-        at: &Place,
+        at: &DeckLine,
     ) -> Result<(), DeckError> {
         let Some(before) = self.given.insert((kind, id), at.clone()) else { return Ok(()) };
         let what = if id == 0 { format!("*{kind}") } else { format!("{kind} {id}") };

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::ls_dyna::cards::six;
 use crate::ls_dyna::curve::Course;
 use crate::ls_dyna::deck::{Deck, Initial, Turning};
-use crate::ls_dyna::error::{DeckError, Place, lacks, unknown, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, lacks, unknown, unsupported};
 use crate::ls_dyna::loads;
 use crate::ls_dyna::model::Model;
 use crate::ls_dyna::motion::Motion;
@@ -111,7 +111,7 @@ impl Drive {
 
 /// A curve that drives the disk, times a factor.
 struct Ramp<'a> {
-    place: &'a Place,
+    place: &'a DeckLine,
     curve: u64,
     factor: f64,
 }
@@ -347,7 +347,7 @@ impl Deck {
     }
 
     /// Refuses what moves or loads another part than the hub.
-    pub(crate) fn of_the_hub(&self, card: &str, part: u64, at: &Place) -> Result<(), DeckError> {
+    pub(crate) fn of_the_hub(&self, card: &str, part: u64, at: &DeckLine) -> Result<(), DeckError> {
         if part == self.hub_part {
             return Ok(());
         }

@@ -13,7 +13,7 @@ use thiserror::Error;
 #[error("{}{fault}{}", self.prefix(), self.suffix())]
 pub struct DeckError {
     /// File and line; `None` for what the whole deck lacks.
-    pub place: Option<Place>,
+    pub place: Option<DeckLine>,
     /// What is wrong.
     pub fault: Fault,
     /// The other cards that are refused, where that is a card.
@@ -22,14 +22,14 @@ pub struct DeckError {
 
 /// A line of one of the deck's files.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct DeckLine {
     /// The file: the deck, or one that it includes.
     pub file: Arc<Path>,
     /// The line, counted from 1.
     pub line: usize,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for DeckLine {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}:{}", self.file.display(), self.line)
     }
@@ -66,7 +66,7 @@ pub enum Fault {
         /// What it is.
         what: String,
         /// Where the first one stands.
-        before: Place,
+        before: DeckLine,
         /// What to do instead.
         remedy: &'static str,
     },
@@ -164,7 +164,7 @@ impl Fault {
     }
 
     /// The error of this fault at a place.
-    pub(crate) fn at(self, place: &Place) -> DeckError {
+    pub(crate) fn at(self, place: &DeckLine) -> DeckError {
         DeckError { place: Some(place.clone()), ..DeckError::of(self) }
     }
 }
@@ -207,24 +207,32 @@ impl Diagnostic for DeckError {
     }
 }
 
-pub(crate) fn syntax(at: &Place, what: impl Into<String>) -> DeckError {
+pub(crate) fn syntax(at: &DeckLine, what: impl Into<String>) -> DeckError {
     Fault::Syntax { what: what.into() }.at(at)
 }
 
-pub(crate) fn unsupported(at: &Place, what: impl Into<String>, remedy: &'static str) -> DeckError {
+pub(crate) fn unsupported(
+    at: &DeckLine,
+    what: impl Into<String>,
+    remedy: &'static str,
+) -> DeckError {
     Fault::Unsupported { what: what.into(), remedy }.at(at)
 }
 
 pub(crate) fn second(
-    at: &Place,
+    at: &DeckLine,
     what: impl Into<String>,
-    before: &Place,
+    before: &DeckLine,
     remedy: &'static str,
 ) -> DeckError {
     Fault::Second { what: what.into(), before: before.clone(), remedy }.at(at)
 }
 
-pub(crate) fn unknown(at: &Place, from: impl Into<String>, what: impl Into<String>) -> DeckError {
+pub(crate) fn unknown(
+    at: &DeckLine,
+    from: impl Into<String>,
+    what: impl Into<String>,
+) -> DeckError {
     Fault::Unknown { from: from.into(), what: what.into() }.at(at)
 }
 

@@ -18,17 +18,17 @@ pub use limits::unsayable;
 
 use crate::case::schema::{Case, DriveMode, LoadMode};
 use crate::ls_dyna::units::Units;
-use crate::scenario::{BAR, DISK, Facts, Model};
+use crate::scenario::{BAR, DISK, InitialState, Model};
 use columns::Cards;
 
 /// A run at its start: its case, its bodies, and what the preload and the stability analysis found.
-pub struct Rolling<'a> {
+pub struct RollingMotion<'a> {
     /// The case, of which [`unsayable`] has nothing to say.
     pub case: &'a Case,
     /// Its bodies.
     pub model: &'a Model,
     /// Depth of the hub, rolling radius and time step.
-    pub facts: &'a Facts,
+    pub facts: &'a InitialState,
 }
 
 /// A keyword file, and what it says in another way than the case.
@@ -68,7 +68,7 @@ const RADII: f64 = 12.0;
 /// is left then remain.
 const REST: f64 = 6.0;
 
-impl Rolling<'_> {
+impl RollingMotion<'_> {
     /// Duration of the preload in the deck (s): whole microseconds, all of whose digits its columns hold.
     pub fn preload_time(&self) -> f64 {
         (1e6 * (self.pressing_time() + REST / self.bounce())).ceil() / 1e6
@@ -82,7 +82,7 @@ impl Rolling<'_> {
     /// Angular frequency (rad/s) at which the disk bounces on the contact, whose stiffness is by Hertz 3/2 of force over approach.
     fn bounce(&self) -> f64 {
         let disk = &self.model.mesh.bodies[DISK].nodes;
-        let mass = self.model.parts * self.model.mass[disk.clone()].iter().sum::<f64>();
+        let mass = self.model.multiplicity * self.model.mass[disk.clone()].iter().sum::<f64>();
         (1.5 * self.case.load.normal / (self.depth() * (mass + self.case.load.hub_mass))).sqrt()
     }
 
@@ -98,12 +98,12 @@ impl Rolling<'_> {
 
     /// The share of the loads that the modelled bodies bear.
     fn share(&self) -> f64 {
-        1.0 / self.model.parts
+        1.0 / self.model.multiplicity
     }
 }
 
 /// The keyword file of a run in consistent `units`.
-pub fn export(rolling: &Rolling<'_>, units: Units) -> Exported {
+pub fn export(rolling: &RollingMotion<'_>, units: Units) -> Exported {
     let notes = limits::nearly(rolling);
     let mut cards = Cards::new(units);
     head(&mut cards, rolling, &notes);
@@ -118,7 +118,7 @@ pub fn export(rolling: &Rolling<'_>, units: Units) -> Exported {
     Exported { deck: cards.text(), notes }
 }
 
-fn head(cards: &mut Cards, rolling: &Rolling<'_>, notes: &[String]) {
+fn head(cards: &mut Cards, rolling: &RollingMotion<'_>, notes: &[String]) {
     let case = rolling.case;
     // a title of several lines would be read as cards
     let name = case
@@ -143,7 +143,7 @@ fn head(cards: &mut Cards, rolling: &Rolling<'_>, notes: &[String]) {
     cards.line(&name.chars().take(80).collect::<String>());
 }
 
-fn control(cards: &mut Cards, rolling: &Rolling<'_>) {
+fn control(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let units = cards.units();
     let end = rolling.preload_time() + rolling.case.duration();
     cards.card("CONTROL_TERMINATION", &[("ENDTIM", end / units.time())]);

@@ -3,7 +3,7 @@
 use crate::ls_dyna::axes;
 use crate::ls_dyna::contact_surface;
 use crate::ls_dyna::deck::{Deck, Target};
-use crate::ls_dyna::error::{DeckError, Fault, Place, lacks, unknown, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, Fault, lacks, unknown, unsupported};
 use crate::ls_dyna::units::Units;
 use mesh::import::{Foreign, Labels};
 use mesh::{Body, Mesh};
@@ -155,7 +155,7 @@ impl Bodies<'_> {
         &self,
         from: &str,
         set: u64,
-        at: &Place,
+        at: &DeckLine,
     ) -> Result<Vec<[u32; 4]>, DeckError> {
         let segments = self.deck.segment_sets.get(&set);
         let segments = segments.ok_or_else(|| unknown(at, from, format!("segment set {set}")))?;
@@ -171,7 +171,7 @@ pub(crate) struct Indices(HashMap<u64, u32>);
 
 impl Indices {
     /// Index of a node to which `from` refers in a line of the file.
-    pub(crate) fn find(&self, from: &str, node: u64, at: &Place) -> Result<u32, DeckError> {
+    pub(crate) fn find(&self, from: &str, node: u64, at: &DeckLine) -> Result<u32, DeckError> {
         let index = self.0.get(&node).copied();
         index.ok_or_else(|| unknown(at, from, format!("node {node}")))
     }

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use crate::ls_dyna::cards::Card;
 use crate::ls_dyna::deck::{Deck, Initial, Load, Loaded, Target, Turning};
-use crate::ls_dyna::error::{DeckError, Place, second, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, second, unsupported};
 use crate::ls_dyna::fields::{Layout, absent, number, real, real_or, rests, whole, zero};
 
 /// A prescribed motion of a rigid body.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     /// The number of the body as a part, `PID`.
     pub(super) part: u64,
     pub(super) dof: i64,
@@ -25,15 +25,15 @@ pub(super) struct Motion {
 pub(super) struct Damping {
     pub(super) relative: Option<Relative>,
     /// Coefficients of the stiffness of parts, in units of time, and their lines.
-    pub(super) stiffness: BTreeMap<u64, (f64, Place)>,
+    pub(super) stiffness: BTreeMap<u64, (f64, DeckLine)>,
     /// The curve of `*DAMPING_GLOBAL` and its line.
-    pub(super) global: Option<(u64, Place)>,
+    pub(super) global: Option<(u64, DeckLine)>,
 }
 
 /// Damping relative to the motion of a rigid body.
 #[derive(Clone, Debug)]
 pub(super) struct Relative {
-    pub(super) place: Place,
+    pub(super) place: DeckLine,
     /// Over the mass (1/time).
     pub(super) rate: f64,
     /// The number of the body as a part, `PIDRB`.

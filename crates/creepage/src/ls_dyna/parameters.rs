@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ls_dyna::cards::{Card, number};
-use crate::ls_dyna::error::{DeckError, Fault, Place, second, syntax, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, Fault, second, syntax, unsupported};
 
 /// Values of parameters by their names in lower case.
 #[derive(Clone, Debug, Default)]
@@ -12,7 +12,7 @@ pub(super) struct Parameters(BTreeMap<String, Defined>);
 #[derive(Clone, Debug)]
 struct Defined {
     value: f64,
-    place: Place,
+    place: DeckLine,
 }
 
 /// Those of cards that are read before the deck's parameters are known.
@@ -37,7 +37,7 @@ impl Parameters {
     }
 
     /// Takes a parameter, whose name comes after the letter of its type.
-    fn define(&mut self, typed: &str, value: &str, place: &Place) -> Result<(), DeckError> {
+    fn define(&mut self, typed: &str, value: &str, place: &DeckLine) -> Result<(), DeckError> {
         let mut letters = typed.chars();
         let kind = letters.next().map(|letter| letter.to_ascii_uppercase());
         let name = letters.as_str().trim().to_lowercase();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use output::files::input::{self, KEYWORDS};
 
 use crate::ls_dyna::cards::{Card, Format, cards};
-use crate::ls_dyna::error::{DeckError, Fault, Place, syntax};
+use crate::ls_dyna::error::{DeckError, DeckLine, Fault, syntax};
 
 /// A deck on disk.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +65,7 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     /// Reads a file, which a line of the deck names, and those that it includes; returns its index.
-    fn file(&mut self, path: &Path, named: Option<&Place>) -> Result<usize, DeckError> {
+    fn file(&mut self, path: &Path, named: Option<&DeckLine>) -> Result<usize, DeckError> {
         let fail = |fault| DeckError { place: named.cloned(), ..DeckError::of(fault) };
         let known = path.canonicalize().ok().and_then(|real| self.known.get(&real).copied());
         if let Some(known) = known {
@@ -151,7 +151,7 @@ fn canonical(path: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// The names of files of a card `*INCLUDE`, one a line; a line that ends with ` +` goes on with the next.
-fn names(card: &Card) -> Result<Vec<(String, Place)>, DeckError> {
+fn names(card: &Card) -> Result<Vec<(String, DeckLine)>, DeckError> {
     let mut names = Vec::new();
     let mut begun = String::new();
     for line in card.lines() {

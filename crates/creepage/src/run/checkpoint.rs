@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::case::schema;
 use crate::run::record::RecorderState;
 use crate::run::text_file::remove;
-use crate::scenario::Found;
+use crate::scenario::KeptState;
 use dynamics::{Energies, SimulationState};
 use output::{CHECKPOINTS, Checkpoint, NotWritten, OutputError, Provenance, Results};
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) const KERNELS: &str = "kernels";
 
 /// The state of a run of finite elements.
-pub(crate) type State = RunState<SimulationState, RecorderState, Found>;
+pub(crate) type State = RunState<SimulationState, RecorderState, KeptState>;
 
 /// Everything that a run needs to go on with the same bits: the state of the bodies, of the recorder, and what was found
 /// before they began to move.

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::case::schema::Case;
 use crate::run::disk::Disk;
-use crate::scenario::{Cost, Facts, Model, ScenarioError, restart};
+use crate::scenario::{Cost, InitialState, Model, ScenarioError, restart};
 use dynamics::Simulation;
 use friction::Kind;
 use mesh::Padded;
@@ -19,7 +19,7 @@ use mesh::Padded;
 pub(crate) fn cost(
     case: &Case,
     model: &Model,
-    facts: &Facts,
+    facts: &InitialState,
     simulation: &Simulation,
 ) -> Result<Option<Cost>, ScenarioError> {
     if case.theta().is_some() || case.friction.law == Kind::Python {

@@ -36,7 +36,8 @@ impl Disk {
         let snapshots = (case.duration() / case.fields_interval()).ceil().min(steps) + 1.0;
         // corners of a face are shared by four, but for the borders
         // and those of half a model have mirror images
-        let zone = model.parts * model.zones.iter().map(|faces| faces.len() as f64).sum::<f64>();
+        let zone =
+            model.multiplicity * model.zones.iter().map(|faces| faces.len() as f64).sum::<f64>();
         let in_windows = |w: &crate::case::schema::Window| {
             (w.to.min(case.duration()) - w.from).max(0.0) / dt / w.every as f64
         };

@@ -148,7 +148,7 @@ pub fn is_of_a_run(path: &Path) -> bool {
 ///
 /// # Errors
 /// [`FolderError::Input`].
-pub fn spare(folder: &Path, inputs: &[PathBuf]) -> Result<(), FolderError> {
+pub fn refuse_inputs(folder: &Path, inputs: &[PathBuf]) -> Result<(), FolderError> {
     let files = RUN_FILES.map(|file| folder.join(file));
     match among(inputs, &files) {
         Some(path) => Err(FolderError::Input { path: path.to_path_buf() }),

@@ -72,7 +72,7 @@ impl FolderLock {
     ///
     /// # Errors
     /// [`FolderError::Lost`] where the file is gone or another one.
-    pub fn prove(&self) -> Result<(), FolderError> {
+    pub fn check_owner(&self) -> Result<(), FolderError> {
         let path = self.folder.join(LOCK);
         let same = match (fs::metadata(&path), self.lock.metadata()) {
             (Ok(there), Ok(own)) => same(&there, &own),
@@ -92,7 +92,7 @@ impl FolderLock {
 /// The identity is removed with its holder, unless that is killed.
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        if self.prove().is_ok() {
+        if self.check_owner().is_ok() {
             let _ = self.lock.set_len(0);
         }
     }
@@ -181,16 +181,16 @@ mod tests {
     fn a_deleted_lock_lets_no_second_in_and_the_first_knows() {
         let folder = tempfile::tempdir().unwrap();
         let first = hold(folder.path()).unwrap();
-        first.prove().unwrap();
+        first.check_owner().unwrap();
         fs::remove_file(folder.path().join(LOCK)).unwrap();
         if cfg!(target_os = "linux") {
             let second = hold(folder.path());
             assert!(matches!(second, Err(FolderError::Busy { .. })), "{second:?}");
         }
-        assert!(matches!(first.prove(), Err(FolderError::Lost { .. })));
+        assert!(matches!(first.check_owner(), Err(FolderError::Lost { .. })));
         fs::write(folder.path().join(LOCK), first.identity.as_ref().unwrap()).unwrap();
         if cfg!(unix) {
-            assert!(matches!(first.prove(), Err(FolderError::Lost { .. })), "another file");
+            assert!(matches!(first.check_owner(), Err(FolderError::Lost { .. })), "another file");
         }
     }
 
@@ -199,7 +199,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let first = hold(folder.path()).unwrap();
         fs::write(folder.path().join(LOCK), Holder::own().to_string()).unwrap();
-        assert!(matches!(first.prove(), Err(FolderError::Lost { .. })));
+        assert!(matches!(first.check_owner(), Err(FolderError::Lost { .. })));
     }
 
     #[test]
@@ -207,7 +207,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         drop(hold(folder.path()).unwrap());
         assert_eq!(fs::read_to_string(folder.path().join(LOCK)).unwrap(), "");
-        hold(folder.path()).unwrap().prove().unwrap();
+        hold(folder.path()).unwrap().check_owner().unwrap();
     }
 
     #[test]

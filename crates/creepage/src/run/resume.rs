@@ -13,8 +13,8 @@ use error::ResumeError;
 use output::layout::file;
 use output::summary::Status;
 use output::{
-    CHECKPOINTS, Checkpoint, NotWritten, OutputError, Results, as_long_as_written, prove,
-    read_summary,
+    CHECKPOINTS, Checkpoint, NotWritten, OutputError, Results, as_long_as_written, read_summary,
+    verify,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -27,11 +27,11 @@ pub(crate) enum ResumeFrom<T> {
     /// At its beginning. The reason.
     Beginning(String),
     /// At a checkpoint.
-    Checkpoint(Box<Point<T>>),
+    Checkpoint(Box<ResumePoint<T>>),
 }
 
 /// A checkpoint to go on from, with the state that it holds.
-pub(crate) struct Point<T> {
+pub(crate) struct ResumePoint<T> {
     pub(crate) checkpoint: Checkpoint,
     pub(crate) state: T,
     pub(crate) kernels: Level,
@@ -39,7 +39,7 @@ pub(crate) struct Point<T> {
     pub(crate) damaged: Vec<(&'static str, String)>,
 }
 
-impl<T> Point<T> {
+impl<T> ResumePoint<T> {
     /// Says in the log where the run goes on, and removes checkpoints that cannot be used.
     pub(crate) fn tell(self, folder: &Path, log: &mut Log) -> Result<Self, NotWritten> {
         for (name, damage) in &self.damaged {
@@ -90,7 +90,7 @@ pub(crate) fn resume_from<T: DeserializeOwned>(
         }
         match usable(case, folder, name) {
             Ok((checkpoint, state, kernels)) => {
-                let point = Point { checkpoint, state, kernels, damaged };
+                let point = ResumePoint { checkpoint, state, kernels, damaged };
                 return Ok(ResumeFrom::Checkpoint(Box::new(point)));
             }
             Err(reason) => damaged.push((name, reason)),
@@ -187,7 +187,7 @@ fn results_reach(checkpoint: &Checkpoint, folder: &Path) -> Result<(), String> {
     let others = [(file::FIELDS, fields), (file::PROBES, probes)];
     let others = others.into_iter().filter(|(_, kept)| !kept.sums.is_empty());
     for (name, kept) in others.chain(always) {
-        prove(folder.join(name), kept).map_err(|error| error.to_string())?;
+        verify(folder.join(name), kept).map_err(|error| error.to_string())?;
     }
     Ok(())
 }

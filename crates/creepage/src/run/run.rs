@@ -21,21 +21,21 @@ use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::postmortem;
 use crate::run::record::{RecordBasis, Recorder};
-use crate::run::resume::Point;
+use crate::run::resume::ResumePoint;
 use crate::run::summary::{Ending, summary, write as write_summary};
 use crate::run::text_file::remove;
 use crate::scenario::progress::{Progress, Stage};
-use crate::scenario::{Facts, Start};
-use begin::{Begun, begin};
+use crate::scenario::{InitialState, Start};
+use begin::{Preloaded, begin};
 use dynamics::Simulation;
 use friction::{Kind, Uses};
-use opening::{Opened, Opening, log_model, model, open};
+use opening::{OpenRun, Opening, log_model, model, open};
 pub use options::RunOptions;
 use output::NotWritten;
 use output::layout::{FOLLOWS, HALF, attribute, file};
 use output::summary::Status;
 use output::{LOG_END, Provenance};
-use rolling::{Rolled, Rolling, Stopped};
+use rolling::{FinishedRun, Stopped, TimeLoop};
 
 /// Runs a case to its end, to a stop request or to a guard, and returns its summary (`summary.json`).
 ///
@@ -97,11 +97,13 @@ fn run_in_pool(
     let basis = basis(case, options, opened.point.as_ref());
     let (start, files, resumed) =
         match begin(case, options, &mut opened, &basis, wall, stop, observe)? {
-            Begun::NotPreloaded(document) => return Ok(document),
-            Begun::Rolling(start, files, resumed) => (*start, files.map(|files| *files), resumed),
+            Preloaded::NotPreloaded(document) => return Ok(document),
+            Preloaded::Rolling(start, files, resumed) => {
+                (*start, files.map(|files| *files), resumed)
+            }
         };
     let Start { simulation, facts } = start;
-    let Opened { held, mut log, model, .. } = opened;
+    let OpenRun { held, mut log, model, .. } = opened;
     log_facts(&simulation, &facts, &mut log)?;
     if resumed.is_none() {
         let below = validation::below_the_step(case, simulation.dt());
@@ -112,7 +114,7 @@ fn run_in_pool(
         observe(&Progress { cost, steps: facts.steps, ..stage(case, Stage::Roll) });
     }
     // another process may have taken the folder during the preload
-    held.prove()?;
+    held.check_owner()?;
     if resumed.is_some() {
         // what these say of an interruption or a stop is no longer true once the files change
         [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
@@ -121,7 +123,7 @@ fn run_in_pool(
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     drop(model); // the time loop has what it needs
 
-    let mut rolling = Rolling::new(case, &facts, &held, simulation, recorder, wall);
+    let mut rolling = TimeLoop::new(case, &facts, &held, simulation, recorder, wall);
     if let Some(state) = resumed {
         rolling.resume(*state);
     }
@@ -137,7 +139,7 @@ fn run_in_pool(
             file::POSTMORTEM
         ))?;
     }
-    let Rolled { simulation, energies, means, before, rolling, output, keeping } = rolled;
+    let FinishedRun { simulation, energies, means, before, rolling, output, keeping } = rolled;
     let ending = Ending {
         status,
         diagnosis,
@@ -156,7 +158,11 @@ fn run_in_pool(
 }
 
 /// Writes into the log what is known before the disk rolls.
-fn log_facts(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<(), NotWritten> {
+fn log_facts(
+    simulation: &Simulation,
+    facts: &InitialState,
+    log: &mut Log,
+) -> Result<(), NotWritten> {
     let stability = &facts.stability;
     log.say(&format!(
         "step: {:.4e} s, {:.3} of the limit 2/omega_max (omega_max {:.4e} rad/s with contact, \
@@ -176,7 +182,7 @@ fn log_facts(simulation: &Simulation, facts: &Facts, log: &mut Log) -> Result<()
 fn basis<'a>(
     case: &Case,
     options: &'a RunOptions,
-    point: Option<&Point<State>>,
+    point: Option<&ResumePoint<State>>,
 ) -> RecordBasis<'a> {
     RecordBasis {
         folder: &options.out,
@@ -210,7 +216,7 @@ fn conclude(
     case: &Case,
     options: &RunOptions,
     simulation: &Simulation,
-    facts: &Facts,
+    facts: &InitialState,
     ending: &Ending,
     made: &Provenance,
     held: &FolderLock,
@@ -230,7 +236,7 @@ fn conclude(
         let moves = serde_json::json!({ "travel": travel, "energy": energy });
         summary.extra.insert("mesh_window".into(), moves);
     }
-    held.prove()?;
+    held.check_owner()?;
     let document = write_summary(&options.out, &summary, made)?;
     if ending.status == Status::Completed {
         remove_checkpoints(&options.out)?;

@@ -8,7 +8,7 @@ use crate::run::error::RunError;
 use crate::run::means::Means;
 use crate::scenario::memory::peak_rss_mb;
 use crate::scenario::remedy::Remedy;
-use crate::scenario::{Facts, Model, PreloadError, RollingRadius};
+use crate::scenario::{InitialState, Model, PreloadError, RollingRadius};
 use dynamics::{Energies, Simulation};
 use output::layout::{attribute, file};
 use output::summary::{Contact, Energy, Files, Status, Summary};
@@ -47,7 +47,7 @@ fn implicit(case: &Case, simulation: &Simulation) -> serde_json::Value {
 }
 
 /// The rolling radii (m); that of free rolling is known where no torque acts, and null elsewhere.
-fn rolling_radius(case: &Case, facts: &Facts, means: &Means) -> serde_json::Value {
+fn rolling_radius(case: &Case, facts: &InitialState, means: &Means) -> serde_json::Value {
     let RollingRadius { nominal, effective } = facts.radius;
     let rolls_freely = case.drive.mode == DriveMode::Torque && case.drive.torque == Some(0.0);
     let free = means.creepage.mean().filter(|_| rolls_freely).map(|xi| effective / (1.0 + xi));
@@ -58,7 +58,7 @@ fn rolling_radius(case: &Case, facts: &Facts, means: &Means) -> serde_json::Valu
 pub(crate) fn summary(
     case: &Case,
     simulation: &Simulation,
-    facts: &Facts,
+    facts: &InitialState,
     hertz: &Hertz,
     ending: &Ending,
 ) -> Summary {

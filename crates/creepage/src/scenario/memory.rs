@@ -29,7 +29,7 @@ pub fn enough_for_zones(case: &Case, bytes_per_element: f64) -> Result<(), Scena
     let across = if case.mesh.plane_strain { 1.0 } else { zone.width / zone.size };
     let [rear, front] = case.mesh.zone_along();
     let elements = 2.0 * (front - rear) * zone.depth / zone.size.powi(2) * across;
-    let bytes = bytes_per_element / case.mesh.symmetry.parts();
+    let bytes = bytes_per_element / case.mesh.symmetry.multiplicity();
     // also of half a model the whole mesh is made
     fits(elements as usize, bytes.max(BYTES_PER_MESH_ELEMENT), free_mb())
 }

@@ -41,7 +41,7 @@ pub struct Model {
     pub law: Option<Arc<dyn OwnLaw>>,
     /// How many parts alike make up the bodies: 2 for half a model, whose forces, masses and energies are those of
     /// one part.
-    pub parts: f64,
+    pub multiplicity: f64,
     /// Nodes that do not move along y: those on a plane of symmetry, or all of a slice in plane strain.
     pub sliding: Vec<u32>,
     /// Pairs of nodes that face each other across a slice in plane strain and move as one, ascending by the first;
@@ -99,7 +99,7 @@ impl Model {
         mut add_product: impl FnMut(&[Padded], &mut [Padded]),
     ) -> f64 {
         let inverse_mass = self.inverse_mass();
-        if self.parts == 1.0 {
+        if self.multiplicity == 1.0 {
             return MARGIN * solid::largest_frequency(&inverse_mass, add_product, LANCZOS);
         }
         let slide = |field: &mut [Padded]| {

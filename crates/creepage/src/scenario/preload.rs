@@ -45,12 +45,12 @@ pub enum PreloadReport {
 }
 
 impl PreloadReport {
-    /// With the normal force on all of the `parts` that the bodies are made of, and the displacement of the `hub` (m).
-    pub(crate) fn of_statics(report: &statics::NewtonReport, parts: f64, hub: f64) -> Self {
+    /// With the normal force on all of the parts alike that the bodies are made of, and the displacement of the `hub` (m).
+    pub(crate) fn of_statics(report: &statics::NewtonReport, multiplicity: f64, hub: f64) -> Self {
         Self::Static {
             iterations: report.last.iteration,
             cg_iterations: report.cg_iterations,
-            normal_force: parts * report.last.normal_force,
+            normal_force: multiplicity * report.last.normal_force,
             closed_pairs: report.last.closed,
             residual: report.last.residual,
             facets: report.facets,

@@ -33,7 +33,7 @@ pub struct RollingRadius {
 
 /// What is known when the disk begins to roll.
 #[derive(Clone, Debug)]
-pub struct Facts {
+pub struct InitialState {
     /// The frequencies that limit the time step.
     pub stability: Stability,
     /// Rolling radii of the disk.
@@ -48,17 +48,17 @@ pub struct Facts {
     pub steps: u64,
 }
 
-impl Facts {
+impl InitialState {
     /// The part of them that a checkpoint keeps.
-    pub fn found(&self) -> Found {
+    pub fn found(&self) -> KeptState {
         let Self { stability, radius, preload, preload_wall, steps, .. } = *self;
-        Found { stability, radius, preload, preload_wall, steps }
+        KeptState { stability, radius, preload, preload_wall, steps }
     }
 }
 
-/// The part of [`Facts`] that a checkpoint keeps, since it takes a preload to find it.
+/// The part of [`InitialState`] that a checkpoint keeps, since it takes a preload to find it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Found {
+pub struct KeptState {
     /// The frequencies that limit the time step.
     pub stability: Stability,
     /// Rolling radii of the disk.
@@ -76,5 +76,5 @@ pub struct Start {
     /// At t = 0, or in the state of a checkpoint.
     pub simulation: Simulation,
     /// What is known of it.
-    pub facts: Facts,
+    pub facts: InitialState,
 }

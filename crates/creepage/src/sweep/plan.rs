@@ -219,7 +219,7 @@ pub fn prepare(
     // Checked again under the lock: another process may just have finished here.
     look(folder, sweep, &hash, existing)?;
     if existing == Existing::Replace {
-        spare(folder, sweep)?;
+        refuse_inputs(folder, sweep)?;
         clear(folder)?;
     }
     let kept = read_plan(folder)?;
@@ -326,7 +326,7 @@ fn smallest_step(
 }
 
 /// Refuses to replace a sweep that holds what this one is made of: its file, its base or what that extends.
-fn spare(folder: &Path, sweep: &Sweep) -> Result<(), SweepError> {
+fn refuse_inputs(folder: &Path, sweep: &Sweep) -> Result<(), SweepError> {
     let place = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let written = ["cases", "runs", "preload", PLAN, RESULTS[0], RESULTS[1]];
     let lost = |path: &PathBuf| {

@@ -138,10 +138,9 @@ pub fn run(
         for _ in 0..jobs {
             let thread = std::thread::Builder::new().stack_size(STACK);
             let thread = thread.spawn_scoped(scope, || pool.work_off());
-            threads.push(thread.map_err(|cause| SweepError::File {
-                path: plan.folder.clone(),
-                cause,
-            })?);
+            threads.push(
+                thread.map_err(|cause| SweepError::File { path: plan.folder.clone(), cause })?,
+            );
         }
         while !threads.iter().all(|thread| thread.is_finished()) {
             observe(&pool.watched(total));
@@ -224,7 +223,8 @@ impl Pool<'_> {
 
     fn watched(&self, total: f64) -> Watched {
         let tally = held(&self.tally);
-        let under_way = tally.running.iter().map(|&i| cost(&self.plan.runs[i]) * self.done[i].get());
+        let under_way =
+            tally.running.iter().map(|&i| cost(&self.plan.runs[i]) * self.done[i].get());
         let done = tally.ended + under_way.sum::<f64>();
         Watched {
             running: tally.running.len(),

@@ -2,7 +2,7 @@
 
 use super::document::Sweep;
 use super::lines::{GROUPS, line};
-use super::measures::{MEASURES, Point, SweepMeasure};
+use super::measures::{MEASURES, MeasuredPoint, SweepMeasure};
 use crate::chart::{Axis, Figure, Panel};
 use crate::check::PostError;
 use serde_json::Value;
@@ -45,7 +45,7 @@ pub fn creep_force_figure(
 struct Curve {
     others: String,
     sweep: String,
-    points: Vec<(f64, Point)>,
+    points: Vec<(f64, MeasuredPoint)>,
 }
 
 /// The figure of sweeps with their names. A single sweep has all its curves in one panel.

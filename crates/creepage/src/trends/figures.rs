@@ -3,7 +3,7 @@
 use super::creep_force::{CREEP_FORCE, creep_force};
 use super::document::{Group, Sweep, value_text};
 use super::lines::{GROUPS, axis_over, label, line, spans_decades};
-use super::measures::{MEASURES, Point};
+use super::measures::{MEASURES, MeasuredPoint};
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
 use crate::chart::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, viridis};
@@ -55,7 +55,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     let x = axis_over(&label(axis, sweep.form(axis)), &sweep.values(axis));
     let mut panels = Vec::new();
     for measure in &MEASURES {
-        let lines: Vec<(&Group<'_>, Vec<(f64, Point)>)> = groups
+        let lines: Vec<(&Group<'_>, Vec<(f64, MeasuredPoint)>)> = groups
             .iter()
             .map(|group| {
                 let points = group.members.iter();
@@ -97,7 +97,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
 }
 
 /// A linear axis of at least 6 % of its middle, so that small changes do not fill it.
-fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Point)>) -> Axis {
+fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, MeasuredPoint)>) -> Axis {
     let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
         let scatter = point.bar().unwrap_or(0.0);
         [low.min(point.value - scatter), high.max(point.value + scatter)]

@@ -26,7 +26,7 @@ type Source = (&'static str, &'static [&'static str], &'static str);
 
 /// The value of a measure for a run, in the unit of the measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Point {
+pub(crate) struct MeasuredPoint {
     pub value: f64,
     /// Half the width of its 95 % confidence interval, where it has one.
     pub half: Option<f64>,
@@ -34,7 +34,7 @@ pub(crate) struct Point {
     pub deviation: Option<f64>,
 }
 
-impl Point {
+impl MeasuredPoint {
     /// Length of its bar in a figure to either side: half its interval, without one its standard deviation.
     pub fn bar(&self) -> Option<f64> {
         self.half.or(self.deviation)
@@ -167,7 +167,7 @@ pub(crate) const MEASURES: [SweepMeasure; 23] = [
 impl SweepMeasure {
     /// The measure of a run, times `factor`; `None` where the run has none, and for means over the evaluation
     /// window where the run did not complete.
-    pub fn of(&self, run: Run<'_>) -> Option<Point> {
+    pub fn of(&self, run: Run<'_>) -> Option<MeasuredPoint> {
         let recorded = run.entry.pointer("/check/pairing/in_file").and_then(Value::as_str);
         let number = |pointer: &str| {
             let pointer = pointer.replace(RECORDED, recorded.unwrap_or("before"));
@@ -178,7 +178,7 @@ impl SweepMeasure {
             let scaled = |pointer: &str| number(pointer).map(|number| self.factor * number);
             let half = halves.iter().find_map(|place| scaled(place));
             let deviation = (!deviation.is_empty()).then(|| scaled(deviation)).flatten();
-            Some(Point { value: scaled(value)?, half, deviation })
+            Some(MeasuredPoint { value: scaled(value)?, half, deviation })
         })
     }
 

@@ -1,7 +1,7 @@
 //! The verdicts of a sweep: every measure along every axis.
 
 use super::document::{Sweep, steps};
-use super::measures::{MEASURES, Point, SweepMeasure};
+use super::measures::{MEASURES, MeasuredPoint, SweepMeasure};
 use super::trend::{Refinement, Sample, Trend, trend};
 use crate::check::PostError;
 use serde_json::{Value, json};
@@ -85,7 +85,7 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
                     // a value of zero has no place on the fitted trend
                     .filter(|(x, _)| *x > 0.0)
                     .filter_map(|(x, run)| {
-                        let Point { value, half, deviation } = measure.of(*run)?;
+                        let MeasuredPoint { value, half, deviation } = measure.of(*run)?;
                         Some(Sample { x: *x, value, half, deviation })
                     })
                     .collect();

@@ -1,12 +1,12 @@
 //! The contact of disk and bar.
 
 use super::columns::Cards;
-use super::{Rolling, number};
+use super::{RollingMotion, number};
 use crate::case::schema::Stiffness;
 use crate::scenario::{BAR, DISK};
 
 /// Contact of tread and top, with its friction.
-pub(super) fn contact(cards: &mut Cards, rolling: &Rolling<'_>) {
+pub(super) fn contact(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let case = rolling.case;
     // the product counts, and some programs read the second factor alone
     cards.card("CONTROL_CONTACT", &[("SLSFAC", 1.0)]);
@@ -41,7 +41,7 @@ pub(super) fn contact(cards: &mut Cards, rolling: &Rolling<'_>) {
 
 /// The scale factor of the normal springs; of springs that are given in N/m^3 that which gives them between cubes of the
 /// fine zone.
-fn scale_factor(rolling: &Rolling<'_>) -> f64 {
+fn scale_factor(rolling: &RollingMotion<'_>) -> f64 {
     let size = rolling.case.mesh.zone.size;
     let unit =
         || [DISK, BAR].iter().map(|&b| rolling.model.materials[b].bulk() / size).sum::<f64>();

@@ -1,6 +1,6 @@
 //! What keyword files cannot say of a case, and what they say only nearly.
 
-use super::{Rolling, by_torque};
+use super::{RollingMotion, by_torque};
 use crate::case::schema::{
     Case, ContactLayers, Ends, Enforcement, Normals, PreloadMethod, Stiffness, Volumetric,
 };
@@ -41,7 +41,7 @@ pub fn unsayable(case: &Case) -> Vec<String> {
 }
 
 /// What a deck says in another way than the case, one sentence each.
-pub(super) fn nearly(rolling: &Rolling<'_>) -> Vec<String> {
+pub(super) fn nearly(rolling: &RollingMotion<'_>) -> Vec<String> {
     let (case, model) = (rolling.case, rolling.model);
     let penalty = &case.contact.penalty;
     let full = case.element.contact_layers == ContactLayers::Full;

@@ -1,12 +1,12 @@
 //! Nodes, elements, parts and sets, and what holds the nodes.
 
 use super::columns::Cards;
-use super::{Rolling, number};
+use super::{RollingMotion, number};
 use crate::scenario::{BAR, DISK};
 use std::collections::BTreeSet;
 
 /// Parts and sections. A body has a second part where some of its elements are fully integrated.
-pub(super) fn bodies(cards: &mut Cards, rolling: &Rolling<'_>) {
+pub(super) fn bodies(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     for (section, form) in number::SECTIONS.into_iter().zip([1.0, 2.0]) {
         cards.card("SECTION_SOLID", &[("SECID", section as f64), ("ELFORM", form)]);
     }
@@ -29,7 +29,7 @@ pub(super) fn bodies(cards: &mut Cards, rolling: &Rolling<'_>) {
 }
 
 /// Nodes, elements, sets, and the nodes and faces that are held.
-pub(super) fn mesh(cards: &mut Cards, rolling: &Rolling<'_>) {
+pub(super) fn mesh(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let model = rolling.model;
     let held = |set: u64, dofs: [f64; 3]| {
         let [x, y, z] = dofs;
@@ -70,7 +70,7 @@ pub(super) fn mesh(cards: &mut Cards, rolling: &Rolling<'_>) {
 }
 
 /// The nodes, and that on the axle.
-fn nodes(cards: &mut Cards, rolling: &Rolling<'_>) {
+fn nodes(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let unit = cards.units().length();
     cards.keyword("NODE");
     let places = (0..).zip(&rolling.model.mesh.nodes);
@@ -79,7 +79,7 @@ fn nodes(cards: &mut Cards, rolling: &Rolling<'_>) {
 }
 
 /// The nodes that do not move along y, but for those that are held anyway.
-fn sliding(rolling: &Rolling<'_>) -> Vec<u32> {
+fn sliding(rolling: &RollingMotion<'_>) -> Vec<u32> {
     let model = rolling.model;
     let held: BTreeSet<u32> = model.clamped.iter().chain(&model.hub).copied().collect();
     model.sliding.iter().copied().filter(|n| !held.contains(n)).collect()

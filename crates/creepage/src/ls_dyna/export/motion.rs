@@ -1,7 +1,7 @@
 //! What moves the hub, and damping.
 
 use super::columns::{Cards, label};
-use super::{Rolling, by_load, by_torque, number};
+use super::{RollingMotion, by_load, by_torque, number};
 use crate::case::schema::Creepage;
 
 /// Curves of the motion.
@@ -40,7 +40,7 @@ struct Times {
 }
 
 impl Times {
-    fn of(rolling: &Rolling<'_>) -> Self {
+    fn of(rolling: &RollingMotion<'_>) -> Self {
         let preload = rolling.preload_time();
         let duration = rolling.case.duration();
         // curves go on beyond the run, which may end a step late
@@ -86,7 +86,7 @@ fn rise(ramp: f64) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// The hub: a rigid body that is pressed down, then rolls.
-pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
+pub(super) fn motion(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let (case, units) = (rolling.case, cards.units());
     let times = Times::of(rolling);
     rigid_hub(cards, rolling);
@@ -139,7 +139,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &Rolling<'_>) {
 
 /// The hub as a rigid body about its axle: its motion is that of its centre of mass, and its nodes do not lie evenly about
 /// the axle.
-fn rigid_hub(cards: &mut Cards, rolling: &Rolling<'_>) {
+fn rigid_hub(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let (case, model, units) = (rolling.case, rolling.model, cards.units());
     let axle = label(rolling.axle()) as f64;
     cards.keyword("CONSTRAINED_NODAL_RIGID_BODY_INERTIA");
@@ -183,7 +183,7 @@ fn rigid_hub(cards: &mut Cards, rolling: &Rolling<'_>) {
 }
 
 /// What turns the hub about its axle once the disk rolls: its angular velocity, or a torque.
-fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, about: f64) {
+fn turn(cards: &mut Cards, rolling: &RollingMotion<'_>, times: &Times, free: f64, about: f64) {
     let (drive, units) = (&rolling.case.drive, cards.units());
     if by_torque(rolling.case) {
         prescribe(cards, about, degree::VELOCITY, curve::TURN, times.preload / units.time());
@@ -207,7 +207,7 @@ fn turn(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times, free: f64, abou
 }
 
 /// What presses the hub down: a displacement, and the load in its place once the depth is reached.
-fn press(cards: &mut Cards, rolling: &Rolling<'_>, times: &Times) {
+fn press(cards: &mut Cards, rolling: &RollingMotion<'_>, times: &Times) {
     let (case, units) = (rolling.case, cards.units());
     let pressed = rolling.pressing_time();
     let death = if by_load(case) { pressed / units.time() } else { 0.0 };
@@ -240,13 +240,18 @@ fn prescribe(cards: &mut Cards, dof: f64, what: f64, curve: u64, death: f64) {
 }
 
 /// A force or a torque on the hub, at its axle.
-fn loaded(rolling: &Rolling<'_>, dof: f64, curve: u64, factor: f64) -> [(&'static str, f64); 4] {
+fn loaded(
+    rolling: &RollingMotion<'_>,
+    dof: f64,
+    curve: u64,
+    factor: f64,
+) -> [(&'static str, f64); 4] {
     let node = label(rolling.axle()) as f64;
     [("NID", node), ("DOF", dof), ("LCID", curve as f64), ("SF", factor)]
 }
 
 /// Mass damping of all motion until the disk rolls, then relative to the hub as the case says; Kelvin–Voigt damping.
-pub(super) fn damping(cards: &mut Cards, rolling: &Rolling<'_>) {
+pub(super) fn damping(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let (case, units) = (rolling.case, cards.units());
     let Times { preload, end, .. } = Times::of(rolling);
     cards.card("DAMPING_GLOBAL", &[("LCID", curve::PRELOAD_DAMPING as f64)]);

@@ -1,10 +1,10 @@
 //! What the other program is to write, at the intervals of the case.
 
 use super::columns::Cards;
-use super::{Rolling, number};
+use super::{RollingMotion, number};
 
 /// Fields, interface forces, motion of the nodes of both fine zones, resultants and energies.
-pub(super) fn requests(cards: &mut Cards, rolling: &Rolling<'_>) {
+pub(super) fn requests(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let (case, unit) = (rolling.case, cards.units().time());
     let interval = case.output.contact_interval / unit;
     let step = case.duration() / rolling.facts.steps as f64;

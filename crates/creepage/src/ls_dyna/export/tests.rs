@@ -1,12 +1,12 @@
 //! Cases written as keyword files and read again.
 
-use super::{Rolling, export, unsayable};
+use super::{RollingMotion, export, unsayable};
 use crate::case::Case;
 use crate::case::schema::{
     BodyModel, ContactLayers, Creepage, Ends, LoadMode, Stiffness, Symmetry,
 };
 use crate::ls_dyna::{DeckError, Source, Translation, Units, translate};
-use crate::scenario::{BAR, DISK, Facts, Model};
+use crate::scenario::{BAR, DISK, InitialState, Model};
 use mesh::import::{Foreign, read_abaqus};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -22,7 +22,7 @@ fn small(sets: &[&str]) -> Case {
 struct There {
     case: Case,
     model: Model,
-    facts: Facts,
+    facts: InitialState,
     deck: String,
 }
 
@@ -34,7 +34,7 @@ impl There {
         let start =
             crate::scenario::start(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(()));
         let facts = start.unwrap().facts;
-        let rolling = Rolling { case: &case, model: &model, facts: &facts };
+        let rolling = RollingMotion { case: &case, model: &model, facts: &facts };
         let deck = export(&rolling, Units::parse(units).unwrap()).deck;
         Self { case, model, facts, deck }
     }

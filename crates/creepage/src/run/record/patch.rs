@@ -24,7 +24,7 @@ pub(super) struct Patch {
     /// Buffer: x (m) of the nodes of the centre line in contact, and whether they stick.
     line: Vec<(f64, bool)>,
     /// How many parts alike make up the bodies, of which one is modelled.
-    parts: f64,
+    multiplicity: f64,
     enforced_on: Option<usize>,
     hertz_pressure: f64,
 }
@@ -51,7 +51,7 @@ impl Patch {
             line: Vec::with_capacity(centreline.len()),
             centreline,
             drifts,
-            parts: if surfaces.half { 2.0 } else { 1.0 },
+            multiplicity: if surfaces.half { 2.0 } else { 1.0 },
             enforced_on: surfaces.enforced_on,
             hertz_pressure,
         }
@@ -75,7 +75,7 @@ impl Patch {
         let areas = patch::areas(&bar.pressure, &bar.area, &bar.state);
         PatchMeasures {
             fit,
-            areas: patch::PatchAreas { contact: self.parts * areas.contact, ..areas },
+            areas: patch::PatchAreas { contact: self.multiplicity * areas.contact, ..areas },
             peak_shear: bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max),
             cone_excess: self.cone_excess(tables),
             stick_border: self.stick_border(bar, hub_x + fit[3]),

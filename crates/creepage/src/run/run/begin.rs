@@ -1,13 +1,13 @@
 //! A run at its start: preloaded, or in the state of the checkpoint that it goes on from.
 
-use super::opening::Opened;
+use super::opening::OpenRun;
 use super::options::RunOptions;
 use crate::case::schema::Case;
 use crate::run::checkpoint::State;
 use crate::run::error::RunError;
 use crate::run::log::{Log, REFUSED};
 use crate::run::record::{RecordBasis, result_files};
-use crate::run::resume::Point;
+use crate::run::resume::ResumePoint;
 use crate::run::summary::{without_rolling, write as write_summary};
 use crate::run::text_file::remove;
 use crate::scenario::{Model, Start};
@@ -20,7 +20,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// How a run begins.
-pub(super) enum Begun {
+pub(super) enum Preloaded {
     /// No preload was found, or a stop was asked for: the summary that says so.
     NotPreloaded(serde_json::Value),
     /// The simulation can be stepped; with the files of a run that begins, or the state of one that goes on.
@@ -32,16 +32,16 @@ pub(super) enum Begun {
 pub(super) fn begin(
     case: &Case,
     options: &RunOptions,
-    opened: &mut Opened<Model, State>,
+    opened: &mut OpenRun<Model, State>,
     basis: &RecordBasis<'_>,
     wall: Instant,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-) -> Result<Begun, RunError> {
+) -> Result<Preloaded, RunError> {
     if let Some(point) = opened.point.take() {
         return resume(case, options, opened, point);
     }
-    let Opened { held, model, log, .. } = opened;
+    let OpenRun { held, model, log, .. } = opened;
     let nodes = model.contact_nodes(case).or_else(|error| refuse(error, log))?;
     let files = result_files(case, model, &*nodes, basis)?;
     drop(nodes);
@@ -49,18 +49,18 @@ pub(super) fn begin(
     match start(case, model, cache, stop, observe, &mut |line| log.say(line)) {
         Ok(start) => {
             start.facts.preload.iter().try_for_each(|preload| log.say(&preload.line()))?;
-            Ok(Begun::Rolling(Box::new(start), Some(Box::new(files)), None))
+            Ok(Preloaded::Rolling(Box::new(start), Some(Box::new(files)), None))
         }
         Err(error) => {
             drop(files);
             // another process may have taken the folder: its files are not removed
-            held.prove()?;
+            held.check_owner()?;
             remove_results(&options.out)?;
             let ScenarioError::Preload(error) = error else { return refuse(error, log) };
             let summary = without_rolling(case, model, options.threads, wall, &error);
             let document = write_summary(&options.out, &summary, &basis.provenance)?;
             log.say(&format!("{LOG_END}{:?} before rolling: {error}", summary.status))?;
-            Ok(Begun::NotPreloaded(document))
+            Ok(Preloaded::NotPreloaded(document))
         }
     }
 }
@@ -80,10 +80,10 @@ fn refuse<T>(error: ScenarioError, log: &mut Log) -> Result<T, RunError> {
 fn resume(
     case: &Case,
     options: &RunOptions,
-    opened: &mut Opened<Model, State>,
-    point: Point<State>,
-) -> Result<Begun, RunError> {
-    let Point { state, .. } = point.tell(&options.out, &mut opened.log)?;
+    opened: &mut OpenRun<Model, State>,
+    point: ResumePoint<State>,
+) -> Result<Preloaded, RunError> {
+    let ResumePoint { state, .. } = point.tell(&options.out, &mut opened.log)?;
     let start = restart(case, &opened.model, state.found.clone(), &state.simulation)?;
-    Ok(Begun::Rolling(Box::new(start), None, Some(Box::new(state))))
+    Ok(Preloaded::Rolling(Box::new(start), None, Some(Box::new(state))))
 }

@@ -3,7 +3,7 @@
 mod ending;
 mod recorder;
 
-use super::opening::{Opened, Opening, open};
+use super::opening::{OpenRun, Opening, open};
 use super::options::RunOptions;
 use super::{complete, kinds, stage};
 use crate::case::hertz::hertz;
@@ -13,7 +13,7 @@ use crate::run::error::RunError;
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::record::RecordBasis;
-use crate::run::resume::Point;
+use crate::run::resume::ResumePoint;
 use crate::run::text_file::remove;
 use crate::scenario::progress::{Progress, Stage};
 use crate::scenario::{HalfSpaceModel, ScenarioError, drive, half_space};
@@ -49,12 +49,12 @@ pub(super) fn run(
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<Value, RunError> {
     observe(&stage(case, Stage::Mesh));
-    let make = |_: Option<&Point<State>>| Ok(half_space(case, options.law.as_ref())?);
+    let make = |_: Option<&ResumePoint<State>>| Ok(half_space(case, options.law.as_ref())?);
     let opened = match open(case, options, make, tell)? {
         Opening::Complete(summary) => return Ok(complete(&options.out, summary)),
         Opening::Run(opened) => *opened,
     };
-    let Opened { held, mut log, mut model, point } = opened;
+    let OpenRun { held, mut log, mut model, point } = opened;
     let point = point.map(|point| point.tell(&options.out, &mut log)).transpose()?;
     if point.is_none() {
         model.warnings.iter().try_for_each(|line| log.warn(line))?;
@@ -73,13 +73,13 @@ pub(super) fn run(
         hertz_pressure: hertz(case).p0,
         keeps: point.as_ref().map(|point| point.checkpoint.results.clone()),
     };
-    held.prove()?;
+    held.check_owner()?;
     if point.is_some() {
         remove(&options.out.join(file::SUMMARY))?;
     }
     let mut recorder = HalfSpaceRecorder::new(case, &model, &basis)?;
     let (mut energies, mut before) = (Energies::default(), [Duration::ZERO; 2]);
-    if let Some(Point { state, .. }) = point {
+    if let Some(ResumePoint { state, .. }) = point {
         model.rolling.restore(&state.simulation).map_err(ScenarioError::from)?;
         recorder.restore(&state.recorder);
         (energies, before) = (state.energies, state.wall);
@@ -99,7 +99,7 @@ pub(super) fn run(
         log.say(line)?;
     }
     let UnderWay { model, recorder, energies, before, since, keeping, .. } = under_way;
-    held.prove()?;
+    held.check_owner()?;
     let facts = recorder.facts();
     let ended = Ended {
         status,
@@ -187,7 +187,7 @@ impl UnderWay<'_> {
     /// Keeps a checkpoint.
     fn keep(&mut self, basis: &RecordBasis<'_>) -> Result<(), RunError> {
         let begun = Instant::now();
-        self.held.prove()?;
+        self.held.check_owner()?;
         let state = State {
             simulation: self.model.rolling.snapshot(),
             recorder: self.recorder.snapshot()?,

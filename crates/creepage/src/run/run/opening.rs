@@ -8,7 +8,7 @@ use crate::run::error::RunError;
 use crate::run::folder::{self, Content};
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
-use crate::run::resume::{self, Point, ResumeFrom};
+use crate::run::resume::{self, ResumeFrom, ResumePoint};
 use crate::run::text_file::write_text;
 use crate::scenario::Model;
 use crate::scenario::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
@@ -17,13 +17,13 @@ use output::layout::file;
 use serde::de::DeserializeOwned;
 
 /// A run of the model `M` about to begin, or to go on from a state `T`.
-pub(crate) struct Opened<M, T> {
+pub(crate) struct OpenRun<M, T> {
     /// The lock of its folder.
     pub(crate) held: FolderLock,
     pub(crate) log: Log,
     pub(crate) model: M,
     /// The checkpoint where it goes on; none for a run that begins.
-    pub(crate) point: Option<Point<T>>,
+    pub(crate) point: Option<ResumePoint<T>>,
 }
 
 /// What there is to do in a folder.
@@ -31,7 +31,7 @@ pub(crate) enum Opening<M, T> {
     /// Nothing: the run is complete. Its summary.
     Complete(serde_json::Value),
     /// A run to begin, or to go on with.
-    Run(Box<Opened<M, T>>),
+    Run(Box<OpenRun<M, T>>),
 }
 
 /// Locks the folder of a run and makes its model by `make`; results of an earlier run are removed only once it is made.
@@ -39,7 +39,7 @@ pub(crate) enum Opening<M, T> {
 pub(crate) fn open<M, T: DeserializeOwned>(
     case: &Case,
     options: &RunOptions,
-    make: impl FnOnce(Option<&Point<T>>) -> Result<M, RunError>,
+    make: impl FnOnce(Option<&ResumePoint<T>>) -> Result<M, RunError>,
     tell: impl FnOnce(&M, &mut Log) -> Result<(), NotWritten>,
 ) -> Result<Opening<M, T>, RunError> {
     let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
@@ -54,7 +54,7 @@ pub(crate) fn open<M, T: DeserializeOwned>(
     if point.is_none() {
         // A run may be begun anew from the `case.toml` in its own folder, which then is replaced by an equal one.
         if options.force && !(options.resume && resume::is_of(case, &options.out)) {
-            folder::spare(&options.out, &inputs(case, &options.source))?;
+            folder::refuse_inputs(&options.out, &inputs(case, &options.source))?;
         }
         // Before the mesh is made, which takes time; the files of an earlier run are removed only after it.
         folder::check(&options.out, replaces)?;
@@ -68,14 +68,14 @@ pub(crate) fn open<M, T: DeserializeOwned>(
     write_text(options.out.join(file::CASE), &case.to_toml_with_units())?;
     log_opening(case, options, why, &mut log)?;
     tell(&model, &mut log)?;
-    Ok(Opening::Run(Box::new(Opened { held, log, model, point })))
+    Ok(Opening::Run(Box::new(OpenRun { held, log, model, point })))
 }
 
 /// The model of a case that this machine has the memory for.
 pub(super) fn model(
     case: &Case,
     options: &RunOptions,
-    point: Option<&Point<State>>,
+    point: Option<&ResumePoint<State>>,
 ) -> Result<Model, RunError> {
     enough_for_zones(case, BYTES_PER_ELEMENT)?;
     let mut model = crate::scenario::model(case)?;
@@ -111,7 +111,7 @@ pub(super) fn log_model(case: &Case, model: &Model, log: &mut Log) -> Result<(),
     model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     log.say(&format!("mesh: {elements} elements, {nodes} nodes"))?;
-    if model.parts > 1.0 {
+    if model.multiplicity > 1.0 {
         log.say(
             "symmetry: y >= 0 is modelled, numbers are of the whole bodies; fluctuations without this symmetry are suppressed",
         )?;

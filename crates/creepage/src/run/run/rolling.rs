@@ -9,7 +9,7 @@ use crate::run::means::Means;
 use crate::run::record::{RecordBasis, Recorder};
 use crate::scenario::progress::{Progress, Stage};
 use crate::scenario::remedy::Remedy;
-use crate::scenario::{Facts, ScenarioError};
+use crate::scenario::{InitialState, ScenarioError};
 use dynamics::{Diagnosis, Energies, Moved, Simulation, StepReport};
 use output::summary::Status;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,9 +22,9 @@ const OBSERVED: u64 = 64;
 const READING: u64 = 100;
 
 /// A run under way.
-pub(super) struct Rolling<'a> {
+pub(super) struct TimeLoop<'a> {
     case: &'a Case,
-    facts: &'a Facts,
+    facts: &'a InitialState,
     held: &'a FolderLock,
     simulation: Simulation,
     recorder: Recorder,
@@ -48,7 +48,7 @@ pub(super) struct Stopped {
 }
 
 /// A run whose files are closed.
-pub(super) struct Rolled {
+pub(super) struct FinishedRun {
     pub(super) simulation: Simulation,
     pub(super) energies: Energies,
     pub(super) means: Means,
@@ -60,11 +60,11 @@ pub(super) struct Rolled {
     pub(super) keeping: Duration,
 }
 
-impl<'a> Rolling<'a> {
+impl<'a> TimeLoop<'a> {
     /// The run in a process that began at `wall`; `simulation` and `recorder` are those of its first step.
     pub(super) fn new(
         case: &'a Case,
-        facts: &'a Facts,
+        facts: &'a InitialState,
         held: &'a FolderLock,
         simulation: Simulation,
         recorder: Recorder,
@@ -148,7 +148,7 @@ impl<'a> Rolling<'a> {
     /// Keeps a checkpoint.
     fn keep(&mut self, basis: &RecordBasis<'_>) -> Result<(), RunError> {
         let begun = Instant::now();
-        self.held.prove()?;
+        self.held.check_owner()?;
         let state = State {
             simulation: self.simulation.snapshot(),
             recorder: self.recorder.snapshot()?,
@@ -182,11 +182,11 @@ impl<'a> Rolling<'a> {
     }
 
     /// Closes the files.
-    pub(super) fn end(self) -> Result<Rolled, RunError> {
+    pub(super) fn end(self) -> Result<FinishedRun, RunError> {
         let rolling = self.before[1] + self.since[1].elapsed();
-        self.held.prove()?;
+        self.held.check_owner()?;
         let (means, output) = self.recorder.finish(&self.simulation)?;
-        Ok(Rolled {
+        Ok(FinishedRun {
             simulation: self.simulation,
             energies: self.energies,
             means,

@@ -51,7 +51,7 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         },
         kernels: if case.deterministic { Level::pinned() } else { Level::detect() },
         law: None,
-        parts: case.mesh.symmetry.parts(),
+        multiplicity: case.mesh.symmetry.multiplicity(),
         sliding: sliding(case, &mesh),
         paired,
         mass,

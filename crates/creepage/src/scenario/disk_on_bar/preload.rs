@@ -92,7 +92,7 @@ impl Bodies<'_> {
     ) -> Result<Preloaded, ScenarioError> {
         let (case, model, hub) = (self.case, self.model, self.hub);
         let omega = rolling_omega(case);
-        let load = omega * omega * hub.counterweight[1] - case.load.normal / model.parts;
+        let load = omega * omega * hub.counterweight[1] - case.load.normal / model.multiplicity;
         let axes = [Axis::Moved(0.0), Axis::Moved(0.0), Axis::Loaded(load)];
         let group = Tied { nodes: hub.nodes.clone(), axes };
         let supports = Supports {
@@ -129,7 +129,7 @@ impl Bodies<'_> {
         let mut said = Ok(());
         let found = statics::solve(self.solid, contact, &problem, &start, |now| {
             products += now.cg_iterations + 1;
-            let now = &Iteration { normal_force: model.parts * now.normal_force, ..*now };
+            let now = &Iteration { normal_force: model.multiplicity * now.normal_force, ..*now };
             said = say(&line(now));
             said.is_ok() && watch(now.iteration, products, now.normal_force)
         });
@@ -138,7 +138,7 @@ impl Bodies<'_> {
         let height = found.displacement[hub.nodes[0] as usize][2];
         Ok(Preloaded {
             displacement: found.displacement,
-            report: Some(PreloadReport::of_statics(&found.report, model.parts, height)),
+            report: Some(PreloadReport::of_statics(&found.report, model.multiplicity, height)),
             loads: loads_of_slaves(model.slave(), &found.pressed),
         })
     }

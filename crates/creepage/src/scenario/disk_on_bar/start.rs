@@ -11,7 +11,7 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::model::{BAR, DISK, Model};
 use crate::scenario::numbers::numbers;
 use crate::scenario::progress::Progress;
-use crate::scenario::start::{Facts, Found, RollingRadius, Stability, Start};
+use crate::scenario::start::{InitialState, KeptState, RollingRadius, Stability, Start};
 use contact::{Contact, PenaltyContact, StabilityScale};
 use dynamics::{
     Fixed, Hub, QuietEnd, RollingField, Setup, Sideways, Simulation, SimulationState, Spin, System,
@@ -203,7 +203,7 @@ pub fn start(
         None => Box::new(model.exact_contact(case)?),
     };
     let radius = RollingRadius { nominal, effective };
-    let found = Found { stability, radius, preload, preload_wall, steps: steps as u64 };
+    let found = KeptState { stability, radius, preload, preload_wall, steps: steps as u64 };
     assemble(case, model, found, Parts { solid, contact, hub, quiet, displacement, velocity })
 }
 
@@ -214,7 +214,7 @@ pub fn start(
 pub fn restart(
     case: &Case,
     model: &Model,
-    found: Found,
+    found: KeptState,
     state: &SimulationState,
 ) -> Result<Start, ScenarioError> {
     let solid = model.solid(case)?;
@@ -248,16 +248,16 @@ struct Parts {
 fn assemble(
     case: &Case,
     model: &Model,
-    found: Found,
+    found: KeptState,
     parts: Parts,
 ) -> Result<Start, ScenarioError> {
     let Parts { mut solid, contact, mut hub, quiet, displacement, velocity } = parts;
     let window = window(case, model, &mut solid)?;
-    let Found { stability, radius, preload, preload_wall, steps } = found;
+    let KeptState { stability, radius, preload, preload_wall, steps } = found;
     let dt = case.duration() / steps as f64;
     hub.spin = spin(case, model, case.drive.speed / radius.effective);
     hub.vertical = match case.load.mode {
-        LoadMode::Load => Vertical::Load(case.load.normal / model.parts),
+        LoadMode::Load => Vertical::Load(case.load.normal / model.multiplicity),
         LoadMode::Height => Vertical::Held,
     };
     hub.sideways = sideways(case);
@@ -274,7 +274,7 @@ fn assemble(
         paired: model.paired.clone(),
         disk: model.mesh.bodies[DISK].nodes.clone(),
         mass_damping: case.damping.mass,
-        parts: model.parts,
+        multiplicity: model.multiplicity,
         ..System::free(solid, model.mass.clone())
     };
     let omega_max = 2.0 / stability.dt_limit;
@@ -289,7 +289,7 @@ fn assemble(
     let numbers = numbers(case, model, dt);
     Ok(Start {
         simulation,
-        facts: Facts { stability, radius, preload, preload_wall, numbers, steps },
+        facts: InitialState { stability, radius, preload, preload_wall, numbers, steps },
     })
 }
 
@@ -309,9 +309,9 @@ fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
         &model.hub,
         solid.reference(),
         &model.mass,
-        case.load.hub_mass / model.parts,
+        case.load.hub_mass / model.multiplicity,
         spin(case, model, case.drive.speed / case.disk.radius),
-        Vertical::Load(case.load.normal / model.parts),
+        Vertical::Load(case.load.normal / model.multiplicity),
     )
     .balanced(model.mesh.bodies[DISK].nodes.clone(), solid.reference(), &model.mass)
 }
@@ -325,7 +325,7 @@ fn spin(case: &Case, model: &Model, free: f64) -> Spin {
             None => Spin::Creepage { free, creepage: 0.0, ramp },
         },
         DriveMode::Torque => {
-            Spin::Torque { torque: case.drive.torque.unwrap_or(0.0) / model.parts, ramp }
+            Spin::Torque { torque: case.drive.torque.unwrap_or(0.0) / model.multiplicity, ramp }
         }
     }
 }

@@ -30,7 +30,7 @@ pub(super) fn window(
     let by = f64::from(columns) * case.mesh.zone.size;
     let radius = case.disk.radius;
     let bodies = [(DISK, Chart::Ring { radius }), (BAR, Chart::Straight)]
-        .map(|(side, chart)| Rolled { model, side, chart });
+        .map(|(side, chart)| RolledBody { model, side, chart });
     let sources = bodies.each_ref().map(|body| {
         let place = &model.mesh.bodies[body.side];
         mesh::sources_ahead(&model.mesh, place, body.chart, by, case.mesh.zone.size)
@@ -61,13 +61,13 @@ const ALONG: usize = 0;
 const OUTWARD: usize = 2;
 
 /// A body that contact rolls over.
-struct Rolled<'a> {
+struct RolledBody<'a> {
     model: &'a Model,
     side: usize,
     chart: Chart,
 }
 
-impl Rolled<'_> {
+impl RolledBody<'_> {
     fn nodes(&self) -> Range<usize> {
         self.model.mesh.bodies[self.side].nodes.clone()
     }
@@ -146,7 +146,7 @@ impl AtRest {
     fn new(
         model: &Model,
         solid: &mut Solid,
-        bodies: &[Rolled<'_>; 2],
+        bodies: &[RolledBody<'_>; 2],
         patch: &Hertz,
         by: f64,
     ) -> Result<Self, StaticsError> {
@@ -176,7 +176,7 @@ impl AtRest {
     }
 
     /// What `sources` of the nodes of a body miss of these displacements.
-    fn missed(&self, body: &Rolled<'_>, sources: &[Source]) -> Missed {
+    fn missed(&self, body: &RolledBody<'_>, sources: &[Source]) -> Missed {
         let [along, outward] = &self.before;
         let under = |before: &[Padded], steady: Option<&[Padded]>| {
             let after = self.after_move(body, before, steady);
@@ -199,7 +199,7 @@ impl AtRest {
     /// places, and the body would slip by the difference at every move.
     fn after_move<'a>(
         &'a self,
-        body: &Rolled<'_>,
+        body: &RolledBody<'_>,
         before: &[Padded],
         steady: Option<&'a [Padded]>,
     ) -> impl Fn(usize) -> Padded + 'a {

@@ -52,7 +52,7 @@ pub(super) fn conclude(
     if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
         summary.extra.insert(output::SAMPLED_LAW.into(), json!(points));
     }
-    held.prove()?;
+    held.check_owner()?;
     let document = write_summary(&options.out, &summary, made)?;
     if ended.status == Status::Completed {
         remove_checkpoints(&options.out)?;
