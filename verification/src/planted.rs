@@ -8,8 +8,8 @@
 use crate::problem::Outcome;
 use crate::row::Row;
 use crate::{
-    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, patch,
-    shear_column, sliding,
+    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, mindlin,
+    patch, rolling_limits, shear_column, sliding,
 };
 use contact::{Contact, PenaltyContact};
 use friction::{Implicit, Lagged};
@@ -28,11 +28,31 @@ fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: 
     let (sound, planted) = (row(sound), row(planted));
     let line = format!("| {fault} | `{problem}`: {} |", sound.quantity);
     println!("{line} {:.1e} | {:.1e} | {:.1e} |", sound.error, planted.error, sound.limit);
+    stands_in_the_table(&line);
+    fails(&sound, &planted);
+}
+
+fn stands_in_the_table(line: &str) {
     assert!(TABLE.lines().any(|found| found == line), "docs/verification.md lacks: {line}");
+}
+
+#[track_caller]
+fn fails(sound: &Row, planted: &Row) {
     assert!(sound.pass, "without the fault: {sound:?}");
     assert!(!planted.pass, "with the fault: {planted:?}");
     // a fault may also change its row's own limit: its error must exceed that of the sound problem
     assert!(planted.error > sound.limit || planted.error.is_nan(), "{planted:?}");
+}
+
+/// Asserts the same of each of several rows, and that the table has the fault with `which` rows of the problem.
+fn catches_all(fault: &str, problem: &str, which: &str, sound: &[Row], planted: &[Row]) {
+    assert_eq!(sound.len(), planted.len());
+    for (sound, planted) in sound.iter().zip(planted) {
+        let [was, is, limit] = [sound.error, planted.error, sound.limit];
+        println!("| {fault} | `{problem}`: {} | {was:.1e} | {is:.1e} | {limit:.1e} |", sound.quantity);
+    }
+    stands_in_the_table(&format!("| {fault} | `{problem}`: {which} |"));
+    sound.iter().zip(planted).for_each(|(sound, planted)| fails(sound, planted));
 }
 
 #[test]
@@ -164,4 +184,39 @@ fn mass_missing_where_elements_grow_is_caught_by_the_wave_that_comes_back() {
         grading_reflection::run(Size::Quick),
         grading_reflection::run_with(Size::Quick, lighter),
     );
+}
+
+#[test]
+fn friction_off_is_caught_by_every_row_of_a_shift_to_and_fro() {
+    let run = |friction: &str| {
+        let key = format!("friction.static={friction}");
+        mindlin::run_with(Size::Quick, &[&key]).unwrap()
+    };
+    let sound = run("4e-4");
+    for (mu, name) in [("4.1e-4","2.5"), ("4.2e-4","5"),("4.4e-4","10"),("4.8e-4","20"), ("5.2e-4","30")] {
+        println!("{name}");
+        for (s, p) in sound.iter().zip(run(mu)) { println!("{} {:.2e} {:.2e} {:.2e}", s.quantity, s.error, p.error, s.limit); }
+    }
+}
+
+#[test]
+fn rolling_limits_try() {
+    use rolling_limits::*;
+    let show = |name: &str, r: Row| println!("{name}: {} {:.3e} {:.3e} {}", r.quantity, r.error, r.limit, r.pass);
+    for c in [PENALTY, NODE_TO_FACE, MORTAR] {
+        show("sound", without_friction(c, &[]).unwrap());
+        show("mu 1e-3", without_friction(c, &["friction.static=1e-3"]).unwrap());
+        show("face", without_friction(c, &["contact.normals=face"]).unwrap());
+    }
+    for c in [PENALTY, NODE_TO_FACE, MORTAR] {
+        show("mu .505", in_gross_sliding(c, &["friction.static=0.505"]).unwrap());
+    }
+    for c in [NODE_TO_FACE, MORTAR] {
+        show("power", power(c, &[]).unwrap());
+        show("power face", power(c, &["contact.normals=face"]).unwrap());
+        show("power kv", power(c, &["damping.kelvin_voigt=1e-6"]).unwrap());
+    }
+    show("win", in_a_window(&[]).unwrap());
+    show("win 1um", in_a_window(&["friction.memory.distance=1e-6"]).unwrap());
+    show("win 100um", in_a_window(&["friction.memory.distance=100e-6"]).unwrap());
 }
