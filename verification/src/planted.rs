@@ -2,7 +2,7 @@
 //!
 //! Problems take a deliberate error as an argument; the program itself contains none. The table in
 //! docs/verification.md names each error with its row; the numbers of that table are printed by
-//! `cargo test --release -p creepage-verify --lib planted -- --nocapture --test-threads=1`.
+//! `cargo test --release -p verification --lib planted -- --nocapture --test-threads=1`.
 #![allow(clippy::unwrap_used)]
 
 use crate::problem::Outcome;
@@ -49,7 +49,10 @@ fn catches_all(fault: &str, problem: &str, which: &str, sound: &[Row], planted: 
     assert_eq!(sound.len(), planted.len());
     for (sound, planted) in sound.iter().zip(planted) {
         let [was, is, limit] = [sound.error, planted.error, sound.limit];
-        println!("| {fault} | `{problem}`: {} | {was:.1e} | {is:.1e} | {limit:.1e} |", sound.quantity);
+        println!(
+            "| {fault} | `{problem}`: {} | {was:.1e} | {is:.1e} | {limit:.1e} |",
+            sound.quantity
+        );
     }
     stands_in_the_table(&format!("| {fault} | `{problem}`: {which} |"));
     sound.iter().zip(planted).for_each(|(sound, planted)| fails(sound, planted));
@@ -187,36 +190,63 @@ fn mass_missing_where_elements_grow_is_caught_by_the_wave_that_comes_back() {
 }
 
 #[test]
-fn friction_off_is_caught_by_every_row_of_a_shift_to_and_fro() {
-    let run = |friction: &str| {
-        let key = format!("friction.static={friction}");
-        mindlin::run_with(Size::Quick, &[&key]).unwrap()
-    };
-    let sound = run("4e-4");
-    for (mu, name) in [("4.1e-4","2.5"), ("4.2e-4","5"),("4.4e-4","10"),("4.8e-4","20"), ("5.2e-4","30")] {
-        println!("{name}");
-        for (s, p) in sound.iter().zip(run(mu)) { println!("{} {:.2e} {:.2e} {:.2e}", s.quantity, s.error, p.error, s.limit); }
-    }
+fn friction_off_is_caught_by_a_shift_to_and_fro() {
+    let run = |friction: &str| mindlin::run_with(Size::Quick, &[friction]);
+    let sound = run("friction.static=4e-4").unwrap();
+    let first = "Q/(mu N) at the first turn";
+    let off = run("friction.static=4.1e-4");
+    catches("mu 2.5 % off in a shift", "mindlin", first, Ok(sound.clone()), off);
+    let off = run("friction.static=4.8e-4").unwrap();
+    catches_all("mu 20 % off in a shift", "mindlin", "every row", &sound, &off);
 }
 
 #[test]
-fn rolling_limits_try() {
-    use rolling_limits::*;
-    let show = |name: &str, r: Row| println!("{name}: {} {:.3e} {:.3e} {}", r.quantity, r.error, r.limit, r.pass);
-    for c in [PENALTY, NODE_TO_FACE, MORTAR] {
-        show("sound", without_friction(c, &[]).unwrap());
-        show("mu 1e-3", without_friction(c, &["friction.static=1e-3"]).unwrap());
-        show("face", without_friction(c, &["contact.normals=face"]).unwrap());
-    }
-    for c in [PENALTY, NODE_TO_FACE, MORTAR] {
-        show("mu .505", in_gross_sliding(c, &["friction.static=0.505"]).unwrap());
-    }
-    for c in [NODE_TO_FACE, MORTAR] {
-        show("power", power(c, &[]).unwrap());
-        show("power face", power(c, &["contact.normals=face"]).unwrap());
-        show("power kv", power(c, &["damping.kelvin_voigt=1e-6"]).unwrap());
-    }
-    show("win", in_a_window(&[]).unwrap());
-    show("win 1um", in_a_window(&["friction.memory.distance=1e-6"]).unwrap());
-    show("win 100um", in_a_window(&["friction.memory.distance=100e-6"]).unwrap());
+fn normals_of_single_faces_are_caught_by_rolling_without_friction() {
+    let run =
+        |contact, planted: &[&str]| rolling_limits::without_friction(contact, planted).unwrap();
+    let contacts = [rolling_limits::PENALTY, rolling_limits::NODE_TO_FACE];
+    let sound = contacts.map(|contact| run(contact, &[]));
+    let faces = contacts.map(|contact| run(contact, &["contact.normals=face"]));
+    let which = "T/N without friction, penalty and node to face";
+    catches_all("normals of single faces", "rolling-limits", which, &sound, &faces);
+    // mortar rows have no normals of faces
+    let mortar = |planted: &[&str]| Ok(vec![run(rolling_limits::MORTAR, planted)]);
+    let rough = mortar(&["friction.static=1e-3"]);
+    catches("mu of 0.001 in place of none", "rolling-limits", "mortar", mortar(&[]), rough);
+}
+
+#[test]
+fn friction_off_is_caught_by_gross_sliding() {
+    let run = |planted: &[&str]| {
+        Ok(vec![rolling_limits::in_gross_sliding(rolling_limits::MORTAR, planted)?])
+    };
+    let off = run(&["friction.static=0.505"]);
+    catches("mu 1 % off in gross sliding", "rolling-limits", "at 20 per mille", run(&[]), off);
+}
+
+#[test]
+fn damping_that_takes_power_is_caught_by_the_power_of_friction() {
+    let run =
+        |planted: &[&str]| Ok(vec![rolling_limits::power(rolling_limits::NODE_TO_FACE, planted)?]);
+    let damped = run(&["damping.kelvin_voigt=1e-6"]);
+    catches(
+        "damping by 1 us of stiffness",
+        "rolling-limits",
+        "power of friction",
+        run(&[]),
+        damped,
+    );
+}
+
+#[test]
+fn memory_lost_in_a_zone_that_moves_is_caught_by_the_zone_that_stays() {
+    let run = |planted: &[&str]| Ok(vec![rolling_limits::in_a_window(planted)?]);
+    let lost = run(&["friction.memory.distance=100e-6"]);
+    catches(
+        "memory ten times as long in a zone that moves",
+        "rolling-limits",
+        "in a zone that moves",
+        run(&[]),
+        lost,
+    );
 }

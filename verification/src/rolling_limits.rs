@@ -26,9 +26,11 @@ const SPEED: f64 = 38.89;
 /// The name of a contact and its keys.
 pub(crate) type Contact = (&'static str, &'static [&'static str]);
 
-pub(crate) const PENALTY: Contact = ("penalty", &["contact.penalty.normal=1", "contact.penalty.tangential=1"]);
+pub(crate) const PENALTY: Contact =
+    ("penalty", &["contact.penalty.normal=1", "contact.penalty.tangential=1"]);
 pub(crate) const NODE_TO_FACE: Contact = ("node to face", &["contact.enforcement=exact"]);
-pub(crate) const MORTAR: Contact = ("mortar", &["contact.enforcement=exact", "contact.rows=mortar"]);
+pub(crate) const MORTAR: Contact =
+    ("mortar", &["contact.enforcement=exact", "contact.rows=mortar"]);
 
 pub(crate) fn run(size: Size) -> Outcome {
     let mut rows = Vec::new();
@@ -103,8 +105,7 @@ pub(crate) fn in_a_window(planted: &[&str]) -> Result<Row, Cause> {
         "friction.memory.distance=10e-6",
     ];
     let rolled = |window: &[&str]| traction(NODE_TO_FACE, &[&memory, window].concat());
-    let [whole, moving] =
-        [rolled(&[])?, rolled(&[&["mesh.window=0.04"], planted].concat())?];
+    let [whole, moving] = [rolled(&[])?, rolled(&[&["mesh.window=0.04"], planted].concat())?];
     let limit = (0.01, "asked: the elements outside the zone are coarser");
     Ok(Row::new(
         "node to face, memory of 10 um: T/N in a zone that moves",

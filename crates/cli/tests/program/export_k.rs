@@ -87,7 +87,8 @@ fn off_by_cards(planted: impl Fn(&str) -> String) -> [f64; 2] {
     done(&["import-k", &deck, "--unit", "mm-ton-s", "--out", &back, "--json"]);
     let case = format!("{back}/case.toml");
     let text = fs::read_to_string(&case).unwrap();
-    let step = text.lines().map(|line| if line.starts_with("factor") { "step = 2e-7" } else { line });
+    let step =
+        text.lines().map(|line| if line.starts_with("factor") { "step = 2e-7" } else { line });
     fs::write(&case, step.collect::<Vec<_>>().join("\n")).unwrap();
     let run = |case: &str, name: &str, sets: &[&str]| -> Results {
         let out = path(name);
