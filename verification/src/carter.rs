@@ -3,7 +3,8 @@
 //! In plane strain the creepage at q = Q/(mu N) is mu a/R (1 - sqrt(1 - q)), and the zone of
 //! stick is the strip of half width a sqrt(1 - q) at the leading edge (Johnson 1985, Sec. 8.3).
 //! First order of convergence is that of the method: slip is a difference over one pitch of forces
-//! that act at its ends.
+//! that act at its ends. On a given mesh that is as if the forces acted half a pitch, h/2 of the half length a, off their
+//! place: the limit of the creepage on the finest mesh.
 
 use crate::convergence::Convergence;
 use crate::half_space::{HalfSpaces, LINE, LINE_EXTENT, LINE_SIZES, column, on_meshes, sizes};
@@ -33,14 +34,15 @@ pub(crate) fn run(size: Size) -> Outcome {
         let body = LINE.body(LINE_EXTENT);
         rows.push(Row::extrapolated(&quantity, creepage, &creepages, body, SOURCE));
         let quantity = format!("{quantity} on the finest mesh");
-        rows.push(Row::asked(quantity, [creepage, creepages.finest()], 0.05, SOURCE));
         let Some((h, [_, at, astray])) = found.last() else { continue };
+        let half = (0.5 * h / a, "half a pitch, h/(2a)");
+        rows.push(Row::new(quantity, [creepage, creepages.finest()], creepage, half, SOURCE));
         let border = a - 2.0 * a * (1.0 - share).sqrt();
         let row = Row::new(
             format!("Q/(mu N) = {share}: border of stick (m), over a"),
             [border, *at],
             a,
-            (h / a, "one element, h/a"),
+            (0.5 * h / a, "half an element, h/(2a): it lies between two nodes"),
             SOURCE,
         );
         let borders = Convergence::by_theory(column(&found, 1), 1.0);

@@ -46,7 +46,7 @@ pub(crate) fn run(size: Size) -> Outcome {
         let body = SPHERE.body(2.0 * SPHERE_EXTENT);
         rows.push(Row::extrapolated(&quantity, shift, &shifts, body, SOURCE));
         let quantity = format!("{quantity} on the finest mesh");
-        rows.push(Row::asked(quantity, [shift, shifts.finest()], 0.05, SOURCE));
+        rows.push(Row::asked(quantity, [shift, shifts.finest()], 0.01, SOURCE));
     }
     Ok(rows)
 }

@@ -194,6 +194,9 @@ fn border_row(what: &str, edge: f64, a: f64, found: &[(f64, [f64; 6])], source: 
 
 pub(crate) fn kalker(size: Size) -> Outcome {
     const SMALL: f64 = 1e-4;
+    // the index of a/9 is that of the value on this grid, 10 to 17 % off, and says little of the extrapolated one: of that
+    // twice as much is asked as of the full grids
+    const QUICK: f64 = 0.02;
     let mut rows = Vec::new();
     let circle = |poisson: f64| Material { poisson, ..STEEL };
     let all = [
@@ -234,8 +237,10 @@ pub(crate) fn kalker(size: Size) -> Outcome {
             let quantity = format!("{name}, {what}");
             let row = Row::extrapolated(&quantity, reference, &study, (0.0, ""), SOURCE);
             let computed = row.computed;
-            rows.push(row);
-            if size == Size::Full {
+            if size == Size::Quick {
+                rows.push(row.at_most(QUICK));
+            } else {
+                rows.push(row);
                 let quantity = format!("{quantity}, extrapolated");
                 rows.push(Row::asked(quantity, [reference, computed], 0.01, SOURCE));
             }
@@ -276,8 +281,12 @@ pub(crate) fn steady(size: Size) -> Outcome {
             [(2, "creepage", creepage, 0.01), (3, "peak shear (Pa)", peak, 0.02)]
         {
             let study = Convergence::by_theory(column(&found, k), 1.0);
-            rows.push(Row::extrapolated(&at(what), reference, &study, (0.0, ""), SOURCE));
-            if size == Size::Full {
+            let row = Row::extrapolated(&at(what), reference, &study, (0.0, ""), SOURCE);
+            if size == Size::Quick {
+                // as of Kalker's coefficients
+                rows.push(row.at_most(2.0 * asked));
+            } else {
+                rows.push(row);
                 let what = format!("{}, extrapolated", at(what));
                 let values = [reference, study.extrapolated()];
                 rows.push(Row::asked(what, values, asked, SOURCE));
@@ -397,7 +406,9 @@ pub(crate) fn memory(size: Size) -> Outcome {
         let study = Convergence::by_theory(column(&found, 0), 1.0);
         let quantity = format!("T/N at creepage {creepage}, memory of {:.0} um", 1e6 * distance);
         let cycles = (cycle, "the limit cycle of the reference");
-        rows.push(Row::extrapolated(&quantity, traction, &study, cycles, source));
+        let row = Row::extrapolated(&quantity, traction, &study, cycles, source);
+        // as of Kalker's coefficients
+        rows.push(if size == Size::Quick { row.at_most(0.02 + cycle) } else { row });
         if size == Size::Full && cycle == 0.0 {
             let values = [traction, study.extrapolated()];
             rows.push(Row::asked(format!("{quantity}, extrapolated"), values, 0.01, source));

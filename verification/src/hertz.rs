@@ -57,7 +57,7 @@ pub(crate) fn wheel(size: Size) -> Outcome {
     for (what, reference, found) in
         [("p0 (Pa)", WHEEL.p0, finest[0]), ("a (m)", a, finest[1]), ("b (m)", b, finest[2])]
     {
-        rows.push(Row::asked(format!("{what} at h = {h} mm"), [reference, found], 0.03, SOURCE));
+        rows.push(Row::asked(format!("{what} at h = {h} mm"), [reference, found], 0.01, SOURCE));
     }
     rows.extend(normal_springs()?);
     rows.extend(tangential_springs(meshes)?);

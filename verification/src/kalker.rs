@@ -17,6 +17,10 @@ use solid::Material;
 
 const MU: f64 = 0.3;
 const SMALL: f64 = 1e-4;
+/// The patch gains and loses whole nodes, so that its area oscillates by half a per cent from mesh to mesh, and with it a
+/// coefficient. First order from meshes whose sizes differ by the factor 1.4 takes 3.5 times the finer value less 2.5 times the
+/// coarser one.
+const SCATTER: f64 = (3.5 + 2.5) * 0.005;
 const SOURCE: &str = "CONTACT (Vollebregt), extrapolated to h = 0";
 
 /// Growth of elements far from the contact: a coarse mesh there changes displacements common to all points, which
@@ -58,7 +62,8 @@ fn compared(
         let values = [reference, row.computed];
         rows.push(row);
         let quantity = format!("{quantity}, extrapolated");
-        rows.push(Row::asked(quantity, values, 0.05, SOURCE));
+        let limit = (SCATTER, "patches of whole nodes, six times half a per cent");
+        rows.push(Row::new(quantity, values, reference, limit, SOURCE));
     }
     rows
 }

@@ -26,6 +26,11 @@
 //! The element and the load on its nodes are of second order. Grid waves behind the fronts scatter
 //! the values by some tenths of a per cent, so that the order is taken as known.
 //!
+//! The wave of the uplift is about as long as S waves run while the load rises, 4 mm, eight and 16 elements at quick size.
+//! Of these the coarse mesh does not carry the shape, and the limit that its difference gives would be 18 %. Waves of 16
+//! elements lag by (k h)^2/24 = 0.64 % of their way, on the 9 mm to the farther receiver by 1.4 % of their length; with
+//! the scatter by grid waves 2 % are asked of the uplift.
+//!
 //! *Rayleigh speed.* The surface rises before the Rayleigh wave and falls with it. The time at which
 //! it passes the middle is taken at two distances. The distance over the difference of the times is an
 //! apparent speed. So close to the load it is some per cent below c_R, since the near field decays faster
@@ -49,6 +54,8 @@ const FAR: f64 = 9.0 * PATCH;
 const BLOCK: [usize; 3] = [20, 15, 15];
 /// Total load (N).
 const LOAD: f64 = 1.0;
+/// Largest error of the uplift that passes.
+const UPLIFT: f64 = 0.02;
 const SOURCE: &str = "Lamb (1904), closed form of Pekeris, Mooney and Kausel";
 
 pub(crate) fn run(size: Size) -> Outcome {
@@ -75,13 +82,14 @@ pub(crate) fn run(size: Size) -> Outcome {
             (0.0, ""),
             "(1 - nu) P/(2 pi G r), over the patch",
         ));
-        rows.push(Row::converged(
+        let uplift = Row::converged(
             format!("largest uplift at r = {name} mm (m)"),
             reference[k].dip(),
             &study(&|t| t[k].dip()),
             (0.0, ""),
             SOURCE,
-        ));
+        );
+        rows.push(uplift.at_most(UPLIFT));
     }
     let apparent = |t: &[Trace; 2]| (FAR - NEAR) / (t[1].arrival() - t[0].arrival());
     let rayleigh = 1.0 / exact.gamma;

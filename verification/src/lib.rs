@@ -13,6 +13,7 @@ mod problems;
 mod rolling_dynamic;
 mod rolling_limits;
 mod rolling_memory;
+mod rolling_sideways;
 mod rolling_steps;
 mod row;
 

@@ -107,6 +107,11 @@ const WHAT: [&str; 7] = [
 ];
 
 pub(crate) fn run(size: Size) -> Outcome {
+    run_with(size, &[])
+}
+
+/// The problem whose runs have `planted` keys (`KEY=VALUE`) set, which the closed form does not know of.
+pub(crate) fn run_with(size: Size, planted: &[&str]) -> Outcome {
     let case = case(&[])?;
     let exact = Mindlin::of(&case);
     let spacings = SPACINGS.map(|share| share * exact.a);
@@ -115,7 +120,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     let runs: Vec<(f64, f64)> = grids.chain([(spacings[0], 0.5)]).collect();
     let mut found: Vec<(f64, [f64; 7])> = runs
         .par_iter()
-        .map(|&(h, steps)| Ok((h, shifted(h, steps, &exact)?)))
+        .map(|&(h, steps)| Ok((h, shifted(h, steps, &exact, planted)?)))
         .collect::<Result<_, Cause>>()?;
     let (_, halved) = found.pop().ok_or("no run")?;
     let mut rows = Vec::new();
@@ -140,10 +145,12 @@ fn case(sets: &[String]) -> Result<Case, Cause> {
     Ok(Case::from_text(CASE, Path::new(NAME), sets)?)
 }
 
-/// Runs the case on a grid of the spacing h (m), with `steps` times its time step: what [`WHAT`] names.
-fn shifted(h: f64, steps: f64, exact: &Mindlin) -> Result<[f64; 7], Cause> {
+/// Runs the case on a grid of the spacing h (m), with `steps` times its time step and `planted` keys: what [`WHAT`] names.
+fn shifted(h: f64, steps: f64, exact: &Mindlin, planted: &[&str]) -> Result<[f64; 7], Cause> {
     let step = steps * case(&[])?.time.step.ok_or("the case has no time.step")?;
-    let case = case(&[format!("mesh.zone.size={h}"), format!("time.step={step}")])?;
+    let mut sets = vec![format!("mesh.zone.size={h}"), format!("time.step={step}")];
+    sets.extend(planted.iter().map(|&key| key.to_owned()));
+    let case = case(&sets)?;
     let folder = tempfile::tempdir()?;
     let options = RunOptions {
         preload_cache: None,

@@ -2,14 +2,14 @@
 //!
 //! Problems take a deliberate error as an argument; the program itself contains none. The table in
 //! docs/verification.md names each error with its row; the numbers of that table are printed by
-//! `cargo test --release -p creepage-verify --lib planted -- --nocapture --test-threads=1`.
+//! `cargo test --release -p verification --lib planted -- --nocapture --test-threads=1`.
 #![allow(clippy::unwrap_used)]
 
 use crate::problem::Outcome;
 use crate::row::Row;
 use crate::{
-    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, patch,
-    shear_column, sliding,
+    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, mindlin,
+    patch, rolling_limits, shear_column, sliding,
 };
 use contact::{Contact, PenaltyContact};
 use friction::{Implicit, Lagged};
@@ -28,11 +28,34 @@ fn catches(fault: &str, problem: &str, quantity: &str, sound: Outcome, planted: 
     let (sound, planted) = (row(sound), row(planted));
     let line = format!("| {fault} | `{problem}`: {} |", sound.quantity);
     println!("{line} {:.1e} | {:.1e} | {:.1e} |", sound.error, planted.error, sound.limit);
+    stands_in_the_table(&line);
+    fails(&sound, &planted);
+}
+
+fn stands_in_the_table(line: &str) {
     assert!(TABLE.lines().any(|found| found == line), "docs/verification.md lacks: {line}");
+}
+
+#[track_caller]
+fn fails(sound: &Row, planted: &Row) {
     assert!(sound.pass, "without the fault: {sound:?}");
     assert!(!planted.pass, "with the fault: {planted:?}");
     // a fault may also change its row's own limit: its error must exceed that of the sound problem
     assert!(planted.error > sound.limit || planted.error.is_nan(), "{planted:?}");
+}
+
+/// Asserts the same of each of several rows, and that the table has the fault with `which` rows of the problem.
+fn catches_all(fault: &str, problem: &str, which: &str, sound: &[Row], planted: &[Row]) {
+    assert_eq!(sound.len(), planted.len());
+    for (sound, planted) in sound.iter().zip(planted) {
+        let [was, is, limit] = [sound.error, planted.error, sound.limit];
+        println!(
+            "| {fault} | `{problem}`: {} | {was:.1e} | {is:.1e} | {limit:.1e} |",
+            sound.quantity
+        );
+    }
+    stands_in_the_table(&format!("| {fault} | `{problem}`: {which} |"));
+    sound.iter().zip(planted).for_each(|(sound, planted)| fails(sound, planted));
 }
 
 #[test]
@@ -163,5 +186,67 @@ fn mass_missing_where_elements_grow_is_caught_by_the_wave_that_comes_back() {
         "P wave, 2:1, growth 1.35",
         grading_reflection::run(Size::Quick),
         grading_reflection::run_with(Size::Quick, lighter),
+    );
+}
+
+#[test]
+fn friction_off_is_caught_by_a_shift_to_and_fro() {
+    let run = |friction: &str| mindlin::run_with(Size::Quick, &[friction]);
+    let sound = run("friction.static=4e-4").unwrap();
+    let first = "Q/(mu N) at the first turn";
+    let off = run("friction.static=4.1e-4");
+    catches("mu 2.5 % off in a shift", "mindlin", first, Ok(sound.clone()), off);
+    let off = run("friction.static=4.8e-4").unwrap();
+    catches_all("mu 20 % off in a shift", "mindlin", "every row", &sound, &off);
+}
+
+#[test]
+fn normals_of_single_faces_are_caught_by_rolling_without_friction() {
+    let run =
+        |contact, planted: &[&str]| rolling_limits::without_friction(contact, planted).unwrap();
+    let contacts = [rolling_limits::PENALTY, rolling_limits::NODE_TO_FACE];
+    let sound = contacts.map(|contact| run(contact, &[]));
+    let faces = contacts.map(|contact| run(contact, &["contact.normals=face"]));
+    let which = "T/N without friction, penalty and node to face";
+    catches_all("normals of single faces", "rolling-limits", which, &sound, &faces);
+    // mortar rows have no normals of faces
+    let mortar = |planted: &[&str]| Ok(vec![run(rolling_limits::MORTAR, planted)]);
+    let rough = mortar(&["friction.static=1e-3"]);
+    catches("mu of 0.001 in place of none", "rolling-limits", "mortar", mortar(&[]), rough);
+}
+
+#[test]
+fn friction_off_is_caught_by_gross_sliding() {
+    let run = |planted: &[&str]| {
+        Ok(vec![rolling_limits::in_gross_sliding(rolling_limits::MORTAR, planted)?])
+    };
+    let off = run(&["friction.static=0.505"]);
+    catches("mu 1 % off in gross sliding", "rolling-limits", "at 20 per mille", run(&[]), off);
+}
+
+#[test]
+fn damping_that_takes_power_is_caught_by_the_power_of_friction() {
+    let run =
+        |planted: &[&str]| Ok(vec![rolling_limits::power(rolling_limits::NODE_TO_FACE, planted)?]);
+    let damped = run(&["damping.kelvin_voigt=1e-6"]);
+    catches(
+        "damping by 1 us of stiffness",
+        "rolling-limits",
+        "power of friction",
+        run(&[]),
+        damped,
+    );
+}
+
+#[test]
+fn memory_lost_in_a_zone_that_moves_is_caught_by_the_zone_that_stays() {
+    let run = |planted: &[&str]| Ok(vec![rolling_limits::in_a_window(planted)?]);
+    let lost = run(&["friction.memory.distance=100e-6"]);
+    catches(
+        "memory ten times as long in a zone that moves",
+        "rolling-limits",
+        "in a zone that moves",
+        run(&[]),
+        lost,
     );
 }

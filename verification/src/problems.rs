@@ -4,8 +4,8 @@ use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
     interface_patch, kalker, lamb, lysmer, mindlin, patch, perturbation_growth, rolling_dynamic,
-    rolling_limits, rolling_memory, rolling_steps, rupture, shear_column, shear_column_penalty,
-    slider_tables, sliding, steady_rolling, waves,
+    rolling_limits, rolling_memory, rolling_sideways, rolling_steps, rupture, shear_column,
+    shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -254,6 +254,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "rolling-limits",
         about: "Rolling without friction and in gross sliding: no tangential force, and mu N",
         run: rolling_limits::run,
+    },
+    Problem {
+        name: "rolling-sideways",
+        about: "Drift and spin with finite elements beside half-spaces: the lateral force",
+        run: rolling_sideways::run,
     },
     Problem {
         name: "slider-tables",

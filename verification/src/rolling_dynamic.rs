@@ -215,7 +215,16 @@ pub(crate) fn numbers_of_run(
         "output.probes.disk=[]".into(),
     ];
     sets.extend(more);
-    let case = Case::from_text(CASE, Path::new("a-coulomb.toml"), &sets)?;
+    numbers_of(CASE, "a-coulomb.toml", &sets)
+}
+
+/// The same of the case with this text and file name.
+pub(crate) fn numbers_of(
+    text: &str,
+    name: &str,
+    sets: &[String],
+) -> Result<impl Fn(&str, &'static str) -> Result<f64, Missing> + use<>, Cause> {
+    let case = Case::from_text(text, Path::new(name), sets)?;
     let folder = tempfile::tempdir()?;
     let options = RunOptions {
         preload_cache: None,
@@ -223,7 +232,7 @@ pub(crate) fn numbers_of_run(
         threads: std::thread::available_parallelism().map_or(1, |n| n.get()),
         force: false,
         resume: false,
-        source: "a-coulomb.toml".into(),
+        source: name.into(),
         law: None,
     };
     let summary = creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
