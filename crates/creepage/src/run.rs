@@ -6,6 +6,7 @@ mod cost;
 pub mod derived;
 mod disk;
 mod error;
+mod execute;
 pub mod folder;
 mod held;
 mod log;
@@ -17,7 +18,6 @@ mod postmortem;
 mod probes;
 mod record;
 pub mod resume;
-mod run;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -25,7 +25,7 @@ mod text_file;
 
 pub use bench::{BlockElement, bench, bench_block};
 pub use error::RunError;
+pub use execute::{RunOptions, run};
 pub use log::REFUSED;
 pub use mesh_report::mesh_report;
-pub use run::{RunOptions, run};
 pub use solid::Level;

@@ -37,7 +37,7 @@ pub(crate) fn write_mesh(path: &Path, case: &Case, model: &Model) -> Result<(), 
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         case_hash: case.hash(),
         created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        attributes: crate::run::run::kinds(case),
+        attributes: crate::run::execute::kinds(case),
     };
     Ok(TransientGrid::create(path, &grid, &[], &provenance)?.append(0.0, &[])?)
 }
