@@ -6,7 +6,7 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 use crate::step::{
-    Outcome, Step, built, cargo, execute, missing, output, python, root, target, without,
+    Outcome, Step, built, cargo, execute, missing, output, python, root, sample, target, without,
 };
 use crate::{book, book_test, markdown, results, soak, sources, structure, wheel};
 
@@ -78,7 +78,11 @@ fn documentation(root: &Path) -> Outcome {
 fn tests(root: &Path) -> Outcome {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
-    cargo(root, &["test", "--release", "--workspace"], &[("CREEPAGE_PYTHON", &python)])
+    let mut vars = vec![("CREEPAGE_PYTHON", &*python)];
+    // in the continuous integration a third of the verification problems, another one after each change
+    let sample = sample(root).map(|third| format!("{third}/3"));
+    vars.extend(sample.as_deref().map(|third| ("CREEPAGE_SAMPLE", third)));
+    cargo(root, &["test", "--release", "--workspace"], &vars)
 }
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.

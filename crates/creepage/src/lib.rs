@@ -79,6 +79,8 @@ mod commands;
 pub mod compare;
 pub mod figures;
 pub mod ls_dyna;
+#[cfg(test)]
+mod modules;
 pub mod report;
 pub mod run;
 pub mod scenario;
