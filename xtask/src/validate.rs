@@ -11,11 +11,10 @@ use crate::step::{
 use crate::{book, book_test, markdown, results, soak, sources, structure, wheel};
 
 /// The steps, cheapest first.
-pub const STEPS: [(&str, Step); 20] = [
+pub const STEPS: [(&str, Step); 19] = [
     ("format", |root| cargo(root, &["fmt", "--all", "--check"], &[])),
     ("links", |root| without(markdown::broken(root))),
     ("spelling", sources::spelling),
-    ("licences", sources::licences),
     ("structure", |root| without(structure::differences(root))),
     ("lints", lints),
     ("documentation", documentation),
