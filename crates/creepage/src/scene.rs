@@ -1,5 +1,5 @@
 //! The scene of a run in three dimensions: both bodies and their contact surfaces at some of its records, as data for
-//! the page that draws it ([`report`](crate::report)), with a still picture of the last of these records.
+//! the page that draws it ([`report`](mod@crate::report)), with a still picture of the last of these records.
 //!
 //! Each node is placed by the rigid motion of its body and by what is left of its displacement, its deformation, which
 //! the page magnifies: bodies stay where they are at that time, and the dents of disk and bar face each other.

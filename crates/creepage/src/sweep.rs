@@ -1,7 +1,7 @@
 //! A sweep file becomes many runs.
 //!
 //! [`Sweep::load`] reads and checks the file, [`Sweep::points`] resolves the case of every
-//! run, [`plan::prepare`] lays the sweep's folder out, [`schedule::run`] runs what is not yet done
+//! run, [`plan::prepare`] lays the sweep's folder out, [`pool::run`] runs what is not yet done
 //! as child processes of this program, and [`collect::collect`] gathers the results.
 
 pub mod collect;

@@ -163,7 +163,7 @@ impl TransientGrid {
     }
 
     /// Continues a file at `path` that was created with the same grid and fields, truncated to the snapshots of
-    /// `kept`; [`prove`](crate::prove) says whether it still holds them.
+    /// `kept`; [`prove`](crate::verify) says whether it still holds them.
     ///
     /// # Errors
     /// As for [`Self::create`]; a file that has fewer snapshots or is damaged.

@@ -73,7 +73,7 @@ impl History {
     }
 
     /// Continues a history at `path` that was created with the same columns, truncated to the rows of `kept`;
-    /// [`prove`](crate::prove) says whether it still holds them.
+    /// [`prove`](crate::verify) says whether it still holds them.
     ///
     /// # Errors
     /// A file that cannot be read or written, has fewer rows, or is damaged.

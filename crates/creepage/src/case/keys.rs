@@ -78,7 +78,7 @@ pub fn find(path: &str) -> Option<&'static Key> {
 }
 
 /// Whether every dotted path in a text is that of a key or a section, and every word in square brackets
-/// that of a section. For assertions at compile time: see [`remedy!`](crate::case::remedy) and [`key!`](crate::case::key!).
+/// that of a section. For assertions at compile time: see [`remedy!`](crate::remedy!) and [`key!`](crate::key!).
 pub const fn names_only_keys(text: &str) -> bool {
     let text = text.as_bytes();
     let mut at = 0;
