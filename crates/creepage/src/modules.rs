@@ -35,7 +35,12 @@ fn a_module_uses_only_those_before_it() {
         let Some(own) = row(within.trim_end_matches(".rs")) else { continue };
         for used in fs::read_to_string(&file).unwrap().split("crate::").skip(1) {
             let name = used.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap();
-            let Some(other) = row(name) else { continue };
+            let Some(other) = row(name) else {
+                // at the root are the macros of keys, and what the commands offer
+                let known = within == "commands" || within == "commands.rs";
+                assert!(known || ["key", "remedy"].contains(&name), "{}: {name}", file.display());
+                continue;
+            };
             seen += 1;
             assert!(other <= own, "{} uses {name}", file.display());
         }

@@ -144,7 +144,7 @@ struct Part {
 }
 
 /// One of the two files of a run: what of it is shown.
-struct Shown {
+struct ShownFile {
     of: Drawable,
     source: Source,
     quantities: Vec<Quantity>,
@@ -166,7 +166,7 @@ impl Scene {
         let mut missing = None;
         for of in [Drawable::Bodies, Drawable::Contact] {
             match Source::open(folder, of) {
-                Ok(source) => shown.push(Shown::new(of, source)),
+                Ok(source) => shown.push(ShownFile::new(of, source)),
                 Err(error @ (SceneError::NoFile { .. } | SceneError::NoRecord(_))) => {
                     missing = missing.or(Some(error));
                 }
@@ -179,10 +179,10 @@ impl Scene {
         }
     }
 
-    fn of(folder: &Path, shown: &[Shown]) -> Result<Self, SceneError> {
+    fn of(folder: &Path, shown: &[ShownFile]) -> Result<Self, SceneError> {
         let case = read_toml(&folder.join(file::CASE))?.unwrap_or_default();
         let times = &shown[0].source.times;
-        let size: usize = shown.iter().map(Shown::bytes).sum();
+        let size: usize = shown.iter().map(ShownFile::bytes).sum();
         let taken = spread(times.len(), BUDGET / size.max(1));
         let note = match (taken.len(), times.len()) {
             (all, of) if all == of => String::new(),
@@ -192,7 +192,7 @@ impl Scene {
         let mut patch: f64 = 0.0;
         let mut last = Vec::new();
         for index in taken {
-            let at = |shown: &Shown| shown.record(times[index]);
+            let at = |shown: &ShownFile| shown.record(times[index]);
             last = shown.iter().map(at).collect::<Result<Vec<Record>, _>>()?;
             let pressed = shown.iter().zip(&last).find_map(|(shown, record)| shown.patch(record));
             patch = patch.max(pressed.map_or(0.0, |(_, extent)| extent));
@@ -203,14 +203,17 @@ impl Scene {
         let [low, high] = shown[0].source.heights;
         let span = if patch > 0.0 { PATCHES * patch } else { DIAMETERS * (high - low) };
         let fields: Vec<Field> = shown.iter().flat_map(|shown| shown.fields(&frames)).collect();
+        let Some(field) = fields.first() else {
+            let what = "it holds no field that can be shown".into();
+            return Err(PostError::Lacks { path: shown[0].source.path.clone(), what }.into());
+        };
         let centre = frames.last().map_or([0.0; 3], |frame| frame.centre);
         let time = frames.last().map_or(0.0, |frame| frame.time);
-        let still =
-            still::still(&shown[0], &last[0], &fields[0], still::View { centre, span, time });
+        let still = still::still(&shown[0], &last[0], field, still::View { centre, span, time });
         Ok(Self {
             title: case.get("title").and_then(|title| title.as_str()).unwrap_or_default().into(),
             half: shown[0].source.half,
-            meshes: shown.iter().flat_map(Shown::meshes).collect(),
+            meshes: shown.iter().flat_map(ShownFile::meshes).collect(),
             fields,
             frames,
             span,
@@ -225,7 +228,7 @@ impl Scene {
     }
 }
 
-impl Shown {
+impl ShownFile {
     fn new(of: Drawable, source: Source) -> Self {
         let quantities = of.quantities().filter(|quantity| source.shows(*quantity)).collect();
         let mut bodies = source.bodies.clone();

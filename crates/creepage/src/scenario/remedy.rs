@@ -3,8 +3,9 @@
 //! Those crates say what is wrong in the terms of mechanics and know no key. A text in `remedy!` that
 //! names an unknown key or section does not compile.
 
+use crate::key;
+use crate::remedy;
 use crate::scenario::preload::PreloadError;
-use crate::{key, remedy};
 use contact::ContactError;
 use dynamics::{Cause, Diagnosis, RelaxationError, USUAL_HOURGLASS};
 use friction::LawError;

@@ -16,7 +16,7 @@ pub(super) const DISK: u8 = 0;
 
 /// The mesh and the file of its records.
 pub(super) struct Source {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     file: GridFile,
     pub(super) times: Vec<f64>,
     /// Reference coordinates (m).

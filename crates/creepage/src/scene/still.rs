@@ -1,7 +1,7 @@
 //! The contact at one time as a figure: where a page cannot draw its scene, and on paper.
 
 use super::Field;
-use super::Shown;
+use super::ShownFile;
 use super::quantity::Drawable;
 use super::source::Record;
 use crate::chart::{Axis, Face, Figure, Fill, Key, Panel, Scale};
@@ -23,7 +23,7 @@ pub(super) struct View {
 }
 
 /// The faces around the contact with their deformation magnified, the nearer over the farther.
-pub(super) fn still(shown: &Shown, record: &Record, field: &Field, view: View) -> Figure {
+pub(super) fn still(shown: &ShownFile, record: &Record, field: &Field, view: View) -> Figure {
     let key = Key::Values {
         label: field.label.into(),
         range: [0.0, field.top.max(f64::MIN_POSITIVE)],
@@ -71,7 +71,7 @@ pub(super) fn still(shown: &Shown, record: &Record, field: &Field, view: View) -
 }
 
 /// The faces that are drawn: of bodies those of the elements behind y = 0, of a slice of one element all.
-fn near(shown: &Shown) -> Vec<[u32; 4]> {
+fn near(shown: &ShownFile) -> Vec<[u32; 4]> {
     if shown.of == Drawable::Contact {
         // the bar's: the disk would hide it
         return shown.parts.last().map(|part| part.faces.clone()).unwrap_or_default();

@@ -81,16 +81,18 @@ struct Pool<'a> {
     work: Work<'a>,
     stop: &'a AtomicBool,
     waiting: Mutex<VecDeque<(usize, Stage)>>,
-    tally: Mutex<Tally>,
+    counts: Mutex<Counts>,
     done: Vec<Done>,
 }
 
 /// What has become of the runs.
-struct Tally {
+struct Counts {
     watched: Watched,
-    /// Costs of the runs that this call has ended, and their indices while they are under way.
+    /// Cost of the runs that this call has ended.
     ended: f64,
+    /// Indices of the runs under way.
     running: Vec<usize>,
+    /// Why runs failed that left no reason in their folders, by name.
     failures: BTreeMap<String, String>,
 }
 
@@ -124,13 +126,13 @@ pub fn run(
     // The longest first, so that none is left alone at the end; equals keep their order.
     waiting.sort_by(|a, b| cost(&plan.runs[b.0]).total_cmp(&cost(&plan.runs[a.0])));
     let total: f64 = waiting.iter().map(|&(index, _)| cost(&plan.runs[index])).sum();
-    let tally = Tally { watched, ended: 0.0, running: Vec::new(), failures: BTreeMap::new() };
+    let counts = Counts { watched, ended: 0.0, running: Vec::new(), failures: BTreeMap::new() };
     let pool = Pool {
         plan,
         work,
         stop,
         waiting: Mutex::new(waiting.into()),
-        tally: Mutex::new(tally),
+        counts: Mutex::new(counts),
         done: plan.runs.iter().map(|_| Done::default()).collect(),
     };
     std::thread::scope(|scope| {
@@ -149,7 +151,7 @@ pub fn run(
         observe(&pool.watched(total));
         Ok::<(), SweepError>(())
     })?;
-    collect_with(plan, &[], &held(&pool.tally).failures)
+    collect_with(plan, &[], &held(&pool.counts).failures)
 }
 
 /// How many runs at a time the memory holds of those that wait, at most as many as the budget says.
@@ -177,7 +179,7 @@ impl Pool<'_> {
     /// Takes runs from those that wait until there are none, or the sweep stops.
     fn work_off(&self) {
         while let Some((index, stage)) = self.next() {
-            held(&self.tally).running.push(index);
+            held(&self.counts).running.push(index);
             let point = &self.plan.runs[index];
             let folder = run_folder(&self.plan.folder, &point.name);
             let mut outcome = self.do_stage(index, stage);
@@ -205,31 +207,31 @@ impl Pool<'_> {
     /// Enters what a run has come to.
     fn enter(&self, index: usize, state: &State, outcome: Result<(), String>) {
         let point = &self.plan.runs[index];
-        let mut tally = held(&self.tally);
-        tally.running.retain(|running| *running != index);
-        tally.ended += cost(point);
+        let mut counts = held(&self.counts);
+        counts.running.retain(|running| *running != index);
+        counts.ended += cost(point);
         match state {
-            State::Completed => tally.watched.completed += 1,
-            State::Failed(_) => tally.watched.failed += 1,
+            State::Completed => counts.watched.completed += 1,
+            State::Failed(_) => counts.watched.failed += 1,
             State::Unchecked | State::Undone(_) => {
                 // a run that was asked to stop ends without an error
                 if let Err(why) = outcome {
-                    tally.failures.insert(point.name.clone(), why);
-                    tally.watched.failed += 1;
+                    counts.failures.insert(point.name.clone(), why);
+                    counts.watched.failed += 1;
                 }
             }
         }
     }
 
     fn watched(&self, total: f64) -> Watched {
-        let tally = held(&self.tally);
+        let counts = held(&self.counts);
         let under_way =
-            tally.running.iter().map(|&i| cost(&self.plan.runs[i]) * self.done[i].get());
-        let done = tally.ended + under_way.sum::<f64>();
+            counts.running.iter().map(|&i| cost(&self.plan.runs[i]) * self.done[i].get());
+        let done = counts.ended + under_way.sum::<f64>();
         Watched {
-            running: tally.running.len(),
+            running: counts.running.len(),
             fraction: if total > 0.0 { done / total } else { 1.0 },
-            ..tally.watched.clone()
+            ..counts.watched.clone()
         }
     }
 }

@@ -59,14 +59,6 @@ pub const PNG: Made = Made {
     marks: &["Software\0Creepage"],
     proof: None,
 };
-/// The mark of this program in a film: the comment of a GIF or of an MP4 file.
-pub const FILM_MARK: &str = concat!("Creepage ", env!("CARGO_PKG_VERSION"));
-/// A film as GIF.
-pub const GIF: Made =
-    Made { what: "film", endings: &["gif"], start: b"GIF89a", marks: &["Creepage "], proof: None };
-/// A film as MP4; its index, with the comment, stands in front.
-pub const MP4: Made =
-    Made { what: "film", endings: &["mp4"], start: &[], marks: &["Creepage "], proof: None };
 /// A mesh as a VTK XML unstructured grid.
 pub const VTU: Made = Made {
     what: "mesh",
