@@ -1,7 +1,7 @@
 //! The options that all commands share.
 
 use clap::ArgAction;
-use serde_json::Value;
+use serde::Serialize;
 
 use crate::report;
 use crate::stop::Stop;
@@ -30,7 +30,7 @@ pub struct Args {
 
 impl Args {
     /// Shows the results of a command: their document with `--json`, else a page to read.
-    pub fn show(&self, document: &Value, page: impl FnOnce() -> String) {
+    pub fn show(&self, document: &impl Serialize, page: impl FnOnce() -> String) {
         if self.json {
             report::print_json(document);
         } else if !self.quiet {

@@ -8,7 +8,7 @@ use creepage::{
     ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
     SliderOptions, SweepOptions, ViewOptions,
 };
-use serde_json::Value;
+use serde::Serialize;
 
 use crate::args::Args;
 use crate::progress::{Remarks, SliderWatch, SweepWatch};
@@ -187,31 +187,29 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
     if args.check_args {
         return check_args(line);
     }
-    let done = |document: &Value, page: fn(&Value) -> String| {
-        args.show(document, || page(document));
-        Ok(0)
-    };
     match &line.command {
         Command::Run(options) => crate::run::command(args, options),
-        Command::Mesh(options) => done(&creepage::mesh(options, &mut Remarks(args))?, mesh::text),
+        Command::Mesh(options) => {
+            done(args, &creepage::mesh(options, &mut Remarks(args))?, mesh::text)
+        }
         Command::Check(options) => {
             let found = creepage::check(options)?;
             args.show(&found.document, || check::text(&found.document));
             Ok(if found.pass { 0 } else { FAILED })
         }
-        Command::Compare(options) => done(&creepage::compare(options)?, compare::text),
-        Command::Plot(options) => done(&creepage::plot(options)?.document(), files::figures),
+        Command::Compare(options) => done(args, &creepage::compare(options)?, compare::text),
+        Command::Plot(options) => done(args, &creepage::plot(options)?.document(), files::figures),
         Command::Render(options) => crate::render::command(args, options),
         Command::View(options) => view(args, options),
-        Command::Report(options) => done(&creepage::report(options)?.document, files::page),
+        Command::Report(options) => done(args, &creepage::report(options)?.document, files::page),
         Command::Sweep(options) => sweep(args, options),
         Command::ImportContact(options) => {
-            done(&creepage::import_contact(options)?, files::contact_history)
+            done(args, &creepage::import_contact(options)?, files::contact_history)
         }
         Command::ExportK(options) => {
-            done(&creepage::export_k(options, &mut Remarks(args))?, files::deck)
+            done(args, &creepage::export_k(options, &mut Remarks(args))?, files::deck)
         }
-        Command::ImportK(options) => done(&creepage::import_k(options)?, files::case),
+        Command::ImportK(options) => done(args, &creepage::import_k(options)?, files::case),
         Command::Schema => {
             report::print_json(&creepage::schema());
             Ok(0)
@@ -222,7 +220,7 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
             Ok(found.exit_code())
         }
         Command::Verify(options) => crate::verify::command(args, options),
-        Command::Bench(options) => done(&creepage::bench(options)?, bench::text),
+        Command::Bench(options) => done(args, &creepage::bench(options)?, bench::text),
         Command::Completions { shell } => {
             crate::manual::completions(*shell);
             Ok(0)
@@ -230,6 +228,12 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         Command::Man { out: Some(folder), .. } => crate::manual::pages(folder).map(|()| 0),
         Command::Man { command, out: None } => crate::manual::page(command.as_deref()).map(|()| 0),
     }
+}
+
+/// Shows the results of a command that has no verdict.
+fn done<T: Serialize>(args: &Args, results: &T, page: fn(&T) -> String) -> Result<u8, Error> {
+    args.show(results, || page(results));
+    Ok(0)
 }
 
 fn view(args: &Args, ViewArgs { options, no_open }: &ViewArgs) -> Result<u8, Error> {

@@ -10,13 +10,13 @@ pub mod run;
 pub mod slider;
 pub mod sweep;
 
-use serde_json::Value;
+use serde::Serialize;
 
 use crate::terminal;
 
 /// Prints one JSON document on standard output.
-pub fn print_json(document: &Value) {
-    // Pretty-printing a value cannot fail.
+pub fn print_json(document: &impl Serialize) {
+    // Only a key that is no text could prevent it.
     let text = serde_json::to_string_pretty(document).unwrap_or_default();
     terminal::print(format!("{text}\n").as_bytes());
 }

@@ -28,7 +28,7 @@ pub fn run<'py>(
     let mine = law.clone().map(|law| law as Arc<dyn OwnLaw>);
     let answer = held(options, listen, move |options: RunOptions, told| {
         let done = creepage::run(&RunOptions { law: mine, ..options }, told)?;
-        Ok(Answer { code: done.exit_code(), document: done.document })
+        Ok(Answer::new(done.exit_code(), &done.document))
     });
     match law.and_then(|law| law.take_failure()) {
         Some(error) => Err(error),
@@ -39,7 +39,7 @@ pub fn run<'py>(
 /// Builds the mesh of a case.
 #[pyfunction]
 pub fn mesh<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, told| Ok(creepage::mesh(&options, told)?.into()))
+    held(options, listen, |options, told| Ok(Answer::new(0, &creepage::mesh(&options, told)?)))
 }
 
 /// Checks a run against the contact conditions.
@@ -47,26 +47,26 @@ pub fn mesh<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 pub fn check<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, _| {
         let found = creepage::check(&options)?;
-        Ok(Answer { code: if found.pass { 0 } else { FAILED }, document: found.document })
+        Ok(Answer::new(if found.pass { 0 } else { FAILED }, &found.document))
     })
 }
 
 /// Draws the figures of a run.
 #[pyfunction]
 pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(creepage::plot(&options)?.document().into()))
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::plot(&options)?.document())))
 }
 
 /// Writes the page with the interactive scene of a run.
 #[pyfunction]
 pub fn view<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(creepage::view(&options)?.into()))
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::view(&options)?)))
 }
 
 /// Writes the page about a run.
 #[pyfunction]
 pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(creepage::report(&options)?.document.into()))
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::report(&options)?.document)))
 }
 
 /// Runs a sweep.
@@ -74,7 +74,7 @@ pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, told| {
         let done = creepage::sweep(&options, told)?;
-        Ok(Answer { code: done.exit_code(), document: done.document })
+        Ok(Answer::new(done.exit_code(), &done.document))
     })
 }
 
@@ -83,7 +83,7 @@ pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 pub fn slider<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, told| {
         let found = creepage::slider(&options, told)?;
-        Ok(Answer { code: found.exit_code(), document: found.document() })
+        Ok(Answer::new(found.exit_code(), &found.document()))
     })
 }
 

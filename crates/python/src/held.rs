@@ -5,8 +5,9 @@ use miette::{MietteHandlerOpts, Report};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -22,21 +23,27 @@ const STACK: usize = 8 << 20;
 pub struct Answer {
     /// Exit code of the command line.
     pub code: u8,
-    /// Its document.
-    pub document: Value,
+    /// Its results, as JSON text.
+    document: String,
 }
 
-impl From<Value> for Answer {
-    fn from(document: Value) -> Self {
-        Self { code: 0, document }
+impl Answer {
+    /// Results with the exit code of the command line.
+    pub fn new(code: u8, results: &impl Serialize) -> Self {
+        Self { code, document: json(results) }
     }
+}
+
+/// As JSON text; only a key that is no text could prevent that, and no result has one.
+fn json(results: &(impl Serialize + ?Sized)) -> String {
+    serde_json::to_string(results).unwrap_or_default()
 }
 
 /// What the thread that does the work says.
 enum Event {
     Folder(PathBuf),
-    /// What of, and as JSON.
-    Told(&'static str, Value),
+    /// What of, and as JSON text.
+    Told(&'static str, String),
     Ended(Result<Answer, Error>),
 }
 
@@ -52,7 +59,7 @@ impl Listener for EventSender {
     }
 
     fn remark(&mut self, line: &str) {
-        let _ = self.events.send(Event::Told("said", line.into()));
+        let _ = self.events.send(Event::Told("said", json(line)));
     }
 
     fn folder(&mut self, folder: &Path) {
@@ -60,11 +67,11 @@ impl Listener for EventSender {
     }
 
     fn run(&mut self, progress: &Progress) {
-        let _ = self.events.send(Event::Told("run", json!(progress)));
+        let _ = self.events.send(Event::Told("run", json(progress)));
     }
 
     fn sweep(&mut self, _name: &str, now: &Watched) {
-        let _ = self.events.send(Event::Told("sweep", json!(now)));
+        let _ = self.events.send(Event::Told("sweep", json(now)));
     }
 }
 
@@ -95,7 +102,7 @@ pub fn held<'py, O: DeserializeOwned + Send + 'static>(
                 folder = Some(path);
                 Ok(())
             }
-            Ok(Event::Told(kind, what)) => listen.call1((kind, what.to_string())).map(drop),
+            Ok(Event::Told(kind, what)) => listen.call1((kind, what)).map(drop),
             Err(RecvTimeoutError::Timeout) => Ok(()),
             Err(RecvTimeoutError::Disconnected) => {
                 drop(worker.join());
@@ -142,7 +149,7 @@ fn answer<'py>(
     match ended {
         Ok(Answer { code, document }) => {
             answer.set_item("code", code)?;
-            answer.set_item("document", document.to_string())?;
+            answer.set_item("document", document)?;
         }
         Err(error) => {
             answer.set_item("code", error.exit_code())?;
