@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use contact::{
-    BodyMaterial, Contact, FreeMotion, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    BodyMaterial, Contact, FreeMotion, Normals, PenaltyContact, PenaltySettings, Stiffness,
     TraceFields,
 };
 use friction::{Exponential, Lagged};
@@ -54,8 +54,8 @@ impl Rolling {
         let mesh = join(&parts);
         let steel = BodyMaterial { bulk_modulus: 175e9, density: 7800.0 };
         let settings = PenaltySettings {
-            normal: PenaltyStiffness::Scale(0.1),
-            tangential: PenaltyStiffness::Scale(0.1),
+            normal: Stiffness::Factor(0.1),
+            tangential: Stiffness::Factor(0.1),
             damping: 0.1,
             curvature: true,
             normals: Normals::Averaged,

@@ -2,7 +2,7 @@
 //! are elements.
 #![allow(missing_docs)]
 
-use contact::{BodyMaterial, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use contact::{BodyMaterial, Normals, PenaltyContact, PenaltySettings, Stiffness};
 use divan::counter::ItemsCount;
 use dynamics::{Hub, QuietEnd, RollingField, Setup, Simulation, Spin, System, Vertical};
 use friction::Coulomb;
@@ -47,8 +47,8 @@ fn rolling(size: f64) -> Simulation {
     let solid = Solid::new(&mesh, &[STEEL; 2], ELEMENT, Viscosity::default(), Level::detect())
         .expect("two bodies of steel");
     let settings = PenaltySettings {
-        normal: PenaltyStiffness::Scale(0.1),
-        tangential: PenaltyStiffness::Scale(0.1),
+        normal: Stiffness::Factor(0.1),
+        tangential: Stiffness::Factor(0.1),
         damping: 0.1,
         curvature: true,
         normals: Normals::Averaged,

@@ -37,8 +37,8 @@ impl Rig {
             mesh::join(&[mesh::disk(&disk, &zone).unwrap(), mesh::bar(&bar, &zone).unwrap()]);
         let steel = BodyMaterial { bulk_modulus: 175e9, density: 7800.0 };
         let settings = PenaltySettings {
-            normal: contact::PenaltyStiffness::Scale(0.1),
-            tangential: contact::PenaltyStiffness::Scale(0.1),
+            normal: contact::Stiffness::Factor(0.1),
+            tangential: contact::Stiffness::Factor(0.1),
             damping: 0.1,
             curvature,
             normals: contact::Normals::Averaged,

@@ -29,9 +29,7 @@ use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use crate::waves::slender;
-use contact::{
-    ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
-};
+use contact::{ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings, Stiffness};
 use dynamics::Simulation;
 use friction::Coulomb;
 use mesh::Padded;
@@ -151,8 +149,8 @@ fn collide(n: usize, c: f64, method: Method) -> Result<Collision, Cause> {
     let mesh = mesh::join(&[left, right]);
     let h = LENGTH / n as f64;
     let settings = PenaltySettings {
-        normal: PenaltyStiffness::Scale(1.0),
-        tangential: PenaltyStiffness::Scale(1.0),
+        normal: Stiffness::Factor(1.0),
+        tangential: Stiffness::Factor(1.0),
         damping: 0.0,
         curvature: false,
         normals: Normals::Averaged,

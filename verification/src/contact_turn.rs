@@ -13,14 +13,14 @@
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Contact, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness, TraceFields};
+use contact::{Contact, Normals, PenaltyContact, PenaltySettings, Stiffness, TraceFields};
 use friction::Coulomb;
 use mesh::{Disk, FineZone, Grading, Mesh, Padded, Surface};
 use std::f64::consts::TAU;
 
 const SETTINGS: PenaltySettings = PenaltySettings {
-    normal: PenaltyStiffness::Scale(1.0),
-    tangential: PenaltyStiffness::Scale(1.0),
+    normal: Stiffness::Factor(1.0),
+    tangential: Stiffness::Factor(1.0),
     damping: 0.0,
     curvature: true,
     normals: Normals::Averaged,

@@ -27,9 +27,7 @@ use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{
-    ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
-};
+use contact::{ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings, Stiffness};
 use dynamics::{Fixed, Setup, Simulation};
 use friction::{Exponential, FrictionLaw, Implicit, Lagged, NodeFriction};
 use mesh::Padded;
@@ -233,8 +231,8 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
         }
         Interface::Penalty { k, finer } => {
             let settings = PenaltySettings {
-                normal: PenaltyStiffness::Areal(k),
-                tangential: PenaltyStiffness::Areal(k),
+                normal: Stiffness::Areal(k),
+                tangential: Stiffness::Areal(k),
                 damping: 0.1,
                 curvature: false,
                 normals: Normals::Averaged,

@@ -36,7 +36,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
     BodyMaterial, Contact, ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings,
-    PenaltyStiffness, Rows,
+    Rows, Stiffness,
 };
 use dynamics::{Load, Setup, Simulation};
 use friction::Coulomb;
@@ -401,8 +401,8 @@ fn setup(
     mu: f64,
 ) -> Result<(Setup, PenaltyContact), Cause> {
     let settings = PenaltySettings {
-        normal: PenaltyStiffness::Areal(SPRING),
-        tangential: PenaltyStiffness::Areal(SPRING),
+        normal: Stiffness::Areal(SPRING),
+        tangential: Stiffness::Areal(SPRING),
         damping,
         curvature: false,
         normals: Normals::Averaged,

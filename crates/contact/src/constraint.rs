@@ -18,18 +18,24 @@ use crate::point::{ContactPoint, Enforced};
 use crate::surface::{ContactSurface, MasterFace};
 use crate::symmetry::{in_plane, symmetric_tangents, tangent_in_plane};
 use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// What the nodes of the slaves' side meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// The rows of exact enforcement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Rows {
-    /// One face, at the point under the node.
+    /// A slave node and the face under it.
     #[default]
     NodeToFace,
-    /// The faces under the slave faces around the node, in the mean weighted with a dual mortar function
-    /// (Wohlmuth 2000, Puso and Laursen 2004): a uniform pressure passes between meshes that do not match.
+    /// A slave node and the mean over the faces near it, by dual mortar functions.
     Mortar,
+}
+
+impl Rows {
+    /// The words of a case file for them.
+    pub const WORDS: &'static [&'static str] = &["node_to_face", "mortar"];
 }
 
 /// The part of a node of the master in a projection.

@@ -52,6 +52,6 @@ pub use penalty::{PenaltyContact, PenaltySettings};
 pub use point::finer;
 pub use renumber::Renumbering;
 pub use snapshot::{ContactState, StateError};
-pub use stiffness::{BodyMaterial, PenaltyStiffness, StabilityScale};
+pub use stiffness::{BodyMaterial, StabilityScale, Stiffness};
 pub use sums::ContactSums;
 pub use trace::{Trace, TraceFields, TraceStep};

@@ -4,21 +4,29 @@
 //! Under load the facets of a dent meet at angles of the order of h/R, for faces of size h under a disk of radius R. A node
 //! beside an edge that takes the normal of its face is pushed along the surface. Where meshes match, all nodes lie on the
 //! same side of their edges, and the pushes add up to about h/(4R) of the load, without friction. The averaged normal is
-//! continuous over the edges.
+//! continuous over the edges. The normal of the face alone is that of Benson and Hallquist (1990).
 
 use crate::face::{Positions, corner_normal};
 use crate::surface::ContactSurface;
 use crate::symmetry::in_plane;
 use crate::vector::{Vec3, add, axpy, norm, scale};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// The normal along which a slave node meets a face of the master.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// The normals of contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Normals {
-    /// The mean of the normals at the corners of the face, each the mean over the faces around that node.
+    /// Averaged at nodes, interpolated between them.
     #[default]
     Averaged,
-    /// That of the face alone, as Benson and Hallquist (1990) have it.
+    /// Of the face alone.
     Face,
+}
+
+impl Normals {
+    /// The words of a case file for them.
+    pub const WORDS: &'static [&'static str] = &["averaged", "face"];
 }
 
 /// The normals at the nodes of one surface, each found when it is first asked for in a configuration.

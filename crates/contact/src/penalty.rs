@@ -8,9 +8,7 @@ use crate::search::{Listed, Search};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
 use crate::vector::axpy;
-use crate::{
-    BodyMaterial, ContactError, ContactSums, Motion, PenaltyStiffness, StabilityScale, Trace,
-};
+use crate::{BodyMaterial, ContactError, ContactSums, Motion, StabilityScale, Stiffness, Trace};
 use friction::{NodeFriction, NodeHistory};
 use mesh::{Mesh, Padded, Surface};
 
@@ -18,9 +16,9 @@ use mesh::{Mesh, Padded, Surface};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenaltySettings {
     /// Normal stiffness `k_n`.
-    pub normal: PenaltyStiffness,
+    pub normal: Stiffness,
     /// Tangential stiffness `k_t`.
-    pub tangential: PenaltyStiffness,
+    pub tangential: Stiffness,
     /// Normal viscous damping as a fraction of the spring's critical damping.
     pub damping: f64,
     /// Corrects gap and normal with the exact surface where the master has one.
@@ -61,7 +59,7 @@ pub struct PenaltyContact {
 impl PenaltyContact {
     /// Contact of two `surfaces` of `mesh`, side 0 and side 1.
     ///
-    /// `stability` is needed for [`PenaltyStiffness::StabilityFraction`] only.
+    /// `stability` is needed for [`Stiffness::Stability`] only.
     ///
     /// # Errors
     /// Surfaces that are empty, degenerate, outside the mesh or in touch by a common node, and
@@ -240,9 +238,8 @@ fn check(
     let damping = settings.damping;
     in_range("the contact damping", damping, (0.0..=1.0).contains(&damping), "from 0 to 1")?;
     check_common(surfaces, law)?;
-    let fraction = [settings.normal, settings.tangential]
-        .iter()
-        .any(|s| matches!(s, PenaltyStiffness::StabilityFraction(_)));
+    let fraction =
+        [settings.normal, settings.tangential].iter().any(|s| matches!(s, Stiffness::Stability(_)));
     if fraction {
         let scale = stability.ok_or(ContactError::NoStabilityScale)?;
         positive("the time step", scale.dt)?;

@@ -5,7 +5,7 @@ use crate::face::{Positions, shape};
 use crate::nodal_normals::NodalNormals;
 use crate::point::{ContactPoint, Enforced, State, relative_velocity, sleep};
 use crate::search::Listed;
-use crate::stiffness::{PenaltyStiffness, StabilityScale};
+use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace};
 use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, NodeHistory};
@@ -103,8 +103,8 @@ impl PenaltyPoint {
 pub(crate) struct Pass<'a> {
     pub slave: &'a ContactSurface,
     pub master: &'a ContactSurface,
-    pub normal: PenaltyStiffness,
-    pub tangential: PenaltyStiffness,
+    pub normal: Stiffness,
+    pub tangential: Stiffness,
     pub stability: Option<StabilityScale>,
     pub damping: f64,
     pub curvature: bool,

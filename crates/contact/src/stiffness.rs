@@ -1,32 +1,89 @@
 //! The areal stiffness (N/m^3) of the contact springs and what it is derived from.
 
-/// How a contact spring's areal stiffness is chosen.
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
+
+/// Stiffness of a penalty spring, in one of three forms. In a case file they are a number, `{ stiffness = N/m^3 }` and
+/// `{ stability = fraction }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PenaltyStiffness {
-    /// LS-DYNA's segment stiffness `SF K A^2/V` spread over the segment: each pass has the areal
-    /// stiffness `SF K A/V` of the master face's element (`K` bulk modulus, `A` face area, `V`
-    /// element volume). For a brick of depth `d` that is `SF K/d`.
-    Scale(f64),
-    /// Areal stiffness (N/m^3) of both passes together, the `k_t` of Eq. (10) of Vollebregt
-    /// (2017); each pass has half of it.
+pub enum Stiffness {
+    /// A multiple of `K A/V` in each pass (dimensionless), with the bulk modulus `K` (Pa), the area `A` of the master face
+    /// and the volume `V` of the element below it; for a brick of depth `d` that is `K/d`. LS-DYNA's scale factor: its
+    /// segment stiffness `SF K A^2/V` spread over the segment.
+    Factor(f64),
+    /// Stiffness per area (N/m^3) of both passes together, the `k_t` of Eq. (10) of Vollebregt (2017); each pass has
+    /// half of it.
     Areal(f64),
-    /// Fraction of the limit of stability `m* (4/dt^2 - omega_el^2)` for both passes together,
-    /// with `m*` the reduced mass per area of the two surfaces in touch; each pass has half.
-    StabilityFraction(f64),
+    /// A fraction of the limit of stability `m* (4/dt^2 - omega_el^2)` (dimensionless) for both passes together, with
+    /// `m*` the reduced mass per area of the two surfaces in touch; each pass has half.
+    Stability(f64),
 }
 
-impl PenaltyStiffness {
+impl Serialize for Stiffness {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (key, value) = match self {
+            Self::Factor(factor) => return serializer.serialize_f64(*factor),
+            Self::Areal(stiffness) => ("stiffness", stiffness),
+            Self::Stability(fraction) => ("stability", fraction),
+        };
+        let mut map = serializer.serialize_map(Some(1))?;
+        map.serialize_entry(key, value)?;
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Stiffness {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged, deny_unknown_fields)]
+        #[serde(expecting = "expected a number, { stiffness = N/m^3 } or { stability = fraction }")]
+        enum Form {
+            Factor(f64),
+            Areal { stiffness: f64 },
+            Stability { stability: f64 },
+        }
+        Ok(match Form::deserialize(deserializer)? {
+            Form::Factor(factor) => Self::Factor(factor),
+            Form::Areal { stiffness } => Self::Areal(stiffness),
+            Form::Stability { stability } => Self::Stability(stability),
+        })
+    }
+}
+
+impl JsonSchema for Stiffness {
+    fn schema_name() -> Cow<'static, str> {
+        "Stiffness".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let one_key = |key: &str| {
+            json_schema!({
+                "type": "object",
+                "properties": { key: { "type": "number" } },
+                "required": [key],
+                "additionalProperties": false
+            })
+        };
+        json_schema!({
+            "oneOf": [{ "type": "number" }, one_key("stiffness"), one_key("stability")]
+        })
+    }
+}
+
+impl Stiffness {
     /// The number that the variant carries.
     pub fn value(self) -> f64 {
         match self {
-            Self::Scale(v) | Self::Areal(v) | Self::StabilityFraction(v) => v,
+            Self::Factor(v) | Self::Areal(v) | Self::Stability(v) => v,
         }
     }
 
     /// Areal stiffness (N/m^3) of one pass.
     ///
     /// `scaled` is `K A/V` of the master face's element (N/m^3), `reduced_mass` is `m*` (kg/m^2).
-    /// [`PenaltyStiffness::StabilityFraction`] without a scale gives zero; the constructors of contact
+    /// [`Stiffness::Stability`] without a scale gives zero; the constructors of contact
     /// refuse that combination.
     pub fn per_pass(
         self,
@@ -35,16 +92,16 @@ impl PenaltyStiffness {
         stability: Option<StabilityScale>,
     ) -> f64 {
         match self {
-            Self::Scale(factor) => factor * scaled,
+            Self::Factor(factor) => factor * scaled,
             Self::Areal(both) => 0.5 * both,
-            Self::StabilityFraction(fraction) => {
+            Self::Stability(fraction) => {
                 0.5 * fraction * reduced_mass * stability.map_or(0.0, StabilityScale::omega_squared)
             }
         }
     }
 }
 
-/// What [`PenaltyStiffness::StabilityFraction`] is a fraction of.
+/// What [`Stiffness::Stability`] is a fraction of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StabilityScale {
     /// Highest angular frequency of the bodies without contact (rad/s).
@@ -77,9 +134,9 @@ mod tests {
     #[test]
     fn each_form_gives_its_own_areal_stiffness_per_pass() {
         let scale = StabilityScale { omega_elastic: 3.0, dt: 0.4 };
-        assert_eq!(PenaltyStiffness::Scale(0.1).per_pass(1.75e14, 2.0, None), 0.1 * 1.75e14);
-        assert_eq!(PenaltyStiffness::Areal(3.5e13).per_pass(1.0, 2.0, None), 1.75e13);
-        let fraction = PenaltyStiffness::StabilityFraction(0.5).per_pass(1.0, 2.0, Some(scale));
+        assert_eq!(Stiffness::Factor(0.1).per_pass(1.75e14, 2.0, None), 0.1 * 1.75e14);
+        assert_eq!(Stiffness::Areal(3.5e13).per_pass(1.0, 2.0, None), 1.75e13);
+        let fraction = Stiffness::Stability(0.5).per_pass(1.0, 2.0, Some(scale));
         assert!((fraction - 0.5 * 0.5 * 2.0 * (25.0 - 9.0)).abs() < 1e-12);
     }
 }

@@ -9,8 +9,8 @@
 #![allow(clippy::unwrap_used)]
 
 use contact::{
-    BodyMaterial, ExactSettings, GapFunction, Normals, PenaltyContact, PenaltySettings,
-    PenaltyStiffness, Rows,
+    BodyMaterial, ExactSettings, GapFunction, Normals, PenaltyContact, PenaltySettings, Rows,
+    Stiffness,
 };
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Grading, Padded};
@@ -65,8 +65,8 @@ fn main() {
         let mut solid =
             Solid::new(&mesh, &[steel; 2], element, Viscosity::default(), Level::detect()).unwrap();
         let settings = PenaltySettings {
-            normal: PenaltyStiffness::Scale(factor),
-            tangential: PenaltyStiffness::Scale(factor),
+            normal: Stiffness::Factor(factor),
+            tangential: Stiffness::Factor(factor),
             damping: 0.0,
             curvature: true,
             normals: Normals::Averaged,

@@ -2,8 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use contact::{
-    BodyMaterial, ExactSettings, GapFunction, Normals, PenaltyContact, PenaltySettings,
-    PenaltyStiffness,
+    BodyMaterial, ExactSettings, GapFunction, Normals, PenaltyContact, PenaltySettings, Stiffness,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded};
@@ -81,10 +80,10 @@ struct Rig {
 
 impl Rig {
     fn new(mesh: Mesh, material: Material, factor: f64) -> Self {
-        Self::with(mesh, material, PenaltyStiffness::Scale(factor))
+        Self::with(mesh, material, Stiffness::Factor(factor))
     }
 
-    fn with(mesh: Mesh, material: Material, stiffness: PenaltyStiffness) -> Self {
+    fn with(mesh: Mesh, material: Material, stiffness: Stiffness) -> Self {
         let materials = vec![material; mesh.bodies.len()];
         let element = Element { hourglass: 0.05 };
         let solid =
@@ -295,7 +294,7 @@ fn the_start_does_not_change_the_equilibrium() {
         x[0] += 0.4 * cell;
         x[1] += 0.3 * cell;
     }
-    let mut rig = Rig::with(mesh, STEEL, PenaltyStiffness::Areal(3.5e14));
+    let mut rig = Rig::with(mesh, STEEL, Stiffness::Areal(3.5e14));
     let supports = pressed(&rig.mesh, Axis::Loaded(-2e3));
     for enforcement in [Enforcement::Penalty, Enforcement::Multipliers] {
         // Apart by 0.1 mm, just touching, and pressed in far too deep.

@@ -9,7 +9,7 @@ use crate::tests::{K, step_on_trace};
 use crate::vector::{Vec3, add, axpy, cross, norm, sub};
 use crate::{
     Contact, ContactState, ContactSums, ExactContact, ExactSettings, NodalContact, Normals,
-    PenaltyContact, PenaltySettings, PenaltyStiffness, Rows, StateError,
+    PenaltyContact, PenaltySettings, Rows, StateError, Stiffness,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
@@ -22,8 +22,8 @@ type Build = fn(&Mesh, [&Surface; 2]) -> Box<dyn Contact>;
 
 fn penalty(mesh: &Mesh, [a, b]: [&Surface; 2]) -> Box<dyn Contact> {
     let settings = PenaltySettings {
-        normal: PenaltyStiffness::Areal(K),
-        tangential: PenaltyStiffness::Areal(0.7 * K),
+        normal: Stiffness::Areal(K),
+        tangential: Stiffness::Areal(0.7 * K),
         damping: 0.1,
         curvature: true,
         normals: Normals::Averaged,

@@ -12,7 +12,7 @@ mod slip;
 use crate::plates::{STEEL, plate, together};
 use crate::vector::{Vec3, add, axpy, sub};
 use crate::{
-    Contact, ContactSums, FreeMotion, Normals, PenaltyContact, PenaltySettings, PenaltyStiffness,
+    Contact, ContactSums, FreeMotion, Normals, PenaltyContact, PenaltySettings, Stiffness,
     TraceFields, TraceStep,
 };
 use friction::NodeFriction;
@@ -22,8 +22,8 @@ use mesh::{Mesh, Padded, Surface};
 pub(crate) const K: f64 = 2e13;
 
 pub(crate) const SETTINGS: PenaltySettings = PenaltySettings {
-    normal: PenaltyStiffness::Areal(K),
-    tangential: PenaltyStiffness::Areal(0.7 * K),
+    normal: Stiffness::Areal(K),
+    tangential: Stiffness::Areal(0.7 * K),
     damping: 0.0,
     curvature: true,
     normals: Normals::Averaged,

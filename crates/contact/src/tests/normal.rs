@@ -1,7 +1,7 @@
 use super::{K, Rig, SETTINGS};
 use crate::plates::plate;
 use crate::vector::{Vec3, add, cross, norm};
-use crate::{ContactError, PenaltyContact, PenaltySettings, PenaltyStiffness};
+use crate::{ContactError, PenaltyContact, PenaltySettings, Stiffness};
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
 
@@ -71,7 +71,7 @@ fn separated_plates_do_not_feel_one_another() {
 /// Plates with the same cells, of which those below are unequally deep; the upper one is moved by `x`
 /// and pressed in equilibrium, after it was pressed at all the `x` before.
 fn on_unequal_elements(x: &[f64]) -> f64 {
-    let settings = PenaltySettings { normal: PenaltyStiffness::Scale(0.1), ..SETTINGS };
+    let settings = PenaltySettings { normal: Stiffness::Factor(0.1), ..SETTINGS };
     let (mut mesh, surface) = plate([0.0, 0.0], [8e-3, 8e-3], [8, 8], 0.0, 1e-3, true);
     for node in mesh.nodes.iter_mut().filter(|node| node[2] < 0.0) {
         let phase: f64 = 900.0 * node[0] + 400.0 * node[1];
@@ -105,7 +105,7 @@ fn force_in_equilibrium_is_that_of_the_positions_alone() {
 
 #[test]
 fn scale_gives_bulk_modulus_over_depth_in_each_pass() {
-    let settings = PenaltySettings { normal: PenaltyStiffness::Scale(0.1), ..SETTINGS };
+    let settings = PenaltySettings { normal: Stiffness::Factor(0.1), ..SETTINGS };
     let mut rig = Rig::slider(Coulomb { mu: 0.3 }, &settings);
     let sums = rig.shift([0.0, 0.0, -DEPTH]);
     // Pass 0 has 36 slaves on the whole upper plate; pass 1 those lower nodes that lie under it.
@@ -243,14 +243,14 @@ fn wrong_settings_are_refused() {
         ContactError::Value { name, .. } => name,
         other => panic!("{other}"),
     };
-    let normal = PenaltySettings { normal: PenaltyStiffness::Scale(-0.1), ..SETTINGS };
+    let normal = PenaltySettings { normal: Stiffness::Factor(-0.1), ..SETTINGS };
     assert_eq!(named(refused(normal, 0.3)), "the normal contact stiffness");
-    let tangential = PenaltySettings { tangential: PenaltyStiffness::Areal(f64::NAN), ..SETTINGS };
+    let tangential = PenaltySettings { tangential: Stiffness::Areal(f64::NAN), ..SETTINGS };
     assert_eq!(named(refused(tangential, 0.3)), "the tangential contact stiffness");
     let damping = PenaltySettings { damping: 3.0, ..SETTINGS };
     assert_eq!(named(refused(damping, 0.3)), "the contact damping");
     assert_eq!(named(refused(SETTINGS, -0.3)), "the coefficient of friction");
-    let fraction = PenaltySettings { normal: PenaltyStiffness::StabilityFraction(0.5), ..SETTINGS };
+    let fraction = PenaltySettings { normal: Stiffness::Stability(0.5), ..SETTINGS };
     assert_eq!(refused(fraction, 0.3), ContactError::NoStabilityScale);
     assert_eq!(refused(SETTINGS, 0.3), ContactError::EmptySurface { side: 0 });
 }

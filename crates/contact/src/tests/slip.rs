@@ -1,7 +1,7 @@
 use super::{K, Rig, SETTINGS};
 use crate::search::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::{Contact, PenaltySettings, PenaltyStiffness};
+use crate::{Contact, PenaltySettings, Stiffness};
 use friction::{
     Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeConditions, NodeFriction, Remembering,
 };
@@ -239,7 +239,7 @@ fn friction_spring_of_a_pair_that_opens_is_lost_to_dissipation() {
 
 #[test]
 fn zero_tangential_stiffness_is_contact_without_friction() {
-    let settings = PenaltySettings { tangential: PenaltyStiffness::Areal(0.0), ..SETTINGS };
+    let settings = PenaltySettings { tangential: Stiffness::Areal(0.0), ..SETTINGS };
     let mut rig = Rig::slider(Coulomb { mu: 0.5 }, &settings);
     rig.shift([0.0, 0.0, -DEPTH]);
     let sums = rig.shift([1e-5, 0.0, -DEPTH]);

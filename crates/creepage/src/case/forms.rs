@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 
+pub use contact::Stiffness;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde::ser::{Serialize, Serializer};
 use toml::Value;
 
 /// Transverse shape of a running surface: `"flat"`, or the radius of its crown.
@@ -61,65 +62,6 @@ impl JsonSchema for Crown {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({ "oneOf": [{ "type": "number" }, { "const": "flat" }] })
-    }
-}
-
-/// Stiffness of a penalty spring, in one of three forms.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stiffness {
-    /// A multiple of K/d in each pass (dimensionless), with the bulk modulus K (Pa) and the thickness d = V/A (m) of
-    /// the element below the face: LS-DYNA's scale factor.
-    Factor(f64),
-    /// Stiffness per area, the sum of both passes (N/m^3).
-    Areal(f64),
-    /// A fraction of the stiffness at which the time step would be unstable (dimensionless).
-    Stability(f64),
-}
-
-impl Serialize for Stiffness {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (key, value) = match self {
-            Self::Factor(factor) => return serializer.serialize_f64(*factor),
-            Self::Areal(stiffness) => ("stiffness", stiffness),
-            Self::Stability(fraction) => ("stability", fraction),
-        };
-        let mut map = serializer.serialize_map(Some(1))?;
-        map.serialize_entry(key, value)?;
-        map.end()
-    }
-}
-
-impl<'de> Deserialize<'de> for Stiffness {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = Value::deserialize(deserializer)?;
-        let only = value.as_table().filter(|table| table.len() == 1);
-        let form = |name| only.and_then(|table| table.get(name)).and_then(float);
-        let areal = || form("stiffness").map(Self::Areal);
-        let stability = || form("stability").map(Self::Stability);
-        let stiffness = float(&value).map(Self::Factor).or_else(areal).or_else(stability);
-        stiffness.ok_or_else(|| {
-            D::Error::custom("expected a number, { stiffness = N/m^3 } or { stability = fraction }")
-        })
-    }
-}
-
-impl JsonSchema for Stiffness {
-    fn schema_name() -> Cow<'static, str> {
-        "Stiffness".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let one_key = |key: &str| {
-            json_schema!({
-                "type": "object",
-                "properties": { key: { "type": "number" } },
-                "required": [key],
-                "additionalProperties": false
-            })
-        };
-        json_schema!({
-            "oneOf": [{ "type": "number" }, one_key("stiffness"), one_key("stability")]
-        })
     }
 }
 

@@ -17,6 +17,7 @@ use crate::case::key::{
 pub use crate::case::model::{BodyModel, LeftOut};
 use crate::case::section::section;
 use crate::case::words::words;
+pub use contact::{Normals, Rows};
 
 section! {
     /// A case: a disk pressed on a bar and rolled along it. SI units throughout.
@@ -301,28 +302,6 @@ words! {
         Penalty = "penalty",
         /// Lagrange multipliers in one pass.
         Exact = "exact",
-    }
-}
-
-words! {
-    /// The rows of exact enforcement.
-    Rows {
-        /// A slave node and the face under it.
-        #[default]
-        NodeToFace = "node_to_face",
-        /// A slave node and the mean over the faces near it, by dual mortar functions.
-        Mortar = "mortar",
-    }
-}
-
-words! {
-    /// The normals of contact.
-    Normals {
-        /// Averaged at nodes, interpolated between them.
-        #[default]
-        Averaged = "averaged",
-        /// Of the face alone.
-        Face = "face",
     }
 }
 

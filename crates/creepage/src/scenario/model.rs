@@ -131,11 +131,11 @@ impl Model {
         scale: StabilityScale,
     ) -> Result<PenaltyContact, ScenarioError> {
         let settings = PenaltySettings {
-            normal: stiffness(case.contact.penalty.normal),
-            tangential: stiffness(case.contact.penalty.tangential),
+            normal: case.contact.penalty.normal,
+            tangential: case.contact.penalty.tangential,
             damping: case.contact.penalty.damping,
             curvature: case.contact.curvature,
-            normals: normals(case),
+            normals: case.contact.normals,
         };
         let law = friction_law::law(case, self.law.as_ref())?;
         Ok(PenaltyContact::new(&self.mesh, self.sides(), &settings, Some(scale), law)?)
@@ -177,11 +177,8 @@ impl Model {
         ExactSettings {
             slave: Some(self.slave()),
             curvature: case.contact.curvature,
-            normals: normals(case),
-            rows: match case.contact.rows.unwrap_or_default() {
-                crate::case::schema::Rows::NodeToFace => contact::Rows::NodeToFace,
-                crate::case::schema::Rows::Mortar => contact::Rows::Mortar,
-            },
+            normals: case.contact.normals,
+            rows: case.contact.rows.unwrap_or_default(),
         }
     }
 
@@ -200,22 +197,5 @@ impl Model {
     fn sides(&self) -> [(&Surface, BodyMaterial); 2] {
         let body = |m: Material| BodyMaterial { bulk_modulus: m.bulk(), density: m.density };
         [DISK, BAR].map(|side| (&self.surfaces[side], body(self.materials[side])))
-    }
-}
-
-fn normals(case: &Case) -> contact::Normals {
-    match case.contact.normals {
-        crate::case::schema::Normals::Averaged => contact::Normals::Averaged,
-        crate::case::schema::Normals::Face => contact::Normals::Face,
-    }
-}
-
-pub(crate) fn stiffness(s: crate::case::schema::Stiffness) -> contact::PenaltyStiffness {
-    match s {
-        crate::case::schema::Stiffness::Factor(v) => contact::PenaltyStiffness::Scale(v),
-        crate::case::schema::Stiffness::Areal(v) => contact::PenaltyStiffness::Areal(v),
-        crate::case::schema::Stiffness::Stability(v) => {
-            contact::PenaltyStiffness::StabilityFraction(v)
-        }
     }
 }

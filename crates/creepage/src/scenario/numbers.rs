@@ -5,7 +5,7 @@ use crate::case::friction_law;
 use crate::case::hertz::hertz;
 use crate::case::schema::{Case, Creepage, DriveMode, Enforcement};
 use crate::scenario::model::{BAR, DISK, Model};
-use contact::PenaltyStiffness;
+use contact::Stiffness;
 use friction::{Falling, Interface};
 use serde_json::json;
 use solid::Material;
@@ -51,13 +51,13 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
     if case.contact.enforcement == Enforcement::Exact {
         return None;
     }
-    match crate::scenario::model::stiffness(case.contact.penalty.tangential) {
-        PenaltyStiffness::Scale(factor) => {
+    match case.contact.penalty.tangential {
+        Stiffness::Factor(factor) => {
             Some([DISK, BAR].iter().map(|&b| factor * model.materials[b].bulk() / depth).sum())
         }
-        PenaltyStiffness::Areal(both) => Some(both),
+        Stiffness::Areal(both) => Some(both),
         // a fraction of 4 m*/dt^2 less the part of the bodies' own frequency, which is not known here
-        PenaltyStiffness::StabilityFraction(_) => None,
+        Stiffness::Stability(_) => None,
     }
 }
 
