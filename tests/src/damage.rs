@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use output::CHECKPOINTS;
+use output::summary::Status;
 
 use crate::chance::Chance;
 use crate::{Results, load, options, results, timeless};
@@ -197,8 +198,8 @@ impl Trial {
         };
         let summary =
             creepage::run::run(&load(&self.case, &SETS), &options(out, 1), &stop, observe);
-        match summary.map_err(text)?["status"].as_str() {
-            Some("interrupted") => Ok(()),
+        match summary.map_err(text)?.status {
+            Some(Status::Interrupted) => Ok(()),
             status => Err(format!("the run to be interrupted ended as {status:?}")),
         }
     }

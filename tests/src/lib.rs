@@ -70,6 +70,7 @@ pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, 
     let returned =
         creepage::run::run(case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
     let results = results(&out);
+    let returned = serde_json::to_value(&returned).unwrap();
     assert_eq!(results.summary, returned, "summary.json holds what the run returns");
     (results, log(&out))
 }

@@ -7,9 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use creepage::case::Case;
 use creepage::run::{RunError, RunOptions};
 use creepage::scenario::Stage;
+use output::summary::{Status, Summary};
 use output::{CHECKPOINTS, Checkpoint};
 use runs::{Results, load, log, options, project, results, run, timeless};
-use serde_json::Value;
 
 /// The small case with every kind of output: a window of every step, and probes.
 const OUTPUTS: [&str; 5] = [
@@ -25,7 +25,7 @@ fn small(more: &[&str]) -> Case {
 }
 
 /// Runs until at least `step`, then asks the run to stop; returns its summary.
-fn run_until(case: &Case, options: &RunOptions, step: u64) -> Result<Value, RunError> {
+fn run_until(case: &Case, options: &RunOptions, step: u64) -> Result<Summary, RunError> {
     let stop = AtomicBool::new(false);
     creepage::run::run(case, options, &stop, &mut |progress| {
         if progress.stage == Stage::Roll && progress.step >= step {
@@ -61,15 +61,15 @@ fn interrupted_is_uninterrupted(sets: &[&str], uses: &[&str]) {
         let wanted = (part * steps as f64) as u64;
         let options = if at == 0 { options(&out, threads) } else { resuming(&out, threads) };
         let summary = run_until(&case, &options, wanted).unwrap();
-        assert_eq!(summary["status"], "interrupted");
-        assert!(summary["steps"].as_u64().unwrap() >= wanted.max(at + 1));
-        at = summary["steps"].as_u64().unwrap();
+        assert_eq!(summary.status, Some(Status::Interrupted));
+        assert!(summary.steps >= wanted.max(at + 1));
+        at = summary.steps;
         let kept = Checkpoint::read(&out.join(CHECKPOINTS[0])).unwrap();
         assert_eq!(kept.step, at);
     }
     assert!(at < steps);
     let summary = run_until(&case, &resuming(&out, 2), u64::MAX).unwrap();
-    assert_eq!(summary["status"], "completed");
+    assert_eq!(summary.status, Some(Status::Completed));
     same_bits(&whole, &results(&out));
     assert!(!CHECKPOINTS.iter().any(|name| out.join(name).exists()), "a checkpoint is left");
 }
@@ -193,7 +193,7 @@ fn a_damaged_checkpoint_is_named_and_the_one_before_used() {
         }
         fs::write(&path, bytes).unwrap();
         let summary = run_until(&case, &resuming(&out, 2), u64::MAX).unwrap();
-        assert_eq!(summary["status"], "completed", "{damage}");
+        assert_eq!(summary.status, Some(Status::Completed), "{damage}");
         let said = log(&out);
         assert!(said.contains("not used, checkpoint.h5: it is damaged"), "{damage}: {said}");
         assert!(said.contains(&format!("resumed from the checkpoint of step {before}")), "{said}");
@@ -216,7 +216,7 @@ fn without_a_whole_checkpoint_the_run_is_refused_and_begins_anew_only_with_force
         assert!(error.to_string().contains(words), "{error}");
     }
     let forced = RunOptions { force: true, ..resuming(&out, 2) };
-    assert_eq!(run_until(&case, &forced, u64::MAX).unwrap()["status"], "completed");
+    assert_eq!(run_until(&case, &forced, u64::MAX).unwrap().status, Some(Status::Completed));
     assert!(log(&out).contains("nothing to go on from"), "{}", log(&out));
 }
 
@@ -258,7 +258,7 @@ fn the_interval_of_checkpoints_may_change_when_a_run_is_resumed() {
     let other = small(&["checkpoint.steps=100", "checkpoint.wall_minutes=0"]);
     assert_eq!(small(&[]).hash(), other.hash());
     let summary = run_until(&other, &resuming(&out, 2), u64::MAX).unwrap();
-    assert_eq!(summary["status"], "completed");
+    assert_eq!(summary.status, Some(Status::Completed));
 }
 
 #[test]
@@ -276,7 +276,7 @@ fn a_run_without_a_checkpoint_begins_anew_a_complete_one_is_left_alone_and_none_
         let _ = fs::remove_file(out.join(name));
     }
     let summary = run_until(&case, &resuming(&out, 2), u64::MAX).unwrap();
-    assert_eq!(summary["status"], "completed");
+    assert_eq!(summary.status, Some(Status::Completed));
     assert!(log(&out).contains("no checkpoint yet"), "{}", log(&out));
 
     let before = fs::read(out.join("history.h5")).unwrap();
@@ -300,7 +300,7 @@ fn results_shorter_than_the_newest_checkpoint_send_the_run_to_the_one_before() {
     checkpoint.write(&out).unwrap();
     fs::write(out.join(CHECKPOINTS[1]), older).unwrap();
     let summary = run_until(&case, &resuming(&out, 2), u64::MAX).unwrap();
-    assert_eq!(summary["status"], "completed");
+    assert_eq!(summary.status, Some(Status::Completed));
     let said = log(&out);
     assert!(said.contains("history.h5 is damaged: holds"), "{said}");
     assert!(said.contains(&format!("step {before}")) && before < newest, "{said}");

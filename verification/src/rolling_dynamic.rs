@@ -19,6 +19,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use creepage::case::Case;
 use creepage::run::RunOptions;
+use output::summary::{Mean, Status, Summary};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -182,48 +183,47 @@ fn without_penalty(soft: Rolled, stiff: Rolled) -> Rolled {
     }
 }
 
-/// A run whose summary lacks a number.
+/// A run whose summary lacks a mean.
 #[derive(Debug, thiserror::Error)]
 #[error("the run ended with the status '{status}' and without {key}")]
 pub(crate) struct Missing {
-    status: String,
+    status: &'static str,
     key: &'static str,
+}
+
+/// A mean of a run.
+pub(crate) fn mean(summary: &Summary, mean: Mean) -> Result<f64, Missing> {
+    let status = summary.status.map_or("", Status::word);
+    summary.mean(mean).ok_or(Missing { status, key: mean.key().1 })
 }
 
 /// Runs the case with elements of `h` (m) at the creepage of the reference, with `more` keys set.
 fn rolled(reference: &Reference, h: f64, more: &[String]) -> Result<Rolled, Cause> {
     let creepage = format!("drive.creepage={}", reference.creepage);
-    let number = numbers_of_run(h, [more, &[creepage]].concat())?;
-    let traction = number("contact", "traction_coefficient")?;
+    let summary = run_at(h, [more, &[creepage]].concat())?;
+    let traction = mean(&summary, Mean::TractionCoefficient)?;
     Ok(Rolled {
-        creepage: number("contact", "creepage")?
+        creepage: mean(&summary, Mean::Creepage)?
             + (reference.traction - traction) / reference.slope,
-        border: number("window", "stick_border")?,
-        peak: number("window", "peak_shear")?,
-        balance: number("energy", "balance_error")?,
+        border: mean(&summary, Mean::StickBorder)?,
+        peak: mean(&summary, Mean::PeakShear)?,
+        balance: summary.energy.balance_error,
     })
 }
 
-/// Runs the case with elements of `h` (m) and `more` keys set. The numbers of its summary, by section and key.
-pub(crate) fn numbers_of_run(
-    h: f64,
-    more: Vec<String>,
-) -> Result<impl Fn(&str, &'static str) -> Result<f64, Missing>, Cause> {
+/// Runs the case with elements of `h` (m) and `more` keys set.
+pub(crate) fn run_at(h: f64, more: Vec<String>) -> Result<Summary, Cause> {
     let mut sets = vec![
         format!("mesh.zone.size={h}"),
         "output.probes.bar=[]".into(),
         "output.probes.disk=[]".into(),
     ];
     sets.extend(more);
-    numbers_of(CASE, "a-coulomb.toml", &sets)
+    run_case(CASE, "a-coulomb.toml", &sets)
 }
 
 /// The same of the case with this text and file name.
-pub(crate) fn numbers_of(
-    text: &str,
-    name: &str,
-    sets: &[String],
-) -> Result<impl Fn(&str, &'static str) -> Result<f64, Missing> + use<>, Cause> {
+pub(crate) fn run_case(text: &str, name: &str, sets: &[String]) -> Result<Summary, Cause> {
     let case = Case::from_text(text, Path::new(name), sets)?;
     let folder = tempfile::tempdir()?;
     let options = RunOptions {
@@ -235,9 +235,5 @@ pub(crate) fn numbers_of(
         source: name.into(),
         law: None,
     };
-    let summary = creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
-    Ok(move |section: &str, key| {
-        let status = summary["status"].as_str().unwrap_or_default().to_owned();
-        summary[section][key].as_f64().ok_or(Missing { status, key })
-    })
+    Ok(creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?)
 }

@@ -10,8 +10,9 @@
 
 use crate::half_space::WHEEL;
 use crate::problem::{Cause, Outcome, Size};
-use crate::rolling_dynamic::numbers_of_run;
+use crate::rolling_dynamic::{mean, run_at};
 use crate::row::Row;
+use output::summary::Mean;
 
 /// Size of the elements (m).
 const SIZE: f64 = 2e-3;
@@ -50,7 +51,7 @@ pub(crate) fn run(size: Size) -> Outcome {
 
 fn traction((_, keys): Contact, more: &[&str]) -> Result<f64, Cause> {
     let keys: Vec<String> = keys.iter().chain(more).map(|key| (*key).to_owned()).collect();
-    Ok(numbers_of_run(SIZE, keys)?("contact", "traction_coefficient")?)
+    Ok(mean(&run_at(SIZE, keys)?, Mean::TractionCoefficient)?)
 }
 
 /// Rolling without friction, where no key of the run is `planted`.
@@ -82,9 +83,10 @@ const STEADY: [&str; 2] = ["mesh.window=0.04", "time.roll=0.12"];
 /// The power of friction, where no key of the run is `planted`.
 pub(crate) fn power((name, keys): Contact, planted: &[&str]) -> Result<Row, Cause> {
     let keys = [keys, &STEADY, planted].concat();
-    let number = numbers_of_run(SIZE, keys.iter().map(|&key| key.to_owned()).collect())?;
-    let driven = number("contact", "tangential_force")? * number("contact", "creepage")? * SPEED;
-    let friction = number("window", "friction_power")?;
+    let summary = run_at(SIZE, keys.iter().map(|&key| key.to_owned()).collect())?;
+    let number = |of| mean(&summary, of);
+    let driven = number(Mean::TangentialForce)? * number(Mean::Creepage)? * SPEED;
+    let friction = number(Mean::FrictionPower)?;
     let limit = (0.01, "asked: 0.6 % are missing on 2 mm, 0.1 % on 1 mm and 0.5 mm");
     Ok(Row::new(
         format!("{name}: power of friction (W)"),

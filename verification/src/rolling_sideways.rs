@@ -12,8 +12,9 @@
 
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
-use crate::rolling_dynamic::numbers_of;
+use crate::rolling_dynamic::{mean, run_case};
 use crate::row::Row;
+use output::summary::Mean;
 
 const CASE: &str = include_str!("../../tests/small.toml");
 const NAME: &str = "small.toml";
@@ -66,8 +67,9 @@ fn study(sizes: &[f64], keys: &[&str]) -> Result<Convergence, Cause> {
     for &h in sizes {
         let mut sets = vec![format!("mesh.zone.size={h}")];
         sets.extend(ROLL.iter().chain(keys).map(|&key| key.to_owned()));
-        let number = numbers_of(CASE, NAME, &sets)?;
-        found.push((h, number("contact", "lateral_force")? / number("contact", "normal_force")?));
+        let summary = run_case(CASE, NAME, &sets)?;
+        let number = |of| mean(&summary, of);
+        found.push((h, number(Mean::LateralForce)? / number(Mean::NormalForce)?));
     }
     Ok(Convergence::by_theory(found, 1.0))
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
-    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
-    SliderOptions, SweepOptions, ViewOptions,
+    ImportContactOptions, ImportKOptions, MeshOptions, PlannedOrRun, PlotOptions, ReportOptions,
+    RunOptions, SliderOptions, SweepOptions, ViewOptions,
 };
 use serde::Serialize;
 
@@ -194,14 +194,14 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         }
         Command::Check(options) => {
             let found = creepage::check(options)?;
-            args.show(&found.document, || check::text(&found.document));
-            Ok(if found.pass { 0 } else { FAILED })
+            args.show(&found.result, || check::text(&found.result));
+            Ok(if found.result.pass { 0 } else { FAILED })
         }
         Command::Compare(options) => done(args, &creepage::compare(options)?, compare::text),
-        Command::Plot(options) => done(args, &creepage::plot(options)?.document(), files::figures),
+        Command::Plot(options) => done(args, &creepage::plot(options)?, files::figures),
         Command::Render(options) => crate::render::command(args, options),
         Command::View(options) => view(args, options),
-        Command::Report(options) => done(args, &creepage::report(options)?.document, files::page),
+        Command::Report(options) => done(args, &creepage::report(options)?, files::report),
         Command::Sweep(options) => sweep(args, options),
         Command::ImportContact(options) => {
             done(args, &creepage::import_contact(options)?, files::contact_history)
@@ -251,9 +251,11 @@ fn view(args: &Args, ViewArgs { options, no_open }: &ViewArgs) -> Result<u8, Err
 
 fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {
     let done = creepage::sweep(options, &mut SweepWatch::new(args))?;
-    args.show(&done.document, || match (&done.page, &options.plan) {
-        (Some(page), _) => report::sweep::text(&done.document, &done.folder, page),
-        (None, plan) => plan.iter().map(|plan| format!("{}\n", plan.display())).collect(),
+    args.show(&done.result, || match (&done.result, &done.page, &options.plan) {
+        (PlannedOrRun::Run(result), Some(page), _) => {
+            report::sweep::text(result, &done.folder, page)
+        }
+        (.., plan) => plan.iter().map(|plan| format!("{}\n", plan.display())).collect(),
     });
     Ok(done.exit_code())
 }

@@ -10,8 +10,8 @@ use crate::terminal;
 /// Runs a case.
 pub fn command(args: &Args, options: &RunOptions) -> Result<u8, Error> {
     let done = creepage::run(options, &mut RunWatch::new(args))?;
-    args.show(&done.document, || {
-        report::run::text(&done.document, &done.folder, done.fluctuating_slip().as_deref())
+    args.show(&done.summary, || {
+        report::run::text(&done.summary, &done.folder, done.fluctuating_slip().as_deref())
     });
     if let Some(diagnosis) = done.diagnosis() {
         terminal::message(&format!("stopped: {diagnosis}"));

@@ -6,8 +6,8 @@
 //! of the patch and the measure of mesh modes are used. The closest-point projection is written anew here
 //! (module `projection`), so that a check does not repeat an error of the solver.
 //!
-//! [`check`](check()) goes through a contact history record by record and returns the document of
-//! `creepage check`. Fields are never held for all records; what is kept of each record are its patch
+//! [`check`](check()) goes through a contact history record by record and returns what `creepage
+//! check` prints. Fields are never held for all records; what is kept of each record are its patch
 //! measures and its centre line.
 //!
 //! Units are SI. x is the direction of rolling, y is lateral, z is up. `p_n` is the pressure, `p_tau` the shear
@@ -29,11 +29,13 @@ pub(crate) mod law;
 pub(crate) mod limits;
 mod map;
 pub(crate) mod means;
+pub(crate) mod measure;
 mod mesh_mode;
 pub(crate) mod patch_series;
 mod projection;
 mod recorded_law;
 mod replay;
+pub(crate) mod result;
 mod roughness;
 mod scales;
 pub(crate) mod slip_zone;
@@ -46,23 +48,24 @@ pub(crate) mod window;
 pub use basis::{Basis, Bound, RunPaths, SCALES, Scale};
 pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
 pub use digits::all_digits;
-pub use document::{keeps_limit, slip_paired};
 pub use error::PostError;
 pub use frames::{ContactHistory, Frame, Recorded};
 pub use import::{ImportError, ImportFiles, Imported, import_contact};
 pub use integrity::{Depth, verify_case, verify_files};
 pub use law::Law;
-pub use limits::{Limit, Limits, MEASURES, Measure};
+pub use limits::{Limit, Limits, MethodKind};
+pub use measure::{Definition, Measure};
 pub use output::layout::Pairing;
-pub use patch_series::{PATCH_MEASURES, PATCH_TABLE, PatchLine, PatchRow};
+pub use patch_series::{PATCH_TABLE, PatchLine, PatchMeasure, PatchRow};
+pub use result::*;
 pub use surface::{NO_BODY, Surface, body_name};
 pub use window::Span;
 
 use centreline::CentreLine;
+use document::Beside;
 use evaluation::Evaluation;
 use map::MapWriter;
 use means::Sources;
-use serde_json::{Value, json};
 use slip_zone::SlipZone;
 use std::path::Path;
 use std::str::FromStr;
@@ -109,13 +112,11 @@ pub struct CheckOptions<'a> {
     pub map: Option<&'a Path>,
 }
 
-/// The result of a check.
+/// What a check found, with the patch over time.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// The JSON document of `creepage check`, as `docs/checks.md` describes it.
-    pub document: Value,
-    /// Whether every measure is within its limit.
-    pub pass: bool,
+    /// What it found.
+    pub result: CheckResult,
     /// The patch over time, a row for each record of the window.
     pub patch: Vec<PatchRow>,
 }
@@ -167,21 +168,22 @@ pub fn check(
         });
     }
     let sources = Sources::of(paths, basis, &window)?;
-    let patch = sources.patch(&evaluation.patch, &weights);
-    let mesh_mode = mesh_mode::document(&evaluation.mesh_mode, sources.summary(), basis);
-    let (mut document, holds) = evaluation.document(basis, options, &window, patch, mesh_mode);
-    document["slip_zone"] = match &line {
+    let (slip_zone, slip_note) = match &line {
         Ok(line) => {
             let zone = SlipZone::of(line, &weights);
             let note = zone.as_ref().and_then(SlipZone::note);
-            if let (Some(notes), Some(note)) = (document["notes"].as_array_mut(), note) {
-                notes.push(json!(note));
-            }
-            zone.map_or(Value::Null, |zone| zone.document(line))
+            (zone.map(|zone| SlipZoneFound::Measured(zone.measured(line))), note)
         }
-        Err(why) => json!({ "note": why.to_string() }),
+        Err(why) => (Some(SlipZoneFound::Not { note: why.to_string() }), None),
     };
-    Ok(Checked { document, pass: holds, patch: evaluation.patch })
+    let beside = Beside {
+        patch: sources.patch(&evaluation.patch, &weights),
+        mesh_mode: mesh_mode::found(&evaluation.mesh_mode, sources.summary(), basis),
+        slip_zone,
+        slip_note,
+    };
+    let result = evaluation.result(basis, options, &window, beside);
+    Ok(Checked { result, patch: evaluation.patch })
 }
 
 /// What a run tells of slip that fluctuates much in its evaluation window, as a check notes it; `None` where it does not.

@@ -36,6 +36,6 @@ pub use run::{Ran, RunOptions, run};
 pub use slider::{
     LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
 };
-pub use sweep::{SweepOptions, Swept, sweep};
+pub use sweep::{PlannedOrRun, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
 pub use view::{ViewOptions, view};

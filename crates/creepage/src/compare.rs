@@ -7,6 +7,7 @@
 mod difference;
 mod figure;
 mod growth;
+mod result;
 
 use crate::chart::Figure;
 use crate::check::PostError;
@@ -15,13 +16,16 @@ use crate::check::centreline::{CentreLine, PLACES};
 use crate::check::conditions::IN_CONTACT;
 use crate::check::frames::ContactHistory;
 use crate::check::judged_faces;
+use crate::check::result::View;
 use crate::check::slip_zone::SlipZone;
 use crate::check::statistics::time_weights;
-use crate::check::surface::body_name;
 use crate::check::window::{Span, Window};
 use contact::mesh_mode::{LEAST_SLIP, MeshMode};
 use difference::INSTANTS;
-use serde_json::{Value, json};
+
+pub use result::{
+    ComparedRun, ComparisonGrid, ComparisonResult, Difference, GrownOver, Growth, RunDifference,
+};
 
 /// A run to compare.
 pub struct Compared {
@@ -33,8 +37,8 @@ pub struct Compared {
 
 /// The result of a comparison.
 pub struct Comparison {
-    /// The document of `creepage compare`.
-    pub document: Value,
+    /// What `creepage compare --json` prints.
+    pub result: ComparisonResult,
     /// Slip speed along the centre line, mean in time and one standard deviation to either side.
     pub figure: Figure,
 }
@@ -85,7 +89,7 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
         lines.push(line);
     }
     let labels = labels(runs);
-    let described: Vec<Value> = runs
+    let described: Vec<ComparedRun> = runs
         .iter()
         .zip(&labels)
         .zip(&lines)
@@ -94,21 +98,24 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
     let mut differences = Vec::new();
     for k in 1..runs.len() {
         let [a, b] = [&lines[k - 1], &lines[k]];
-        differences.push(json!({
-            "from": labels[k - 1], "to": labels[k],
-            "slip": difference::of([a, b], |line| &line.slip, window),
-            "shear": difference::of([a, b], |line| &line.shear, window),
-            "growth": growth::growth([&runs[k - 1].basis, &runs[k].basis], [&histories[k - 1], &histories[k]])?,
-        }));
+        let bases = [&runs[k - 1].basis, &runs[k].basis];
+        differences.push(RunDifference {
+            from: labels[k - 1].clone(),
+            to: labels[k].clone(),
+            slip: difference::of([a, b], |line| &line.slip, window),
+            shear: difference::of([a, b], |line| &line.shear, window),
+            growth: growth::growth(bases, [&histories[k - 1], &histories[k]])?,
+        });
     }
     let reach = lines.iter().map(|line| line.line.reach).fold(0.0, f64::max);
-    let document = json!({
-        "window": window,
-        "grid": { "from": -reach, "to": reach, "places": PLACES, "instants": INSTANTS },
-        "runs": described,
-        "differences": differences,
-    });
-    Ok(Comparison { document, figure: figure::figure(&labels, &lines, window) })
+    let result = ComparisonResult {
+        window,
+        grid: ComparisonGrid { from: -reach, to: reach, places: PLACES, instants: INSTANTS },
+        runs: described,
+        differences,
+        figure: None,
+    };
+    Ok(Comparison { result, figure: figure::figure(&labels, &lines, window) })
 }
 
 /// What tells the runs apart: the names of their cases, of their folders where two cases have one name.
@@ -121,17 +128,22 @@ fn labels(runs: &[Compared]) -> Vec<String> {
     runs.iter().map(label).collect()
 }
 
-/// The entry of a run in the document.
-fn describe(run: &Compared, label: &str, line: &RunLine) -> Value {
+/// What is compared of a run.
+fn describe(run: &Compared, label: &str, line: &RunLine) -> ComparedRun {
     let zone = line.zone.as_ref();
-    json!({
-        "name": run.basis.name, "label": label, "folder": run.paths.folder, "side": body_name(line.line.body),
-        "largest": line.largest, "largest_over": line.largest_over, "mean": zone.map(|zone| zone.mean),
-        "fluctuation": zone.and_then(|zone| zone.fluctuation),
-        "fluctuating_share": zone.and_then(|zone| zone.fluctuating_share),
-        "slip_zone": zone.map(|zone| zone.document(&line.line)),
-        "alternating_slip": line.mesh_mode.share(LEAST_SLIP * line.line.speed.abs()),
-    })
+    ComparedRun {
+        name: run.basis.name.clone(),
+        label: label.into(),
+        folder: run.paths.folder.clone(),
+        side: View::of(line.line.body),
+        largest: line.largest,
+        largest_over: line.largest_over,
+        mean: zone.map(|zone| zone.mean),
+        fluctuation: zone.and_then(|zone| zone.fluctuation),
+        fluctuating_share: zone.and_then(|zone| zone.fluctuating_share),
+        slip_zone: zone.map(|zone| zone.measured(&line.line)),
+        alternating_slip: line.mesh_mode.share(LEAST_SLIP * line.line.speed.abs()),
+    }
 }
 
 /// Reads a run over `window`.

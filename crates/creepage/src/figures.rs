@@ -17,6 +17,7 @@ use crate::check::Scales;
 use crate::check::basis::{Basis, RunPaths};
 use crate::check::frames::ContactHistory;
 use crate::check::means::Sources;
+use crate::check::patch_series::PatchMeasure;
 use crate::check::window::{Span, Window};
 use output::layout::file;
 
@@ -51,9 +52,9 @@ pub fn figures(
     let body = history.surface.bodies().last().copied().unwrap_or(0);
     let sources = Sources::of(paths, basis, &window)?;
     let means = FigureMeans {
-        normal_force: sources.mean("normal_force"),
-        creepage: sources.mean("creepage"),
-        traction_coefficient: sources.mean("traction_coefficient"),
+        normal_force: sources.mean(PatchMeasure::NormalForce),
+        creepage: sources.mean(PatchMeasure::Creepage),
+        traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
     };
     let window = window.ends(&history.times);
     let instants = Vec::new();

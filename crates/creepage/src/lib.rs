@@ -9,7 +9,7 @@
 //! A run of a few steps of a small case, and its check:
 //!
 //! ```
-//! use creepage::{CaseSource, CheckOptions, RunOptions};
+//! use creepage::{CaseSource, CheckOptions, Measure, RunOptions};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let scratch = tempfile::tempdir()?;
@@ -23,15 +23,15 @@
 //!     },
 //!     &mut (),
 //! )?;
-//! assert_eq!(ran.document["status"], "completed");
+//! assert!(ran.summary.contact.creepage.is_some());
 //!
 //! let checked = creepage::check(&CheckOptions {
 //!     run: ran.folder,
 //!     limits: vec![("law_error".into(), 0.02)],
 //!     ..CheckOptions::default()
 //! })?;
-//! println!("every limit holds: {}", checked.pass);
-//! println!("{}", checked.document["metrics"]["penetration"]);
+//! println!("every limit holds: {}", checked.result.pass);
+//! println!("{:?}", checked.result.metrics[&Measure::Penetration]);
 //! # Ok(())
 //! # }
 //! ```
@@ -92,10 +92,11 @@ pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
 pub use case::json_schema::json_schema as schema;
 pub use chart::Format;
-pub use check::{Checked, Pairing, Report as PairingReport};
+pub use check::{CheckResult, Checked, Measure, Pairing, Report as PairingReport};
 pub use commands::*;
 pub use friction::OwnLaw;
 pub use ls_dyna::Units;
+pub use output::summary::Summary;
 pub use run::{BlockElement, Level};
 pub use scenario::{Cost, Progress, Stage};
-pub use sweep::{Column, Table, Watched};
+pub use sweep::{Cell, Column, SweepResult, Table, Watched};

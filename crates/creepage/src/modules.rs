@@ -8,10 +8,10 @@ const ORDER: [&[&str]; 9] = [
     &["case"],
     &["scenario"],
     &["run"],
-    &["sweep"],
-    &["ls_dyna"],
     &["chart"],
     &["check"],
+    &["sweep"],
+    &["ls_dyna"],
     &["figures", "compare", "trends", "scene", "report"],
     &["commands"],
 ];

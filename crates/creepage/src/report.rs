@@ -10,14 +10,14 @@ mod verdict;
 use crate::check::PostError;
 use crate::check::basis::Basis;
 use crate::check::digits::{all_digits, digits};
-use crate::check::limits::MEASURES;
-use crate::check::patch_series::{PATCH_TABLE, PatchLine};
-use crate::check::{keeps_limit, slip_paired};
+use crate::check::limits::Limit;
+use crate::check::patch_series::{PATCH_TABLE, PatchLine, PatchMeasure};
+use crate::check::result::{CheckResult, LawUsed, ScaleUsed};
 use crate::figures::Named;
 use crate::scene::SceneError;
 use output::files::made::PAGE_MARK;
 use output::layout::file;
-use serde_json::Value;
+use output::summary::Summary;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -58,15 +58,14 @@ for (const table of document.querySelectorAll('table')) {
 /// Shows values under the pointer in figures, from the attributes that they have for it.
 const VALUES: &str = include_str!("report/values.js");
 
-/// The HTML page of a run in `folder`, from the document of its check ([`Checked`](crate::check::Checked)) and its
-/// figures.
+/// The HTML page of a run in `folder`, from what its check found and its figures.
 ///
 /// # Errors
 /// A figure that cannot be drawn.
 pub fn run_page(
     basis: &Basis,
     folder: &Path,
-    checked: &Value,
+    checked: &CheckResult,
     figures: &[Named],
 ) -> Result<String, PostError> {
     let mut out = head(&basis.name);
@@ -144,9 +143,11 @@ pub(crate) fn escape(text: &str) -> String {
 }
 
 /// What Hertz's theory gives for a patch measure (SI), where it is known apart from the records.
-fn half_space(basis: &Basis, key: &str) -> Option<f64> {
-    let known = ["half_length", "half_width", "peak_pressure"].contains(&key);
-    let scale = basis.scales.get(key).filter(|scale| !scale.from.contains("last record"));
+fn half_space(basis: &Basis, measure: PatchMeasure) -> Option<f64> {
+    use PatchMeasure as P;
+    let known = [P::HalfLength, P::HalfWidth, P::PeakPressure].contains(&measure);
+    let scale = basis.scales.get(measure.name());
+    let scale = scale.filter(|scale| !scale.from.contains("last record"));
     scale.filter(|_| known).map(|scale| scale.value)
 }
 
@@ -157,23 +158,17 @@ fn worth(mean: f64, half: Option<f64>) -> String {
     digits(mean, significant.clamp(1, 4))
 }
 
-fn number(document: &Value, pointer: &str) -> Option<f64> {
-    document.pointer(pointer).and_then(Value::as_f64)
-}
-
-fn title(basis: &Basis, checked: &Value) -> String {
+fn title(basis: &Basis, checked: &CheckResult) -> String {
     let text = basis.case.as_ref().and_then(|case| case.get("title")).and_then(|t| t.as_str());
-    let ms = |pointer| number(checked, pointer).map_or("?".into(), |t| digits(1e3 * t, 5));
+    let [from, to] = checked.window.map(|time| digits(1e3 * time, 5));
     format!(
-        "{} All means are those from {} to {} ms, in {} records.",
+        "{} All means are those from {from} to {to} ms, in {} records.",
         text.map(|text| format!("{}.", escape(text.trim_end_matches('.')))).unwrap_or_default(),
-        ms("/window/0"),
-        ms("/window/1"),
-        checked["steps"]
+        checked.steps
     )
 }
 
-fn verdicts(out: &mut String, checked: &Value) {
+fn verdicts(out: &mut String, checked: &CheckResult) {
     let _ = write!(
         out,
         "<h2 id=\"conditions\">Contact conditions</h2>\n\
@@ -181,59 +176,52 @@ fn verdicts(out: &mut String, checked: &Value) {
          Definitions and scales: docs/checks.md of Creepage.</p>\n\
          <div class=\"wide measures\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
          <th></th><th>what it says</th></tr>\n",
-        checked["limits_for"].as_str().unwrap_or_default(),
-        slip_paired(checked)
+        checked.limits_for,
+        checked.pairing.reported.slip()
     );
-    for measure in MEASURES {
-        let metric = &checked["metrics"][measure.name];
-        let value = metric["value"].as_f64();
-        let limit = match (&metric["limit"], metric["limit"].as_f64()) {
-            (_, Some(most)) => digits(most, 2),
-            (Value::Array(ends), _) => ends
-                .iter()
-                .filter_map(Value::as_f64)
-                .map(all_digits)
-                .collect::<Vec<_>>()
-                .join(" to "),
-            _ => String::new(),
+    for (measure, metric) in &checked.metrics {
+        let limit = match metric.limit {
+            Some(Limit::Most(most)) => digits(most, 2),
+            Some(Limit::Between(low, high)) => {
+                format!("{} to {}", all_digits(low), all_digits(high))
+            }
+            None => String::new(),
         };
-        let word = match keeps_limit(metric) {
+        let word = match metric.keeps_limit() {
             None => "",
             Some(true) => "pass",
             Some(false) => "fail",
         };
-        let units = if measure.units == "1" { "" } else { measure.units };
+        let units = if metric.units == "1" { "" } else { &metric.units };
         let _ = writeln!(
             out,
             "<tr><td>{}</td><td class=\"n\">{} {units}</td><td class=\"n\">{limit}</td>\
              <td class=\"{word}\">{word}</td><td>{}</td></tr>",
-            measure.name,
-            value.map_or("\u{2013}".into(), |value| digits(value, 3)),
-            escape(&verdict::verdict(measure.name, metric))
+            measure.name(),
+            metric.value.map_or("\u{2013}".into(), |value| digits(value, 3)),
+            escape(&verdict::verdict(*measure, metric))
         );
     }
     out.push_str("</table></div>\n");
-    for note in checked["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+    for note in &checked.notes {
         let _ = writeln!(out, "<p class=\"note\">Note: {}.</p>", escape(note));
     }
 }
 
-fn case(out: &mut String, basis: &Basis, checked: &Value) {
+fn case(out: &mut String, basis: &Basis, checked: &CheckResult) {
     out.push_str("<h3>The case</h3>\n<table>\n");
     let mut row = |label: &str, text: String| {
         let _ = writeln!(out, "<tr><td>{label}</td><td>{}</td></tr>", escape(&text));
     };
-    let law = &checked["law"];
-    let at = |key: &str| law[key].as_f64().map_or("?".into(), |value| digits(value, 3));
-    match law["law"].as_str() {
-        Some("coulomb") => row("friction", format!("Coulomb, \u{3bc} = {}", at("static"))),
+    let LawUsed { law, mu_static, mu_dynamic, decay, .. } = &checked.law;
+    let [mu_static, mu_dynamic, decay] =
+        [mu_static, mu_dynamic, decay].map(|value| value.map_or("?".into(), |v| digits(v, 3)));
+    match law.as_deref() {
+        Some("coulomb") => row("friction", format!("Coulomb, \u{3bc} = {mu_static}")),
         Some(_) => row(
             "friction",
             format!(
-                "falls with slip velocity, Eq. (8): \u{3bc}_S = {}, \u{3bc}_D = {}, k = {} s/m",
-                at("static"),
-                at("dynamic"),
-                at("decay")
+                "falls with slip velocity, Eq. (8): \u{3bc}_S = {mu_static}, \u{3bc}_D = {mu_dynamic}, k = {decay} s/m"
             ),
         ),
         None => row("friction", "the coefficient that the data give".into()),
@@ -241,39 +229,27 @@ fn case(out: &mut String, basis: &Basis, checked: &Value) {
     if let Some(enforcement) = &basis.enforcement {
         row("contact", enforcement.clone());
     }
-    for (name, entry) in checked["scales"].as_object().into_iter().flatten() {
-        let value = entry["value"].as_f64().map_or("?".into(), |value| digits(value, 5));
-        let units = entry["units"].as_str().filter(|u| *u != "1");
-        let units = units.map(|u| format!(" {u}")).unwrap_or_default();
-        let about = entry["about"].as_str().unwrap_or_default();
-        let from = entry["from"].as_str().unwrap_or_default();
+    for (name, ScaleUsed { value, units, about, from }) in &checked.scales {
+        let units = if units == "1" { String::new() } else { format!(" {units}") };
+        let value = digits(*value, 5);
         row(&name.replace('_', " "), format!("{value}{units}: {about} (from: {from})"));
     }
-    if let Some(summary) = &basis.summary {
-        let count = |key: &str| summary[key].as_u64().map_or("?".into(), |n| n.to_string());
-        row(
-            "model",
-            format!(
-                "{} elements, {} nodes, {} steps",
-                count("elements"),
-                count("nodes"),
-                count("steps")
-            ),
-        );
+    if let Some(Summary { elements, nodes, steps, .. }) = &basis.summary {
+        row("model", format!("{elements} elements, {nodes} nodes, {steps} steps"));
     }
     out.push_str("</table>\n");
 }
 
-fn patch(out: &mut String, basis: &Basis, checked: &Value) {
+fn patch(out: &mut String, basis: &Basis, checked: &CheckResult) {
     out.push_str(
         "<div class=\"wide\"><table>\n<tr><th>mean over the window</th><th class=\"n\">value</th>\
          <th></th><th class=\"n\">95 % interval</th><th class=\"n\">deviation</th>\
          <th class=\"n\">half-space</th></tr>\n",
     );
-    for PatchLine { label, key, factor, unit } in PATCH_TABLE {
-        let at = |part: &str| number(checked, &format!("/patch/{key}/{part}"));
-        let note = checked.pointer(&format!("/patch/{key}/note")).and_then(Value::as_str);
-        let Some(mean) = at("mean") else {
+    for PatchLine { label, measure, factor, unit } in PATCH_TABLE {
+        let Some(found) = checked.patch.get(&measure) else { continue };
+        let note = found.note.as_deref();
+        let Some(mean) = found.mean else {
             if let Some(note) = note {
                 let _ = writeln!(
                     out,
@@ -283,16 +259,17 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
             }
             continue;
         };
-        let reference = half_space(basis, key).map(|value| digits(factor * value, 4));
+        let reference = half_space(basis, measure).map(|value| digits(factor * value, 4));
         let _ = writeln!(
             out,
             "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td>\
              <td class=\"n\">{}</td><td class=\"n\">{}</td>{}</tr>",
-            worth(factor * mean, at("ci95").map(|half| factor * half)),
-            at("ci95")
+            worth(factor * mean, found.ci95.map(|half| factor * half)),
+            found
+                .ci95
                 .map(|half| format!("\u{b1} {}", digits(factor * half, 2)))
                 .unwrap_or_default(),
-            at("deviation").map(|d| digits(factor * d, 2)).unwrap_or_default(),
+            found.deviation.map(|d| digits(factor * d, 2)).unwrap_or_default(),
             reference.unwrap_or_default(),
             note.map(|note| format!("<td>{}</td>", escape(note))).unwrap_or_default()
         );
@@ -304,43 +281,30 @@ fn patch(out: &mut String, basis: &Basis, checked: &Value) {
 }
 
 fn energy(out: &mut String, basis: &Basis) {
-    let Some(energy) = basis.summary.as_ref().and_then(|s| s["energy"].as_object()) else {
-        return;
-    };
+    let Some(Summary { energy, .. }) = &basis.summary else { return };
     out.push_str("<h3>Energy at the end</h3>\n<table>\n");
-    for (label, key) in [
-        ("kinetic", "kinetic"),
-        ("strain", "internal"),
-        ("hourglass stiffness", "hourglass"),
-        ("contact springs", "contact_stored"),
-        ("heat of friction", "friction_dissipated"),
-        ("heat of damping", "damping_dissipated"),
-        ("work of drive and load", "external_work"),
+    for (label, value) in [
+        ("kinetic", energy.kinetic),
+        ("strain", energy.internal),
+        ("hourglass stiffness", energy.hourglass),
+        ("contact springs", energy.contact_stored),
+        ("heat of friction", energy.friction_dissipated),
+        ("heat of damping", energy.damping_dissipated),
+        ("work of drive and load", energy.external_work),
     ] {
-        if let Some(value) = energy.get(key).and_then(Value::as_f64) {
-            let _ = writeln!(
-                out,
-                "<tr><td>{label}</td><td class=\"n\">{} J</td></tr>",
-                digits(value, 4)
-            );
-        }
+        let _ =
+            writeln!(out, "<tr><td>{label}</td><td class=\"n\">{} J</td></tr>", digits(value, 4));
     }
-    out.push_str("</table>\n");
-    if let Some(error) = energy.get("balance_error").and_then(Value::as_f64) {
-        let _ = writeln!(
-            out,
-            "<p>The energy balance closes to {} of the largest energy exchanged.</p>",
-            digits(error, 2)
-        );
-    }
-    let share = |key: &str| energy.get(key).and_then(Value::as_f64);
-    if let (Some(hourglass), Some(internal)) = (share("hourglass"), share("internal"))
-        && internal > 0.0
-    {
+    let _ = writeln!(
+        out,
+        "</table>\n<p>The energy balance closes to {} of the largest energy exchanged.</p>",
+        digits(energy.balance_error, 2)
+    );
+    if energy.internal > 0.0 {
         let _ = writeln!(
             out,
             "<p>Hourglass energy is {} % of the strain energy (commonly kept below 1 %).</p>",
-            digits(100.0 * hourglass / internal, 2)
+            digits(100.0 * energy.hourglass / energy.internal, 2)
         );
     }
 }

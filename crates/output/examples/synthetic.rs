@@ -333,7 +333,7 @@ fn write_history(folder: &Path, steps: usize, provenance: &Provenance) -> Result
 fn write_summary(folder: &Path, model: &Model, steps: usize) -> Result<(), OutputError> {
     let summary = summary::Summary {
         name: "synthetic".into(),
-        status: summary::Status::Completed,
+        status: Some(summary::Status::Completed),
         steps: steps as u64,
         dt: 1e-4,
         t_end: time_of(steps.saturating_sub(1)),
@@ -347,7 +347,7 @@ fn write_summary(folder: &Path, model: &Model, steps: usize) -> Result<(), Outpu
         contact: summary::Contact::default(),
         files: summary::Files::default(),
         stages: [("output".to_owned(), 0.0)].into(),
-        extra: Default::default(),
+        ..summary::Summary::default()
     };
     write_json_atomically(folder.join("summary.json"), &summary)
 }

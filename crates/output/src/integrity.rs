@@ -3,12 +3,15 @@
 //!
 //! Files of a run are large: on a processor with instructions for it, SHA-256 of them took 1 % of the time of a
 //! run; CRC-32 takes a third of that and misses one random damage in four billion.
+//!
+//! The checksum of a summary is over its JSON with whatever keys its version wrote: here alone it is a free document.
 
 use crate::OutputError;
 use crate::checksums::hexadecimal;
 use crate::files::input::{self, Fault, InputError};
 use crate::hdf5::damaged;
 use crate::layout::file;
+use crate::summary::Summary;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -57,7 +60,7 @@ impl FileSum {
 ///
 /// # Errors
 /// A file that is there but cannot be read.
-pub fn sums_of_files(
+pub(crate) fn sums_of_files(
     folder: &Path,
     names: &[&str],
 ) -> Result<BTreeMap<String, FileSum>, OutputError> {
@@ -73,12 +76,18 @@ pub fn sums_of_files(
     Ok(sums)
 }
 
-/// Adds to a summary the checksums of the files, as `checksums`, and then its own, as `sha256`. Any later change of the
-/// summary is taken for damage.
-pub fn seal(summary: &mut Map<String, Value>, sums: &BTreeMap<String, FileSum>) {
-    summary.insert(SUMS.into(), serde_json::json!(sums));
-    let own = own_sum(summary);
-    summary.insert(SEAL.into(), own.into());
+/// SHA-256 of everything in a summary but its key `sha256`, which then holds it: any later change of the summary is
+/// taken for damage.
+///
+/// # Errors
+/// None that occurs: a summary is text keys and numbers.
+pub(crate) fn seal(summary: &Summary) -> Result<String, OutputError> {
+    let failed = |reason: String| OutputError::Create { path: file::SUMMARY.into(), reason };
+    match serde_json::to_value(summary) {
+        Ok(Value::Object(entries)) => Ok(own_sum(&entries)),
+        Ok(_) => Err(failed("it is no JSON object".into())),
+        Err(error) => Err(failed(error.to_string())),
+    }
 }
 
 /// SHA-256 of a summary without its key `sha256`: of its JSON without spaces, keys in order, numbers with the
@@ -97,7 +106,7 @@ fn own_sum(summary: &Map<String, Value>) -> String {
 /// # Errors
 /// A summary that cannot be read, is not what was written, or is gone although the run's log says that the run
 /// ended.
-pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
+pub fn read_summary(folder: &Path) -> Result<Option<Summary>, OutputError> {
     let path = folder.join(file::SUMMARY);
     let text = match input::bytes(&path, input::DOCUMENT) {
         Ok(text) => text,
@@ -110,17 +119,18 @@ pub fn read_summary(folder: &Path) -> Result<Option<Value>, OutputError> {
         }
         Err(error) => return Err(unreadable(path, error.fault)),
     };
-    let summary: Value = serde_json::from_slice(&text)
-        .map_err(|error| damaged(&path, format!("it is no JSON: {error}")))?;
-    let Value::Object(entries) = &summary else {
-        return Err(damaged(&path, "it is no JSON object".into()));
-    };
+    // the checksum is over all keys, also those of other versions
+    let entries: Map<String, Value> = serde_json::from_slice(&text).map_err(|error| {
+        let what = if error.is_data() { "no JSON object" } else { "no JSON" };
+        damaged(&path, format!("it is {what}: {error}"))
+    })?;
     match (entries.get(SEAL), entries.get(SUMS)) {
         (None, None) => {}
-        (Some(seal), Some(_)) if *seal == own_sum(entries) => {}
+        (Some(seal), Some(_)) if *seal == own_sum(&entries) => {}
         _ => return Err(damaged(&path, "it is not what was written (sha256)".into())),
     }
-    Ok(Some(summary))
+    let summary = serde_json::from_value(Value::Object(entries));
+    summary.map(Some).map_err(|error| damaged(&path, format!("it is no summary: {error}")))
 }
 
 fn log_says_it_ended(folder: &Path) -> bool {
@@ -130,11 +140,6 @@ fn log_says_it_ended(folder: &Path) -> bool {
     last.and_then(|how| how.split_once(' ')).is_some_and(|(_, rest)| rest.starts_with("after "))
 }
 
-/// The checksums of files that a summary holds; `None` in one of an earlier version.
-fn sums(summary: &Value) -> Option<BTreeMap<String, FileSum>> {
-    serde_json::from_value(summary.get(SUMS)?.clone()).ok()
-}
-
 /// Compares the lengths of the files in `folder` with those in `summary`. A missing file is an error where
 /// `needed` says so of its name. Returns whether the summary holds lengths at all.
 ///
@@ -142,12 +147,12 @@ fn sums(summary: &Value) -> Option<BTreeMap<String, FileSum>> {
 /// A file with another length, a needed file that is gone, a file that cannot be read.
 pub fn as_long_as_written(
     folder: &Path,
-    summary: &Value,
+    summary: &Summary,
     needed: impl Fn(&str) -> bool,
 ) -> Result<bool, OutputError> {
-    let Some(sums) = sums(summary) else { return Ok(false) };
+    let Some(sums) = &summary.checksums else { return Ok(false) };
     for (name, sum) in sums {
-        let path = folder.join(&name);
+        let path = folder.join(name);
         match fs::metadata(&path) {
             Ok(found) if found.len() == sum.bytes => {}
             Ok(found) => {
@@ -155,7 +160,7 @@ pub fn as_long_as_written(
                     format!("it has {} bytes, but {} were written", found.len(), sum.bytes);
                 return Err(damaged(&path, reason));
             }
-            Err(error) if error.kind() == ErrorKind::NotFound && !needed(&name) => {}
+            Err(error) if error.kind() == ErrorKind::NotFound && !needed(name) => {}
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 return Err(damaged(&path, "it is gone".into()));
             }
@@ -172,13 +177,13 @@ pub fn as_long_as_written(
 /// A file that differs or cannot be read.
 pub fn as_written(
     folder: &Path,
-    summary: &Value,
+    summary: &Summary,
     wanted: impl Fn(&str) -> bool,
 ) -> Result<(), OutputError> {
-    for (name, sum) in sums(summary).unwrap_or_default().into_iter().filter(|(n, _)| wanted(n)) {
-        let path = folder.join(&name);
+    for (name, sum) in summary.checksums.iter().flatten().filter(|(name, _)| wanted(name)) {
+        let path = folder.join(name);
         match FileSum::of(&path) {
-            Ok(found) if found == sum => {}
+            Ok(found) if found == *sum => {}
             Ok(_) => return Err(damaged(&path, "it is not what was written (crc32)".into())),
             Err(Fault::Missing) => {}
             Err(fault) => return Err(unreadable(path, fault)),

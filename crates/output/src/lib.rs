@@ -5,7 +5,7 @@
 //! | `fields.vtkhdf`, `contact.vtkhdf` | [`TransientGrid`] |
 //! | `history.h5` | [`History`] |
 //! | `checkpoint.h5` | [`Checkpoint`] |
-//! | `summary.json` | [`write_json_atomically`] of a [`summary::Summary`] |
+//! | `summary.json` | [`summary::Summary::write`] |
 //!
 //! Every HDF5 file is created with its mesh and metadata and closed; each snapshot then opens it,
 //! appends and closes. Between snapshots the file is complete, so any reader can open it while the
@@ -44,7 +44,6 @@ mod json;
 pub mod layout;
 mod panics;
 mod provenance;
-pub mod quantities;
 mod reader;
 mod recognise;
 pub mod summary;
@@ -58,15 +57,9 @@ pub use error::{NotWritten, OutputError};
 pub use field::FieldSpec;
 pub use grid::{Cells, GridSpec, StaticField, TransientGrid, Values};
 pub use history::History;
-pub use integrity::{
-    FileSum, LOG_END, as_long_as_written, as_written, read_summary, seal, sums_of_files,
-};
+pub use integrity::{FileSum, LOG_END, as_long_as_written, as_written, read_summary};
 pub use json::write_json_atomically;
 pub use provenance::Provenance;
 pub use reader::{FieldInfo, GridFile, HistoryFile};
 pub use recognise::{VTKHDF, is_ours};
 pub use vtu::write_vtu;
-
-/// Key of the summary: samples of a friction law that the user supplied as a function, pairs of slip speed
-/// (m/s) and coefficient of friction.
-pub const SAMPLED_LAW: &str = "friction_law";

@@ -1,8 +1,15 @@
 //! The summary of a run: what `creepage run --json` prints and `summary.json` holds.
+//!
+//! Each number is declared once, with its unit and what it is; the sections `units` and `names` of the file and the
+//! columns of sweeps take both from here.
 
+use crate::integrity::{FileSum, seal, sums_of_files};
+use crate::json::write_json_atomically;
 use crate::layout::file;
-use serde::{Deserialize, Serialize};
+use crate::{OutputError, Provenance};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,98 +23,401 @@ pub enum Status {
     Failed,
 }
 
-/// The summary of a run at its end; numbers in SI units unless a field says otherwise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Summary {
-    /// Name of the case.
-    pub name: String,
-    /// How the run ended.
-    pub status: Status,
-    /// Time steps taken.
-    pub steps: u64,
-    /// Time step (s).
-    pub dt: f64,
-    /// Simulated time reached (s).
-    pub t_end: f64,
-    /// Elements of both bodies.
-    pub elements: u64,
-    /// Nodes of both bodies.
-    pub nodes: u64,
-    /// Threads used.
-    pub threads: u64,
-    /// Wall-clock time of the run (s).
-    pub wall_s: f64,
-    /// Elements times steps over the wall-clock time of the time loop (1/s).
-    pub element_steps_per_s: f64,
-    /// Largest resident memory of the process (MB).
-    pub peak_rss_mb: f64,
-    /// Energies at the end of the run.
-    pub energy: Energy,
-    /// Means over the evaluation window.
-    pub contact: Contact,
-    /// Files of the run, relative to its folder.
-    pub files: Files,
-    /// Wall-clock time per stage of the run (s).
-    #[serde(default)]
-    pub stages: BTreeMap<String, f64>,
-    /// Further sections, each under its own key.
-    #[serde(flatten)]
-    pub extra: BTreeMap<String, serde_json::Value>,
+impl Status {
+    /// Its word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Interrupted => "interrupted",
+            Self::Failed => "failed",
+        }
+    }
 }
 
-/// The energy balance of both bodies at the end of the run (J), and its error.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Energy {
-    /// Kinetic energy (J).
-    pub kinetic: f64,
-    /// Strain energy of the elements (J).
-    pub internal: f64,
-    /// Energy of the hourglass stiffness (J).
-    pub hourglass: f64,
-    /// Energy in the contact springs (J).
-    pub contact_stored: f64,
-    /// Work of friction turned into heat so far (J).
-    pub friction_dissipated: f64,
-    /// Work of all dampers turned into heat so far (J).
-    pub damping_dissipated: f64,
-    /// Work of prescribed motion and load so far (J).
-    pub external_work: f64,
-    /// |sum of energies - external work - initial sum| over the largest energy exchanged (dimensionless).
-    pub balance_error: f64,
+/// A number of the summary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Its key in its section.
+    pub key: &'static str,
+    /// Its SI unit, `1` where it has none.
+    pub units: &'static str,
+    /// What it is.
+    pub name: &'static str,
 }
 
-/// Means over the evaluation window; forces are those of the bar on the disk in the global frame (x rolls, y is
-/// lateral, z is up). `None` (null) where there is no value, such as where Hertz's distribution fits no pressure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Contact {
-    /// Normal force (N).
-    pub normal_force: Option<f64>,
-    /// Force along x, the rolling direction (N); positive when driving.
-    pub tangential_force: Option<f64>,
-    /// Force along y, across the rolling direction (N).
-    pub lateral_force: Option<f64>,
-    /// Tangential over normal force (dimensionless).
-    pub traction_coefficient: Option<f64>,
-    /// (omega R_eff - V)/V (dimensionless).
-    pub creepage: Option<f64>,
-    /// Half axis along x of the fitted distribution (m).
-    pub patch_half_length: Option<f64>,
-    /// Half axis along y of the fitted distribution, or half the width of a line contact (m).
-    pub patch_half_width: Option<f64>,
-    /// Area of the bar's nodes in contact (m2).
-    pub patch_area: Option<f64>,
-    /// Area of the fitted ellipse, or of a line contact's rectangle (m2).
-    pub patch_area_fitted: Option<f64>,
-    /// Peak pressure of Hertz's distribution fitted to the nodal pressures (Pa).
-    pub peak_pressure: Option<f64>,
-    /// Share of the patch's area that sticks (dimensionless).
-    pub stick_fraction: Option<f64>,
-    /// Share of the patch's area that slips (dimensionless).
-    pub slip_fraction: Option<f64>,
+/// Declares a section of the summary: `key: Type = name [unit]`, without a unit what is no number.
+macro_rules! section {
+    ($(#[$about:meta])* $Section:ident {
+        $($(#[$attribute:meta])* $key:ident: $Type:ty = $name:literal $([$units:literal])?,)*
+    }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(default)]
+        pub struct $Section {
+            $($(#[$attribute])* #[doc = concat!($name $(, " (", $units, ")")?)] pub $key: $Type,)*
+        }
+
+        impl $Section {
+            /// Its numbers.
+            pub const QUANTITIES: &[Quantity] =
+                &[$($(Quantity { key: stringify!($key), units: $units, name: $name },)?)*];
+        }
+    };
+}
+
+section! {
+    /// The energy balance of both bodies at the end of the run, and its error.
+    #[derive(Copy)]
+    Energy {
+        #[serde(deserialize_with = "null_is_nan")]
+        kinetic: f64 = "kinetic energy" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        internal: f64 = "strain energy of the elements" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        hourglass: f64 = "energy of the hourglass stiffness" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        contact_stored: f64 = "energy in the contact springs" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        friction_dissipated: f64 = "work of friction turned into heat so far" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        damping_dissipated: f64 = "work of all dampers turned into heat so far" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        external_work: f64 = "work of prescribed motion and load so far" ["J"],
+        #[serde(deserialize_with = "null_is_nan")]
+        balance_error: f64 = "error of the energy balance, |sum of energies - external work - initial sum|, over the largest energy exchanged" ["1"],
+    }
+}
+
+section! {
+    /// Means over the evaluation window; forces are those of the bar on the disk in the global frame (x rolls, y is
+    /// lateral, z is up). `None` (null) where there is no value, such as where Hertz's distribution fits no pressure.
+    #[derive(Copy)]
+    Contact {
+        normal_force: Option<f64> = "force of the bar on the disk, z, mean over the evaluation window" ["N"],
+        tangential_force: Option<f64> = "force of the bar on the disk, x, mean over the evaluation window" ["N"],
+        lateral_force: Option<f64> = "force of the bar on the disk, y, mean over the evaluation window" ["N"],
+        traction_coefficient: Option<f64> = "tangential over normal force" ["1"],
+        creepage: Option<f64> = "(omega R_eff - V)/V" ["1"],
+        patch_half_length: Option<f64> = "half axis of the patch in x" ["m"],
+        patch_half_width: Option<f64> = "half axis of the patch in y, or half the width of a line contact" ["m"],
+        patch_area: Option<f64> = "area of the bar's nodes in contact" ["m2"],
+        patch_area_fitted: Option<f64> = "area of the fitted ellipse, or of a line contact's rectangle" ["m2"],
+        peak_pressure: Option<f64> = "largest pressure of the fit of Hertz's distribution" ["Pa"],
+        stick_fraction: Option<f64> = "share of the patch that sticks" ["1"],
+        slip_fraction: Option<f64> = "share of the patch that slips" ["1"],
+    }
+}
+
+/// Declares [`Mean`]: the means that are fields of [`Contact`], then those of [`Window`].
+macro_rules! means {
+    (contact { $($Contact:ident $contact:ident)* } window { $($Window:ident $window:ident)* }) => {
+        /// A mean over the evaluation window.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Mean {
+            $(#[doc = concat!("[`Contact::", stringify!($contact), "`]")] $Contact,)*
+            $(#[doc = concat!("[`Window::", stringify!($window), "`]")] $Window,)*
+        }
+
+        impl Mean {
+            /// Its section and its key there.
+            pub fn key(self) -> (&'static str, &'static str) {
+                match self {
+                    $(Self::$Contact => ("contact", stringify!($contact)),)*
+                    $(Self::$Window => ("window", stringify!($window)),)*
+                }
+            }
+        }
+
+        impl Summary {
+            /// A mean over the evaluation window, where it has a value.
+            pub fn mean(&self, mean: Mean) -> Option<f64> {
+                match mean {
+                    $(Mean::$Contact => self.contact.$contact,)*
+                    $(Mean::$Window => self.window.as_ref()?.$window,)*
+                }
+            }
+
+            /// The means that have a value become what `of` gives.
+            pub fn map_means(&mut self, of: impl Fn(Mean) -> Option<f64>) {
+                $(self.contact.$contact = of(Mean::$Contact);)*
+                let window = self.window.get_or_insert_default();
+                $(window.$window = of(Mean::$Window);)*
+            }
+        }
+
+        /// All of them.
+        pub const MEANS: &[Mean] = &[$(Mean::$Contact,)* $(Mean::$Window,)*];
+    };
+}
+
+means! {
+    contact {
+        NormalForce normal_force
+        TangentialForce tangential_force
+        LateralForce lateral_force
+        TractionCoefficient traction_coefficient
+        Creepage creepage
+        PatchHalfLength patch_half_length
+        PatchHalfWidth patch_half_width
+        PatchArea patch_area
+        PatchAreaFitted patch_area_fitted
+        PeakPressure peak_pressure
+        StickFraction stick_fraction
+        SlipFraction slip_fraction
+    }
+    window {
+        StickBorder stick_border
+        PeakShear peak_shear
+        Torque torque
+        MaxPenetration max_penetration
+        HourglassShare hourglass_share
+        FrictionPower friction_power
+    }
+}
+
+section! {
+    /// The evaluation window, means over it that [`Contact`] does not hold, and standard deviations.
+    Window {
+        from: Option<f64> = "start of the evaluation window" ["s"],
+        to: Option<f64> = "end of the evaluation window" ["s"],
+        reasons: BTreeMap<Mean, String> = "why a mean has no value, or how many rows of the history it leaves out",
+        stick_border: Option<f64> = "rear end of the longest stick zone on y = 0 from the centre of the patch" ["m"],
+        peak_shear: Option<f64> = "largest nodal shear traction on the bar" ["Pa"],
+        torque: Option<f64> = "torque that the drive supplies about y" ["N m"],
+        max_penetration: Option<f64> = "largest penetration" ["m"],
+        hourglass_share: Option<f64> = "hourglass over strain energy" ["1"],
+        friction_power: Option<f64> = "mean power of friction; T creepage V in steady rolling" ["W"],
+        warnings: Vec<String> = "what is wrong with the means",
+        deviation: BTreeMap<Mean, Option<f64>> = "standard deviations of the means",
+        #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+        ci95: BTreeMap<Mean, f64> = "half the width of their 95 % confidence intervals, over the members of an ensemble",
+    }
+}
+
+section! {
+    /// Hertz's contact of the case.
+    #[derive(Copy)]
+    HalfSpace {
+        half_length: Option<f64> = "a, half axis of Hertz's patch in x" ["m"],
+        half_width: Option<f64> = "b, half axis of Hertz's patch in y" ["m"],
+        area: Option<f64> = "area of Hertz's patch" ["m2"],
+        peak_pressure: Option<f64> = "p_0, Hertz's peak pressure" ["Pa"],
+        approach: Option<f64> = "delta, Hertz's approach of the bodies; zero of a line contact, which has none" ["m"],
+    }
+}
+
+section! {
+    /// Whether slip and the elements below the contact show a mode of the mesh.
+    MeshMode {
+        alternating_slip: Option<f64> = "slip that alternates from node to node over all slip" ["1"],
+        alternating_slip_limit: f64 = "beyond this it is a mode of the mesh, or not resolved" ["1"],
+        hourglass_energy_in_layers: Option<f64> = "hourglass over strain energy of the elements below the contact" ["1"],
+        hourglass_energy_limit: f64 = "beyond this they deform by modes of the mesh" ["1"],
+        warnings: Vec<String> = "what is wrong with them",
+    }
+}
+
+section! {
+    /// Errors of the solution that every run watches.
+    #[derive(Copy)]
+    Checks {
+        cone_excess: Option<f64> = "largest (|shear| - mu pressure) over Hertz's peak pressure" ["1"],
+        resultant_mismatch: Option<f64> = "|sum of the contact forces on both bodies| over the normal force" ["1"],
+        contact_damping: Option<f64> = "the part of damping_dissipated that contact took" ["J"],
+    }
+}
+
+section! {
+    /// What exact enforcement took.
+    ExactContact {
+        rows: Option<String> = "`node_to_face` or `mortar`",
+        kelvin_voigt: f64 = "Kelvin-Voigt time constant" ["s"],
+        most_sweeps: u64 = "most sweeps of a step" ["1"],
+        unconverged_steps: u64 = "steps whose sweeps did not converge" ["1"],
+        unconverged_change: Option<f64> = "largest last change of a force over the largest force" ["1"],
+        manifold_node_steps: u64 = "nodes times steps at which friction had several solutions" ["1"],
+        mortar_integrals: u64 = "integrals of mortar rows" ["1"],
+        steepness_node: Option<f64> = "largest steepness of friction of a node in an implicit step" ["1"],
+        steepness_patch: Option<f64> = "the same of all nodes together" ["1"],
+        warnings: Vec<String> = "what did not converge",
+    }
+}
+
+section! {
+    /// What implicit steps took.
+    #[derive(Copy)]
+    Implicit {
+        theta: f64 = "parameter of the theta method" ["1"],
+        solved: u64 = "implicit steps solved" ["1"],
+        cut: u64 = "implicit steps cut" ["1"],
+        iterations: u64 = "iterations of all implicit steps" ["1"],
+        products: u64 = "products with the stiffness of all implicit steps" ["1"],
+    }
+}
+
+section! {
+    /// The frequencies that limit the time step.
+    #[derive(Copy)]
+    Stability {
+        omega_elastic: f64 = "largest frequency of the bodies without contact, with margin" ["rad/s"],
+        omega_max: f64 = "largest frequency with the springs of contact closed after the preload, with margin" ["rad/s"],
+        omega_bound: f64 = "rigorous upper bound of omega_max, by the bounds of the elements and of the contact springs" ["rad/s"],
+        dt_limit: f64 = "longest stable time step: 2/omega_max, less with Kelvin-Voigt damping" ["s"],
+        factor: f64 = "time step over that limit" ["1"],
+    }
+}
+
+section! {
+    /// Rolling radii of the disk.
+    #[derive(Copy)]
+    RollingRadius {
+        nominal: f64 = "radius of the undeformed disk" ["m"],
+        effective: f64 = "R_eff, V over the omega at which the slip averaged over the preloaded patch is zero" ["m"],
+        free: Option<f64> = "V over the omega of free rolling, where drive.torque = 0" ["m"],
+    }
+}
+
+section! {
+    /// How the preload was found.
+    Preload {
+        method: String = "`static` or `relaxation`",
+        iterations: u64 = "iterations of Newton's method, or of the relaxation" ["1"],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        cg_iterations: Option<u64> = "iterations of conjugate gradients, of a static preload" ["1"],
+        normal_force: f64 = "sum of the contact's normal forces" ["N"],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        closed_pairs: Option<u64> = "contact points that are closed, of a static preload" ["1"],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        residual: Option<f64> = "residual force over the load at the end, of a static preload" ["1"],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        facet_residual: Option<f64> = "the same once normals that had to be held follow the facets again" ["1"],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        kinetic_ratio: Option<f64> = "fictitious kinetic over internal energy at the end, of relaxation" ["1"],
+        hub_displacement: f64 = "displacement of the hub in z" ["m"],
+    }
+}
+
+section! {
+    /// The dimensionless numbers of contact and friction; docs/theory.md defines them.
+    Numbers {
+        pressure: Option<f64> = "p, the pressure at which the numbers hold: Hertz's peak pressure" ["Pa"],
+        impedance: Option<f64> = "rho c_s of both bodies in series" ["Pa s/m"],
+        r: Option<f64> = "R, steepness of falling friction: above 1 it has several solutions without memory" ["1"],
+        n1: Option<f64> = "N_1 = dt^2 k_t/m*, stiffness of the friction springs in a time step" ["1"],
+        n2: Option<f64> = "N_2, steepness of falling friction in a time step" ["1"],
+        f_min: Option<f64> = "least coefficient of friction that the falling law reaches" ["1"],
+        s_m: Option<f64> = "slip velocity at that coefficient" ["m/s"],
+        s_jump: Option<f64> = "slip velocity to which a node jumps from rest" ["m/s"],
+        slip_length: Option<f64> = "l_slip, length of the zone of slip by Carter's theory" ["m"],
+        nucleation_length: Option<f64> = "h_n, nucleation length of friction with memory" ["m"],
+        gamma: Option<f64> = "Gamma = l_slip/h_n" ["1"],
+        expect: Option<String> = "what to expect of the run, where there is reason for a warning",
+    }
+}
+
+section! {
+    /// What half-spaces took.
+    #[derive(Copy)]
+    Spectral {
+        grid: [usize; 2] = "points along x and y",
+        memory_steps: u64 = "steps of the past that are felt" ["1"],
+        faded: f64 = "share of the static compliance that is felt at its static value from then on" ["1"],
+        inertia: bool = "whether the half-spaces have inertia",
+        megabytes: f64 = "memory of the half-spaces" ["MB"],
+        iterations_per_step: f64 = "mean iterations of a step" ["1"],
+        most_iterations: u64 = "most iterations of a step" ["1"],
+        undelayed_steps: u64 = "steps in which a point that stuck began to slip although adhesion was a solution" ["1"],
+    }
+}
+
+section! {
+    /// A fine zone that follows the contact.
+    #[derive(Copy)]
+    MeshWindow {
+        travel: f64 = "how far the fine zone has moved" ["m"],
+        energy: f64 = "brought by its moves, less what was taken" ["J"],
+    }
+}
+
+section! {
+    /// The summary of a run at its end; numbers in SI units unless a field says otherwise.
+    Summary {
+        name: String = "name of the case",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        status: Option<Status> = "how the run ended",
+        steps: u64 = "time steps taken" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
+        dt: f64 = "time step" ["s"],
+        #[serde(deserialize_with = "null_is_nan")]
+        t_end: f64 = "simulated time reached" ["s"],
+        elements: u64 = "elements of both bodies" ["1"],
+        nodes: u64 = "nodes of both bodies" ["1"],
+        threads: u64 = "threads used" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
+        wall_s: f64 = "wall-clock time of the run" ["s"],
+        #[serde(deserialize_with = "null_is_nan")]
+        element_steps_per_s: f64 = "elements times steps over the wall-clock time of the time loop" ["1/s"],
+        #[serde(deserialize_with = "null_is_nan")]
+        peak_rss_mb: f64 = "largest resident memory of the process" ["MB"],
+        energy: Energy = "energies at the end of the run",
+        contact: Contact = "means over the evaluation window",
+        files: Files = "files of the run, relative to its folder",
+        stages: BTreeMap<String, f64> = "wall-clock time of each stage of the run (s)",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        diagnosis: Option<String> = "why its own guards stopped it, and what to do",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        model: Option<String> = "`half-space`, of half-spaces",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        symmetry: Option<String> = "whether half of the bodies is modelled",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        kernels: Option<String> = "the instructions that the kernels used",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        time_loop_bytes_per_element: Option<f64> = "memory of the time loop over the elements" ["B"],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        stability: Option<Stability> = "frequencies that limit the time step",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        rolling_radius: Option<RollingRadius> = "rolling radii of the disk",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        half_space: Option<HalfSpace> = "Hertz's contact",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        window: Option<Window> = "the evaluation window",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        mesh_mode: Option<MeshMode> = "modes of the mesh",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        checks: Option<Checks> = "errors of the solution",
+        exact_contact: Option<ExactContact> = "exact enforcement; null without it",
+        implicit: Option<Implicit> = "implicit steps; null of explicit ones",
+        preload: Option<Preload> = "the preload; null without one",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        numbers: Option<Numbers> = "dimensionless numbers",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        spectral: Option<Spectral> = "half-spaces",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        mesh_window: Option<MeshWindow> = "a fine zone that follows the contact",
+        /// Samples of a friction law that the user supplied as a function:
+        #[serde(skip_serializing_if = "Option::is_none")]
+        friction_law: Option<Vec<[f64; 2]>> = "pairs of slip speed (m/s) and coefficient of friction",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        creepage_version: Option<String> = "version of the program that wrote the file",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        case_hash: Option<String> = "hash of the resolved case",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        created: Option<String> = "when the run started, ISO 8601 in UTC",
+        #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+        units: BTreeMap<String, String> = "unit of each number, by its dotted key",
+        #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+        names: BTreeMap<String, String> = "what each number is, by its dotted key",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        checksums: Option<BTreeMap<String, FileSum>> = "lengths and checksums of the files",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        sha256: Option<String> = "checksum of the summary without this key",
+    }
 }
 
 /// Files of a run, relative to its folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Files {
     /// Fields of both bodies; empty where the run has no such file.
     pub fields: String,
@@ -116,7 +426,7 @@ pub struct Files {
     /// Scalars over time.
     pub history: String,
     /// The state in which the guards stopped the run, if they did.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub postmortem: Option<String>,
 }
 
@@ -132,104 +442,181 @@ impl Default for Files {
 }
 
 impl Files {
+    /// Those of a run that ended before it had any.
+    pub fn none() -> Self {
+        let none = String::new;
+        Self { fields: none(), contact: none(), history: none(), postmortem: None }
+    }
+
     /// Those of a run that does not record its bodies.
     pub fn without_fields() -> Self {
         Self { fields: String::new(), ..Self::default() }
     }
 }
 
+/// A number that is null in the file where it was not finite.
+fn null_is_nan<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
+}
+
+/// The number at `key` of a section of the summary, empty for those outside sections; one of `stages` has no name.
+pub fn quantity(section: &str, key: &str) -> Option<Quantity> {
+    let quantities = match section {
+        "" => Summary::QUANTITIES,
+        "energy" => Energy::QUANTITIES,
+        "contact" => Contact::QUANTITIES,
+        "window" => Window::QUANTITIES,
+        "checks" => Checks::QUANTITIES,
+        "stability" => Stability::QUANTITIES,
+        "exact_contact" => ExactContact::QUANTITIES,
+        "implicit" => Implicit::QUANTITIES,
+        _ => return None,
+    };
+    quantities.iter().find(|quantity| quantity.key == key).copied()
+}
+
+impl Mean {
+    /// Its unit and what it is.
+    pub fn quantity(self) -> Option<Quantity> {
+        let (section, key) = self.key();
+        quantity(section, key)
+    }
+}
+
+impl Summary {
+    /// The sections that it has, with the numbers of each; those outside sections have none.
+    fn sections(&self) -> Vec<(&'static str, &'static [Quantity])> {
+        let all = [
+            ("", true, Self::QUANTITIES),
+            ("energy", true, Energy::QUANTITIES),
+            ("contact", true, Contact::QUANTITIES),
+            ("window", self.window.is_some(), Window::QUANTITIES),
+            ("checks", self.checks.is_some(), Checks::QUANTITIES),
+            ("mesh_mode", self.mesh_mode.is_some(), MeshMode::QUANTITIES),
+            ("half_space", self.half_space.is_some(), HalfSpace::QUANTITIES),
+            ("stability", self.stability.is_some(), Stability::QUANTITIES),
+            ("rolling_radius", self.rolling_radius.is_some(), RollingRadius::QUANTITIES),
+            ("preload", self.preload.is_some(), Preload::QUANTITIES),
+            ("numbers", self.numbers.is_some(), Numbers::QUANTITIES),
+            ("exact_contact", self.exact_contact.is_some(), ExactContact::QUANTITIES),
+            ("implicit", self.implicit.is_some(), Implicit::QUANTITIES),
+            ("spectral", self.spectral.is_some(), Spectral::QUANTITIES),
+            ("mesh_window", self.mesh_window.is_some(), MeshWindow::QUANTITIES),
+        ];
+        let there = all.into_iter().filter(|(_, there, _)| *there);
+        there.map(|(section, _, quantities)| (section, quantities)).collect()
+    }
+
+    /// Fills the sections `units` and `names`. Deviations have the units of their means.
+    fn describe(&mut self) {
+        let dotted = |section: &str, key: &str| match section {
+            "" => key.to_owned(),
+            _ => format!("{section}.{key}"),
+        };
+        let (mut units, mut names) = (BTreeMap::new(), BTreeMap::new());
+        for (section, quantities) in self.sections() {
+            for quantity in quantities {
+                let key = dotted(section, quantity.key);
+                units.insert(key.clone(), quantity.units.to_owned());
+                names.insert(key, quantity.name.to_owned());
+            }
+        }
+        for stage in self.stages.keys() {
+            units.insert(dotted("stages", stage), "s".into());
+        }
+        for mean in self.window.iter().flat_map(|window| window.deviation.keys()) {
+            let unit = mean.quantity().map_or("1", |quantity| quantity.units);
+            units.insert(dotted("window.deviation", mean.key().1), unit.into());
+        }
+        (self.units, self.names) = (units, names);
+    }
+
+    /// Writes the summary of a run whose files are closed into its folder, with what it was made by and when, the units
+    /// of its numbers, and the checksums of the files; returns what was written.
+    ///
+    /// # Errors
+    /// Files that cannot be read, a summary that cannot be written.
+    pub fn write(mut self, folder: &Path, made: &Provenance) -> Result<Self, OutputError> {
+        self.creepage_version = Some(made.creepage_version.clone());
+        self.case_hash = Some(made.case_hash.clone());
+        self.created = Some(made.created.clone());
+        self.describe();
+        self.checksums = Some(sums_of_files(folder, &SUMMED)?);
+        self.sha256 = Some(seal(&self)?);
+        write_json_atomically(folder.join(file::SUMMARY), &self)?;
+        Ok(self)
+    }
+}
+
+/// The files whose lengths and checksums a summary holds.
+const SUMMED: [&str; 6] =
+    [file::CASE, file::FIELDS, file::CONTACT, file::HISTORY, file::PROBES, file::POSTMORTEM];
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use serde_json::{Value, json};
 
-    fn summary() -> Summary {
-        Summary {
-            name: "quick".into(),
-            status: Status::Interrupted,
-            steps: 10,
-            dt: 1e-7,
-            t_end: 1e-6,
-            elements: 2,
-            nodes: 12,
-            threads: 1,
-            wall_s: 0.1,
-            element_steps_per_s: 200.0,
-            peak_rss_mb: 3.0,
-            energy: Energy::default(),
-            contact: Contact::default(),
-            files: Files::default(),
-            stages: [("contact".to_owned(), 0.5)].into(),
-            extra: [("half_space".to_owned(), json!({ "p0": 1.0 }))].into(),
+    /// A summary as the version before wrote it.
+    const WRITTEN: &str = r#"{
+        "name": "quick", "status": "completed", "steps": 6989, "dt": 2.2e-7, "t_end": 1.54e-3, "elements": 41320,
+        "nodes": 46641, "threads": 2, "wall_s": 10.5, "element_steps_per_s": 4.5e7, "peak_rss_mb": 52.1,
+        "kernels": "avx2", "symmetry": "none", "energy": { "kinetic": 3.4e5, "internal": null },
+        "contact": { "normal_force": 1.0038e5, "creepage": null }, "exact_contact": null, "implicit": null,
+        "window": { "from": 1e-3, "to": 1.5e-3, "deviation": { "torque": 75.0, "creepage": null },
+                    "reasons": { "stick_border": "none of 3 rows" }, "warnings": [] },
+        "preload": { "method": "relaxation", "iterations": 7, "normal_force": 1e5, "kinetic_ratio": 1e-9,
+                     "hub_displacement": -1e-4 },
+        "stages": { "rolling": 6.0 }, "files": { "fields": "", "contact": "contact.vtkhdf", "history": "history.h5" }
+    }"#;
+
+    #[test]
+    fn a_summary_that_was_written_before_reads_back_and_numbers_that_were_not_finite_are_nan() {
+        let summary: Summary = serde_json::from_str(WRITTEN).unwrap();
+        assert_eq!(summary.status, Some(Status::Completed));
+        assert!(summary.energy.kinetic == 3.4e5 && summary.energy.internal.is_nan());
+        assert_eq!(summary.mean(Mean::NormalForce), Some(1.0038e5));
+        assert_eq!(summary.mean(Mean::Creepage), None);
+        let window = summary.window.as_ref().unwrap();
+        assert_eq!(window.deviation[&Mean::Torque], Some(75.0));
+        assert_eq!(window.reasons[&Mean::StickBorder], "none of 3 rows");
+        assert_eq!(summary.preload.as_ref().unwrap().kinetic_ratio, Some(1e-9));
+    }
+
+    #[test]
+    fn every_key_that_was_written_is_written_again_with_its_value() {
+        fn same(written: &serde_json::Value, again: &serde_json::Value, at: &str) {
+            match (written.as_object(), again.as_object()) {
+                (Some(written), Some(again)) => written.iter().for_each(|(key, value)| {
+                    let found = again.get(key).unwrap_or_else(|| panic!("{at}.{key} is gone"));
+                    same(value, found, &format!("{at}.{key}"));
+                }),
+                _ => assert_eq!(written, again, "{at}"),
+            }
         }
-    }
-
-    fn keys(value: &Value) -> Vec<&str> {
-        let mut keys: Vec<_> = value.as_object().unwrap().keys().map(String::as_str).collect();
-        keys.sort_unstable();
-        keys
+        let summary: Summary = serde_json::from_str(WRITTEN).unwrap();
+        let [written, again] = [serde_json::from_str(WRITTEN), serde_json::to_value(&summary)];
+        same(&written.unwrap(), &again.unwrap(), "");
     }
 
     #[test]
-    fn the_keys_are_those_that_scripts_rely_on() {
-        let value = serde_json::to_value(summary()).unwrap();
-        let mut expected = vec![
-            "name",
-            "status",
-            "steps",
-            "dt",
-            "t_end",
-            "elements",
-            "nodes",
-            "threads",
-            "wall_s",
-            "element_steps_per_s",
-            "peak_rss_mb",
-            "energy",
-            "contact",
-            "files",
-            "stages",
-            "half_space",
-        ];
-        expected.sort_unstable();
-        assert_eq!(keys(&value), expected);
-        assert_eq!(value["status"], "interrupted");
-        let mut energy = vec![
-            "kinetic",
-            "internal",
-            "hourglass",
-            "contact_stored",
-            "friction_dissipated",
-            "damping_dissipated",
-            "external_work",
-            "balance_error",
-        ];
-        energy.sort_unstable();
-        assert_eq!(keys(&value["energy"]), energy);
-        let mut contact = vec![
-            "normal_force",
-            "tangential_force",
-            "lateral_force",
-            "traction_coefficient",
-            "creepage",
-            "patch_half_length",
-            "patch_half_width",
-            "patch_area",
-            "patch_area_fitted",
-            "peak_pressure",
-            "stick_fraction",
-            "slip_fraction",
-        ];
-        contact.sort_unstable();
-        assert_eq!(keys(&value["contact"]), contact);
-        assert_eq!(keys(&value["files"]), ["contact", "fields", "history"]);
-    }
-
-    #[test]
-    fn a_summary_reads_back() {
-        let text = serde_json::to_string(&summary()).unwrap();
-        assert_eq!(serde_json::from_str::<Summary>(&text).unwrap(), summary());
+    fn units_and_names_stand_at_the_dotted_keys_of_the_numbers_that_there_are() {
+        let mut summary: Summary = serde_json::from_str(WRITTEN).unwrap();
+        summary.describe();
+        for (key, unit) in [
+            ("dt", "s"),
+            ("energy.internal", "J"),
+            ("contact.creepage", "1"),
+            ("window.deviation.torque", "N m"),
+            ("stages.rolling", "s"),
+            ("preload.hub_displacement", "m"),
+        ] {
+            assert_eq!(summary.units.get(key).map(String::as_str), Some(unit), "{key}");
+        }
+        for none in ["energy", "window.warnings", "numbers.r", "name", "implicit.solved"] {
+            assert!(!summary.units.contains_key(none), "{none}");
+        }
+        assert_eq!(summary.names["dt"], "time step");
     }
 }

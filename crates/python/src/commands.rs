@@ -28,7 +28,7 @@ pub fn run<'py>(
     let mine = law.clone().map(|law| law as Arc<dyn OwnLaw>);
     let answer = held(options, listen, move |options: RunOptions, told| {
         let done = creepage::run(&RunOptions { law: mine, ..options }, told)?;
-        Ok(Answer::new(done.exit_code(), &done.document))
+        Ok(Answer::new(done.exit_code(), &done.summary))
     });
     match law.and_then(|law| law.take_failure()) {
         Some(error) => Err(error),
@@ -47,14 +47,14 @@ pub fn mesh<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 pub fn check<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, _| {
         let found = creepage::check(&options)?;
-        Ok(Answer::new(if found.pass { 0 } else { FAILED }, &found.document))
+        Ok(Answer::new(if found.result.pass { 0 } else { FAILED }, &found.result))
     })
 }
 
 /// Draws the figures of a run.
 #[pyfunction]
 pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::plot(&options)?.document())))
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::plot(&options)?)))
 }
 
 /// Writes the page with the interactive scene of a run.
@@ -66,7 +66,7 @@ pub fn view<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 /// Writes the page about a run.
 #[pyfunction]
 pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::report(&options)?.document)))
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::report(&options)?)))
 }
 
 /// Runs a sweep.
@@ -74,7 +74,7 @@ pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, told| {
         let done = creepage::sweep(&options, told)?;
-        Ok(Answer::new(done.exit_code(), &done.document))
+        Ok(Answer::new(done.exit_code(), &done.result))
     })
 }
 

@@ -35,7 +35,7 @@ impl Answer {
 }
 
 /// As JSON text; only a key that is no text could prevent that, and no result has one.
-fn json(results: &(impl Serialize + ?Sized)) -> String {
+pub fn json(results: &(impl Serialize + ?Sized)) -> String {
     serde_json::to_string(results).unwrap_or_default()
 }
 

@@ -56,7 +56,7 @@ pub fn grid(data: &[u8]) {
             map: None,
         };
         match creepage::check::check(&paths, &mut basis, &options) {
-            Ok(found) => drop(black_box(found.document.to_string())),
+            Ok(found) => drop(black_box(found.result)),
             Err(error) => drop(black_box(error.to_string())),
         }
     });

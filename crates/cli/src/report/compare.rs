@@ -2,19 +2,19 @@
 
 use std::fmt::Write;
 
-use serde_json::Value;
+use creepage::compare::{ComparedRun, ComparisonResult};
 
-use super::layout::{count, digits, number, text as word};
+use super::layout::{count, digits};
 
 /// The whole page.
-pub fn text(document: &Value) -> String {
+pub fn text(result: &ComparisonResult) -> String {
     let mut out = String::new();
-    let ms = |pointer: &str| digits(number(document, pointer).map(|t| 1e3 * t), 6);
+    let ms = |time: f64| digits(Some(1e3 * time), 6);
     let _ = writeln!(
         out,
         "slip along the centre line from {} to {} ms\n\n  {:<40}{:>9}{:>9}{:>13}{:>12}{:>12}",
-        ms("/window/0"),
-        ms("/window/1"),
+        ms(result.window[0]),
+        ms(result.window[1]),
         "run",
         "largest",
         "mean",
@@ -22,54 +22,51 @@ pub fn text(document: &Value) -> String {
         "share",
         "alternates"
     );
-    let entries = |key: &str| document[key].as_array().cloned().unwrap_or_default();
-    for run in entries("runs") {
-        let at = |key: &str| run[key].as_f64();
+    for run in &result.runs {
         let _ = writeln!(
             out,
             "  {:<40}{:>9}{:>9}{:>13}{:>12}{:>12}",
-            word(&run, "/label"),
-            digits(at("largest"), 3),
-            digits(at("mean"), 4),
-            digits(at("fluctuation"), 4),
-            share(at("fluctuating_share")),
-            share(at("alternating_slip")),
+            run.label,
+            digits(run.largest, 3),
+            digits(run.mean, 4),
+            digits(run.fluctuation, 4),
+            share(run.fluctuating_share),
+            share(run.alternating_slip),
         );
     }
     let _ = writeln!(
         out,
         "  (m/s; largest from {}; shares of the root mean square)\n\n  {:<62}{:>9}{:>9}{:>9}",
-        spans(&document["runs"]),
+        spans(&result.runs),
         "difference over the second run's",
         "local",
         "means",
         "devs"
     );
-    for difference in entries("differences") {
-        let (from, to) = (word(&difference, "/from"), word(&difference, "/to"));
-        for quantity in ["slip", "shear"] {
-            let at = |key: &str| share(difference[quantity][key].as_f64());
-            let label = format!("{quantity}, {from} to {to}");
+    for difference in &result.differences {
+        for (quantity, of) in [("slip", &difference.slip), ("shear", &difference.shear)] {
+            let label = format!("{quantity}, {} to {}", difference.from, difference.to);
             let _ = writeln!(
                 out,
                 "  {label:<62}{:>9}{:>9}{:>9}",
-                at("place_and_time"),
-                at("means"),
-                at("deviations")
+                share(of.place_and_time),
+                share(of.means),
+                share(of.deviations)
             );
         }
-        let growth = &difference["growth"];
-        if let Some(rate) = growth["rate"].as_f64() {
-            let at = |key: &str| growth["over"][key].as_f64();
+        let Some(growth) = &difference.growth else {
+            continue;
+        };
+        if let Some((rate, over)) = growth.rate.zip(growth.over) {
             let _ = writeln!(
                 out,
                 "  twins: their difference grows at {} 1/s, from {} to {} of the slip in {} records",
                 digits(Some(rate), 3),
-                digits(at("start"), 2),
-                digits(at("end"), 2),
-                count(at("records"))
+                digits(Some(over.start), 2),
+                digits(Some(over.end), 2),
+                count(Some(over.records as f64))
             );
-        } else if let Some(reason) = growth["reason"].as_str() {
+        } else if let Some(reason) = &growth.reason {
             let _ = writeln!(out, "  twins: no rate of growth, {reason}");
         }
     }
@@ -77,13 +74,12 @@ pub fn text(document: &Value) -> String {
 }
 
 /// The spans of time that the largest slip speeds are the largest of.
-fn spans(runs: &Value) -> String {
-    let of = |run: &Value| {
-        let [from, to] =
-            [0, 1].map(|i| digits(run["largest_over"][i].as_f64().map(|time| 1e3 * time), 6));
+fn spans(runs: &[ComparedRun]) -> String {
+    let of = |run: &ComparedRun| {
+        let [from, to] = run.largest_over.map(|time| digits(Some(1e3 * time), 6));
         format!("{from} to {to} ms")
     };
-    let mut spans: Vec<String> = runs.as_array().into_iter().flatten().map(of).collect();
+    let mut spans: Vec<String> = runs.iter().map(of).collect();
     spans.dedup();
     spans.join(", ")
 }

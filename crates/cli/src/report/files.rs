@@ -2,22 +2,27 @@
 
 use std::fmt::Write;
 
+use creepage::{Drawn, Reported};
 use serde_json::Value;
 
 use super::layout::text as word;
 
 /// The figures of `plot`.
-pub fn figures(document: &Value) -> String {
+pub fn figures(drawn: &Drawn) -> String {
     let mut page = String::new();
-    for figure in document["figures"].as_array().into_iter().flatten() {
-        let files = figure["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
-        let line = format!("{}  {}", files.collect::<Vec<_>>().join(", "), word(figure, "/about"));
+    for figure in &drawn.figures {
+        let line = format!("{}  {}", figure.files.join(", "), figure.about);
         let _ = writeln!(page, "{}", line.trim_end());
     }
     page
 }
 
-/// The page of `report` or `view`.
+/// The page of `report`.
+pub fn report(reported: &Reported) -> String {
+    format!("{}\n", reported.page.display())
+}
+
+/// The page of `view`.
 pub fn page(document: &Value) -> String {
     format!("{}\n", word(document, "/page"))
 }

@@ -3,16 +3,16 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use serde_json::Value;
+use output::summary::{Energy, HalfSpace, Mean, Status, Summary};
 
-use super::layout::{count, digits, duration, heading, number, row, text as word};
+use super::layout::{count, digits, duration, heading, row};
 
 /// The whole page; `slip` says what to try where much of the slip fluctuates.
-pub fn text(summary: &Value, folder: &Path, slip: Option<&str>) -> String {
+pub fn text(summary: &Summary, folder: &Path, slip: Option<&str>) -> String {
     let mut out = String::new();
     title(&mut out, summary);
     // A run that ended in its preload has nothing further to tell.
-    if number(summary, "/steps").is_some_and(|steps| steps > 0.0) {
+    if summary.steps > 0 {
         contact(&mut out, summary);
         if let Some(note) = slip {
             let _ = writeln!(out, "  {note}");
@@ -25,126 +25,115 @@ pub fn text(summary: &Value, folder: &Path, slip: Option<&str>) -> String {
     out
 }
 
-fn title(out: &mut String, summary: &Value) {
-    let at = |pointer| number(summary, pointer);
-    let end = match word(summary, "/status") {
-        "completed" => "completed",
-        "interrupted" => "interrupted",
-        _ => "stopped by its own guards",
+fn title(out: &mut String, summary: &Summary) {
+    let end = match summary.status {
+        Some(Status::Completed) => "completed",
+        Some(Status::Interrupted) => "interrupted",
+        Some(Status::Failed) | None => "stopped by its own guards",
     };
-    let _ = writeln!(out, "{}: {end} after {}", word(summary, "/name"), duration(at("/wall_s")));
-    let threads = at("/threads").unwrap_or(1.0);
+    let _ = writeln!(out, "{}: {end} after {}", summary.name, duration(Some(summary.wall_s)));
+    let (threads, number) = (summary.threads, |n: u64| count(Some(n as f64)));
     let _ = writeln!(
         out,
         "  {}; {threads} thread{}{}; {} MB",
         if of_half_spaces(summary) {
-            format!("half-spaces, {} points", count(at("/nodes")))
+            format!("half-spaces, {} points", number(summary.nodes))
         } else {
-            format!("{} elements, {} nodes", count(at("/elements")), count(at("/nodes")))
+            format!("{} elements, {} nodes", number(summary.elements), number(summary.nodes))
         },
-        if threads == 1.0 { "" } else { "s" },
-        match word(summary, "/kernels") {
-            "" => String::new(),
-            kernels => format!(" with {kernels} kernels"),
-        },
-        digits(at("/peak_rss_mb"), 3),
+        if threads == 1 { "" } else { "s" },
+        summary.kernels.as_ref().map(|name| format!(" with {name} kernels")).unwrap_or_default(),
+        digits(Some(summary.peak_rss_mb), 3),
     );
-    let steps = at("/steps").unwrap_or(0.0);
     let rolled = format!(
         "  {} ms simulated in {} steps of {} ns",
-        digits(scaled(at("/t_end"), 1e3), 5),
-        count(Some(steps)),
-        digits(scaled(at("/dt"), 1e9), 4)
+        digits(Some(1e3 * summary.t_end), 5),
+        number(summary.steps),
+        digits(Some(1e9 * summary.dt), 4)
     );
-    let _ = writeln!(out, "{}", if steps > 0.0 { &rolled } else { "  nothing rolled" });
-    if let Some(rows) = summary.pointer("/exact_contact/rows").and_then(Value::as_str) {
-        let damped = at("/exact_contact/kelvin_voigt").filter(|time| *time > 0.0);
-        let damped = damped
-            .map(|time| format!(", Kelvin-Voigt damping of {} ns", digits(Some(time * 1e9), 4)));
-        let _ = writeln!(
-            out,
-            "  exact contact, {} rows{}",
-            rows.replace('_', " "),
-            damped.unwrap_or_default()
-        );
+    let _ = writeln!(out, "{}", if summary.steps > 0 { &rolled } else { "  nothing rolled" });
+    let exact = summary.exact_contact.as_ref();
+    if let Some((exact, rows)) = exact.and_then(|exact| Some((exact, exact.rows.as_ref()?))) {
+        let damped = (exact.kelvin_voigt > 0.0).then_some(1e9 * exact.kelvin_voigt);
+        let damped =
+            damped.map(|time| format!(", Kelvin-Voigt damping of {} ns", digits(Some(time), 4)));
+        let rows = rows.replace('_', " ");
+        let _ = writeln!(out, "  exact contact, {rows} rows{}", damped.unwrap_or_default());
     }
 }
 
 /// Whether half-spaces rolled, which have neither elements nor springs.
-fn of_half_spaces(summary: &Value) -> bool {
-    word(summary, "/model") == "half-space"
+fn of_half_spaces(summary: &Summary) -> bool {
+    summary.model.as_deref() == Some("half-space")
 }
 
-/// A quantity of the contact: label, key, factor to the unit, unit.
-type Quantity = (&'static str, &'static str, f64, &'static str);
+/// A mean of the contact with its label, the factor to its unit, the unit, and its value between half-spaces.
+struct Line(&'static str, Mean, f64, &'static str, fn(&HalfSpace) -> Option<f64>);
 
-const CONTACT: [Quantity; 10] = [
-    ("normal force", "normal_force", 1e-3, "kN"),
-    ("tangential force", "tangential_force", 1e-3, "kN"),
-    ("lateral force", "lateral_force", 1e-3, "kN"),
-    ("traction coefficient", "traction_coefficient", 1.0, ""),
-    ("creepage", "creepage", 1e3, "1e-3"),
-    ("patch half length", "patch_half_length", 1e3, "mm"),
-    ("patch half width", "patch_half_width", 1e3, "mm"),
-    ("patch area (nodes)", "patch_area", 1e6, "mm2"),
-    ("patch area (fit)", "patch_area_fitted", 1e6, "mm2"),
-    ("peak pressure", "peak_pressure", 1e-6, "MPa"),
+const CONTACT: [Line; 15] = [
+    Line("normal force", Mean::NormalForce, 1e-3, "kN", |_| None),
+    Line("tangential force", Mean::TangentialForce, 1e-3, "kN", |_| None),
+    Line("lateral force", Mean::LateralForce, 1e-3, "kN", |_| None),
+    Line("traction coefficient", Mean::TractionCoefficient, 1.0, "", |_| None),
+    Line("creepage", Mean::Creepage, 1e3, "1e-3", |_| None),
+    Line("patch half length", Mean::PatchHalfLength, 1e3, "mm", |hertz| hertz.half_length),
+    Line("patch half width", Mean::PatchHalfWidth, 1e3, "mm", |hertz| hertz.half_width),
+    Line("patch area (nodes)", Mean::PatchArea, 1e6, "mm2", |hertz| hertz.area),
+    Line("patch area (fit)", Mean::PatchAreaFitted, 1e6, "mm2", |hertz| hertz.area),
+    Line("peak pressure", Mean::PeakPressure, 1e-6, "MPa", |hertz| hertz.peak_pressure),
+    Line("peak shear", Mean::PeakShear, 1e-6, "MPa", |_| None),
+    Line("stick border at x", Mean::StickBorder, 1e3, "mm", |_| None),
+    Line("largest penetration", Mean::MaxPenetration, 1e6, "um", |_| None),
+    Line("torque", Mean::Torque, 1.0, "N m", |_| None),
+    Line("power of friction", Mean::FrictionPower, 1e-3, "kW", |_| None),
 ];
 
-/// Quantities of the window that stand beside the contract's.
-const WINDOW: [Quantity; 5] = [
-    ("peak shear", "peak_shear", 1e-6, "MPa"),
-    ("stick border at x", "stick_border", 1e3, "mm"),
-    ("largest penetration", "max_penetration", 1e6, "um"),
-    ("torque", "torque", 1.0, "N m"),
-    ("power of friction", "friction_power", 1e-3, "kW"),
-];
-
-fn contact(out: &mut String, summary: &Value) {
-    let at = |pointer: &str| number(summary, pointer);
-    if at("/contact/patch_area").is_none_or(|area| area <= 0.0) {
+fn contact(out: &mut String, summary: &Summary) {
+    if summary.contact.patch_area.is_none_or(|area| area <= 0.0) {
         heading(out, "Contact: none in the evaluation window, or the run ended before it");
         return;
     }
-    let time = |pointer| digits(scaled(at(pointer), 1e3), 4);
-    let title = format!("Contact, mean from {} to {} ms", time("/window/from"), time("/window/to"));
+    let window = summary.window.as_ref();
+    let time = |end: Option<f64>| digits(scaled(end, 1e3), 4);
+    let [from, to] = [window.and_then(|w| w.from), window.and_then(|w| w.to)].map(time);
+    let title = format!("Contact, mean from {from} to {to} ms");
     let _ = writeln!(out, "\n{title:<44}{:>12}{:>12}{:>8}", "deviation", "half-space", "ratio");
-    let rows = CONTACT.iter().map(|q| ("contact", q)).chain(WINDOW.iter().map(|q| ("window", q)));
-    for (section, &(label, key, factor, unit)) in rows {
-        let reason = word(summary, &format!("/window/reasons/{key}"));
-        let reason = if reason.is_empty() { String::new() } else { format!("  ({reason})") };
-        let Some(mean) = at(&format!("/{section}/{key}")) else {
+    for Line(label, mean, factor, unit, half_space) in CONTACT {
+        let reason = window.and_then(|window| window.reasons.get(&mean));
+        let reason = reason.map(|reason| format!("  ({reason})")).unwrap_or_default();
+        let Some(value) = summary.mean(mean) else {
             if !reason.is_empty() {
                 let _ = writeln!(out, "  {label:<24}{:>12}{reason}", "-");
             }
             continue;
         };
-        let deviation = at(&format!("/window/deviation/{key}"));
-        let reference = half_space(summary, key);
+        let deviation = window.and_then(|window| window.deviation.get(&mean).copied().flatten());
+        let reference = summary.half_space.as_ref().and_then(half_space).filter(|x| *x != 0.0);
         let shown = |x: Option<f64>| x.map(|x| small(x * factor)).unwrap_or_default();
         let line = format!(
             "  {label:<24}{:>12} {unit:<5}{:>12}{:>12}{:>8}",
-            shown(Some(mean)),
+            shown(Some(value)),
             deviation.map(|d| format!("+- {}", digits(Some(d * factor), 2))).unwrap_or_default(),
             shown(reference),
-            reference.map(|r| format!("{:.3}", mean / r)).unwrap_or_default(),
+            reference.map(|r| format!("{:.3}", value / r)).unwrap_or_default(),
         );
         let _ = writeln!(out, "{}{reason}", line.trim_end());
     }
-    let share = |pointer| format!("{} %", digits(scaled(at(pointer), 100.0), 3));
+    let share = |part: Option<f64>| format!("{} %", digits(scaled(part, 100.0), 3));
     let _ = writeln!(
         out,
         "  sticks on {} of the patch, slips on {}",
-        share("/contact/stick_fraction"),
-        share("/contact/slip_fraction")
+        share(summary.contact.stick_fraction),
+        share(summary.contact.slip_fraction)
     );
-    if at("/rolling_radius/free").is_some() {
+    if summary.rolling_radius.is_some_and(|radius| radius.free.is_some()) {
         let _ = writeln!(out, "  without torque: this creepage is that of free rolling");
     }
     mesh_mode(out, summary);
-    if at("/half_space/peak_pressure").is_some() && !of_half_spaces(summary) {
+    let hertz = summary.half_space.is_some_and(|hertz| hertz.peak_pressure.is_some());
+    if hertz && !of_half_spaces(summary) {
         // only a run with exact enforcement, which has no springs, counts what that takes
-        let exact = summary.get("exact_contact").is_some_and(Value::is_object);
+        let exact = summary.exact_contact.is_some();
         let springs = if exact { "" } else { "soft penalty springs and " };
         let _ = writeln!(
             out,
@@ -154,12 +143,11 @@ fn contact(out: &mut String, summary: &Value) {
     }
 }
 
-/// How much of the slip and of the elements' strain is a mode of the mesh.
-fn mesh_mode(out: &mut String, summary: &Value) {
-    let at = |key: &str| number(summary, &format!("/mesh_mode/{key}"));
-    if let Some(slip) = at("alternating_slip") {
-        let energy = at("hourglass_energy_in_layers");
-        let energy = energy.map(|part| {
+/// How much of the slip and of the elements' strain is a mode of the mesh, and what is wrong with the numbers.
+fn mesh_mode(out: &mut String, summary: &Summary) {
+    let mode = summary.mesh_mode.as_ref();
+    if let Some((mode, slip)) = mode.and_then(|mode| Some((mode, mode.alternating_slip?))) {
+        let energy = mode.hourglass_energy_in_layers.map(|part| {
             let part = digits(Some(100.0 * part), 2);
             format!("; hourglass energy below the contact {part} % of strain energy")
         });
@@ -169,59 +157,42 @@ fn mesh_mode(out: &mut String, summary: &Value) {
             energy.unwrap_or_default()
         );
     }
-    let warnings = ["/window/warnings", "/mesh_mode/warnings", "/exact_contact/warnings"];
-    let warnings = warnings.iter().filter_map(|list| summary.pointer(list)?.as_array());
-    for warning in warnings.flatten().filter_map(Value::as_str) {
+    let of_window = summary.window.iter().flat_map(|window| &window.warnings);
+    let of_mode = mode.iter().flat_map(|mode| &mode.warnings);
+    let of_exact = summary.exact_contact.iter().flat_map(|exact| &exact.warnings);
+    for warning in of_window.chain(of_mode).chain(of_exact) {
         let _ = writeln!(out, "  warning: {warning}");
     }
 }
 
-/// The half-space value of a quantity, where there is one.
-fn half_space(summary: &Value, key: &str) -> Option<f64> {
-    let at = |name: &str| number(summary, &format!("/half_space/{name}"));
-    let value = match key {
-        "patch_half_length" => at("half_length"),
-        "patch_half_width" => at("half_width"),
-        "patch_area" | "patch_area_fitted" => at("area"),
-        "peak_pressure" => at("peak_pressure"),
-        other => at(other),
-    };
-    value.filter(|x| *x != 0.0)
-}
-
-fn energy(out: &mut String, summary: &Value) {
-    let at = |key: &str| number(summary, &format!("/energy/{key}"));
+fn energy(out: &mut String, summary: &Summary) {
     heading(out, "Energy at the end");
-    let of_elements_and_springs = ["kinetic", "hourglass", "contact_stored", "damping_dissipated"];
-    for (label, key) in [
-        ("kinetic", "kinetic"),
-        ("internal", "internal"),
-        ("hourglass", "hourglass"),
-        ("stored in contact", "contact_stored"),
-        ("dissipated by friction", "friction_dissipated"),
-        ("dissipated by damping", "damping_dissipated"),
-        ("external work", "external_work"),
+    let Energy { hourglass, internal, .. } = summary.energy;
+    let share = (internal > 0.0 && hourglass.is_finite())
+        .then(|| format!("{:.2} % of internal", 100.0 * hourglass / internal));
+    let bodies = !of_half_spaces(summary);
+    let energy = &summary.energy;
+    for (label, joules, shown, remark) in [
+        ("kinetic", energy.kinetic, bodies, None),
+        ("internal", energy.internal, true, None),
+        ("hourglass", energy.hourglass, bodies, share),
+        ("stored in contact", energy.contact_stored, bodies, None),
+        ("dissipated by friction", energy.friction_dissipated, true, None),
+        ("dissipated by damping", energy.damping_dissipated, bodies, None),
+        ("external work", energy.external_work, true, None),
     ] {
-        if of_half_spaces(summary) && of_elements_and_springs.contains(&key) {
-            continue;
+        if shown {
+            row(out, label, &digits(Some(joules), 4), "J", &remark.unwrap_or_default());
         }
-        let remark = match (key, at("hourglass"), at("internal")) {
-            ("hourglass", Some(hourglass), Some(internal)) if internal > 0.0 => {
-                format!("{:.2} % of internal", 100.0 * hourglass / internal)
-            }
-            _ => String::new(),
-        };
-        row(out, label, &digits(at(key), 4), "J", &remark);
     }
     let remark = "of the largest energy exchanged";
-    row(out, "balance error", &digits(at("balance_error"), 2), "", remark);
+    row(out, "balance error", &digits(Some(energy.balance_error), 2), "", remark);
 }
 
-fn speed(out: &mut String, summary: &Value) {
-    let at = |pointer: &str| number(summary, pointer);
-    let stage = |name: &str| at(&format!("/stages/{name}"));
+fn speed(out: &mut String, summary: &Summary) {
+    let stage = |name: &str| summary.stages.get(name).copied();
     heading(out, "Speed");
-    let rate = at("/element_steps_per_s").filter(|rate| *rate > 0.0);
+    let rate = Some(summary.element_steps_per_s).filter(|rate| *rate > 0.0);
     let part = if of_half_spaces(summary) { "point" } else { "element" };
     row(out, &format!("{part} and step"), &digits(rate.map(|rate| 1e9 / rate), 3), "ns", "");
     row(out, &format!("{part}-steps"), &digits(scaled(rate, 1e-6), 3), "M/s", "");
@@ -237,36 +208,32 @@ fn speed(out: &mut String, summary: &Value) {
         }
     }
     if let Some(preload) = stage("preload").filter(|s| *s > 0.0) {
-        let iterations = match at("/preload/iterations") {
-            Some(n) => format!("{} iterations", count(Some(n))),
-            None => String::new(),
-        };
-        row(out, "preload", &digits(Some(preload), 3), "s", &iterations);
+        let iterations = summary.preload.as_ref().map(|preload| preload.iterations as f64);
+        let iterations = iterations.map(|n| format!("{} iterations", count(Some(n))));
+        row(out, "preload", &digits(Some(preload), 3), "s", &iterations.unwrap_or_default());
     }
 }
 
-fn stability(out: &mut String, summary: &Value) {
-    let at = |pointer: &str| number(summary, pointer);
-    let Some(limit) = at("/stability/dt_limit") else {
+fn stability(out: &mut String, summary: &Summary) {
+    let Some(stability) = &summary.stability else {
         return;
     };
     heading(out, "Stability");
-    let factor = at("/stability/factor");
-    let remark = format!("{} of the limit", digits(factor, 3));
-    row(out, "time step", &digits(scaled(at("/dt"), 1e9), 4), "ns", &remark);
-    row(out, "limit 2/omega_max", &digits(Some(limit * 1e9), 4), "ns", "");
+    let remark = format!("{} of the limit", digits(Some(stability.factor), 3));
+    row(out, "time step", &digits(Some(1e9 * summary.dt), 4), "ns", &remark);
+    row(out, "limit 2/omega_max", &digits(Some(1e9 * stability.dt_limit), 4), "ns", "");
 }
 
-fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
-    let name = |name: &str| word(summary, &format!("/files/{name}"));
+fn how_to_look(out: &mut String, summary: &Summary, folder: &Path) {
     // a run that does not record its bodies shows its surfaces
     let quoted = |path: &Path| creepage::sweep::plan::quoted(&path.to_string_lossy());
     let run = quoted(folder);
-    let (grid, look) = if name("fields").is_empty() {
-        (name("contact"), "colour by pressure, shear, slip_velocity or state")
+    let files = &summary.files;
+    let (grid, look) = if files.fields.is_empty() {
+        (&files.contact, "colour by pressure, shear, slip_velocity or state")
     } else {
         let look = "Filters > Warp By Vector: displacement; colour by velocity or stress";
-        (name("fields"), look)
+        (&files.fields, look)
     };
     let _ = write!(
         out,
@@ -280,13 +247,18 @@ fn how_to_look(out: &mut String, summary: &Value, folder: &Path) {
   all numbers: {}
 ",
         quoted(&folder.join(grid)),
-        Value::from(folder.to_string_lossy()),
+        python_text(&folder.to_string_lossy()),
         folder.join("summary.json").display()
     );
 }
 
 fn scaled(x: Option<f64>, factor: f64) -> Option<f64> {
     x.map(|x| x * factor)
+}
+
+/// Text as Python reads it, which is as JSON has it.
+fn python_text(text: &str) -> String {
+    serde_json::to_string(text).unwrap_or_default()
 }
 
 /// Four digits; two for what is little beside the other numbers of its column.
@@ -296,11 +268,14 @@ fn small(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
+    use output::summary::{ExactContact, Files, RollingRadius};
     use serde_json::json;
 
-    fn summary() -> Value {
-        json!({
+    fn summary() -> Summary {
+        let written = json!({
             "name": "quick", "status": "completed", "steps": 6989, "dt": 2.2e-7, "t_end": 1.54e-3,
             "elements": 41320, "nodes": 46641, "threads": 2, "wall_s": 10.5,
             "element_steps_per_s": 4.5e7, "peak_rss_mb": 52.1, "kernels": "avx2",
@@ -313,7 +288,8 @@ mod tests {
             "stages": { "rolling": 6.0, "internal_force": 4.5 },
             "stability": { "dt_limit": 3.3e-7, "factor": 0.67 },
             "files": { "fields": "fields.vtkhdf", "history": "history.h5" },
-        })
+        });
+        serde_json::from_value(written).unwrap()
     }
 
     #[test]
@@ -349,9 +325,10 @@ mod tests {
     #[test]
     fn a_run_without_torque_tells_the_creepage_of_free_rolling() {
         let mut rolled = summary();
-        rolled["rolling_radius"] = json!({ "effective": 0.46, "free": null });
+        rolled.rolling_radius = Some(RollingRadius { effective: 0.46, ..RollingRadius::default() });
         assert!(!text(&rolled, Path::new("x"), None).contains("free rolling"));
-        rolled["rolling_radius"]["free"] = json!(0.4597);
+        rolled.rolling_radius =
+            rolled.rolling_radius.map(|r| RollingRadius { free: Some(0.4597), ..r });
         let page = text(&rolled, Path::new("x"), None);
         assert!(
             page.contains("\n  without torque: this creepage is that of free rolling\n"),
@@ -367,8 +344,7 @@ mod tests {
     #[test]
     fn a_run_without_fields_shows_its_surfaces() {
         let mut surfaces = summary();
-        surfaces["files"] =
-            json!({ "fields": "", "contact": "contact.vtkhdf", "history": "history.h5" });
+        surfaces.files = Files::without_fields();
         let page = text(&surfaces, Path::new("runs/quick"), None);
         let look = "\n  paraview runs/quick/contact.vtkhdf    Apply; colour by pressure";
         assert!(page.contains(look) && !page.contains("fields"), "{page}");
@@ -382,7 +358,9 @@ mod tests {
             page.contains("half-space: Hertz; soft penalty springs and coarse elements"),
             "{page}"
         );
-        exact["exact_contact"] = json!({ "most_sweeps": 100, "warnings": ["did not converge"] });
+        let warnings = vec!["did not converge".into()];
+        exact.exact_contact =
+            Some(ExactContact { most_sweeps: 100, warnings, ..ExactContact::default() });
         let page = text(&exact, Path::new("x"), None);
         assert!(page.contains("\n  warning: did not converge\n"), "{page}");
         assert!(
@@ -395,8 +373,7 @@ mod tests {
     #[test]
     fn half_spaces_are_not_said_to_have_elements_or_springs() {
         let mut rolled = summary();
-        rolled["model"] = json!("half-space");
-        rolled["mesh_mode"] = Value::Null;
+        rolled.model = Some("half-space".into());
         let page = text(&rolled, Path::new("x"), None);
         for absent in ["element", "spring", "hourglass", "kinetic"] {
             assert!(!page.contains(absent), "{absent}: {page}");
@@ -407,16 +384,16 @@ mod tests {
     #[test]
     fn what_is_missing_or_no_number_is_left_out_or_dashed() {
         let mut bare = summary();
-        bare["half_space"] = Value::Null;
-        bare["stability"] = Value::Null;
-        bare["energy"]["kinetic"] = Value::Null;
+        bare.half_space = None;
+        bare.stability = None;
+        bare.energy.kinetic = f64::NAN;
         let page = text(&bare, Path::new("x"), None);
         assert!(!page.contains("null") && !page.contains("NaN") && !page.contains("Stability"));
     }
 
     #[test]
     fn a_run_that_ended_in_its_preload_has_no_sections() {
-        let ended = json!({ "name": "quick", "status": "interrupted", "steps": 0, "wall_s": 1.0 });
+        let ended = Summary { status: Some(Status::Interrupted), steps: 0, ..summary() };
         let page = text(&ended, Path::new("x"), None);
         assert!(
             page.contains("interrupted after")

@@ -14,11 +14,6 @@ words! {
 }
 
 impl BodyModel {
-    /// Its word in a case file.
-    pub fn word(self) -> &'static str {
-        Self::WORDS[self as usize]
-    }
-
     /// The model of that word.
     pub(crate) fn named(word: &str) -> Option<Self> {
         [Self::FiniteElements, Self::HalfSpace].into_iter().find(|model| model.word() == word)

@@ -10,6 +10,11 @@ macro_rules! words {
 
         impl $name {
             pub(crate) const WORDS: &'static [&'static str] = &[$($word),+];
+
+            /// Its word in a case file.
+            pub fn word(self) -> &'static str {
+                Self::WORDS[self as usize]
+            }
         }
     };
 }

@@ -1,7 +1,9 @@
 //! Statistics over nodes and times of the contact conditions at single nodes.
 
 use crate::check::conditions::Judged;
+use crate::check::measure::Measure;
 use crate::check::replay::Allowed;
+use crate::check::result::Detail;
 use crate::check::roughness::Roughness;
 use crate::check::statistics::{Moments, Occurrence, Spread};
 
@@ -44,7 +46,7 @@ pub(crate) struct Statistic {
     pub deviation: Option<f64>,
     /// Node, time (s) and value where it is worst.
     pub place: Option<(Option<usize>, f64, f64)>,
-    pub more: Vec<(&'static str, Option<f64>)>,
+    pub more: Vec<(Detail, Option<f64>)>,
 }
 
 impl Accumulator {
@@ -177,68 +179,74 @@ impl Accumulator {
         }
     }
 
-    /// The statistic of the tangential measure `name`; without a value for any other name.
-    pub fn statistic(&self, name: &str) -> Statistic {
+    /// The statistic of a tangential measure; without a value for any other.
+    pub fn statistic(&self, measure: Measure) -> Statistic {
         let share = |[part, whole]: [f64; 2]| (whole > 0.0).then(|| part / whole);
         let by = |spread: &Spread, value: Option<f64>, deviation: Option<f64>| Statistic {
             value,
             deviation,
             place: spread.worst.map(|w| (Some(w.node), w.time, w.value)),
             more: vec![
-                ("mean", spread.mean()),
-                ("rms", spread.rms()),
-                ("p95", spread.quantile(0.95)),
-                ("max", spread.largest()),
+                (Detail::Mean, spread.mean()),
+                (Detail::Rms, spread.rms()),
+                (Detail::P95, spread.quantile(0.95)),
+                (Detail::Max, spread.largest()),
             ],
         };
         let spread = |of: &Spread| by(of, of.rms(), of.deviation_of_rms());
         let plain = |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
         let also = |mut statistic: Statistic, let_slip: &Spread| {
-            statistic.more.push(("rms_where_let_slip", let_slip.rms()));
+            statistic.more.push((Detail::RmsWhereLetSlip, let_slip.rms()));
             statistic
         };
-        match name {
-            "law_error" => also(spread(&self.law_error), &self.let_slip[0]),
-            "law_error_own" => spread(&self.law_error_own),
-            "direction" => also(spread(&self.direction), &self.let_slip[1]),
-            "law_error_let_slip" => spread(&self.let_slip[0]),
-            "direction_let_slip" => spread(&self.let_slip[1]),
-            "wrong_direction" => {
+        match measure {
+            Measure::LawError => also(spread(&self.law_error), &self.let_slip[0]),
+            Measure::LawErrorOwn => spread(&self.law_error_own),
+            Measure::Direction => also(spread(&self.direction), &self.let_slip[1]),
+            Measure::LawErrorLetSlip => spread(&self.let_slip[0]),
+            Measure::DirectionLetSlip => spread(&self.let_slip[1]),
+            Measure::WrongDirection => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));
                 let deviation = self.wrong_of_records.deviation();
                 Statistic { deviation, ..plain(share(self.wrong), place) }
             }
-            "adhesion_slip" => {
+            Measure::AdhesionSlip => {
                 let slip = &self.adhesion_slip;
                 by(slip, slip.largest(), slip.deviation_of_largest())
             }
-            "law_scatter" => spread(&self.law_scatter),
-            "dissipation" => {
+            Measure::LawScatter => spread(&self.law_scatter),
+            Measure::Dissipation => {
                 let place = self.worst_power.map(|w| (Some(w.node), w.time, w.value));
-                let more = vec![("energy", Some(self.power[1] - 2.0 * self.power[0]))];
+                let more = vec![(Detail::Energy, Some(self.power[1] - 2.0 * self.power[0]))];
                 let deviation = self.power_of_records.deviation();
                 Statistic { deviation, more, ..plain(share(self.power), place) }
             }
-            "violating_fraction" => {
+            Measure::ViolatingFraction => {
                 let place = self.worst_record.filter(|(_, share)| *share > 0.0);
                 let place = place.map(|(time, share)| (None, time, share));
                 let deviation = self.violating_of_records.deviation();
                 Statistic { deviation, ..plain(share([self.violating, self.contact]), place) }
             }
-            "roughness_ratio" => {
+            Measure::RoughnessRatio => {
                 let deviations = self.roughness.as_ref().and_then(Roughness::deviations);
                 let ratio =
                     deviations.filter(|[_, law, _]| *law > 1e-9).map(|[shear, law, _]| shear / law);
                 let more = vec![
-                    ("deviation_traction", deviations.map(|d| d[0])),
-                    ("deviation_law", deviations.map(|d| d[1])),
-                    ("deviation_slip", deviations.map(|d| d[2])),
+                    (Detail::DeviationTraction, deviations.map(|d| d[0])),
+                    (Detail::DeviationLaw, deviations.map(|d| d[1])),
+                    (Detail::DeviationSlip, deviations.map(|d| d[2])),
                 ];
                 Statistic { more, ..plain(ratio, None) }
             }
-            "switching_rate" => plain(self.switches.rate(), None),
-            _ => plain(None, None),
+            Measure::SwitchingRate => plain(self.switches.rate(), None),
+            Measure::Penetration
+            | Measure::Tension
+            | Measure::Complementarity
+            | Measure::Cone
+            | Measure::MuError
+            | Measure::MuErrorBlurred
+            | Measure::MeshMode => plain(None, None),
         }
     }
 }
@@ -326,14 +334,14 @@ impl MuError {
             deviation: self.error.deviation_of_largest(),
             place: self.error.worst.map(|w| (Some(w.node), w.time, w.value)),
             more: vec![
-                ("mean", self.error.mean()),
-                ("median", self.error.quantile(0.5)),
-                ("p95", self.error.quantile(0.95)),
-                ("max", self.error.largest()),
-                ("mu_used", mean(1)),
-                ("mu_law", mean(2)),
-                ("mu_used_worst", worst(0)),
-                ("mu_law_worst", worst(1)),
+                (Detail::Mean, self.error.mean()),
+                (Detail::Median, self.error.quantile(0.5)),
+                (Detail::P95, self.error.quantile(0.95)),
+                (Detail::Max, self.error.largest()),
+                (Detail::MuUsed, mean(1)),
+                (Detail::MuLaw, mean(2)),
+                (Detail::MuUsedWorst, worst(0)),
+                (Detail::MuLawWorst, worst(1)),
             ],
         }
     }
@@ -401,24 +409,24 @@ impl SideAccumulator {
         }
     }
 
-    /// The statistic of the measure `name`; `None` where it is no measure of one body.
-    pub fn statistic(&self, name: &str) -> Option<Statistic> {
-        let spread = match name {
-            "penetration" => &self.penetration,
-            "tension" => &self.tension,
-            "complementarity" => &self.complementarity,
-            "cone" => &self.cone,
-            "mu_error" => {
+    /// The statistic of a measure; `None` where it is no measure of one body.
+    pub fn statistic(&self, measure: Measure) -> Option<Statistic> {
+        let spread = match measure {
+            Measure::Penetration => &self.penetration,
+            Measure::Tension => &self.tension,
+            Measure::Complementarity => &self.complementarity,
+            Measure::Cone => &self.cone,
+            Measure::MuError => {
                 let known = &self.mu.known;
                 return Some(known.statistic(known.error.largest()));
             }
-            "mu_error_blurred" => {
+            Measure::MuErrorBlurred => {
                 let blurred = &self.mu.blurred;
                 let mut found = blurred.statistic(blurred.error.quantile(0.5));
                 let blur = &self.mu.blur;
-                found.more.push(("blur_median", blur.quantile(0.5)));
-                found.more.push(("blur_rms", blur.rms()));
-                found.more.push(("blur_p95", blur.quantile(0.95)));
+                found.more.push((Detail::BlurMedian, blur.quantile(0.5)));
+                found.more.push((Detail::BlurRms, blur.rms()));
+                found.more.push((Detail::BlurP95, blur.quantile(0.95)));
                 return Some(found);
             }
             _ => return None,
@@ -428,7 +436,7 @@ impl SideAccumulator {
             value: spread.largest(),
             deviation: spread.deviation_of_largest(),
             place: worst.map(|w| (Some(w.node), w.time, w.value)),
-            more: vec![("mean", spread.mean()), ("p95", spread.quantile(0.95))],
+            more: vec![(Detail::Mean, spread.mean()), (Detail::P95, spread.quantile(0.95))],
         })
     }
 }

@@ -8,8 +8,8 @@ use contact::patch::PatchShape;
 use friction::{Parameters, all_parameters};
 use output::files::input::{self, Kind};
 use output::layout::{HISTORY, file};
-use output::{SAMPLED_LAW, read_summary};
-use serde_json::Value;
+use output::read_summary;
+use output::summary::Summary;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -73,7 +73,7 @@ pub struct Basis {
     /// Scales by their names in [`SCALES`].
     pub scales: BTreeMap<&'static str, Scale>,
     /// `summary.json`, where there is one.
-    pub summary: Option<Value>,
+    pub summary: Option<Summary>,
     /// `case.toml`, where there is one.
     pub case: Option<toml::Table>,
 }
@@ -248,7 +248,7 @@ impl Basis {
             self.bound = Bound::Law;
         }
         if let Some(case) = &self.case {
-            let sampled = self.summary.as_ref().map(|summary| &summary[SAMPLED_LAW]);
+            let sampled = self.summary.as_ref().and_then(|summary| summary.friction_law.as_deref());
             self.friction = recorded_law(case, sampled);
         }
         let given: Vec<_> = SCALES
@@ -281,26 +281,30 @@ impl Basis {
             // a run in progress
             return self.offer_driven_creepage();
         };
-        let at = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64);
-        for name in ["peak_pressure", "approach", "half_length", "half_width"] {
-            if let Some(value) = at(&format!("/half_space/{name}")) {
+        let hertz = summary.half_space.unwrap_or_default();
+        for (name, value) in [
+            ("peak_pressure", hertz.peak_pressure),
+            ("approach", hertz.approach),
+            ("half_length", hertz.half_length),
+            ("half_width", hertz.half_width),
+        ] {
+            if let Some(value) = value {
                 self.offer(name, value, "summary, half_space");
             }
         }
         // a line contact has no approach
-        if at("/half_space/approach") == Some(0.0) {
+        if hertz.approach == Some(0.0) {
             self.shape = PatchShape::Rectangle;
         }
-        if let Some(dt) = at("/dt") {
-            self.offer("dt", dt, "summary");
-        }
+        self.offer("dt", summary.dt, "summary");
         // over a table the mean may vanish where slip does not
         self.offer_largest_creepage();
-        if let Some(creepage) = at("/contact/creepage") {
+        if let Some(creepage) = summary.contact.creepage {
             self.offer("creepage", creepage, "summary, mean of the window");
         }
         self.offer_driven_creepage();
-        if let (Some(from), Some(to)) = (at("/window/from"), at("/window/to")) {
+        let window = summary.window.as_ref();
+        if let Some((from, to)) = window.and_then(|window| window.from.zip(window.to)) {
             self.window = Some([from, to]);
         }
     }

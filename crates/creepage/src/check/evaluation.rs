@@ -10,30 +10,13 @@ use crate::check::map::MapWriter;
 use crate::check::patch_series::{self, PatchRow};
 use crate::check::projection::Pair;
 use crate::check::replay::{Allowed, Replay};
-use crate::check::surface::{Surface, body_name};
+use crate::check::result::View;
+use crate::check::surface::Surface;
 use crate::check::vector::{Vec3, axpy, norm};
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
 use friction::NodeConditions;
 use output::layout::Pairing;
-
-/// A part of the interface on which the tangential conditions are judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum View {
-    /// The nodes of a body with the slip velocity recorded for them.
-    Side(u8),
-    /// The slave nodes with the slip velocity of their closest-point projection on the other body's faces.
-    Pair,
-}
-
-impl View {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Side(body) => body_name(body),
-            Self::Pair => "pair",
-        }
-    }
-}
 
 /// The tangential conditions on a view in one pairing.
 pub(super) struct Channel {
@@ -87,7 +70,7 @@ impl<'a> Evaluation<'a> {
             .then(|| Pair::new(surface, finer_body(surface, &bodies)));
         // a mean over time at a node is one at a point of material only where the mesh stays
         let span = scales.roughness_span.filter(|_| !history.follows);
-        let views = bodies.iter().map(|&body| (View::Side(body), body));
+        let views = bodies.iter().map(|&body| (View::of(body), body));
         let views = views.chain(pair.as_ref().map(|pair| (View::Pair, pair.slave)));
         let channels = views
             .flat_map(|(view, body)| {
@@ -277,8 +260,8 @@ impl Channel {
         accumulator.begin_record(traction.time);
         for row in (0..contact.len()).filter(|&row| surface.body[row] == self.body) {
             let slip = match self.view {
-                View::Side(_) => Some(slip.frame.slip_velocity[row]),
                 View::Pair => slip.pair_slip[row],
+                _ => Some(slip.frame.slip_velocity[row]),
             };
             let Some(slip) = slip.filter(|_| contact[row]) else {
                 accumulator.open(row);

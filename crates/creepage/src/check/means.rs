@@ -7,55 +7,49 @@
 use crate::check::PostError;
 use crate::check::basis::{Basis, RunPaths};
 use crate::check::frames::open_history;
-use crate::check::patch_series::{PATCH_MEASURES, PatchRow};
+use crate::check::patch_series::{PatchMeasure, PatchRow};
+use crate::check::result::PatchMean;
 use crate::check::statistics::{mean_and_deviation, time_weights};
 use crate::check::window::Window;
 use output::FieldSpec;
 use output::confidence::of_series;
 use output::layout::{HISTORY, file};
-use serde_json::{Map, Value, json};
-use std::collections::HashMap;
+use output::summary::Summary;
+use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The creepage, which a run's history holds and its records of contact do not: name, unit, meaning.
-const CREEPAGE: (&str, &str, &str) = ("creepage", "1", "longitudinal creepage");
-
 /// The column of a run's history that holds a measure of the patch.
-fn column(measure: &str) -> Option<&'static FieldSpec> {
-    let of_patch = |name: &str| name.strip_prefix("patch_") == Some(measure);
-    HISTORY.each().into_iter().find(|column| column.name == measure || of_patch(&column.name))
-}
-
-/// The name of a measure of the patch in a run's summary and history.
-fn name_in_run(measure: &str) -> &str {
-    match measure {
-        // the history holds the half axes alone
-        "area_fitted" => "patch_area_fitted",
-        _ => column(measure).map_or(measure, |column| &column.name),
-    }
+fn column(measure: PatchMeasure) -> Option<&'static FieldSpec> {
+    let of_patch = |name: &str| name.strip_prefix("patch_") == Some(measure.name());
+    HISTORY
+        .each()
+        .into_iter()
+        .find(|column| column.name == measure.name() || of_patch(&column.name))
 }
 
 /// The reason why a measure has no mean, where the run states none.
-fn why_none(measure: &str) -> &'static str {
+fn why_none(measure: PatchMeasure) -> &'static str {
     match measure {
-        "half_length" | "half_width" | "area_fitted" | "centre" | "peak_pressure" => {
-            "Hertz's distribution fits the pressure of no record"
-        }
-        "stick_fraction" | "slip_fraction" => "the file has no field state",
+        PatchMeasure::HalfLength
+        | PatchMeasure::HalfWidth
+        | PatchMeasure::AreaFitted
+        | PatchMeasure::Centre
+        | PatchMeasure::PeakPressure => "Hertz's distribution fits the pressure of no record",
+        PatchMeasure::StickFraction | PatchMeasure::SlipFraction => "the file has no field state",
         _ => "no record has a value",
     }
 }
 
 /// The sources of means over a window.
 pub(crate) struct Sources<'a> {
-    summary: Option<&'a Value>,
+    summary: Option<&'a Summary>,
     history: Option<Rows>,
 }
 
 /// The history of a run over a window.
 struct Rows {
-    /// Columns by their names.
-    columns: HashMap<&'static str, Vec<f64>>,
+    /// Columns by their measures.
+    columns: BTreeMap<PatchMeasure, Vec<f64>>,
     /// Time within the window that each row stands for (s).
     weights: Vec<f64>,
 }
@@ -82,66 +76,68 @@ impl<'a> Sources<'a> {
     }
 
     /// The run's summary, where its means are over this window.
-    pub fn summary(&self) -> Option<&'a Value> {
+    pub fn summary(&self) -> Option<&'a Summary> {
         self.summary
     }
 
-    /// Mean of a measure of the patch or of the creepage from the summary or the history.
-    pub fn mean(&self, measure: &str) -> Option<f64> {
+    /// Mean of a measure of the patch from the summary or the history.
+    pub fn mean(&self, measure: PatchMeasure) -> Option<f64> {
         self.of_run(measure)?.mean.map(|[mean, _]| mean)
     }
 
     /// The mean from the summary or the history; `None` where neither has the measure.
-    fn of_run(&self, measure: &str) -> Option<Found> {
-        let name = name_in_run(measure);
-        self.in_summary(name).or_else(|| {
+    fn of_run(&self, measure: PatchMeasure) -> Option<Found> {
+        self.of_summary(measure).or_else(|| {
             let Rows { columns, weights } = self.history.as_ref()?;
-            let mean = mean_and_deviation(weights, columns.get(name)?.iter().copied());
-            Some(Found { mean, from: "history", half: self.half(name), note: None })
+            let mean = mean_and_deviation(weights, columns.get(&measure)?.iter().copied());
+            Some(Found { mean, from: "history", half: self.half(measure), note: None })
         })
     }
 
-    fn in_summary(&self, name: &str) -> Option<Found> {
-        let summary = self.summary?;
-        let at = |section: &str| summary.pointer(&format!("/{section}/{name}"));
-        let number = |section: &str| at(section).and_then(Value::as_f64);
-        at("contact").or_else(|| at("window"))?;
-        let mean = number("contact").or_else(|| number("window"));
-        let note = at("window/reasons").and_then(Value::as_str).map(str::to_owned);
-        let mean = mean.map(|mean| [mean, number("window/deviation").unwrap_or(f64::NAN)]);
-        Some(Found { mean, from: "summary", half: self.half(name), note })
+    fn of_summary(&self, measure: PatchMeasure) -> Option<Found> {
+        let (summary, mean) = (self.summary?, measure.in_summary()?);
+        let window = summary.window.as_ref();
+        let deviation = window.and_then(|window| window.deviation.get(&mean).copied().flatten());
+        let note = window.and_then(|window| window.reasons.get(&mean).cloned());
+        let mean = summary.mean(mean).map(|value| [value, deviation.unwrap_or(f64::NAN)]);
+        Some(Found { mean, from: "summary", half: self.half(measure), note })
     }
 
     /// Half the width of the 95 % confidence interval of a mean, from the rows of the history.
-    fn half(&self, name: &str) -> Option<f64> {
+    fn half(&self, measure: PatchMeasure) -> Option<f64> {
         let Rows { columns, weights } = self.history.as_ref()?;
-        half(weights, columns.get(name)?)
+        half(weights, columns.get(&measure)?)
     }
 
-    /// The object `patch` of documents: means and standard deviations of all measures of the patch. Those that
-    /// summary and history do not have are means of `rows`, the records of contact, with the times (s) that they
-    /// stand for.
-    pub fn patch(&self, rows: &[PatchRow], weights: &[f64]) -> Value {
+    /// Means and standard deviations of all measures of the patch. Those that summary and history do not have are means
+    /// of `rows`, the records of contact, with the times (s) that they stand for; these have no creepage.
+    pub fn patch(&self, rows: &[PatchRow], weights: &[f64]) -> BTreeMap<PatchMeasure, PatchMean> {
         let of_records = |i: usize| {
             let values: Vec<f64> = rows.iter().map(|row| row.values[i]).collect();
             let mean = mean_and_deviation(weights, values.iter().copied());
             Found { mean, from: "contact records", half: half(weights, &values), note: None }
         };
-        let entry = |(name, units, about): (&str, &str, &str), found: Found| {
-            let [mean, deviation] = [0, 1].map(|i| found.mean.map(|both| both[i]));
-            let mut entry = json!({ "mean": mean, "deviation": deviation, "ci95": found.half,
-                                    "units": units, "about": about, "from": found.from });
-            let silent = found.mean.is_none().then(|| why_none(name).to_owned());
-            if let Some(note) = found.note.or(silent) {
-                entry["note"] = json!(note);
-            }
-            (name.to_owned(), entry)
+        let entry = |measure: PatchMeasure, found: Found| {
+            let finite = |value: f64| Some(value).filter(|value| value.is_finite());
+            let (_, units, about) = measure.definition();
+            let silent = found.mean.is_none().then(|| why_none(measure).to_owned());
+            let mean = PatchMean {
+                mean: found.mean.and_then(|[mean, _]| finite(mean)),
+                deviation: found.mean.and_then(|[_, deviation]| finite(deviation)),
+                ci95: found.half,
+                units: units.into(),
+                about: about.into(),
+                from: found.from.into(),
+                note: found.note.or(silent),
+            };
+            (measure, mean)
         };
-        let measured = PATCH_MEASURES.iter().enumerate().map(|(i, measure)| {
-            entry(*measure, self.of_run(measure.0).unwrap_or_else(|| of_records(i)))
+        let records = PatchMeasure::OF_RECORDS.iter().enumerate();
+        let measured = records.map(|(i, &measure)| {
+            entry(measure, self.of_run(measure).unwrap_or_else(|| of_records(i)))
         });
-        let creepage = self.of_run(CREEPAGE.0).map(|found| entry(CREEPAGE, found));
-        measured.chain(creepage).collect::<Map<_, _>>().into()
+        let creepage = self.of_run(PatchMeasure::Creepage);
+        measured.chain(creepage.map(|found| entry(PatchMeasure::Creepage, found))).collect()
     }
 }
 
@@ -164,11 +160,11 @@ fn history(folder: &Path, window: &Window) -> Result<Option<Rows>, PostError> {
     if !weights.iter().any(|weight| *weight > 0.0) {
         return Ok(None);
     }
-    let mut columns = HashMap::new();
-    for (measure, ..) in PATCH_MEASURES.into_iter().chain([CREEPAGE]) {
+    let mut columns = BTreeMap::new();
+    for &measure in PatchMeasure::ALL {
         let Some(column) = column(measure) else { continue };
         if let Some(values) = history.column(column)? {
-            columns.insert(&*column.name, values);
+            columns.insert(measure, values);
         }
     }
     Ok(Some(Rows { columns, weights }))

@@ -1,15 +1,14 @@
-//! The object `mesh_mode` of documents: slip that alternates from node to node.
+//! Slip that alternates from node to node, over the window of a check.
 
 use crate::check::basis::Basis;
+use crate::check::result::MeshModeFound;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
-use serde_json::{Value, json};
+use output::summary::{self, Summary};
 
-/// The object from a run's `summary` of the same window, else from the slip of the records.
-pub(super) fn document(records: &MeshMode, summary: Option<&Value>, basis: &Basis) -> Value {
-    if let Some(of_run) = summary.and_then(|summary| summary.get("mesh_mode")) {
-        let mut found = of_run.clone();
-        found["from"] = json!("summary");
-        return found;
+/// What a run's `summary` of the same window says, else what the slip of the records shows.
+pub(super) fn found(records: &MeshMode, summary: Option<&Summary>, basis: &Basis) -> MeshModeFound {
+    if let Some(mode) = summary.and_then(|summary| summary.mesh_mode.clone()) {
+        return MeshModeFound { mode, from: "summary".into() };
     }
     let speed = basis.scale("speed").map(f64::abs);
     // without a speed, a hundredth of s_c
@@ -19,13 +18,15 @@ pub(super) fn document(records: &MeshMode, summary: Option<&Value>, basis: &Basi
     let layers = basis.case.as_ref().and_then(|case| case.get("element")?.get("contact_layers"));
     // a case without the key is of another code, or of a version that had one-point layers by default
     let one_point = layers.and_then(toml::Value::as_str) != Some("full");
-    let warnings: Vec<_> = share.and_then(|share| warning(share, one_point)).into_iter().collect();
-    json!({
-        "alternating_slip": share,
-        "alternating_slip_limit": MESH_MODE_LIMIT,
-        "hourglass_energy_in_layers": null,
-        "hourglass_energy_limit": HOURGLASS_LIMIT,
-        "warnings": warnings,
-        "from": "contact records",
-    })
+    let warned = share.and_then(|share| warning(share, one_point));
+    MeshModeFound {
+        mode: summary::MeshMode {
+            alternating_slip: share,
+            alternating_slip_limit: MESH_MODE_LIMIT,
+            hourglass_energy_in_layers: None,
+            hourglass_energy_limit: HOURGLASS_LIMIT,
+            warnings: warned.into_iter().map(str::to_owned).collect(),
+        },
+        from: "contact records".into(),
+    }
 }

@@ -5,33 +5,89 @@ use crate::check::frames::Frame;
 use crate::check::surface::Surface;
 use crate::check::vector::{Vec3, axpy, cross, dot, norm, sub};
 use contact::patch::{self, PatchShape};
+use output::summary::Mean;
+use serde::{Deserialize, Serialize};
 
-/// Measures of the patch, in the order of [`PatchRow::values`]: name, unit, meaning.
-pub const PATCH_MEASURES: [(&str, &str, &str); 15] = [
-    ("half_length", "m", "half axis along x of Hertz's distribution fitted to the pressure"),
-    ("half_width", "m", "half axis along y of that fit, or half the width of a line contact"),
-    ("centre", "m", "x of its centre"),
-    ("peak_pressure", "Pa", "peak pressure of that fit"),
-    ("peak_pressure_raw", "Pa", "largest nodal pressure"),
-    ("peak_shear", "Pa", "largest nodal shear traction"),
-    ("area", "m2", "sum of the areas of the nodes in contact"),
-    ("area_fitted", "m2", "area of the fitted ellipse, or of a line contact's rectangle"),
-    ("normal_force", "N", "z component of the force on the disk"),
-    ("tangential_force", "N", "x component of the force on the disk"),
-    ("lateral_force", "N", "y component of the force on the disk"),
-    ("traction_coefficient", "1", "tangential over normal force"),
-    ("stick_fraction", "1", "share of the area that the algorithm lets stick"),
-    ("slip_fraction", "1", "share of the area that the algorithm lets slip"),
-    ("power", "W", "work of friction per time"),
-];
+/// Declares the measures of the patch: name, unit, meaning.
+macro_rules! patch_measures {
+    ($($Measure:ident $name:literal ($units:literal, $about:literal))*) => {
+        /// A measure of the patch.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        pub enum PatchMeasure {
+            $(#[doc = concat!($about, " (", $units, ")")] #[serde(rename = $name)] $Measure,)*
+        }
+
+        impl PatchMeasure {
+            /// All of them; the last is the creepage, which a run's history holds and its records of contact do not.
+            pub const ALL: &[Self] = &[$(Self::$Measure),*];
+
+            /// Its name, its unit and its meaning.
+            pub const fn definition(self) -> (&'static str, &'static str, &'static str) {
+                match self {
+                    $(Self::$Measure => ($name, $units, $about),)*
+                }
+            }
+        }
+    };
+}
+
+patch_measures! {
+    HalfLength "half_length" ("m", "half axis along x of Hertz's distribution fitted to the pressure")
+    HalfWidth "half_width" ("m", "half axis along y of that fit, or half the width of a line contact")
+    Centre "centre" ("m", "x of its centre")
+    PeakPressure "peak_pressure" ("Pa", "peak pressure of that fit")
+    PeakPressureRaw "peak_pressure_raw" ("Pa", "largest nodal pressure")
+    PeakShear "peak_shear" ("Pa", "largest nodal shear traction")
+    Area "area" ("m2", "sum of the areas of the nodes in contact")
+    AreaFitted "area_fitted" ("m2", "area of the fitted ellipse, or of a line contact's rectangle")
+    NormalForce "normal_force" ("N", "z component of the force on the disk")
+    TangentialForce "tangential_force" ("N", "x component of the force on the disk")
+    LateralForce "lateral_force" ("N", "y component of the force on the disk")
+    TractionCoefficient "traction_coefficient" ("1", "tangential over normal force")
+    StickFraction "stick_fraction" ("1", "share of the area that the algorithm lets stick")
+    SlipFraction "slip_fraction" ("1", "share of the area that the algorithm lets slip")
+    Power "power" ("W", "work of friction per time")
+    Creepage "creepage" ("1", "longitudinal creepage")
+}
+
+impl PatchMeasure {
+    /// Those that records of contact have, in the order of [`PatchRow::values`].
+    pub const OF_RECORDS: &[Self] = Self::ALL.split_at(Self::ALL.len() - 1).0;
+
+    /// Its name in documents and files.
+    pub const fn name(self) -> &'static str {
+        self.definition().0
+    }
+
+    /// The mean of a run's summary that is this measure.
+    pub fn in_summary(self) -> Option<Mean> {
+        match self {
+            Self::HalfLength => Some(Mean::PatchHalfLength),
+            Self::HalfWidth => Some(Mean::PatchHalfWidth),
+            Self::PeakPressure => Some(Mean::PeakPressure),
+            Self::PeakShear => Some(Mean::PeakShear),
+            Self::Area => Some(Mean::PatchArea),
+            Self::AreaFitted => Some(Mean::PatchAreaFitted),
+            Self::NormalForce => Some(Mean::NormalForce),
+            Self::TangentialForce => Some(Mean::TangentialForce),
+            Self::LateralForce => Some(Mean::LateralForce),
+            Self::TractionCoefficient => Some(Mean::TractionCoefficient),
+            Self::StickFraction => Some(Mean::StickFraction),
+            Self::SlipFraction => Some(Mean::SlipFraction),
+            Self::Creepage => Some(Mean::Creepage),
+            // the mean power of a summary is over every step, from another sum
+            Self::Centre | Self::PeakPressureRaw | Self::Power => None,
+        }
+    }
+}
 
 /// A line of a table of the patch.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchLine {
     /// Its label.
     pub label: &'static str,
-    /// Its key in `patch` of a check's document: a name of [`PATCH_MEASURES`], or `creepage`.
-    pub key: &'static str,
+    /// Its measure.
+    pub measure: PatchMeasure,
     /// Factor from its SI unit to `unit`.
     pub factor: f64,
     /// The unit shown; empty for pure numbers.
@@ -40,38 +96,38 @@ pub struct PatchLine {
 
 const fn line(
     label: &'static str,
-    key: &'static str,
+    measure: PatchMeasure,
     factor: f64,
     unit: &'static str,
 ) -> PatchLine {
-    PatchLine { label, key, factor, unit }
+    PatchLine { label, measure, factor, unit }
 }
 
 /// The lines of a table of the patch, on a page or in a terminal.
 pub const PATCH_TABLE: [PatchLine; 14] = [
-    line("half length (fit)", "half_length", 1e3, "mm"),
-    line("half width (fit)", "half_width", 1e3, "mm"),
-    line("area (nodes)", "area", 1e6, "mm\u{b2}"),
-    line("area (fit)", "area_fitted", 1e6, "mm\u{b2}"),
-    line("peak pressure (fit)", "peak_pressure", 1e-6, "MPa"),
-    line("peak pressure (nodes)", "peak_pressure_raw", 1e-6, "MPa"),
-    line("peak shear", "peak_shear", 1e-6, "MPa"),
-    line("normal force", "normal_force", 1e-3, "kN"),
-    line("tangential force", "tangential_force", 1e-3, "kN"),
-    line("traction coefficient", "traction_coefficient", 1.0, ""),
-    line("creepage", "creepage", 1e3, "10\u{207b}\u{b3}"),
-    line("stick fraction", "stick_fraction", 1.0, ""),
-    line("slip fraction", "slip_fraction", 1.0, ""),
-    line("power of friction", "power", 1e-3, "kW"),
+    line("half length (fit)", PatchMeasure::HalfLength, 1e3, "mm"),
+    line("half width (fit)", PatchMeasure::HalfWidth, 1e3, "mm"),
+    line("area (nodes)", PatchMeasure::Area, 1e6, "mm\u{b2}"),
+    line("area (fit)", PatchMeasure::AreaFitted, 1e6, "mm\u{b2}"),
+    line("peak pressure (fit)", PatchMeasure::PeakPressure, 1e-6, "MPa"),
+    line("peak pressure (nodes)", PatchMeasure::PeakPressureRaw, 1e-6, "MPa"),
+    line("peak shear", PatchMeasure::PeakShear, 1e-6, "MPa"),
+    line("normal force", PatchMeasure::NormalForce, 1e-3, "kN"),
+    line("tangential force", PatchMeasure::TangentialForce, 1e-3, "kN"),
+    line("traction coefficient", PatchMeasure::TractionCoefficient, 1.0, ""),
+    line("creepage", PatchMeasure::Creepage, 1e3, "10\u{207b}\u{b3}"),
+    line("stick fraction", PatchMeasure::StickFraction, 1.0, ""),
+    line("slip fraction", PatchMeasure::SlipFraction, 1.0, ""),
+    line("power of friction", PatchMeasure::Power, 1e-3, "kW"),
 ];
 
-/// The patch at one time: values in the order of [`PATCH_MEASURES`].
+/// The patch at one time: values in the order of [`PatchMeasure::OF_RECORDS`].
 #[derive(Clone, Copy, Debug)]
 pub struct PatchRow {
     /// Time (s).
     pub time: f64,
     /// The values; NaN where there is none.
-    pub values: [f64; PATCH_MEASURES.len()],
+    pub values: [f64; PatchMeasure::OF_RECORDS.len()],
 }
 
 /// Measures the patch of a record on `body`; `p0` is Hertz's peak pressure (Pa), of which contact needs a share.

@@ -1,7 +1,6 @@
 //! The friction law of a run, read from its case and summary, by which its coefficients are recomputed.
 
 use friction::{Expression, FrictionLaw as _, Kind, NodeFriction, Parameters, Table};
-use serde_json::Value;
 use std::sync::Arc;
 
 /// The law of a contact node with its state.
@@ -20,7 +19,7 @@ pub struct RecordedLaw {
 /// The reason why there is none, as half a sentence.
 pub(crate) fn recorded_law(
     case: &toml::Table,
-    sampled: Option<&Value>,
+    sampled: Option<&[[f64; 2]]>,
 ) -> Result<RecordedLaw, String> {
     let table = case.get("friction").ok_or("the case has no [friction]")?;
     let mut parameters: Parameters = table
@@ -32,8 +31,8 @@ pub(crate) fn recorded_law(
     }
     let mut known_to = 0.0;
     if parameters.law == Kind::Python {
-        let points = sampled.and_then(|points| serde_json::from_value(points.clone()).ok());
-        let points: Vec<[f64; 2]> =
+        let points = sampled.map(<[_]>::to_vec);
+        let points =
             points.ok_or("the run has left no points of its law \"python\" (summary.json)")?;
         known_to = interpolation_error(&points);
         parameters = Parameters { law: Kind::Table, table: Some(points), ..parameters };
@@ -77,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_law_that_was_brought_along_is_known_from_its_points_to_what_is_said() {
-        let points = serde_json::json!(sampled(&Brought).unwrap());
+        let points = sampled(&Brought).unwrap();
         let case =
             "[friction]\nlaw = \"python\"\nsource = \"-\"\nmode = \"exact\"".parse().unwrap();
         let RecordedLaw { law, known_to } = recorded_law(&case, Some(&points)).unwrap();

@@ -8,9 +8,9 @@
 
 use crate::check::centreline::{CentreLine, PLACES, Rows, profile};
 use crate::check::correlation::Correlation;
+use crate::check::result::{SlipQuantity, SlipStatistic, SlipZoneMeasured};
 use crate::check::statistics::mean_and_deviation;
 use output::confidence::of_batches;
-use serde_json::{Map, Value, json};
 
 /// A place slips where its mean slip speed over time is at least this part of the largest such mean.
 const SLIPS: f64 = 0.1;
@@ -134,31 +134,6 @@ impl SlipZone {
         })
     }
 
-    /// Entries of correlation and spectrum.
-    fn correlations(&self) -> [(&'static str, Value); 4] {
-        let Correlation { length, time, wavenumber, frequency } = self.correlation;
-        let entry = |value: Option<f64>, units: &str, about: &str| {
-            let mut entry = json!({ "value": value, "units": units, "about": about });
-            if value.is_none() {
-                entry["note"] = json!(
-                    "places or records do not resolve it, are too few, or end before it does"
-                );
-            }
-            entry
-        };
-        let length =
-            entry(length, "m", "distance over which the fluctuation correlates to more than 1/e");
-        let time = entry(time, "s", "time over which it does, at places of the patch");
-        let wavenumber = entry(wavenumber, "1/m", "mean wavenumber of its power spectrum");
-        let frequency = entry(frequency, "Hz", "mean frequency of its power spectrum");
-        [
-            ("correlation_length", length),
-            ("correlation_time", time),
-            ("mean_wavenumber", wavenumber),
-            ("mean_frequency", frequency),
-        ]
-    }
-
     /// What to try where much of the slip fluctuates.
     pub fn note(&self) -> Option<String> {
         let share = self.fluctuating_share.filter(|share| *share > LARGE_SHARE)?;
@@ -170,42 +145,49 @@ impl SlipZone {
         ))
     }
 
-    /// The object `slip_zone` of documents; `line` gave the slip.
-    pub fn document(&self, line: &CentreLine) -> Value {
-        let mut found = Map::new();
-        let values = [
-            ("mean", Some(self.mean), "m/s", "mean slip speed"),
-            (
-                "fluctuation",
-                self.fluctuation,
-                "m/s",
-                "rms of what differs from the mean over 2a/(10 V)",
-            ),
-            ("fluctuating_share", self.fluctuating_share, "1", "that over the rms of all slip"),
+    /// Its statistics as results; `line` gave the slip.
+    pub fn measured(&self, line: &CentreLine) -> SlipZoneMeasured {
+        use SlipQuantity as Q;
+        let averaged = [
+            (Q::Mean, Some(self.mean)),
+            (Q::Fluctuation, self.fluctuation),
+            (Q::FluctuatingShare, self.fluctuating_share),
         ];
-        for (i, (name, value, units, about)) in values.into_iter().enumerate() {
-            let half = self.halves[i].ok().filter(|_| value.is_some());
-            let mut entry = json!({ "value": value, "ci95": half, "deviation": self.deviations[i],
-                                    "units": units, "about": about });
-            if value.is_none() {
-                entry["note"] =
-                    json!("the records lie farther apart than a twentieth of a transit");
-            } else if let Err(why) = self.halves[i] {
-                entry["note"] = json!(format!("no interval: {why}"));
-            }
-            found.insert(name.into(), entry);
+        let averaged = averaged.into_iter().enumerate().map(|(i, (quantity, value))| {
+            let note = match (value, self.halves[i]) {
+                (None, _) => {
+                    Some("the records lie farther apart than a twentieth of a transit".into())
+                }
+                (Some(_), Err(why)) => Some(format!("no interval: {why}")),
+                (Some(_), Ok(_)) => None,
+            };
+            let statistic = SlipStatistic {
+                ci95: self.halves[i].ok().filter(|_| value.is_some()),
+                deviation: self.deviations[i],
+                note,
+                ..SlipStatistic::of(quantity, value)
+            };
+            (quantity, statistic)
+        });
+        let largest = (Q::Largest, SlipStatistic::of(Q::Largest, Some(self.largest)));
+        let Correlation { length, time, wavenumber, frequency } = self.correlation;
+        let correlated = [
+            (Q::CorrelationLength, length),
+            (Q::CorrelationTime, time),
+            (Q::MeanWavenumber, wavenumber),
+            (Q::MeanFrequency, frequency),
+        ];
+        let correlated = correlated.into_iter().map(|(quantity, value)| {
+            let why = "places or records do not resolve it, are too few, or end before it does";
+            let note = value.is_none().then(|| why.to_owned());
+            (quantity, SlipStatistic { note, ..SlipStatistic::of(quantity, value) })
+        });
+        let end = |place: Option<&usize>| place.map(|&place| line.place(place));
+        SlipZoneMeasured {
+            statistics: averaged.chain([largest]).chain(correlated).collect(),
+            from: end(self.places.first()),
+            to: end(self.places.last()),
         }
-        let largest =
-            json!({ "value": self.largest, "units": "m/s", "about": "largest slip speed" });
-        found.insert("largest".into(), largest);
-        for (name, entry) in self.correlations() {
-            found.insert(name.into(), entry);
-        }
-        let ends = [self.places.first(), self.places.last()];
-        let [from, to] = ends.map(|place| place.map(|&place| line.place(place)));
-        found.insert("from".into(), json!(from));
-        found.insert("to".into(), json!(to));
-        Value::Object(found)
     }
 }
 
@@ -318,8 +300,8 @@ mod tests {
         let zone = SlipZone::of(&sparse, &[11e-6; 60]).unwrap();
         assert_eq!((zone.fluctuation, zone.fluctuating_share), (None, None));
         assert!((zone.mean - 2.0).abs() < 1e-12);
-        let document = zone.document(&sparse);
-        assert!(document["fluctuation"]["note"].as_str().unwrap().contains("farther apart"));
-        assert!(document["fluctuation"]["ci95"].is_null());
+        let fluctuation = &zone.measured(&sparse).statistics[&SlipQuantity::Fluctuation];
+        assert!(fluctuation.note.as_ref().unwrap().contains("farther apart"));
+        assert_eq!(fluctuation.ci95, None);
     }
 }

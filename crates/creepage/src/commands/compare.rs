@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::chart::Format;
 use crate::check::{Depth, PostError};
-use crate::compare::Compared;
+use crate::compare::{Compared, ComparisonResult};
 use serde::Deserialize;
-use serde_json::{Value, json};
 
 use crate::Error;
 use crate::commands::check::{BasisOptions, SpanOptions, basis};
@@ -32,12 +31,11 @@ pub struct CompareOptions {
     pub basis: BasisOptions,
 }
 
-/// Compares runs, and returns the document of `creepage compare --json`: slip and shear over place and time, means,
-/// statistics, growth of a disturbance.
+/// Compares runs: slip and shear over place and time, means, statistics, growth of a disturbance.
 ///
 /// # Errors
 /// Results that cannot be read, or are not over the same times; a figure that cannot be written.
-pub fn compare(options: &CompareOptions) -> Result<Value, Error> {
+pub fn compare(options: &CompareOptions) -> Result<ComparisonResult, Error> {
     FIGURE.check("--plot", options.plot.as_ref())?;
     let window = options.span.span()?;
     let mut runs = Vec::new();
@@ -46,13 +44,13 @@ pub fn compare(options: &CompareOptions) -> Result<Value, Error> {
         runs.push(Compared { paths, basis });
     }
     let found = crate::compare::compare(&mut runs, window)?;
-    let mut document = found.document;
+    let mut result = found.result;
     if let Some(plot) = &options.plot {
         let (folder, stem, format) = parts(plot).ok_or_else(|| Error::plain("--plot: no file"))?;
         let path = found.figure.write_as(folder, stem, format).map_err(PostError::from)?;
-        document["figure"] = json!(path);
+        result.figure = Some(path);
     }
-    Ok(document)
+    Ok(result)
 }
 
 /// Folder, name without its ending, and kind of a figure's file.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::run::folder::VTKHDF;
 use output::files::made::{Made, OutputRefused, VTU, check};
+use serde::Serializer;
 
 use crate::Error;
 
@@ -15,6 +16,11 @@ const MSH: Made = Made {
     marks: &[],
     proof: None,
 };
+
+/// Serializes a path as it is shown, whatever its bytes are.
+pub fn shown<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
+}
 
 /// Refuses the file of an option where writing it would replace an input, or what this program did not
 /// write.

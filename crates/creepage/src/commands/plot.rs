@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use crate::chart::Format;
 use crate::check::{Depth, PostError};
+use crate::sweep::SweepResult;
 use crate::trends::ComparedSweep;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::commands::check::{BasisOptions, SpanOptions, basis};
@@ -41,8 +41,8 @@ pub struct PlotOptions {
     pub basis: BasisOptions,
 }
 
-/// Figures that were drawn.
-#[derive(Clone, Debug)]
+/// Figures that were drawn: the document of `creepage plot --json`.
+#[derive(Clone, Debug, Serialize)]
 pub struct Drawn {
     /// Name of the run or sweep.
     pub name: String,
@@ -51,7 +51,7 @@ pub struct Drawn {
 }
 
 /// A figure that was drawn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct DrawnFigure {
     /// Its name: that of its files, without their endings.
     pub name: String,
@@ -59,16 +59,6 @@ pub struct DrawnFigure {
     pub about: String,
     /// Its files, one of each format.
     pub files: Vec<String>,
-}
-
-impl Drawn {
-    /// The document of `creepage plot --json`.
-    pub fn document(&self) -> Value {
-        let figures = self.figures.iter().map(|DrawnFigure { name, about, files }| {
-            json!({ "name": name, "about": about, "files": files })
-        });
-        json!({ "name": self.name, "figures": figures.collect::<Vec<_>>() })
-    }
 }
 
 /// Draws the figures of a run (those of the papers, histories, slip over space and time, spectra) or of a sweep.
@@ -79,7 +69,7 @@ impl Drawn {
 pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
     let window = options.span.span()?;
     let (name, folder, figures) = if let Some(sweep) = sweep_folder::read(&options.run)? {
-        let mut figures = crate::trends::sweep_figures(&options.run, &sweep)?;
+        let mut figures = crate::trends::sweep_figures(&options.run, &sweep);
         if !options.with.is_empty() {
             let (name, figure) = compared(options, &sweep)?;
             figures.retain(|(known, _)| *known != name);
@@ -119,7 +109,7 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
 /// The creep-force curves of the sweep beside those of `with`, with the figure's name.
 fn compared(
     options: &PlotOptions,
-    document: &Value,
+    result: &SweepResult,
 ) -> Result<(String, crate::chart::Figure), Error> {
     let mut others = Vec::new();
     for folder in &options.with {
@@ -135,15 +125,11 @@ fn compared(
         };
         others.push((folder, other));
     }
-    let all: Vec<ComparedSweep<'_>> = std::iter::once((&options.run, document))
+    let all: Vec<ComparedSweep<'_>> = std::iter::once((&options.run, result))
         .chain(others.iter().map(|(folder, other)| (*folder, other)))
-        .map(|(folder, document)| ComparedSweep {
-            name: sweep_folder::name(folder),
-            folder,
-            document,
-        })
+        .map(|(folder, result)| ComparedSweep { name: sweep_folder::name(folder), folder, result })
         .collect();
-    crate::trends::creep_force_figure(&all)?.ok_or_else(|| {
+    crate::trends::creep_force_figure(&all).ok_or_else(|| {
         Error::option(
             "--with: no sweep has two values of drive.creepage",
             "only creep-force curves are drawn beside one another: sweep drive.creepage",

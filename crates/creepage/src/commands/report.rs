@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 
 use crate::check::{CheckOptions, Depth, Limits, PostError, Report};
 use crate::report::ListedRun;
+use crate::sweep::SweepResult;
 use crate::trends::SweepVerdict;
 use output::files::input;
 use output::files::made::PAGE;
 use output::layout::file;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::commands::check::{BasisOptions, basis, inputs};
-use crate::commands::outputs::claim;
+use crate::commands::outputs::{claim, shown};
 use crate::commands::sweep_folder;
 
 /// What to write a page about.
@@ -33,14 +33,26 @@ pub struct ReportOptions {
     pub basis: BasisOptions,
 }
 
-/// A page that was written.
-#[derive(Clone, Debug)]
+/// A page that was written: the document of `creepage report --json`.
+#[derive(Clone, Debug, Serialize)]
 pub struct Reported {
     /// The page.
+    #[serde(serialize_with = "shown")]
     pub page: PathBuf,
-    /// The document of `creepage report --json`: the page, whether the run holds every limit (null for a sweep), and
-    /// what a sweep says of its parameters.
-    pub document: Value,
+    /// Whether the run holds every limit; none of a sweep, or of a folder of runs.
+    pub pass: Option<bool>,
+    /// What a sweep says of its parameters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdicts: Option<Vec<SweepVerdict>>,
+    /// Names of the runs of a folder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runs: Option<Vec<String>>,
+}
+
+impl Reported {
+    fn of(page: PathBuf) -> Self {
+        Self { page, pass: None, verdicts: None, runs: None }
+    }
 }
 
 /// Writes one self-contained HTML page about a run or a sweep: what happened, patch, checks, figures, details; or about a
@@ -50,18 +62,17 @@ pub struct Reported {
 /// Results that cannot be read; a page that cannot be written, or would be written over another file.
 pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
     let place = |folder: &Path| options.out.clone().unwrap_or_else(|| folder.join("report.html"));
-    let (text, page, mut document) = if let Some(found) = sweep_folder::read(&options.run)? {
+    let (text, reported) = if let Some(found) = sweep_folder::read(&options.run)? {
         let page = place(&options.run);
         claim("--out", &page, &PAGE, &[options.run.join("sweep.json")])?;
-        let verdicts = crate::trends::sweep_verdicts(&options.run, &found)?;
-        let verdicts: Vec<Value> = verdicts.iter().map(SweepVerdict::document).collect();
-        (sweep_page(&options.run, &found)?, page, json!({ "pass": null, "verdicts": verdicts }))
+        let verdicts = Some(crate::trends::sweep_verdicts(&options.run, &found));
+        (sweep_page(&options.run, &found)?, Reported { verdicts, ..Reported::of(page) })
     } else if let Some(runs) = listed(&options.run) {
         let page = place(&options.run);
         claim("--out", &page, &PAGE, &[])?;
-        let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
-        let document = json!({ "pass": null, "runs": names });
-        (crate::report::runs_page(&sweep_folder::name(&options.run), &runs), page, document)
+        let names = Some(runs.iter().map(|run| run.name.clone()).collect());
+        let text = crate::report::runs_page(&sweep_folder::name(&options.run), &runs);
+        (text, Reported { runs: names, ..Reported::of(page) })
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
         let page = place(&paths.folder);
@@ -74,12 +85,11 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
         };
         let checked = crate::check::check(&paths, &mut against, &wanted)?;
         let figures = crate::figures::figures(&paths, &mut against, None)?;
-        let text = crate::report::run_page(&against, &paths.folder, &checked.document, &figures)?;
-        (text, page, json!({ "pass": checked.pass }))
+        let text = crate::report::run_page(&against, &paths.folder, &checked.result, &figures)?;
+        (text, Reported { pass: Some(checked.result.pass), ..Reported::of(page) })
     };
-    write("--out ", &page, &text)?;
-    document["page"] = json!(page.display().to_string());
-    Ok(Reported { page, document })
+    write("--out ", &reported.page, &text)?;
+    Ok(reported)
 }
 
 /// The runs below a folder that is no run itself, by name; `None` where there are none.
@@ -111,14 +121,14 @@ pub(crate) fn claim_sweep(folder: &Path) -> Result<(), Error> {
 }
 
 /// Writes the page of a sweep into its folder.
-pub(crate) fn write_sweep(folder: &Path, results: &Value) -> Result<PathBuf, Error> {
+pub(crate) fn write_sweep(folder: &Path, results: &SweepResult) -> Result<PathBuf, Error> {
     let page = folder.join("report.html");
     claim_sweep(folder)?;
     write("", &page, &sweep_page(folder, results)?)?;
     Ok(page)
 }
 
-fn sweep_page(folder: &Path, results: &Value) -> Result<String, Error> {
+fn sweep_page(folder: &Path, results: &SweepResult) -> Result<String, Error> {
     Ok(crate::report::sweep_page(&sweep_folder::name(folder), &folder.join("sweep.json"), results)?)
 }
 

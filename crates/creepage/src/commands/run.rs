@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::check::{Basis, RunPaths};
 use friction::OwnLaw;
+use output::summary::{Status, Summary};
 use serde::Deserialize;
-use serde_json::Value;
 
 use crate::commands::error::{INTERRUPTED, STOPPED_BY_GUARD};
 use crate::commands::values::{THREADS, threads};
@@ -52,19 +52,19 @@ pub struct RunOptions {
 pub struct Ran {
     /// Folder of the run.
     pub folder: PathBuf,
-    /// The document of `creepage run --json`, also `summary.json` in the folder.
-    pub document: Value,
+    /// What `creepage run --json` prints, also `summary.json` in the folder.
+    pub summary: Summary,
 }
 
 impl Ran {
     /// Why the run's own guards stopped it, where they did.
     pub fn diagnosis(&self) -> Option<&str> {
-        self.document.get("diagnosis").and_then(Value::as_str)
+        self.summary.diagnosis.as_deref()
     }
 
     /// Whether the run was interrupted: with [`RunOptions::resume`] it goes on.
     pub fn interrupted(&self) -> bool {
-        self.document["status"] == "interrupted"
+        self.summary.status == Some(Status::Interrupted)
     }
 
     /// What to try where much of the slip fluctuates, in one sentence; `None` also where the run has no contact to judge.
@@ -76,10 +76,10 @@ impl Ran {
 
     /// Exit code of the command line: 0, 3 where the run's own guards stopped it, 130 when interrupted.
     pub fn exit_code(&self) -> u8 {
-        match self.document["status"].as_str() {
-            Some("interrupted") => INTERRUPTED,
-            Some("failed") => STOPPED_BY_GUARD,
-            _ => 0,
+        match self.summary.status {
+            Some(Status::Interrupted) => INTERRUPTED,
+            Some(Status::Failed) => STOPPED_BY_GUARD,
+            Some(Status::Completed) | None => 0,
         }
     }
 }
@@ -108,5 +108,5 @@ pub fn run(options: &RunOptions, listener: &mut dyn Listener) -> Result<Ran, Err
     let stop = listener.stop();
     listener.folder(&folder);
     let summary = crate::run::run(&case, &how, &stop, &mut |progress| listener.run(progress));
-    Ok(Ran { folder, document: summary.map_err(|error| source.placed(error))? })
+    Ok(Ran { folder, summary: summary.map_err(|error| source.placed(error))? })
 }

@@ -11,10 +11,10 @@ use crate::scenario::{Progress, Stage as StageOfRun};
 use crate::sweep::plan::{self, CHECK, Existing};
 use crate::sweep::points::Point;
 use crate::sweep::pool::{self, Done, Stage};
+use crate::sweep::result::{PlanFile, SweepResult, SweepRun};
 use crate::sweep::{Budget, Plan, Sweep, collect};
 use output::files::made::PLAN;
-use serde::Deserialize;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
 
 use crate::commands::error::{FAILED, INTERRUPTED};
 use crate::commands::outputs::claim;
@@ -94,22 +94,30 @@ impl SweepOptions {
 pub struct Swept {
     /// Its folder.
     pub folder: PathBuf,
-    /// The document of `creepage sweep --json`: parameters and runs with what they gave, also `sweep.json` in the
-    /// folder; of a plan, the plan.
-    pub document: Value,
+    /// What `creepage sweep --json` prints.
+    pub result: PlannedOrRun,
     /// The page about it; none for a plan.
     pub page: Option<PathBuf>,
     /// Whether it was interrupted before all runs were done: with [`SweepOptions::resume`] it goes on.
     pub interrupted: bool,
 }
 
+/// What a sweep gave: what its runs gave, or its plan alone.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum PlannedOrRun {
+    /// Of [`SweepOptions::plan`], also `plan.json` in the folder.
+    Planned(PlanFile),
+    /// Parameters and runs with what they gave, also `sweep.json` in the folder.
+    Run(SweepResult),
+}
+
 impl Swept {
     /// Exit code of the command line: 0, 1 unless every run came to its end, 130 when interrupted.
     pub fn exit_code(&self) -> u8 {
-        let runs = self.document["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
-        match self.page {
+        match &self.result {
             _ if self.interrupted => INTERRUPTED,
-            Some(_) if runs.iter().any(|run| run["status"] != "completed") => FAILED,
+            PlannedOrRun::Run(result) if !result.runs.iter().all(SweepRun::completed) => FAILED,
             _ => 0,
         }
     }
@@ -154,7 +162,8 @@ pub fn sweep(options: &SweepOptions, listener: &mut dyn Listener) -> Result<Swep
         fs::write(path, text).map_err(|error| {
             Error::plain(format!("--plan {}: cannot be written: {error}", path.display()))
         })?;
-        return Ok(Swept { folder, document: plan.document, page: None, interrupted: false });
+        let result = PlannedOrRun::Planned(plan.file);
+        return Ok(Swept { folder, result, page: None, interrupted: false });
     }
     let results = runs(options, &sweep.name, &plan, listener)?;
     let mut swept = finish(&plan, results)?;
@@ -171,7 +180,7 @@ fn runs(
     name: &str,
     plan: &Plan,
     listener: &mut dyn Listener,
-) -> Result<Value, Error> {
+) -> Result<SweepResult, Error> {
     let cores = all_cores();
     let jobs = options.jobs.unwrap_or(cores).clamp(1, plan.runs.len());
     let threads = options.threads.unwrap_or((cores / jobs).max(1));
@@ -235,7 +244,7 @@ fn run_one(
 fn check_one(plan: &Plan, point: &Point) -> Result<(), Error> {
     let folder = plan::run_folder(&plan.folder, &point.name);
     let checked = check(&CheckOptions { run: folder.clone(), ..CheckOptions::default() })?;
-    Ok(output::write_json_atomically(folder.join(CHECK), &checked.document)
+    Ok(output::write_json_atomically(folder.join(CHECK), &checked.result)
         .map_err(crate::sweep::SweepError::from)?)
 }
 
@@ -251,13 +260,14 @@ fn one_line(folder: &Path) -> Result<(), Error> {
 }
 
 /// Draws the results and writes their page.
-fn finish(plan: &Plan, document: Value) -> Result<Swept, Error> {
+fn finish(plan: &Plan, result: SweepResult) -> Result<Swept, Error> {
     let figures = plan.folder.join("figures");
-    for (stem, figure) in crate::trends::sweep_figures(&plan.folder, &document)? {
+    for (stem, figure) in crate::trends::sweep_figures(&plan.folder, &result) {
         for format in [Format::Svg, Format::Png] {
             figure.write_as(&figures, &stem, format).map_err(PostError::from)?;
         }
     }
-    let page = Some(write_sweep(&plan.folder, &document)?);
-    Ok(Swept { folder: plan.folder.clone(), document, page, interrupted: false })
+    let page = Some(write_sweep(&plan.folder, &result)?);
+    let result = PlannedOrRun::Run(result);
+    Ok(Swept { folder: plan.folder.clone(), result, page, interrupted: false })
 }

@@ -2,7 +2,7 @@
 
 use super::RunLine;
 use crate::check::centreline::{CentreLine, PLACES, Rows, interpolate, profile};
-use serde_json::{Value, json};
+use crate::compare::result::Difference;
 
 /// Number of equally spaced instants of the window at which both are compared.
 pub(super) const INSTANTS: usize = 97;
@@ -13,17 +13,17 @@ pub(super) fn of(
     runs: [&RunLine; 2],
     quantity: fn(&CentreLine) -> &Rows,
     [from, to]: [f64; 2],
-) -> Value {
+) -> Difference {
     let instants: Vec<f64> =
         (0..INSTANTS).map(|i| from + (to - from) * i as f64 / (INSTANTS - 1) as f64).collect();
     let [a, b] = runs.map(|run| at(&run.line.times, quantity(&run.line), &instants));
     let [c, d] = runs.map(|run| profile(quantity(&run.line), &run.weights));
     let part = |profile: &[[f64; 2]], i: usize| profile.iter().map(|p| p[i]).collect::<Vec<_>>();
-    json!({
-        "place_and_time": apart(&a.concat(), &b.concat()),
-        "means": apart(&part(&c, 0), &part(&d, 0)),
-        "deviations": apart(&part(&c, 1), &part(&d, 1)),
-    })
+    Difference {
+        place_and_time: apart(&a.concat(), &b.concat()),
+        means: apart(&part(&c, 0), &part(&d, 0)),
+        deviations: apart(&part(&c, 1), &part(&d, 1)),
+    }
 }
 
 /// A quantity at `instants` (s), linear between records.

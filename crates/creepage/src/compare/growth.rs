@@ -5,7 +5,7 @@ use crate::check::PostError;
 use crate::check::basis::Basis;
 use crate::check::frames::ContactHistory;
 use crate::check::vector::{dot, sub};
-use serde_json::{Value, json};
+use crate::compare::result::{GrownOver, Growth};
 
 /// Difference over the largest slip (root mean squares over the nodes) up to which it counts as small.
 const SMALL: f64 = 1e-2;
@@ -14,19 +14,22 @@ const LEAST_RECORDS: usize = 5;
 const LEAST_GROWTH: f64 = 10.0;
 
 /// Rate of growth of the difference of slip (1/s) with the records that it was fitted to, or the reason why there
-/// is none; null for runs that are no twins.
-pub(super) fn growth(bases: [&Basis; 2], [a, b]: [&ContactHistory; 2]) -> Result<Value, PostError> {
+/// is none; `None` for runs that are no twins.
+pub(super) fn growth(
+    bases: [&Basis; 2],
+    [a, b]: [&ContactHistory; 2],
+) -> Result<Option<Growth>, PostError> {
     let [case, other] = bases.map(undisturbed);
     let alike = case == other
         && a.surface.points == b.surface.points
         && a.times.len() == b.times.len()
         && a.times.iter().zip(&b.times).all(|(s, t)| (s - t).abs() <= 1e-9 * t.abs());
     if !alike {
-        return Ok(Value::Null);
+        return Ok(None);
     }
     if a.follows || b.follows {
         let reason = "the fine zone follows the contact: meshes that do not move at the same step are no twins";
-        return Ok(json!({ "rate": null, "reason": reason }));
+        return Ok(Some(Growth::none(reason)));
     }
     let mut series = Vec::new();
     let mut largest = 0.0_f64;
@@ -43,7 +46,7 @@ pub(super) fn growth(bases: [&Basis; 2], [a, b]: [&ContactHistory; 2]) -> Result
     })?;
     // by the largest slip of all records: that of the same record is zero while everything sticks
     series.iter_mut().for_each(|[_, apart]| *apart /= largest.max(f64::MIN_POSITIVE));
-    Ok(rate(&series))
+    Ok(Some(rate(&series)))
 }
 
 /// The case of a run without its name and without what disturbs its preload.
@@ -60,10 +63,10 @@ fn undisturbed(basis: &Basis) -> Option<toml::Table> {
 
 /// Least-squares slope of the logarithm of the difference over time, from the first record with a difference to
 /// the last one in which it is small.
-fn rate(series: &[[f64; 2]]) -> Value {
+fn rate(series: &[[f64; 2]]) -> Growth {
     let first = series.iter().position(|[_, apart]| *apart > 0.0);
     let Some(first) = first else {
-        return json!({ "rate": null, "reason": "both runs have the same bits" });
+        return Growth::none("both runs have the same bits");
     };
     let grown = series[first..].iter().position(|[_, apart]| *apart > SMALL);
     let end = grown.map_or(series.len(), |grown| first + grown);
@@ -74,12 +77,17 @@ fn rate(series: &[[f64; 2]]) -> Value {
         .collect();
     let ends = small.first().zip(small.last()).map(|(a, b)| [*a, *b]);
     let Some([start, last]) = ends.filter(|_| small.len() >= LEAST_RECORDS) else {
-        return json!({ "rate": null, "reason": "the difference is small in fewer than five records" });
+        return Growth::none("the difference is small in fewer than five records");
     };
-    let span = json!({ "from": start[0], "to": last[0], "records": small.len(),
-                       "start": libm::exp(start[1]), "end": libm::exp(last[1]) });
+    let over = Some(GrownOver {
+        from: start[0],
+        to: last[0],
+        records: small.len(),
+        start: libm::exp(start[1]),
+        end: libm::exp(last[1]),
+    });
     if last[1] - start[1] < libm::log(LEAST_GROWTH) {
-        return json!({ "rate": null, "reason": "the difference does not grow tenfold", "over": span });
+        return Growth { over, ..Growth::none("the difference does not grow tenfold") };
     }
     let count = small.len() as f64;
     let mean = [0, 1].map(|i| small.iter().map(|p| p[i]).sum::<f64>() / count);
@@ -88,7 +96,7 @@ fn rate(series: &[[f64; 2]]) -> Value {
         upper += (t - mean[0]) * (log - mean[1]);
         lower += (t - mean[0]).powi(2);
     }
-    json!({ "rate": upper / lower, "over": span })
+    Growth { rate: Some(upper / lower), reason: None, over }
 }
 
 #[cfg(test)]
@@ -103,15 +111,15 @@ mod tests {
     #[test]
     fn the_rate_of_an_exponential_is_its_own_until_it_saturates() {
         let found = rate(&series(|t| (1e-9 * libm::exp(2e5 * t)).min(0.7)));
-        assert!((found["rate"].as_f64().unwrap() / 2e5 - 1.0).abs() < 1e-6, "{found}");
-        assert!(found["over"]["end"].as_f64().unwrap() <= SMALL);
+        assert!((found.rate.unwrap() / 2e5 - 1.0).abs() < 1e-6, "{found:?}");
+        assert!(found.over.unwrap().end <= SMALL);
     }
 
     #[test]
     fn runs_of_the_same_bits_and_differences_that_do_not_grow_have_no_rate_but_a_reason() {
         for apart in [0.0, 1e-9] {
             let found = rate(&series(|_| apart));
-            assert!(found["rate"].is_null() && found["reason"].is_string(), "{found}");
+            assert!(found.rate.is_none() && found.reason.is_some(), "{found:?}");
         }
     }
 }

@@ -2,43 +2,54 @@
 
 use crate::check::basis::Basis;
 use crate::check::digits::digits;
+use output::summary::Numbers;
 use std::fmt::Write;
 
-/// For each key of `numbers` in the summary: its label and its meaning.
-const MEANINGS: [(&str, &str, &str); 8] = [
+/// A number, its label and its meaning.
+type Meaning = (fn(&Numbers) -> Option<f64>, &'static str, &'static str);
+
+const MEANINGS: [Meaning; 8] = [
     (
-        "r",
+        |n| n.r,
         "R = p0 k \u{394}\u{3bc}/Z",
         "above 1 Eq. (8) alone is ill-posed between elastic bodies: three states are possible at one load, \
          disturbances grow the faster the finer the mesh, and no refinement converges point by point; below 1 \
          the bodies radiate energy faster than falling friction feeds it",
     ),
     (
-        "n2",
+        |n| n.n2,
         "N2 = dt p0 k \u{394}\u{3bc}/m*",
         "negative damping per step of falling friction against the mass of the surface layer; below 1 it is \
          a small correction to the step",
     ),
     (
-        "n1",
+        |n| n.n1,
         "N1 = dt\u{b2} k_t/m*",
         "friction spring against the mass of the surface layer, per step squared: with soft springs, \
          nodes that stick move more",
     ),
-    ("f_min", "f_min/p0", "the least shear over pressure at which slip goes on by Eq. (8) alone"),
-    ("s_m", "s_m (m/s)", "between rest and this slip speed no state is stable by Eq. (8) alone"),
     (
-        "s_jump",
+        |n| n.f_min,
+        "f_min/p0",
+        "the least shear over pressure at which slip goes on by Eq. (8) alone",
+    ),
+    (
+        |n| n.s_m,
+        "s_m (m/s)",
+        "between rest and this slip speed no state is stable by Eq. (8) alone",
+    ),
+    (
+        |n| n.s_jump,
         "s_jump (m/s)",
         "slip speed to which a point jumps by Eq. (8) alone when it begins to slip",
     ),
     (
-        "nucleation_length",
+        |n| n.nucleation_length,
         "h_n (m)",
         "nucleation length of friction with memory: shorter zones of slip are stable",
     ),
     (
-        "gamma",
+        |n| n.gamma,
         "\u{393} = l_slip/h_n",
         "zone of slip, by Carter, over the nucleation length; above 1 slip may oscillate by itself",
     ),
@@ -47,10 +58,9 @@ const MEANINGS: [(&str, &str, &str); 8] = [
 /// Appends the section: the numbers of the summary, and the resolution of the patch in time and space.
 pub(super) fn section(out: &mut String, basis: &Basis) {
     let mut rows: Vec<(&str, f64, String)> = Vec::new();
-    let numbers = basis.summary.as_ref().map(|summary| &summary["numbers"]);
-    for (key, name, meaning) in MEANINGS {
-        if let Some(value) = numbers.and_then(|numbers| numbers[key].as_f64()) {
-            rows.push((name, value, meaning.into()));
+    if let Some(numbers) = basis.summary.as_ref().and_then(|summary| summary.numbers.as_ref()) {
+        for (of, name, meaning) in MEANINGS {
+            rows.extend(of(numbers).map(|value| (name, value, meaning.to_owned())));
         }
     }
     let size = basis.scale("size");

@@ -1,13 +1,14 @@
 //! What happened: whether the run ended, whether its contact obeys the conditions, a picture, and the numbers that matter.
 
-use super::{escape, number, worth};
+use super::{escape, worth};
 use crate::check::basis::Basis;
 use crate::check::digits::digits;
-use crate::check::limits::MEASURES;
-use crate::check::patch_series::{PATCH_TABLE, PatchLine};
+use crate::check::measure::Measure;
+use crate::check::patch_series::{PATCH_TABLE, PatchLine, PatchMeasure};
+use crate::check::result::CheckResult;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde_json::Value;
+use output::summary::Status;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -28,7 +29,7 @@ pub(super) fn contents(out: &mut String) {
 }
 
 /// Appends the section.
-pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &Value) {
+pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &CheckResult) {
     out.push_str("<h2 id=\"overview\">What happened</h2>\n");
     let (class, text) = ending(basis);
     let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
@@ -41,13 +42,13 @@ pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &
 /// Whether the run ended as it should.
 fn ending(basis: &Basis) -> (&'static str, String) {
     let summary = basis.summary.as_ref();
-    let diagnosis = summary.and_then(|summary| summary["diagnosis"].as_str()).unwrap_or_default();
-    match summary.and_then(|summary| summary["status"].as_str()) {
-        Some("completed") => ("pass", "The run reached its end.".into()),
-        Some("interrupted") => {
+    let diagnosis = summary.and_then(|summary| summary.diagnosis.as_deref()).unwrap_or_default();
+    match summary.and_then(|summary| summary.status) {
+        Some(Status::Completed) => ("pass", "The run reached its end.".into()),
+        Some(Status::Interrupted) => {
             ("", "The run was interrupted. The page shows what it reached.".into())
         }
-        Some(_) => (
+        Some(Status::Failed) => (
             "fail",
             format!(
                 "The run failed: its own guards stopped it. The page shows what it reached. {diagnosis}"
@@ -61,14 +62,15 @@ fn ending(basis: &Basis) -> (&'static str, String) {
 }
 
 /// Whether contact obeys its conditions, which is a matter of the method, not of whether the run worked.
-fn conditions(checked: &Value) -> (&'static str, String) {
-    if checked["pass"] == Value::Bool(true) {
+fn conditions(checked: &CheckResult) -> (&'static str, String) {
+    if checked.pass {
         return ("pass", "Its contact obeys the contact conditions within all limits.".into());
     }
-    let beyond = |name: &&str| checked["metrics"][*name]["pass"] == Value::Bool(false);
-    let names: Vec<&str> = MEASURES.iter().map(|measure| measure.name).filter(beyond).collect();
-    let by = checked["limits_for"].as_str().unwrap_or("its");
-    let share = number(checked, "/metrics/violating_fraction/value")
+    let names: Vec<&str> = checked.beyond_limit().map(Measure::name).collect();
+    let by = checked.limits_for;
+    let violating = checked.metrics.get(&Measure::ViolatingFraction);
+    let share = violating
+        .and_then(|metric| metric.value)
         .map(|share| {
             let share = digits(100.0 * share, 2);
             format!(
@@ -86,27 +88,27 @@ fn conditions(checked: &Value) -> (&'static str, String) {
     )
 }
 
-/// The numbers that matter, by their keys in [`PATCH_TABLE`].
-const NUMBERS: [&str; 6] = [
-    "normal_force",
-    "traction_coefficient",
-    "creepage",
-    "peak_pressure",
-    "half_length",
-    "stick_fraction",
+/// The numbers that matter.
+const NUMBERS: [PatchMeasure; 6] = [
+    PatchMeasure::NormalForce,
+    PatchMeasure::TractionCoefficient,
+    PatchMeasure::Creepage,
+    PatchMeasure::PeakPressure,
+    PatchMeasure::HalfLength,
+    PatchMeasure::StickFraction,
 ];
 
 /// The table of these numbers beside Hertz's.
-fn numbers(basis: &Basis, checked: &Value) -> String {
+fn numbers(basis: &Basis, checked: &CheckResult) -> String {
     let mut out = String::from(
         "<table>\n<tr><th>mean over the window</th><th class=\"n\">value</th><th></th>\
          <th class=\"n\">half-space</th></tr>\n",
     );
-    let line = |key: &&str| PATCH_TABLE.iter().find(|line| line.key == *key);
-    for PatchLine { label, key, factor, unit } in NUMBERS.iter().filter_map(line) {
-        let at = |part: &str| number(checked, &format!("/patch/{key}/{part}")).map(|v| factor * v);
-        let Some(mean) = at("mean") else {
-            let note = checked.pointer(&format!("/patch/{key}/note")).and_then(Value::as_str);
+    let line = |measure: &PatchMeasure| PATCH_TABLE.iter().find(|line| line.measure == *measure);
+    for PatchLine { label, measure, factor, unit } in NUMBERS.iter().filter_map(line) {
+        let found = checked.patch.get(measure);
+        let Some((mean, found)) = found.and_then(|found| Some((found.mean?, found))) else {
+            let note = found.and_then(|found| found.note.as_deref());
             let _ = writeln!(
                 out,
                 "<tr><td>{label}</td><td class=\"n\">\u{2013}</td><td colspan=\"2\">{}</td></tr>",
@@ -114,11 +116,11 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
             );
             continue;
         };
-        let scale = super::half_space(basis, key);
+        let scale = super::half_space(basis, *measure);
         let _ = writeln!(
             out,
             "<tr><td>{label}</td><td class=\"n\">{}</td><td>{unit}</td><td class=\"n\">{}</td></tr>",
-            worth(mean, at("ci95")),
+            worth(factor * mean, found.ci95.map(|half| factor * half)),
             scale.map(|scale| digits(factor * scale, 4)).unwrap_or_default()
         );
     }
@@ -126,9 +128,9 @@ fn numbers(basis: &Basis, checked: &Value) -> String {
     out
 }
 
-/// Appends a link to the document of `creepage check --json`.
-pub(super) fn data(out: &mut String, checked: &Value) {
-    let encoded = STANDARD.encode(checked.to_string());
+/// Appends a link to what `creepage check --json` prints.
+pub(super) fn data(out: &mut String, checked: &CheckResult) {
+    let encoded = STANDARD.encode(serde_json::to_string(checked).unwrap_or_default());
     let _ = writeln!(
         out,
         "<p><a download=\"check.json\" href=\"data:application/json;base64,{encoded}\">All numbers of the check as \

@@ -1,8 +1,8 @@
 //! The page that lists the runs of a folder.
 
-use super::{end, escape, head, number};
+use super::{end, escape, head};
 use crate::check::digits::digits;
-use serde_json::Value;
+use output::summary::{Status, Summary};
 use std::fmt::Write;
 
 /// A run of a folder.
@@ -11,17 +11,19 @@ pub struct ListedRun {
     /// The name of its folder.
     pub name: String,
     /// Its `summary.json`.
-    pub summary: Value,
+    pub summary: Summary,
     /// Whether its folder has a page of its own, `report.html`.
     pub page: bool,
 }
 
-/// Means that the list shows: label, place in the summary, factor to the unit.
-const MEANS: [(&str, &str, f64); 4] = [
-    ("T/N", "/contact/traction_coefficient", 1.0),
-    ("creepage (10\u{207b}\u{b3})", "/contact/creepage", 1e3),
-    ("peak pressure (MPa)", "/contact/peak_pressure", 1e-6),
-    ("wall time (s)", "/wall_s", 1.0),
+/// A number of the list: label, and value in the unit of the label.
+type Number = (&'static str, fn(&Summary) -> Option<f64>);
+
+const NUMBERS: [Number; 4] = [
+    ("T/N", |s| s.contact.traction_coefficient),
+    ("creepage (10\u{207b}\u{b3})", |s| Some(1e3 * s.contact.creepage?)),
+    ("peak pressure (MPa)", |s| Some(1e-6 * s.contact.peak_pressure?)),
+    ("wall time (s)", |s| Some(s.wall_s)),
 ];
 
 /// The HTML page that lists `runs` of the folder called `name`, with links to those that have pages.
@@ -33,7 +35,7 @@ pub fn runs_page(name: &str, runs: &[ListedRun]) -> String {
         escape(name)
     );
     out.push_str("<th>status</th>");
-    for (label, ..) in MEANS {
+    for (label, _) in NUMBERS {
         let _ = write!(out, "<th class=\"n\">{label}</th>");
     }
     out.push_str("</tr>\n");
@@ -41,10 +43,10 @@ pub fn runs_page(name: &str, runs: &[ListedRun]) -> String {
         let name = escape(&run.name);
         let shown =
             if run.page { format!("<a href=\"{name}/report.html\">{name}</a>") } else { name };
-        let status = escape(run.summary["status"].as_str().unwrap_or("unknown"));
+        let status = run.summary.status.map_or("unknown", Status::word);
         let _ = write!(out, "<tr><td>{shown}</td><td>{status}</td>");
-        for (_, place, factor) in MEANS {
-            let value = number(&run.summary, place).map(|value| digits(factor * value, 4));
+        for (_, of) in NUMBERS {
+            let value = of(&run.summary).map(|value| digits(value, 4));
             let _ = write!(out, "<td class=\"n\">{}</td>", value.unwrap_or_default());
         }
         out.push_str("</tr>\n");

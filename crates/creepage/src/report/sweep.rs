@@ -3,21 +3,21 @@
 use super::{escape, head};
 use crate::check::PostError;
 use crate::check::digits::digits;
+use crate::sweep::result::{Entry, SweepPlan, SweepResult};
 use crate::trends::{
     MEASURES, RULE, Sweep, SweepVerdict, steps, sweep_figures, sweep_verdicts, value_text,
 };
-use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The HTML page of a sweep: `name` is its title, `path` its `sweep.json`, `sweep` the content of that.
+/// The HTML page of a sweep: `name` is its title, `path` its `sweep.json`.
 ///
 /// # Errors
-/// A document that is no sweep; a figure that cannot be drawn.
-pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, PostError> {
+/// A figure that cannot be drawn.
+pub fn sweep_page(name: &str, path: &Path, sweep: &SweepResult) -> Result<String, PostError> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let known = Sweep::of(folder, sweep)?;
-    let verdicts = sweep_verdicts(folder, sweep)?;
+    let known = Sweep::of(folder, sweep);
+    let verdicts = sweep_verdicts(folder, sweep);
     let mut out = head(name);
     let completed = known.completed().count();
     let _ = writeln!(
@@ -28,7 +28,7 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
         if known.ensemble { "points of an ensemble" } else { "runs" },
         escape(&known.axes.join(", "))
     );
-    if let Some(text) = time_step(&known, &sweep["step"]) {
+    if let Some(text) = time_step(&known, &sweep.plan) {
         let _ = writeln!(out, "<p>{text}</p>");
     }
     if known.ensemble {
@@ -40,11 +40,13 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
     trends(&mut out, &verdicts);
     table(&mut out, &known);
     out.push_str("<h2>Figures</h2>\n");
-    for (stem, figure) in sweep_figures(folder, sweep)? {
+    for (stem, figure) in sweep_figures(folder, sweep) {
         let svg = figure.svg_element()?;
         let _ = writeln!(out, "<figure id=\"{stem}\">{svg}</figure>");
     }
-    if let Some(name) = known.runs.iter().find_map(|run| run.entry["name"].as_str()) {
+    if let Some(name) =
+        sweep.runs.iter().find_map(|run| run.name.as_deref()).filter(|_| !known.ensemble)
+    {
         let name = escape(name);
         let _ = writeln!(
             out,
@@ -63,16 +65,15 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &Value) -> Result<String, Post
 }
 
 /// The time step of the runs, in a sentence, with the rule that it follows; `None` where no run has one.
-fn time_step(sweep: &Sweep<'_>, rule: &Value) -> Option<String> {
+fn time_step(sweep: &Sweep<'_>, plan: &SweepPlan) -> Option<String> {
     let Some(differing) = steps(sweep.completed()) else {
         let step = sweep.completed().find_map(|run| run.step())?;
         return Some(format!("Time step of all runs: {}.", nanoseconds([step, step])));
     };
-    let why = match rule["rule"].as_str() {
-        Some("bound") => {
-            " (rule \u{201c}bound\u{201d}: time.factor times the stability limit of each run)"
-        }
-        _ => "",
+    let why = if plan.step_is_bound() {
+        " (rule \u{201c}bound\u{201d}: time.factor times the stability limit of each run)"
+    } else {
+        ""
     };
     Some(format!("The time step differs from run to run: {}{why}.", nanoseconds(differing)))
 }
@@ -107,7 +108,7 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
         let (axis, others) = (escape(&verdicts[0].axis), escape(&verdicts[0].others));
         let others = if others.is_empty() { others } else { format!(", {others}") };
         let _ = writeln!(out, "<h3>{axis}{others}</h3>");
-        if let Some(steps) = verdicts[0].steps {
+        if let Some(steps) = verdicts[0].time_steps {
             let _ = writeln!(
                 out,
                 "<p>The time step changes along this axis, from {}: the trends may be of either.</p>",
@@ -129,8 +130,8 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
                 "<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>",
                 escape(verdict.measure),
                 verdict.points,
-                verdict.trend.word(),
-                escape(&verdict.trend.sentence(verdict.points, verdict.unit))
+                verdict.verdict,
+                escape(&verdict.why)
             );
         }
         out.push_str("</table>\n");
@@ -156,10 +157,13 @@ fn table(out: &mut String, sweep: &Sweep<'_>) {
     for run in &sweep.runs {
         out.push_str("<tr>");
         for axis in &sweep.axes {
-            let value = value_text(&run.parameter(axis));
+            let value = value_text(run.parameters().get(*axis));
             let _ = write!(out, "<td class=\"n\">{}</td>", escape(&value));
         }
-        let reason = run.entry["reason"].as_str().map(|reason| format!(": {reason}"));
+        let reason = match run {
+            Entry::Run(run) => run.reason.as_ref().map(|reason| format!(": {reason}")),
+            Entry::Point(_) => None,
+        };
         let status = format!("{}{}", run.status(), reason.unwrap_or_default());
         let _ = write!(out, "<td>{}</td>", escape(&status));
         for measure in &columns {
@@ -169,7 +173,7 @@ fn table(out: &mut String, sweep: &Sweep<'_>) {
             let text = point.map_or("\u{2013}".into(), |point| digits(point.value, 4) + &half);
             let _ = write!(out, "<td class=\"n\">{text}</td>");
         }
-        let (word, class) = match run.entry.pointer("/check/pass").and_then(Value::as_bool) {
+        let (word, class) = match run.check().map(|check| check.pass) {
             Some(true) => ("pass", "pass"),
             Some(false) => ("fail", "fail"),
             None => ("", ""),

@@ -22,7 +22,7 @@ use crate::run::log::Log;
 use crate::run::postmortem;
 use crate::run::record::{RecordBasis, Recorder};
 use crate::run::resume::ResumePoint;
-use crate::run::summary::{Ending, summary, write as write_summary};
+use crate::run::summary::{Ending, summary};
 use crate::run::text_file::remove;
 use crate::scenario::progress::{Progress, Stage};
 use crate::scenario::{InitialState, Start};
@@ -33,7 +33,7 @@ use opening::{OpenRun, Opening, log_model, model, open};
 pub use options::RunOptions;
 use output::NotWritten;
 use output::layout::{FOLLOWS, HALF, attribute, file};
-use output::summary::Status;
+use output::summary::{MeshWindow, Status, Summary};
 use output::{LOG_END, Provenance};
 use rolling::{FinishedRun, Stopped, TimeLoop};
 
@@ -51,7 +51,7 @@ pub fn run(
     options: &RunOptions,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-) -> Result<serde_json::Value, RunError> {
+) -> Result<Summary, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     // The whole run inside the pool: entering it costs microseconds, a step of a small case few more.
     let mut result = pool.install(|| run_in_pool(case, options, stop, observe));
@@ -77,7 +77,7 @@ fn run_in_pool(
     options: &RunOptions,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-) -> Result<serde_json::Value, RunError> {
+) -> Result<Summary, RunError> {
     let wall = Instant::now();
     let law = case.friction.law;
     match (law == Kind::Python, options.law.is_some()) {
@@ -90,14 +90,14 @@ fn run_in_pool(
     }
     let make = |point: Option<&_>| model(case, options, point);
     let mut opened = match open(case, options, make, |model, log| log_model(case, model, log))? {
-        Opening::Complete(summary) => return Ok(complete(&options.out, summary)),
+        Opening::Complete(summary) => return Ok(complete(&options.out, *summary)),
         Opening::Run(opened) => *opened,
     };
     observe(&stage(case, Stage::Mesh));
     let basis = basis(case, options, opened.point.as_ref());
     let (start, files, resumed) =
         match begin(case, options, &mut opened, &basis, wall, stop, observe)? {
-            Preloaded::NotPreloaded(document) => return Ok(document),
+            Preloaded::NotPreloaded(summary) => return Ok(*summary),
             Preloaded::Rolling(start, files, resumed) => {
                 (*start, files.map(|files| *files), resumed)
             }
@@ -221,7 +221,7 @@ fn conclude(
     made: &Provenance,
     held: &FolderLock,
     log: &mut Log,
-) -> Result<serde_json::Value, RunError> {
+) -> Result<Summary, RunError> {
     ending.means.unconverged_warning().iter().try_for_each(|line| log.warn(line))?;
     if ending.status == Status::Completed {
         ending.means.load_warning(case).iter().try_for_each(|line| log.warn(line))?;
@@ -229,25 +229,24 @@ fn conclude(
     ending.means.mesh_mode.warnings(case).iter().try_for_each(|line| log.warn(line))?;
     let mut summary = summary(case, simulation, facts, &hertz(case), ending);
     if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
-        summary.extra.insert(output::SAMPLED_LAW.into(), serde_json::json!(points));
+        summary.friction_law = Some(points);
     }
     if case.mesh.window.is_some() {
         let (travel, energy) = (simulation.travel().x, simulation.ledger().moved);
-        let moves = serde_json::json!({ "travel": travel, "energy": energy });
-        summary.extra.insert("mesh_window".into(), moves);
+        summary.mesh_window = Some(MeshWindow { travel, energy });
     }
     held.check_owner()?;
-    let document = write_summary(&options.out, &summary, made)?;
+    let summary = summary.write(&options.out, made)?;
     if ending.status == Status::Completed {
         remove_checkpoints(&options.out)?;
     }
     let (status, steps, wall) = (ending.status, summary.steps, summary.wall_s);
     log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;
-    Ok(document)
+    Ok(summary)
 }
 
 /// A run with nothing left to do.
-fn complete(folder: &Path, summary: serde_json::Value) -> serde_json::Value {
+fn complete(folder: &Path, summary: Summary) -> Summary {
     tracing::warn!("the run in {} is complete: nothing to resume", folder.display());
     // It may have been killed just before it removed them itself.
     let _ = remove_checkpoints(folder);

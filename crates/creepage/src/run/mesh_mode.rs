@@ -8,8 +8,8 @@ use contact::NodalContact;
 use contact::mesh_mode::{HOURGLASS_LIMIT, LEAST_SLIP, MESH_MODE_LIMIT, MeshMode, warning};
 use contact::patch::IN_CONTACT;
 use mesh::Padded;
+use output::summary;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
 use solid::Solid;
 
 /// Samples of the energies of the elements below the contact over the evaluation window. They are few, since each
@@ -55,15 +55,15 @@ impl MeshModeSums {
         slip.into_iter().chain(energy).collect()
     }
 
-    /// `mesh_mode` of a summary.
-    pub(crate) fn json(&self, case: &Case) -> Value {
-        json!({
-            "alternating_slip": self.alternating(case),
-            "alternating_slip_limit": MESH_MODE_LIMIT,
-            "hourglass_energy_in_layers": self.hourglass(),
-            "hourglass_energy_limit": HOURGLASS_LIMIT,
-            "warnings": self.warnings(case),
-        })
+    /// What they show.
+    pub(crate) fn result(&self, case: &Case) -> summary::MeshMode {
+        summary::MeshMode {
+            alternating_slip: self.alternating(case),
+            alternating_slip_limit: MESH_MODE_LIMIT,
+            hourglass_energy_in_layers: self.hourglass(),
+            hourglass_energy_limit: HOURGLASS_LIMIT,
+            warnings: self.warnings(case),
+        }
     }
 }
 

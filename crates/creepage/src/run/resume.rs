@@ -11,19 +11,18 @@ use crate::run::log::Log;
 use crate::run::text_file::remove;
 use error::ResumeError;
 use output::layout::file;
-use output::summary::Status;
+use output::summary::{Status, Summary};
 use output::{
     CHECKPOINTS, Checkpoint, NotWritten, OutputError, Results, as_long_as_written, read_summary,
     verify,
 };
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 use solid::Level;
 
 /// Where a run goes on.
 pub(crate) enum ResumeFrom<T> {
     /// Nowhere: the run is complete. Its summary.
-    Complete(Value),
+    Complete(Box<Summary>),
     /// At its beginning. The reason.
     Beginning(String),
     /// At a checkpoint.
@@ -76,12 +75,11 @@ pub(crate) fn resume_from<T: DeserializeOwned>(
     let damage =
         |error: OutputError| ResumeError::Damaged { folder: path(), reason: error.to_string() };
     let summary = read_summary(folder);
-    let complete = serde_json::to_value(Status::Completed).ok();
     if let Ok(Some(summary)) = &summary
-        && summary.get("status") == complete.as_ref()
+        && summary.status == Some(Status::Completed)
     {
         as_long_as_written(folder, summary, |_| true).map_err(damage)?;
-        return Ok(ResumeFrom::Complete(summary.clone()));
+        return Ok(ResumeFrom::Complete(Box::new(summary.clone())));
     }
     let mut damaged = Vec::new();
     for name in CHECKPOINTS {

@@ -4,17 +4,18 @@ use std::time::{Duration, Instant};
 
 use crate::case::hertz::Hertz;
 use crate::case::schema::{Case, DriveMode, Enforcement};
-use crate::run::error::RunError;
 use crate::run::means::Means;
 use crate::scenario::memory::peak_rss_mb;
 use crate::scenario::remedy::Remedy;
 use crate::scenario::{InitialState, Model, PreloadError, RollingRadius};
+use contact::Rows;
 use dynamics::{Energies, Simulation};
-use output::layout::{attribute, file};
-use output::summary::{Contact, Energy, Files, Status, Summary};
-use output::{Provenance, quantities};
-use serde_json::{Value, json};
-use std::path::Path;
+use output::layout::file;
+use output::summary::{
+    self, Checks, Contact, Energy, ExactContact, Files, HalfSpace, Implicit, Mean, Status, Summary,
+    Window,
+};
+use std::collections::BTreeMap;
 
 /// How a run ended.
 pub(crate) struct Ending {
@@ -37,21 +38,52 @@ pub(crate) struct Ending {
     pub(crate) keeping: Duration,
 }
 
-/// What implicit steps took; null of explicit ones.
-fn implicit(case: &Case, simulation: &Simulation) -> serde_json::Value {
-    let took = case.theta().zip(simulation.effort());
-    json!(took.map(|(theta, effort)| {
-        json!({ "theta": theta, "solved": effort.solved, "cut": effort.cut,
-            "iterations": effort.iterations, "products": effort.products })
-    }))
+/// What implicit steps took; none of explicit ones.
+fn implicit(case: &Case, simulation: &Simulation) -> Option<Implicit> {
+    let (theta, effort) = case.theta().zip(simulation.effort())?;
+    Some(Implicit {
+        theta,
+        solved: effort.solved as u64,
+        cut: effort.cut as u64,
+        iterations: effort.iterations as u64,
+        products: effort.products as u64,
+    })
 }
 
-/// The rolling radii (m); that of free rolling is known where no torque acts, and null elsewhere.
-fn rolling_radius(case: &Case, facts: &InitialState, means: &Means) -> serde_json::Value {
+/// What exact enforcement took; none of penalty springs.
+fn exact_contact(case: &Case, means: &Means) -> Option<ExactContact> {
+    let (steps, change) = means.unconverged;
+    (case.contact.enforcement == Enforcement::Exact).then(|| ExactContact {
+        rows: case.contact.rows.map(|rows| Rows::WORDS[rows as usize].to_owned()),
+        kelvin_voigt: case.kelvin_voigt(),
+        most_sweeps: means.most_sweeps as u64,
+        unconverged_steps: steps,
+        unconverged_change: Some(change),
+        manifold_node_steps: means.non_unique,
+        mortar_integrals: means.integrated,
+        steepness_node: Some(means.steepness[0]),
+        steepness_patch: Some(means.steepness[1]),
+        warnings: means.unconverged_warning().into_iter().collect(),
+    })
+}
+
+/// The rolling radii; that of free rolling is known where no torque acts.
+fn rolling_radius(case: &Case, facts: &InitialState, means: &Means) -> summary::RollingRadius {
     let RollingRadius { nominal, effective } = facts.radius;
     let rolls_freely = case.drive.mode == DriveMode::Torque && case.drive.torque == Some(0.0);
     let free = means.creepage.mean().filter(|_| rolls_freely).map(|xi| effective / (1.0 + xi));
-    json!({ "nominal": nominal, "effective": effective, "free": free })
+    summary::RollingRadius { nominal, effective, free }
+}
+
+/// Hertz's contact.
+pub(crate) fn half_space(hertz: &Hertz) -> HalfSpace {
+    HalfSpace {
+        half_length: Some(hertz.a),
+        half_width: Some(hertz.b),
+        area: Some(hertz.area()),
+        peak_pressure: Some(hertz.p0),
+        approach: Some(hertz.approach),
+    }
 }
 
 /// The summary of a run that rolled.
@@ -67,9 +99,9 @@ pub(crate) fn summary(
     let steps = simulation.steps() as u64;
     let elements = ending.elements as f64;
     let (last, means) = (&ending.energies, &ending.means);
-    let mut summary = Summary {
+    Summary {
         name: case.name.clone(),
-        status: ending.status,
+        status: Some(ending.status),
         steps,
         dt: simulation.dt(),
         t_end: simulation.time(),
@@ -106,43 +138,26 @@ pub(crate) fn summary(
         ]
         .map(|(k, v)| (k.to_owned(), v))
         .into(),
-        extra: Default::default(),
-    };
-    let half_space = json!({ "half_length": hertz.a, "half_width": hertz.b,
-        "area": hertz.area(),
-        "peak_pressure": hertz.p0, "approach": hertz.approach });
-    let checks = json!({ "cone_excess": means.worst_cone, "resultant_mismatch": means.worst_mismatch,
-        "contact_damping": last.contact_damping });
-    let exact = (case.contact.enforcement == Enforcement::Exact).then(|| {
-        let (steps, change) = means.unconverged;
-        json!({ "rows": case.contact.rows, "kelvin_voigt": case.kelvin_voigt(),
-            "most_sweeps": means.most_sweeps, "unconverged_steps": steps,
-            "unconverged_change": change, "manifold_node_steps": means.non_unique,
-            "mortar_integrals": means.integrated,
-            "steepness_node": means.steepness[0], "steepness_patch": means.steepness[1],
-            "warnings": means.unconverged_warning().as_slice() })
-    });
-    let preload = facts.preload.map(|p| p.json());
-    let sections = [
-        ("symmetry", json!(case.mesh.symmetry)),
-        ("kernels", json!(simulation.solid().level().name())),
-        ("stability", json!(facts.stability)),
-        ("rolling_radius", rolling_radius(case, facts, means)),
-        ("half_space", half_space),
-        ("window", window(case, means, ending.status)),
-        ("mesh_mode", means.mesh_mode.json(case)),
-        ("checks", checks),
-        ("exact_contact", json!(exact)),
-        ("implicit", implicit(case, simulation)),
-        ("time_loop_bytes_per_element", json!(simulation.bytes() as f64 / elements)),
-        ("preload", json!(preload)),
-        ("numbers", facts.numbers.json()),
-    ];
-    summary.extra = sections.map(|(k, v)| (k.to_owned(), v)).into();
-    if let Some(d) = &ending.diagnosis {
-        summary.extra.insert("diagnosis".into(), json!(d));
+        diagnosis: ending.diagnosis.clone(),
+        symmetry: Some(case.mesh.symmetry.word().into()),
+        kernels: Some(simulation.solid().level().name().into()),
+        time_loop_bytes_per_element: Some(simulation.bytes() as f64 / elements),
+        stability: Some(facts.stability),
+        rolling_radius: Some(rolling_radius(case, facts, means)),
+        half_space: Some(half_space(hertz)),
+        window: Some(window(case, means, ending.status)),
+        mesh_mode: Some(means.mesh_mode.result(case)),
+        checks: Some(Checks {
+            cone_excess: Some(means.worst_cone),
+            resultant_mismatch: Some(means.worst_mismatch),
+            contact_damping: Some(last.contact_damping),
+        }),
+        exact_contact: exact_contact(case, means),
+        implicit: implicit(case, simulation),
+        preload: facts.preload.map(|preload| preload.result()),
+        numbers: Some(facts.numbers.result()),
+        ..Summary::default()
     }
-    summary
 }
 
 /// The summary of a run that ended in its preload: nothing rolled, so there are no results.
@@ -154,54 +169,21 @@ pub(crate) fn without_rolling(
     error: &PreloadError,
 ) -> Summary {
     let wall_s = wall.elapsed().as_secs_f64();
-    let none = String::new;
+    let status = if error.is_interruption() { Status::Interrupted } else { Status::Failed };
     Summary {
         name: case.name.clone(),
-        status: if error.is_interruption() { Status::Interrupted } else { Status::Failed },
-        steps: 0,
-        dt: 0.0,
-        t_end: 0.0,
+        status: Some(status),
         elements: model.mesh.hexes.len() as u64,
         nodes: model.mesh.nodes.len() as u64,
         threads: threads as u64,
         wall_s,
-        element_steps_per_s: 0.0,
         peak_rss_mb: peak_rss_mb(),
-        energy: Energy::default(),
-        contact: Contact::default(),
-        files: Files { fields: none(), contact: none(), history: none(), postmortem: None },
+        files: Files::none(),
         stages: [("preload".to_owned(), wall_s)].into(),
-        extra: [
-            ("symmetry".to_owned(), json!(case.mesh.symmetry)),
-            ("diagnosis".to_owned(), json!(format!("{error}: {}", error.remedy()))),
-        ]
-        .into(),
+        diagnosis: Some(format!("{error}: {}", error.remedy())),
+        symmetry: Some(case.mesh.symmetry.word().into()),
+        ..Summary::default()
     }
-}
-
-/// The files whose lengths and checksums a summary holds.
-const SUMMED: [&str; 6] =
-    [file::CASE, file::FIELDS, file::CONTACT, file::HISTORY, file::PROBES, file::POSTMORTEM];
-
-/// Writes the summary of a run whose files are closed into its folder, with what it was made by and when, the units of
-/// its quantities, and the checksums of the files; returns it.
-pub(crate) fn write(
-    folder: &Path,
-    summary: &Summary,
-    made: &Provenance,
-) -> Result<Value, RunError> {
-    let mut document = json!(summary);
-    let [units, names] = quantities::described(&document);
-    if let Value::Object(entries) = &mut document {
-        entries.insert(attribute::VERSION.into(), json!(made.creepage_version));
-        entries.insert(attribute::CASE_HASH.into(), json!(made.case_hash));
-        entries.insert(attribute::CREATED.into(), json!(made.created));
-        entries.insert("units".into(), units);
-        entries.insert("names".into(), names);
-        output::seal(entries, &output::sums_of_files(folder, &SUMMED)?);
-    }
-    output::write_json_atomically(folder.join(file::SUMMARY), &document)?;
-    Ok(document)
 }
 
 pub(crate) fn contact_means(means: &Means) -> Contact {
@@ -222,64 +204,64 @@ pub(crate) fn contact_means(means: &Means) -> Contact {
     }
 }
 
-/// The section `window`: the span of the evaluation window (s), means that the section `contact` does not hold, and
-/// standard deviations.
-pub(crate) fn window(case: &Case, means: &Means, status: Status) -> serde_json::Value {
+/// The evaluation window, means over it that [`Contact`] does not hold, and standard deviations.
+pub(crate) fn window(case: &Case, means: &Means, status: Status) -> Window {
     let [from, to] = case.evaluation_window();
     let misses = Some(means).filter(|_| status == Status::Completed);
-    let misses = misses.and_then(|means| means.load_warning(case));
-    json!({
-        "from": from,
-        "to": to,
-        "reasons": reasons(means),
-        "stick_border": means.stick_border.mean(),
-        "peak_shear": means.peak_shear.mean(),
-        "torque": means.torque.mean(),
-        "max_penetration": means.penetration.mean(),
-        "hourglass_share": means.hourglass_share.mean(),
-        "friction_power": means.friction_power(),
-        "warnings": misses.as_slice(),
-        "deviation": {
-            "normal_force": means.force[2].deviation(),
-            "tangential_force": means.force[0].deviation(),
-            "lateral_force": means.force[1].deviation(),
-            "traction_coefficient": means.traction.deviation(),
-            "creepage": means.creepage.deviation(),
-            "patch_half_length": means.half_length.deviation(),
-            "patch_half_width": means.half_width.deviation(),
-            "patch_area": means.area.deviation(),
-            "patch_area_fitted": means.fitted_area.deviation(),
-            "peak_pressure": means.peak_pressure.deviation(),
-            "peak_shear": means.peak_shear.deviation(),
-            "stick_fraction": means.stick.deviation(),
-            "slip_fraction": means.slip.deviation(),
-            "stick_border": means.stick_border.deviation(),
-            "torque": means.torque.deviation(),
-            "max_penetration": means.penetration.deviation(),
-        },
-    })
+    let deviation = [
+        (Mean::NormalForce, &means.force[2]),
+        (Mean::TangentialForce, &means.force[0]),
+        (Mean::LateralForce, &means.force[1]),
+        (Mean::TractionCoefficient, &means.traction),
+        (Mean::Creepage, &means.creepage),
+        (Mean::PatchHalfLength, &means.half_length),
+        (Mean::PatchHalfWidth, &means.half_width),
+        (Mean::PatchArea, &means.area),
+        (Mean::PatchAreaFitted, &means.fitted_area),
+        (Mean::PeakPressure, &means.peak_pressure),
+        (Mean::PeakShear, &means.peak_shear),
+        (Mean::StickFraction, &means.stick),
+        (Mean::SlipFraction, &means.slip),
+        (Mean::StickBorder, &means.stick_border),
+        (Mean::Torque, &means.torque),
+        (Mean::MaxPenetration, &means.penetration),
+    ];
+    Window {
+        from: Some(from),
+        to: Some(to),
+        reasons: reasons(means),
+        stick_border: means.stick_border.mean(),
+        peak_shear: means.peak_shear.mean(),
+        torque: means.torque.mean(),
+        max_penetration: means.penetration.mean(),
+        hourglass_share: means.hourglass_share.mean(),
+        friction_power: means.friction_power(),
+        warnings: misses.and_then(|means| means.load_warning(case)).into_iter().collect(),
+        deviation: deviation.map(|(mean, of)| (mean, of.deviation())).into(),
+        ci95: BTreeMap::new(),
+    }
 }
 
 /// Why means of the patch have no value, or how many rows of the history they leave out.
-fn reasons(means: &Means) -> serde_json::Map<String, serde_json::Value> {
+fn reasons(means: &Means) -> BTreeMap<Mean, String> {
     let rows = means.area.count();
     let fit = "Hertz's distribution fits the pressure of";
     let stick = "something sticks on y = 0, and a fit has a centre, in";
     let all = [
-        ("patch_half_length", &means.half_length, fit),
-        ("patch_half_width", &means.half_width, fit),
-        ("patch_area_fitted", &means.fitted_area, fit),
-        ("peak_pressure", &means.peak_pressure, fit),
-        ("stick_border", &means.stick_border, stick),
+        (Mean::PatchHalfLength, &means.half_length, fit),
+        (Mean::PatchHalfWidth, &means.half_width, fit),
+        (Mean::PatchAreaFitted, &means.fitted_area, fit),
+        (Mean::PeakPressure, &means.peak_pressure, fit),
+        (Mean::StickBorder, &means.stick_border, stick),
     ];
-    let entry = |(key, mean, what): (&str, &crate::run::means::Mean, &str)| {
+    let entry = |(key, mean, what): (Mean, &crate::run::means::Mean, &str)| {
         let text = match mean.count() {
             _ if rows == 0 => "the evaluation window holds no row of the history".to_owned(),
             0 => format!("{what} none of {rows} rows of the history"),
             some if some < rows => format!("{what} {some} of {rows} rows of the history"),
             _ => return None,
         };
-        Some((key.to_owned(), json!(text)))
+        Some((key, text))
     };
     all.into_iter().filter_map(entry).collect()
 }

@@ -7,7 +7,7 @@ use crate::case::schema::{Case, Creepage, DriveMode, Enforcement};
 use crate::scenario::model::{BAR, DISK, Model};
 use contact::Stiffness;
 use friction::{Falling, Interface};
-use serde_json::json;
+use output::summary::Numbers;
 use solid::Material;
 
 /// The numbers at Hertz's peak pressure.
@@ -139,23 +139,23 @@ impl DimensionlessNumbers {
         }
     }
 
-    /// The section `numbers` of the summary. Lengths in m, speeds in m/s, pressure in Pa, impedance in Pa s/m.
-    pub fn json(&self) -> serde_json::Value {
+    /// As the summary has them.
+    pub fn result(&self) -> Numbers {
         let f = self.falling;
-        json!({
-            "pressure": self.at.pressure,
-            "impedance": self.at.impedance,
-            "r": f.map(|f| f.r),
-            "n1": self.n1,
-            "n2": f.map(|f| f.n2),
-            "f_min": f.and_then(|f| f.f_min),
-            "s_m": f.and_then(|f| f.s_m),
-            "s_jump": f.and_then(|f| f.s_jump),
-            "slip_length": self.slip_length,
-            "nucleation_length": self.nucleation,
-            "gamma": self.gamma(),
-            "expect": self.expectation(),
-        })
+        Numbers {
+            pressure: Some(self.at.pressure),
+            impedance: Some(self.at.impedance),
+            r: f.map(|f| f.r),
+            n1: self.n1,
+            n2: f.map(|f| f.n2),
+            f_min: f.and_then(|f| f.f_min),
+            s_m: f.and_then(|f| f.s_m),
+            s_jump: f.and_then(|f| f.s_jump),
+            slip_length: Some(self.slip_length),
+            nucleation_length: self.nucleation,
+            gamma: self.gamma(),
+            expect: self.expectation(),
+        }
     }
 }
 

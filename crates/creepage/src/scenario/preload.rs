@@ -3,8 +3,8 @@
 pub mod error;
 
 use dynamics::RelaxationReport;
+use output::summary;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 use statics::Ending;
 
 pub use error::PreloadError;
@@ -103,9 +103,9 @@ impl PreloadReport {
         }
     }
 
-    /// The section `preload` of the summary, in SI units.
-    pub fn json(&self) -> serde_json::Value {
-        match self {
+    /// As the summary has it.
+    pub fn result(&self) -> summary::Preload {
+        match *self {
             Self::Static {
                 iterations,
                 cg_iterations,
@@ -115,15 +115,25 @@ impl PreloadReport {
                 facets,
                 hub,
                 ..
-            } => json!({
-                "method": "static", "iterations": iterations, "cg_iterations": cg_iterations,
-                "normal_force": normal_force, "closed_pairs": closed_pairs, "residual": residual,
-                "facet_residual": facets, "hub_displacement": hub
-            }),
-            Self::Relaxation { iterations, normal_force, kinetic_ratio, hub } => json!({
-                "method": "relaxation", "iterations": iterations, "normal_force": normal_force,
-                "kinetic_ratio": kinetic_ratio, "hub_displacement": hub
-            }),
+            } => summary::Preload {
+                method: "static".into(),
+                iterations: iterations as u64,
+                cg_iterations: Some(cg_iterations as u64),
+                normal_force,
+                closed_pairs: Some(closed_pairs as u64),
+                residual: Some(residual),
+                facet_residual: Some(facets),
+                kinetic_ratio: None,
+                hub_displacement: hub,
+            },
+            Self::Relaxation { iterations, normal_force, kinetic_ratio, hub } => summary::Preload {
+                method: "relaxation".into(),
+                iterations: iterations as u64,
+                normal_force,
+                kinetic_ratio: Some(kinetic_ratio),
+                hub_displacement: hub,
+                ..summary::Preload::default()
+            },
         }
     }
 }

@@ -1,25 +1,11 @@
 //! A scenario at its start: the simulation, and the results of the preload and of the stability analysis.
 
 use dynamics::Simulation;
+pub use output::summary::Stability;
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::numbers::DimensionlessNumbers;
 use crate::scenario::preload::PreloadReport;
-
-/// The frequencies that limit the time step.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Stability {
-    /// Largest frequency of the bodies without contact, with margin (rad/s).
-    pub omega_elastic: f64,
-    /// Largest frequency with the contact springs closed after the preload, with margin (rad/s).
-    pub omega_max: f64,
-    /// Rigorous upper bound of `omega_max`, by the bounds of the elements and of the contact springs (rad/s).
-    pub omega_bound: f64,
-    /// Longest stable step (s): 2/omega_max, less with Kelvin-Voigt damping.
-    pub dt_limit: f64,
-    /// Time step over that limit (dimensionless).
-    pub factor: f64,
-}
 
 /// Rolling radii of the disk.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]

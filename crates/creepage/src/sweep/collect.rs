@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use output::files::input;
 use output::layout::{attribute, file};
-use serde_json::{Value, json};
+use output::summary::Status;
 
+use crate::check::result::CheckResult;
 use crate::sweep::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
 use crate::sweep::points::Point;
+use crate::sweep::result::{SweepResult, SweepRun};
 use crate::sweep::{ensemble, table};
 
 /// Fields of a run's summary that do not repeat: they depend on the clock, the memory and the number of threads, or
@@ -56,7 +58,7 @@ impl State {
 ///
 /// # Errors
 /// Results that cannot be written.
-pub fn collect(plan: &Plan, elsewhere: &[PathBuf]) -> Result<Value, SweepError> {
+pub fn collect(plan: &Plan, elsewhere: &[PathBuf]) -> Result<SweepResult, SweepError> {
     collect_with(plan, elsewhere, &BTreeMap::new())
 }
 
@@ -65,16 +67,16 @@ pub(crate) fn collect_with(
     plan: &Plan,
     elsewhere: &[PathBuf],
     failures: &BTreeMap<String, String>,
-) -> Result<Value, SweepError> {
-    let runs: Vec<Value> =
+) -> Result<SweepResult, SweepError> {
+    let runs: Vec<SweepRun> =
         plan.runs.iter().map(|run| entry(plan, run, elsewhere, failures)).collect();
-    let mut document = plan.document.clone();
-    document["runs"] = json!(runs);
-    document["points"] = json!(ensemble::points(&document));
-    document["not_repeated"] = json!(NOT_REPEATED);
-    table::write(&plan.folder.join(RESULTS[1]), &document)?;
-    output::write_json_atomically(plan.folder.join(RESULTS[0]), &document)?;
-    Ok(document)
+    let sweep = plan.file.plan.clone();
+    let points = if sweep.ensemble.is_some() { ensemble::points(&runs) } else { Vec::new() };
+    let not_repeated = NOT_REPEATED.map(str::to_owned).into();
+    let result = SweepResult { plan: sweep, runs, points, not_repeated };
+    table::write(&plan.folder.join(RESULTS[1]), &result)?;
+    output::write_json_atomically(plan.folder.join(RESULTS[0]), &result)?;
+    Ok(result)
 }
 
 fn entry(
@@ -82,7 +84,7 @@ fn entry(
     run: &Point,
     elsewhere: &[PathBuf],
     failures: &BTreeMap<String, String>,
-) -> Value {
+) -> SweepRun {
     let own = run_folder(&plan.folder, &run.name);
     let others =
         elsewhere.iter().flat_map(|folder| [run_folder(folder, &run.name), folder.join(&run.name)]);
@@ -99,18 +101,19 @@ fn entry(
         None => state,
     };
     let shown = folder.strip_prefix(&plan.folder).unwrap_or(folder);
-    let mut entry = json!({
-        "name": run.name,
-        "parameters": run.parameters,
-        "status": state.word(),
-        "run": shown.display().to_string(),
-        "summary": output::read_summary(folder).ok().flatten(),
-        "check": read(&folder.join(CHECK)),
-    });
-    if let State::Failed(reason) = state {
-        entry["reason"] = json!(reason);
+    let reason = match &state {
+        State::Failed(reason) => Some(reason.clone()),
+        _ => None,
+    };
+    SweepRun {
+        name: Some(run.name.clone()),
+        parameters: run.parameters.clone(),
+        status: Some(state.word().into()),
+        run: Some(shown.display().to_string()),
+        summary: output::read_summary(folder).ok().flatten().map(Box::new),
+        check: read(&folder.join(CHECK)).map(Box::new),
+        reason,
     }
-    entry
 }
 
 const NOT_BEGUN: &str = "not begun";
@@ -133,13 +136,13 @@ pub fn state(folder: &Path, run: &Point) -> State {
             None => State::Undone("unfinished"),
         };
     };
-    match summary["status"].as_str() {
-        Some("completed") if read(&folder.join(CHECK)).is_some() => State::Completed,
-        Some("completed") => State::Unchecked,
-        Some("failed") => {
-            State::Failed(summary["diagnosis"].as_str().unwrap_or("no reason given").into())
+    match summary.status {
+        Some(Status::Completed) if read(&folder.join(CHECK)).is_some() => State::Completed,
+        Some(Status::Completed) => State::Unchecked,
+        Some(Status::Failed) => {
+            State::Failed(summary.diagnosis.unwrap_or_else(|| "no reason given".into()))
         }
-        _ => State::Undone("interrupted"),
+        Some(Status::Interrupted) | None => State::Undone("interrupted"),
     }
 }
 
@@ -150,7 +153,7 @@ fn last_words(folder: &Path) -> Option<String> {
     last.strip_prefix(crate::run::REFUSED).map(str::to_owned)
 }
 
-/// A JSON document, if it is there and well-formed.
-fn read(path: &Path) -> Option<Value> {
+/// What the check of a run found, if it is there and well-formed.
+fn read(path: &Path) -> Option<CheckResult> {
     serde_json::from_slice(&input::bytes(path, input::DOCUMENT).ok()?).ok()
 }

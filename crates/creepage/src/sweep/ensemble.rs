@@ -1,29 +1,27 @@
 //! Ensembles: runs of one point of a sweep that differ by a disturbance of the preload alone, and the means over
 //! them with their confidence intervals.
 
+use std::collections::BTreeMap;
+
+use crate::check::measure::Measure;
+use crate::check::patch_series::PatchMeasure;
+use crate::sweep::result::{
+    COMPLETED, Entry, MeanOfMeans, MeanValue, Parameters, PointCheck, PointSummary, PointWindow,
+    SweepPoint, SweepRun,
+};
 use output::confidence::interval;
-use serde_json::{Map, Value, json};
+use output::summary::MEANS;
 
 /// Key of the axis of an ensemble's members.
 pub(crate) const AXIS: &str = "preload.seed";
 /// Key and size of the disturbance by which they differ, unless the file sets it.
 pub(crate) const DISTURBANCE: (&str, f64) = ("preload.disturbance", 1e-9);
 
-/// JSON pointers to the objects of a run over whose numbers means are taken.
-const OF_RUN: [&str; 2] = ["/summary/contact", "/summary/window"];
-
-/// The points of a sweep with an ensemble, in the order of their first members; none without an ensemble.
-///
-/// A point looks like a run: its `summary` and `check` hold the means over the members that completed, and `ci95`
-/// half the width of the 95 % confidence interval of these means (Student 1908).
-pub(super) fn points(document: &Value) -> Vec<Value> {
-    if document["ensemble"].is_null() {
-        return Vec::new();
-    }
-    let runs = document["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let mut points: Vec<(Map<String, Value>, Vec<&Value>)> = Vec::new();
+/// The points of the runs of an ensemble, in the order of their first members.
+pub(super) fn points(runs: &[SweepRun]) -> Vec<SweepPoint> {
+    let mut points: Vec<(Parameters, Vec<&SweepRun>)> = Vec::new();
     for run in runs {
-        let mut parameters = run["parameters"].as_object().cloned().unwrap_or_default();
+        let mut parameters = run.parameters.clone();
         parameters.remove(AXIS);
         match points.iter_mut().find(|(known, _)| *known == parameters) {
             Some((_, members)) => members.push(run),
@@ -33,101 +31,117 @@ pub(super) fn points(document: &Value) -> Vec<Value> {
     points.into_iter().map(|(parameters, members)| point(parameters, &members)).collect()
 }
 
-fn point(parameters: Map<String, Value>, members: &[&Value]) -> Value {
-    let completed: Vec<&Value> =
-        members.iter().copied().filter(|run| run["status"] == "completed").collect();
-    let [contact, window] = OF_RUN.map(|at| means(&completed, at));
-    let halves: Map<String, Value> = contact
+fn point(parameters: Parameters, members: &[&SweepRun]) -> SweepPoint {
+    let completed: Vec<Entry<'_>> = members
         .iter()
-        .chain(&window)
-        .map(|(name, [_, half])| (name.clone(), json!(half)))
+        .filter(|run| run.status.as_deref() == Some(COMPLETED))
+        .map(|run| Entry::Run(run))
         .collect();
-    let only_means = |found: &[(String, [f64; 2])]| -> Map<String, Value> {
-        found.iter().map(|(name, [mean, _])| (name.clone(), json!(mean))).collect()
+    let means: BTreeMap<_, _> = MEANS
+        .iter()
+        .filter_map(|&mean| Some((mean, over(&completed, |run| Some(run.mean(mean)?.value))?)))
+        .collect();
+    let section = |wanted: &str| {
+        let of = means.iter().filter(|(mean, _)| mean.key().0 == wanted);
+        of.map(|(mean, [value, _])| (*mean, *value)).collect()
     };
-    let mut window_means = only_means(&window);
-    window_means.insert("ci95".into(), Value::Object(halves));
-    json!({
-        "parameters": parameters,
-        "members": members.iter().map(|run| &run["name"]).collect::<Vec<_>>(),
-        "completed": completed.len(),
-        // one member alone has no interval
-        "status": if completed.len() > 1 { "completed" } else { "failed" },
-        "run": completed.first().map(|run| &run["run"]),
-        // the members differ in their step by no more than their disturbance
-        "summary": {
-            "dt": completed.first().map(|run| &run["summary"]["dt"]),
-            "contact": only_means(&contact),
-            "window": window_means,
+    let end = |of: fn(&output::summary::Window) -> Option<f64>| {
+        over(&completed, |run| of(run.summary()?.window.as_ref()?)).map(|[mean, _]| mean)
+    };
+    // one member alone has no interval
+    let status = if completed.len() > 1 { COMPLETED } else { "failed" };
+    SweepPoint {
+        parameters,
+        members: members.iter().filter_map(|run| run.name.clone()).collect(),
+        completed: completed.len(),
+        status: status.into(),
+        run: completed.first().and_then(|run| run.folder()?.to_str().map(str::to_owned)),
+        summary: PointSummary {
+            dt: completed.first().and_then(|run| run.step()),
+            contact: section("contact"),
+            window: PointWindow {
+                ci95: means.iter().map(|(mean, [_, half])| (*mean, *half)).collect(),
+                from: end(|window| window.from),
+                to: end(|window| window.to),
+                means: section("window"),
+            },
         },
-        "check": {
-            "metrics": of_entries(&completed, "/check/metrics", "value"),
-            "patch": of_entries(&completed, "/check/patch", "mean"),
-            "slip_zone": of_entries(&completed, "/check/slip_zone", "value"),
-        },
-    })
+        check: check(&completed),
+    }
 }
 
-/// Name, mean and half width of the confidence interval of the numbers in the object at `at`, where all members
-/// have them.
-fn means(members: &[&Value], at: &str) -> Vec<(String, [f64; 2])> {
-    let first = members.first().and_then(|run| run.pointer(at)).and_then(Value::as_object);
-    let mean = |name: &String| {
-        let of = |run: &&Value| run.pointer(at)?.get(name)?.as_f64();
-        Some((name.clone(), interval(&members.iter().map(of).collect::<Option<Vec<_>>>()?)?))
-    };
-    first.into_iter().flat_map(|object| object.keys()).filter_map(mean).collect()
+/// Means over the checks of runs.
+fn check(runs: &[Entry<'_>]) -> PointCheck {
+    let value = |[value, ci95]: [f64; 2]| MeanValue { value, ci95 };
+    let metric = |measure: Measure| over(runs, |run| Some(run.metric(measure)?.value)).map(value);
+    let patch = |measure: PatchMeasure| over(runs, |run| Some(run.patch(measure)?.value));
+    let zone = runs.first().and_then(|run| run.check()?.slip_zone());
+    let quantities = zone.into_iter().flat_map(|zone| zone.statistics.keys().copied());
+    PointCheck {
+        metrics: Measure::ALL.iter().filter_map(|&m| Some((m, metric(m)?))).collect(),
+        patch: PatchMeasure::ALL
+            .iter()
+            .filter_map(|&m| {
+                let [mean, ci95] = patch(m)?;
+                Some((m, MeanOfMeans { mean, ci95 }))
+            })
+            .collect(),
+        slip_zone: quantities
+            .filter_map(|q| Some((q, over(runs, |run| Some(run.slip_zone(q)?.value)).map(value)?)))
+            .collect(),
+    }
 }
 
-/// The same of the number `key` in each entry of the object at `at`.
-fn of_entries(members: &[&Value], at: &str, key: &str) -> Map<String, Value> {
-    let first = members.first().and_then(|run| run.pointer(at)).and_then(Value::as_object);
-    let entry = |name: &String| {
-        let of = |run: &&Value| run.pointer(at)?.get(name)?.get(key)?.as_f64();
-        let values = members.iter().map(of).collect::<Option<Vec<_>>>()?;
-        let [mean, half] = interval(&values)?;
-        Some((name.clone(), json!({ key: mean, "ci95": half })))
-    };
-    first.into_iter().flat_map(|object| object.keys()).filter_map(entry).collect()
+/// Mean of a number over runs and half the width of its confidence interval, where all of them have it.
+fn over(runs: &[Entry<'_>], of: impl Fn(&Entry<'_>) -> Option<f64>) -> Option<[f64; 2]> {
+    interval(&runs.iter().map(of).collect::<Option<Vec<_>>>()?)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    #![allow(clippy::unwrap_used)]
 
-    fn run(seed: u64, step: f64, traction: f64) -> Value {
-        json!({
+    use super::*;
+    use output::summary::Mean;
+    use serde_json::json;
+
+    fn run(seed: u64, step: f64, traction: f64) -> SweepRun {
+        let run = json!({
             "name": format!("{seed}-{step}"), "run": format!("runs/{seed}"), "status": "completed",
             "parameters": { "time.factor": step, AXIS: seed },
             "summary": { "dt": 1e-7 * step,
                          "contact": { "traction_coefficient": traction, "creepage": null },
                          "window": { "torque": 2.0 * traction, "deviation": { "torque": 9.0 } } },
             "check": { "metrics": { "law_error": { "value": 0.1, "limit": 0.02 } }, "patch": {} },
-        })
+        });
+        serde_json::from_value(run).unwrap()
     }
 
     #[test]
     fn a_point_holds_the_mean_of_its_members_and_the_interval_of_that_mean() {
         let runs = [run(1, 0.5, 0.2), run(2, 0.5, 0.3), run(3, 0.5, 0.4), run(1, 0.25, 0.7)];
-        let document = json!({ "ensemble": AXIS, "runs": runs });
-        let points = points(&document);
-        let at = |point: &Value, pointer: &str| point.pointer(pointer).and_then(Value::as_f64);
+        let points = points(&runs);
         assert_eq!(points.len(), 2);
-        let close = |found: Option<f64>, wanted: f64| {
-            assert!(
-                found.is_some_and(|found| (found - wanted).abs() < 1e-12),
-                "{found:?} {wanted}"
-            );
+        let close = |found: f64, wanted: f64| {
+            assert!((found - wanted).abs() < 1e-12, "{found:?} {wanted}");
         };
-        close(at(&points[0], "/summary/contact/traction_coefficient"), 0.3);
-        assert_eq!(at(&points[0], "/summary/dt"), Some(0.5e-7));
+        let SweepPoint { summary, check, .. } = &points[0];
+        close(summary.contact[&Mean::TractionCoefficient], 0.3);
+        assert_eq!(summary.dt, Some(0.5e-7));
         let half = 4.303 * 0.1 / 3.0_f64.sqrt();
-        close(at(&points[0], "/summary/window/ci95/traction_coefficient"), half);
-        close(at(&points[0], "/summary/window/ci95/torque"), 2.0 * half);
-        close(at(&points[0], "/check/metrics/law_error/ci95"), 0.0);
-        assert!(points[0]["summary"]["contact"].get("creepage").is_none(), "no member has one");
-        assert_eq!(points[0]["parameters"], json!({ "time.factor": 0.5 }));
-        assert_eq!((&points[1]["status"], &points[1]["completed"]), (&json!("failed"), &json!(1)));
-        assert!(super::points(&json!({ "ensemble": null, "runs": [] })).is_empty());
+        close(summary.window.ci95[&Mean::TractionCoefficient], half);
+        close(summary.window.ci95[&Mean::Torque], 2.0 * half);
+        close(check.metrics[&Measure::LawError].ci95, 0.0);
+        assert!(!summary.contact.contains_key(&Mean::Creepage), "no member has one");
+        let parameters = json!(points[0].parameters);
+        assert_eq!(parameters, json!({ "time.factor": 0.5 }));
+        assert_eq!((points[1].status.as_str(), points[1].completed), ("failed", 1));
+    }
+
+    #[test]
+    fn a_point_reads_back_as_it_was_written() {
+        let points = points(&[run(1, 0.5, 0.2), run(2, 0.5, 0.3)]);
+        let text = serde_json::to_string(&points).unwrap();
+        assert_eq!(serde_json::from_str::<Vec<SweepPoint>>(&text).unwrap(), points);
     }
 }

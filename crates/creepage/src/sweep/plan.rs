@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicBool;
 
 use miette::Diagnostic;
 use output::files::{InputError, input};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::case::error::CaseError;
@@ -24,6 +24,7 @@ use crate::run::folder::FolderError;
 use crate::scenario::ScenarioError;
 use crate::sweep::file::{StepRule, Sweep};
 use crate::sweep::points::Point;
+use crate::sweep::result::{PlanFile, PlannedRun, PlannedStep, SweepPlan};
 
 /// The plan of a sweep in its folder.
 pub const PLAN: &str = "plan.json";
@@ -121,8 +122,8 @@ impl SweepError {
 pub struct Plan {
     /// The folder.
     pub folder: PathBuf,
-    /// The document of `plan.json`.
-    pub document: Value,
+    /// Its `plan.json`.
+    pub file: PlanFile,
     /// The runs, in order.
     pub runs: Vec<Point>,
     /// Lock against a second process in the folder; none where only results are gathered.
@@ -155,29 +156,27 @@ fn look(folder: &Path, sweep: &Sweep, hash: &str, existing: Existing) -> Result<
     };
     match existing {
         Existing::Replace => Ok(()),
-        _ if plan["hash"] != hash => Err(other_sweep(folder, sweep, &plan).into()),
+        _ if plan.plan.hash != hash => Err(other_sweep(folder, sweep, &plan.plan).into()),
         Existing::Refuse => Err(SweepError::Begun { path: path() }),
         Existing::Resume => Ok(()),
     }
 }
 
 /// The error of a folder that holds another sweep, at the first difference of the two.
-fn other_sweep(folder: &Path, sweep: &Sweep, plan: &Value) -> CaseError {
-    let theirs = plan["axes"].as_object().cloned().unwrap_or_default();
-    let differs =
-        |axis: &crate::sweep::file::Axis| theirs.get(&axis.key) != Some(&json!(axis.values));
+fn other_sweep(folder: &Path, sweep: &Sweep, plan: &SweepPlan) -> CaseError {
+    let differs = |axis: &crate::sweep::file::Axis| plan.axes.get(&axis.key) != Some(&axis.values);
     let (at, what) = match sweep.axes.iter().position(differs) {
         Some(i) => (sweep.axis_place(i), format!("axis {}", sweep.axes[i].key)),
         None => ("base".into(), "base case, mode, [set] or [[derive]]".into()),
     };
-    let file = plan["file"].as_str().unwrap_or("another file");
+    let file = if plan.file.is_empty() { "another file" } else { &plan.file };
     let message =
         format!("{} holds another sweep, of {file}: it differs in the {what}", folder.display());
     let remedy = "choose another folder with --out DIR, or replace that sweep with --force";
     CaseError::Key(Box::new(sweep.layers.error_at(&at, &message, remedy)))
 }
 
-fn read_plan(folder: &Path) -> Result<Option<Value>, SweepError> {
+fn read_plan(folder: &Path) -> Result<Option<PlanFile>, SweepError> {
     let path = folder.join(PLAN);
     match input::bytes(&path, input::DOCUMENT) {
         Ok(bytes) => match serde_json::from_slice(&bytes) {
@@ -223,7 +222,7 @@ pub fn prepare(
         clear(folder)?;
     }
     let kept = read_plan(folder)?;
-    let kept_step = kept.as_ref().and_then(|plan| plan.pointer("/step/step")?.as_f64());
+    let kept_step = kept.as_ref().and_then(|file| file.plan.step.step);
     let step = match (sweep.step, kept_step) {
         (Some(StepRule::Fixed), Some(step)) => Some(step),
         (Some(StepRule::Fixed), None) => {
@@ -237,23 +236,22 @@ pub fn prepare(
             (run.case.time.step, run.case.time.factor) = (Some(step), None);
         }
     }
-    let axes: Map<String, Value> =
-        sweep.axes.iter().map(|axis| (axis.key.clone(), json!(axis.values))).collect();
-    let described = |run: &Point| json!({ "name": run.name, "parameters": run.parameters });
-    let document = json!({
-        "name": sweep.name,
-        "title": sweep.title,
-        "file": sweep.path.display().to_string(),
-        "base": sweep.base.display().to_string(),
-        "creepage_version": env!("CARGO_PKG_VERSION"),
-        "hash": hash,
-        "mode": sweep.mode.word(),
-        "parameters": sweep.axes.iter().map(|axis| &axis.key).collect::<Vec<_>>(),
-        "axes": axes,
-        "ensemble": sweep.ensemble.then_some(crate::sweep::ensemble::AXIS),
-        "step": { "rule": sweep.step.map(|rule| rule.word()), "step": step },
-        "runs": runs.iter().map(described).collect::<Vec<_>>(),
-    });
+    let plan = SweepPlan {
+        name: sweep.name.clone(),
+        title: sweep.title.clone(),
+        file: sweep.path.display().to_string(),
+        base: sweep.base.display().to_string(),
+        creepage_version: env!("CARGO_PKG_VERSION").into(),
+        hash,
+        mode: sweep.mode.word().into(),
+        parameters: sweep.axes.iter().map(|axis| axis.key.clone()).collect(),
+        axes: sweep.axes.iter().map(|axis| (axis.key.clone(), axis.values.clone())).collect(),
+        ensemble: sweep.ensemble.then(|| crate::sweep::ensemble::AXIS.to_owned()),
+        step: PlannedStep { rule: sweep.step.map(|rule| rule.word().to_owned()), step },
+    };
+    let planned =
+        |run: &Point| PlannedRun { name: run.name.clone(), parameters: run.parameters.clone() };
+    let file = PlanFile { plan, runs: runs.iter().map(planned).collect() };
     for name in ["cases", "runs"] {
         let path = folder.join(name);
         fs::create_dir_all(&path).map_err(failed(path))?;
@@ -262,8 +260,8 @@ pub fn prepare(
         let path = case_file(folder, &run.name);
         fs::write(&path, run.case.to_toml()).map_err(failed(path))?;
     }
-    output::write_json_atomically(folder.join(PLAN), &document)?;
-    Ok(Plan { folder: folder.into(), document, runs, _lock: lock })
+    output::write_json_atomically(folder.join(PLAN), &file)?;
+    Ok(Plan { folder: folder.into(), file, runs, _lock: lock })
 }
 
 /// The plan in a folder in which this sweep was begun, to gather its results. The folder is not locked.
@@ -273,16 +271,21 @@ pub fn prepare(
 pub fn open(sweep: &Sweep, folder: &Path) -> Result<Plan, SweepError> {
     let mut runs = sweep.points()?;
     let path = || folder.to_path_buf();
-    let document = read_plan(folder)?.ok_or_else(|| SweepError::NoSweep { path: path() })?;
-    if document["hash"] != sweep.hash(&runs).as_str() {
-        return Err(other_sweep(folder, sweep, &document).into());
+    let file = read_plan(folder)?.ok_or_else(|| SweepError::NoSweep { path: path() })?;
+    if file.plan.hash != sweep.hash(&runs) {
+        return Err(other_sweep(folder, sweep, &file.plan).into());
     }
-    if let Some(step) = document.pointer("/step/step").and_then(Value::as_f64) {
+    if let Some(step) = file.plan.step.step {
         for run in &mut runs {
             (run.case.time.step, run.case.time.factor) = (Some(step), None);
         }
     }
-    Ok(Plan { folder: path(), document, runs, _lock: None })
+    Ok(Plan { folder: path(), file, runs, _lock: None })
+}
+
+/// Parts of cases as text, by which equal ones are found.
+pub(super) fn alike(parts: impl Serialize) -> String {
+    serde_json::to_string(&parts).unwrap_or_default()
 }
 
 /// `time.factor` times the smallest stability limit of the sweep (s).
@@ -292,24 +295,16 @@ fn smallest_step(
     folder: &Path,
     stop: &AtomicBool,
 ) -> Result<f64, SweepError> {
-    let mut known: Vec<Value> = Vec::new();
+    let mut known: Vec<String> = Vec::new();
     let mut smallest = f64::INFINITY;
     for run in runs {
         let case = &run.case;
         // The limit does not depend on friction, on the drive but for its speed, on output or on the duration.
-        let basis = json!([
-            case.disk,
-            case.bar,
-            case.material,
-            case.mesh,
-            case.element,
-            case.load,
-            case.contact,
-            case.damping,
-            case.preload.undisturbed(),
-            case.drive.speed,
-            case.time.factor
-        ]);
+        let basis = alike((
+            (&case.disk, &case.bar, &case.material, &case.mesh, &case.element, &case.load),
+            (&case.contact, &case.damping, case.preload.undisturbed(), case.drive.speed),
+            case.time.factor,
+        ));
         if known.contains(&basis) {
             continue;
         }
@@ -350,11 +345,9 @@ fn clear(folder: &Path) -> Result<(), SweepError> {
         }
         _ => Ok(()),
     };
-    for run in plan["runs"].as_array().into_iter().flatten() {
-        // A name from a file must not lead out of the folder.
-        let Some(name) = run["name"].as_str().filter(|name| !name.contains(['/', '\\'])) else {
-            continue;
-        };
+    // A name from a file must not lead out of the folder.
+    let names = plan.runs.iter().map(|run| &run.name);
+    for name in names.filter(|name| !name.contains(['/', '\\'])) {
         let path = case_file(folder, name);
         gone(path.clone(), fs::remove_file(path))?;
         let path = run_folder(folder, name);

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Map, Value as Json, json};
 use sha2::{Digest, Sha256};
 use toml::Value;
 
@@ -12,6 +11,8 @@ use crate::case::name;
 use crate::case::schema::{Case, Enforcement};
 use crate::scenario::{Remedy, ScenarioError};
 use crate::sweep::file::{Axis, Mode, Sweep};
+use crate::sweep::plan;
+use crate::sweep::result::Parameters;
 use output::hexadecimal;
 
 /// More runs than this are taken for a typing mistake.
@@ -25,7 +26,7 @@ pub struct Point {
     /// Name of the run's folder and of its case: the number of the run and its parameters.
     pub name: String,
     /// Values of the swept keys, by dotted path.
-    pub parameters: Map<String, Json>,
+    pub parameters: Parameters,
     /// The resolved case.
     pub case: Case,
     /// Elements of its mesh; zero before [`Sweep::count_elements`].
@@ -89,7 +90,7 @@ impl Sweep {
         let case = Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
         self.keep_springs(&case)?;
         let parameters =
-            chosen.iter().map(|(key, value)| ((*key).to_owned(), json!(value))).collect();
+            chosen.iter().map(|(key, value)| ((*key).to_owned(), (*value).clone())).collect();
         Ok(Point { name, parameters, case, elements: 0, indices })
     }
 
@@ -121,7 +122,7 @@ impl Sweep {
         let mut known: BTreeMap<String, usize> = BTreeMap::new();
         for point in points {
             let case = &point.case;
-            let key = json!([case.disk, case.bar, case.mesh, case.element]).to_string();
+            let key = plan::alike((&case.disk, &case.bar, &case.mesh, &case.element));
             point.elements = match known.get(&key) {
                 Some(elements) => *elements,
                 None => {

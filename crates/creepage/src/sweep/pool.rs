@@ -10,12 +10,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
 use serde::Serialize;
-use serde_json::Value;
 
 use crate::scenario::memory::{BYTES_PER_ELEMENT, free_mb};
 use crate::sweep::collect::{State, collect_with, state};
 use crate::sweep::plan::{Plan, SweepError, run_folder};
 use crate::sweep::points::Point;
+use crate::sweep::result::SweepResult;
 
 /// How often a sweep looks how far it is.
 const LOOK: Duration = Duration::from_millis(20);
@@ -110,7 +110,7 @@ pub fn run(
     budget: &Budget,
     stop: &AtomicBool,
     observe: &mut dyn FnMut(&Watched),
-) -> Result<Value, SweepError> {
+) -> Result<SweepResult, SweepError> {
     let mut watched =
         Watched { runs: plan.runs.len(), completed: 0, failed: 0, running: 0, fraction: 0.0 };
     let mut waiting: Vec<(usize, Stage)> = Vec::new();

@@ -5,211 +5,309 @@ use std::fs;
 use std::path::Path;
 
 use crate::case::keys;
-use output::quantities::quantity;
-use serde_json::{Value, json};
-
+use crate::check::measure::Measure;
+use crate::check::patch_series::PatchMeasure;
+use crate::check::result::SlipQuantity;
 use crate::sweep::plan::SweepError;
+use crate::sweep::result::{Entry, SweepResult};
+use output::summary::{Mean, Summary, quantity};
+use serde::Serialize;
 
-/// Columns besides the parameters and the measures of the checks: heading, and JSON pointer into the entry of a run.
-const COLUMNS: [(&str, &str); 62] = [
-    ("dt", "/summary/dt"),
-    ("dt_limit", "/summary/stability/dt_limit"),
-    ("steps", "/summary/steps"),
-    ("elements", "/summary/elements"),
-    ("normal_force", "/summary/contact/normal_force"),
-    ("normal_force_sd", "/summary/window/deviation/normal_force"),
-    ("tangential_force", "/summary/contact/tangential_force"),
-    ("tangential_force_sd", "/summary/window/deviation/tangential_force"),
-    ("lateral_force", "/summary/contact/lateral_force"),
-    ("traction_coefficient", "/summary/contact/traction_coefficient"),
-    ("traction_coefficient_sd", "/summary/window/deviation/traction_coefficient"),
-    ("creepage", "/summary/contact/creepage"),
-    ("creepage_sd", "/summary/window/deviation/creepage"),
-    ("patch_half_length", "/summary/contact/patch_half_length"),
-    ("patch_half_length_sd", "/summary/window/deviation/patch_half_length"),
-    ("patch_half_width", "/summary/contact/patch_half_width"),
-    ("patch_half_width_sd", "/summary/window/deviation/patch_half_width"),
-    ("patch_area", "/summary/contact/patch_area"),
-    ("patch_area_sd", "/summary/window/deviation/patch_area"),
-    ("patch_area_fitted", "/summary/contact/patch_area_fitted"),
-    ("patch_area_fitted_sd", "/summary/window/deviation/patch_area_fitted"),
-    ("peak_pressure", "/summary/contact/peak_pressure"),
-    ("peak_pressure_sd", "/summary/window/deviation/peak_pressure"),
-    ("peak_shear", "/summary/window/peak_shear"),
-    ("peak_shear_sd", "/summary/window/deviation/peak_shear"),
-    ("stick_fraction", "/summary/contact/stick_fraction"),
-    ("stick_fraction_sd", "/summary/window/deviation/stick_fraction"),
-    ("slip_fraction", "/summary/contact/slip_fraction"),
-    ("slip_fraction_sd", "/summary/window/deviation/slip_fraction"),
-    ("stick_border", "/summary/window/stick_border"),
-    ("stick_border_sd", "/summary/window/deviation/stick_border"),
-    ("torque", "/summary/window/torque"),
-    ("torque_sd", "/summary/window/deviation/torque"),
-    ("max_penetration", "/summary/window/max_penetration"),
-    ("max_penetration_sd", "/summary/window/deviation/max_penetration"),
-    ("slip_zone_mean", "/check/slip_zone/mean/value"),
-    ("slip_zone_fluctuation", "/check/slip_zone/fluctuation/value"),
-    ("slip_zone_fluctuating_share", "/check/slip_zone/fluctuating_share/value"),
-    ("slip_zone_largest", "/check/slip_zone/largest/value"),
-    ("slip_zone_correlation_length", "/check/slip_zone/correlation_length/value"),
-    ("slip_zone_correlation_time", "/check/slip_zone/correlation_time/value"),
-    ("slip_zone_mean_wavenumber", "/check/slip_zone/mean_wavenumber/value"),
-    ("slip_zone_mean_frequency", "/check/slip_zone/mean_frequency/value"),
-    ("energy_kinetic", "/summary/energy/kinetic"),
-    ("energy_internal", "/summary/energy/internal"),
-    ("energy_hourglass", "/summary/energy/hourglass"),
-    ("energy_contact_stored", "/summary/energy/contact_stored"),
-    ("friction_dissipated", "/summary/energy/friction_dissipated"),
-    ("damping_dissipated", "/summary/energy/damping_dissipated"),
-    ("external_work", "/summary/energy/external_work"),
-    ("balance_error", "/summary/energy/balance_error"),
-    ("cone_excess", "/summary/checks/cone_excess"),
-    ("resultant_mismatch", "/summary/checks/resultant_mismatch"),
-    ("manifold_node_steps", "/summary/exact_contact/manifold_node_steps"),
-    ("steepness_node", "/summary/exact_contact/steepness_node"),
-    ("steepness_patch", "/summary/exact_contact/steepness_patch"),
-    ("implicit_cut", "/summary/implicit/cut"),
-    ("implicit_iterations", "/summary/implicit/iterations"),
-    ("check_pass", "/check/pass"),
-    ("wall_s", "/summary/wall_s"),
-    ("peak_rss_mb", "/summary/peak_rss_mb"),
-    ("threads", "/summary/threads"),
-];
+/// A cell of the table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Cell {
+    /// No value.
+    #[default]
+    Empty,
+    /// A number.
+    Number(f64),
+    /// A count.
+    Count(u64),
+    /// Whether something holds.
+    Flag(bool),
+    /// A word, or a sentence.
+    Text(String),
+    /// A value of the case.
+    Parameter(toml::Value),
+}
 
-/// Where a column finds its value in the entry of a run or a point.
-#[derive(Clone, Debug)]
-enum Place {
+impl From<f64> for Cell {
+    fn from(number: f64) -> Self {
+        if number.is_finite() { Self::Number(number) } else { Self::Empty }
+    }
+}
+
+impl From<u64> for Cell {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl<T: Into<Self>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Empty, Into::into)
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl Cell {
+    /// In the digits that read back to the same bits; empty without a value.
+    fn text(&self) -> String {
+        match self {
+            Self::Empty => String::new(),
+            Self::Text(text) | Self::Parameter(toml::Value::String(text)) => text.clone(),
+            other => serde_json::to_string(other).unwrap_or_default(),
+        }
+    }
+}
+
+/// Where a column finds its value in a run or a point.
+#[derive(Clone, Copy, Debug)]
+enum Source {
     /// The run's name, or of how many members a point is the mean.
     Name,
     /// A parameter of the sweep.
     Parameter,
     Status,
-    /// At a JSON pointer.
-    At(&'static str),
+    Step,
+    /// A number of a run's summary: its section and key there, and the number.
+    Summary(&'static str, &'static str, fn(&Summary) -> Cell),
+    /// A mean over the evaluation window.
+    Mean(Mean),
+    /// Its standard deviation, which belongs to a run, not to a point.
+    Deviation(Mean),
+    /// A statistic of the slip zone.
+    Slip(SlipQuantity),
+    /// Whether every limit of the check holds.
+    Pass,
     /// A measure of the check.
-    Measure(String),
+    Measure(Measure),
     /// Why a run failed.
     Reason,
-    /// The first of two JSON pointers that the entry has.
-    Interval([String; 2]),
+    /// Half the width of the 95 % confidence interval of a mean: over an ensemble's members, else over the window.
+    HalfOfMean(Mean),
+    /// The same of a statistic of the slip zone.
+    HalfOfSlip(SlipQuantity),
+    /// The same of a measure.
+    HalfOfMeasure(Measure),
 }
+
+use Source as S;
+
+/// Declares a column of a number of the summary: `section.key` of an optional section, or `key`.
+macro_rules! number {
+    ($section:ident?.$key:ident) => {
+        S::Summary(stringify!($section), stringify!($key), |summary| {
+            summary.$section.as_ref().map_or(Cell::Empty, |section| section.$key.into())
+        })
+    };
+    ($section:ident.$key:ident) => {
+        S::Summary(stringify!($section), stringify!($key), |summary| summary.$section.$key.into())
+    };
+    ($key:ident) => {
+        S::Summary("", stringify!($key), |summary| summary.$key.into())
+    };
+}
+
+/// Columns besides the parameters and the measures of the checks.
+const COLUMNS: [(&str, Source); 62] = [
+    ("dt", S::Step),
+    ("dt_limit", number!(stability?.dt_limit)),
+    ("steps", number!(steps)),
+    ("elements", number!(elements)),
+    ("normal_force", S::Mean(Mean::NormalForce)),
+    ("normal_force_sd", S::Deviation(Mean::NormalForce)),
+    ("tangential_force", S::Mean(Mean::TangentialForce)),
+    ("tangential_force_sd", S::Deviation(Mean::TangentialForce)),
+    ("lateral_force", S::Mean(Mean::LateralForce)),
+    ("traction_coefficient", S::Mean(Mean::TractionCoefficient)),
+    ("traction_coefficient_sd", S::Deviation(Mean::TractionCoefficient)),
+    ("creepage", S::Mean(Mean::Creepage)),
+    ("creepage_sd", S::Deviation(Mean::Creepage)),
+    ("patch_half_length", S::Mean(Mean::PatchHalfLength)),
+    ("patch_half_length_sd", S::Deviation(Mean::PatchHalfLength)),
+    ("patch_half_width", S::Mean(Mean::PatchHalfWidth)),
+    ("patch_half_width_sd", S::Deviation(Mean::PatchHalfWidth)),
+    ("patch_area", S::Mean(Mean::PatchArea)),
+    ("patch_area_sd", S::Deviation(Mean::PatchArea)),
+    ("patch_area_fitted", S::Mean(Mean::PatchAreaFitted)),
+    ("patch_area_fitted_sd", S::Deviation(Mean::PatchAreaFitted)),
+    ("peak_pressure", S::Mean(Mean::PeakPressure)),
+    ("peak_pressure_sd", S::Deviation(Mean::PeakPressure)),
+    ("peak_shear", S::Mean(Mean::PeakShear)),
+    ("peak_shear_sd", S::Deviation(Mean::PeakShear)),
+    ("stick_fraction", S::Mean(Mean::StickFraction)),
+    ("stick_fraction_sd", S::Deviation(Mean::StickFraction)),
+    ("slip_fraction", S::Mean(Mean::SlipFraction)),
+    ("slip_fraction_sd", S::Deviation(Mean::SlipFraction)),
+    ("stick_border", S::Mean(Mean::StickBorder)),
+    ("stick_border_sd", S::Deviation(Mean::StickBorder)),
+    ("torque", S::Mean(Mean::Torque)),
+    ("torque_sd", S::Deviation(Mean::Torque)),
+    ("max_penetration", S::Mean(Mean::MaxPenetration)),
+    ("max_penetration_sd", S::Deviation(Mean::MaxPenetration)),
+    ("slip_zone_mean", S::Slip(SlipQuantity::Mean)),
+    ("slip_zone_fluctuation", S::Slip(SlipQuantity::Fluctuation)),
+    ("slip_zone_fluctuating_share", S::Slip(SlipQuantity::FluctuatingShare)),
+    ("slip_zone_largest", S::Slip(SlipQuantity::Largest)),
+    ("slip_zone_correlation_length", S::Slip(SlipQuantity::CorrelationLength)),
+    ("slip_zone_correlation_time", S::Slip(SlipQuantity::CorrelationTime)),
+    ("slip_zone_mean_wavenumber", S::Slip(SlipQuantity::MeanWavenumber)),
+    ("slip_zone_mean_frequency", S::Slip(SlipQuantity::MeanFrequency)),
+    ("energy_kinetic", number!(energy.kinetic)),
+    ("energy_internal", number!(energy.internal)),
+    ("energy_hourglass", number!(energy.hourglass)),
+    ("energy_contact_stored", number!(energy.contact_stored)),
+    ("friction_dissipated", number!(energy.friction_dissipated)),
+    ("damping_dissipated", number!(energy.damping_dissipated)),
+    ("external_work", number!(energy.external_work)),
+    ("balance_error", number!(energy.balance_error)),
+    ("cone_excess", number!(checks?.cone_excess)),
+    ("resultant_mismatch", number!(checks?.resultant_mismatch)),
+    ("manifold_node_steps", number!(exact_contact?.manifold_node_steps)),
+    ("steepness_node", number!(exact_contact?.steepness_node)),
+    ("steepness_patch", number!(exact_contact?.steepness_patch)),
+    ("implicit_cut", number!(implicit?.cut)),
+    ("implicit_iterations", number!(implicit?.iterations)),
+    ("check_pass", S::Pass),
+    ("wall_s", number!(wall_s)),
+    ("peak_rss_mb", number!(peak_rss_mb)),
+    ("threads", number!(threads)),
+];
 
 /// A column of the table of a sweep.
 #[derive(Clone, Debug)]
 pub struct Column {
     /// Its heading.
     pub name: String,
-    /// SI unit of its numbers, `1` for ratios and counts; empty for text, and for measures of a check that no run has.
+    /// SI unit of its numbers, `1` for ratios and counts; empty for text.
     pub units: String,
     /// What it is; empty where the heading says it.
     pub meaning: String,
-    place: Place,
+    source: Source,
 }
 
-/// The table of a sweep. A cell without a value is null.
+/// The table of a sweep.
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Its columns.
     pub columns: Vec<Column>,
     /// A row for each run, one cell for each column.
-    pub runs: Vec<Vec<Value>>,
+    pub runs: Vec<Vec<Cell>>,
     /// The same for each point of an ensemble, means over its members.
-    pub points: Vec<Vec<Value>>,
+    pub points: Vec<Vec<Cell>>,
 }
 
 impl Table {
-    /// The table of a sweep's document.
-    pub fn of(document: &Value) -> Self {
-        let columns = columns(document);
-        let rows = |key: &str, of_point: bool| {
-            let entries = document[key].as_array().map(Vec::as_slice).unwrap_or_default();
-            let row =
-                |entry: &Value| columns.iter().map(|c| c.value(entry, of_point).clone()).collect();
-            entries.iter().map(row).collect::<Vec<Vec<Value>>>()
-        };
-        let (runs, mut points) = (rows("runs", false), rows("points", true));
-        for (row, point) in
-            points.iter_mut().zip(document["points"].as_array().into_iter().flatten())
-        {
-            for (cell, column) in row.iter_mut().zip(&columns) {
-                match column.place {
-                    Place::Name => *cell = json!(format!("mean of {}", point["completed"])),
-                    Place::Status => *cell = json!("ensemble"),
-                    _ => {}
-                }
-            }
-        }
-        Self { columns, runs, points }
+    /// The table of a sweep.
+    pub fn of(sweep: &SweepResult) -> Self {
+        let columns = columns(sweep);
+        let row = |entry: Entry<'_>| columns.iter().map(|column| column.value(entry)).collect();
+        let runs = sweep.runs.iter().map(|run| row(Entry::Run(run))).collect();
+        let points = sweep.points.iter().map(|point| row(Entry::Point(point))).collect();
+        Self { runs, points, columns }
     }
 
-    /// As comma-separated values, in the digits that read back to the same bits.
+    /// As comma-separated values.
     fn text(&self) -> String {
         let mut text = String::new();
         line(&mut text, self.columns.iter().map(|column| column.name.clone()));
         for row in self.runs.iter().chain(&self.points) {
-            line(&mut text, row.iter().map(cell));
+            line(&mut text, row.iter().map(Cell::text));
         }
         text
     }
 }
 
 impl Column {
-    fn value<'a>(&self, entry: &'a Value, of_point: bool) -> &'a Value {
-        match &self.place {
-            Place::Name => &entry["name"],
-            Place::Parameter => &entry["parameters"][&self.name],
-            Place::Status => &entry["status"],
-            // a deviation over the window belongs to a run, not to a point
-            Place::At(_) if of_point && self.name.ends_with(DEVIATION) => &Value::Null,
-            Place::At(at) => value_at(entry, at),
-            Place::Measure(name) => &entry["check"]["metrics"][name]["value"],
-            Place::Reason => &entry["reason"],
-            Place::Interval(places) => first(entry, places),
+    fn value(&self, entry: Entry<'_>) -> Cell {
+        // means over the evaluation window count only where the run reached its end
+        let whole = entry.completed();
+        let mean = |mean: Mean| entry.mean(mean).filter(|_| whole);
+        let slip = |quantity: SlipQuantity| entry.slip_zone(quantity).filter(|_| whole);
+        match self.source {
+            S::Name => match entry {
+                Entry::Run(run) => run.name.as_deref().into(),
+                Entry::Point(point) => Cell::Text(format!("mean of {}", point.completed)),
+            },
+            S::Parameter => match entry.parameters().get(&self.name) {
+                Some(value) => Cell::Parameter(value.clone()),
+                None => Cell::Empty,
+            },
+            S::Status => match entry {
+                Entry::Run(run) => run.status.as_deref().into(),
+                Entry::Point(_) => "ensemble".into(),
+            },
+            S::Step => entry.step().into(),
+            S::Summary(.., of) => entry.summary().map(of).unwrap_or_default(),
+            S::Mean(of) => mean(of).map(|found| found.value).into(),
+            S::Deviation(of) => match entry {
+                Entry::Run(run) => {
+                    let window = run.summary.as_ref().and_then(|summary| summary.window.as_ref());
+                    let deviation = window.and_then(|window| window.deviation.get(&of).copied());
+                    deviation.flatten().filter(|_| whole).into()
+                }
+                Entry::Point(_) => Cell::Empty,
+            },
+            S::Slip(quantity) => slip(quantity).map(|found| found.value).into(),
+            S::Pass => entry.check().map_or(Cell::Empty, |check| Cell::Flag(check.pass)),
+            S::Measure(measure) => entry.metric(measure).map(|found| found.value).into(),
+            S::Reason => match entry {
+                Entry::Run(run) => run.reason.as_deref().into(),
+                Entry::Point(_) => Cell::Empty,
+            },
+            S::HalfOfMean(of) => {
+                let over_members = mean(of).and_then(|found| found.half);
+                let over_window = || entry.patch(of_patch(of)?).filter(|_| whole)?.half;
+                over_members.or_else(over_window).into()
+            }
+            S::HalfOfSlip(quantity) => slip(quantity).and_then(|found| found.half).into(),
+            S::HalfOfMeasure(measure) => entry.metric(measure).and_then(|found| found.half).into(),
         }
     }
 }
 
+/// The measure of the patch whose mean a summary holds.
+fn of_patch(mean: Mean) -> Option<PatchMeasure> {
+    PatchMeasure::ALL.iter().copied().find(|measure| measure.in_summary() == Some(mean))
+}
+
 /// The columns of a sweep: its parameters, results, the measures of all runs and the confidence intervals.
-fn columns(document: &Value) -> Vec<Column> {
-    let runs = document["runs"].as_array().map(Vec::as_slice).unwrap_or_default();
-    // a run of another friction law may lack some
-    let mut measures: Vec<&str> = Vec::new();
-    for run in runs {
-        let metrics = run.pointer("/check/metrics").and_then(Value::as_object);
-        for name in metrics.into_iter().flat_map(|metrics| metrics.keys()) {
-            if !measures.contains(&name.as_str()) {
-                measures.push(name);
-            }
-        }
-    }
-    measures.sort_unstable();
-    let text = |name: &str, place: Place| Column {
+fn columns(sweep: &SweepResult) -> Vec<Column> {
+    let text = |name: &str, source: Source| Column {
         name: name.into(),
         units: String::new(),
         meaning: String::new(),
-        place,
+        source,
     };
-    let mut columns = vec![text("name", Place::Name)];
-    let parameters = document["parameters"].as_array().into_iter().flatten();
-    columns.extend(parameters.filter_map(Value::as_str).map(parameter));
-    columns.push(text("status", Place::Status));
-    columns.extend(COLUMNS.iter().map(|(name, at)| result(name, at, runs)));
-    columns.extend(measures.iter().map(|name| {
-        let [units, meaning] = ["units", "about"].map(|key| {
-            told(runs, &format!("/check/metrics/{name}/{key}")).unwrap_or_default().to_owned()
-        });
-        let place = Place::Measure((*name).to_owned());
-        Column { name: format!("check_{name}"), units, meaning, place }
+    // a run that another version checked may lack some
+    let checked = |measure: &Measure| {
+        let checks = sweep.runs.iter().filter_map(|run| run.check.as_ref());
+        checks.into_iter().any(|check| check.metrics.contains_key(measure))
+    };
+    let mut measures: Vec<Measure> = Measure::ALL.iter().copied().filter(checked).collect();
+    measures.sort_unstable_by_key(|measure| measure.name());
+    let mut columns = vec![text("name", S::Name)];
+    columns.extend(sweep.plan.parameters.iter().map(|name| parameter(name)));
+    columns.push(text("status", S::Status));
+    columns.extend(COLUMNS.iter().map(|(name, source)| result(name, *source)));
+    columns.extend(measures.iter().map(|&measure| {
+        let definition = measure.definition();
+        Column {
+            name: format!("check_{measure}"),
+            units: definition.units.into(),
+            meaning: definition.about.into(),
+            source: S::Measure(measure),
+        }
     }));
-    columns.push(text("reason", Place::Reason));
-    let halves = intervals(&measures).into_iter().map(|(name, places)| {
-        let of = name.trim_end_matches("_ci95");
-        let base = columns.iter().find(|column| column.name == of);
-        let units = base.map(|column| column.units.clone()).unwrap_or_default();
-        let meaning = format!("half width of the 95 % confidence interval of {of}");
-        Column { name, units, meaning, place: Place::Interval(places) }
-    });
-    let halves: Vec<Column> = halves.collect();
+    columns.push(text("reason", S::Reason));
+    let halves: Vec<Column> = columns.iter().filter_map(interval).collect();
     columns.extend(halves);
     columns
 }
@@ -221,89 +319,52 @@ fn parameter(name: &str) -> Column {
         Some(units) => units,
         None => "",
     };
-    let place = Place::Parameter;
-    Column { name: name.into(), units: units.into(), meaning: String::new(), place }
+    let (name, units) = (name.into(), units.into());
+    Column { name, units, meaning: String::new(), source: S::Parameter }
 }
 
-/// A column of [`COLUMNS`]: the summary declares the unit of its quantities, a check tells those of its own.
-fn result(name: &str, at: &'static str, runs: &[Value]) -> Column {
-    let (units, meaning) = match (at.strip_prefix("/summary/"), at.strip_suffix("/value")) {
-        (Some(key), _) => quantity(&key.replace('/', ".")).unwrap_or_default(),
-        (None, Some(entry)) => {
-            let of = |key: &str| told(runs, &format!("{entry}/{key}")).unwrap_or_default();
-            (of("units"), of("about"))
-        }
-        (None, None) => Default::default(),
+/// A column of [`COLUMNS`]: summary and check declare the units of their numbers.
+fn result(name: &str, source: Source) -> Column {
+    let found = match source {
+        S::Step => quantity("", "dt"),
+        S::Summary(section, key, _) => quantity(section, key),
+        S::Mean(mean) | S::Deviation(mean) => mean.quantity(),
+        _ => None,
     };
-    let meaning = match name.strip_suffix(DEVIATION) {
-        Some(mean) => format!("standard deviation over the window of {mean}"),
-        None => meaning.to_owned(),
+    let (units, meaning) = match source {
+        S::Slip(quantity) => quantity.definition(),
+        _ => found.map(|quantity| (quantity.units, quantity.name)).unwrap_or_default(),
     };
-    Column { name: name.into(), units: units.to_owned(), meaning, place: Place::At(at) }
+    let meaning = match source {
+        S::Deviation(mean) => format!("standard deviation over the window of {}", mean.key().1),
+        _ => meaning.to_owned(),
+    };
+    Column { name: name.into(), units: units.into(), meaning, source }
 }
 
-/// The text at a JSON pointer of the first run that has it.
-fn told<'a>(runs: &'a [Value], at: &str) -> Option<&'a str> {
-    runs.iter().find_map(|run| run.pointer(at).and_then(Value::as_str))
+/// The column of the half widths of the confidence intervals of a column that has them: means with a deviation,
+/// statistics of the slip zone and measures.
+fn interval(column: &Column) -> Option<Column> {
+    let (of, source) = match column.source {
+        S::Deviation(mean) => (mean.key().1, S::HalfOfMean(mean)),
+        S::Slip(quantity) => (column.name.as_str(), S::HalfOfSlip(quantity)),
+        S::Measure(measure) => (column.name.as_str(), S::HalfOfMeasure(measure)),
+        _ => return None,
+    };
+    Some(Column {
+        name: format!("{of}_ci95"),
+        units: column.units.clone(),
+        meaning: format!("half width of the 95 % confidence interval of {of}"),
+        source,
+    })
 }
 
-/// Writes the table of a sweep's document beside it.
-pub(super) fn write(path: &Path, document: &Value) -> Result<(), SweepError> {
-    let text = Table::of(document).text();
+/// Writes the table of a sweep.
+pub(super) fn write(path: &Path, sweep: &SweepResult) -> Result<(), SweepError> {
+    let text = Table::of(sweep).text();
     let failed = |cause| SweepError::File { path: path.into(), cause };
     let partial = path.with_extension("csv.partial");
     fs::write(&partial, text).and_then(|()| fs::rename(&partial, path)).map_err(failed)
-}
-
-/// End of the heading of a standard deviation over the window.
-const DEVIATION: &str = "_sd";
-
-/// Headings of the half widths of 95 % confidence intervals, each with two JSON pointers: to that of the mean over an
-/// ensemble's members, and to that of the mean over the window of a run.
-fn intervals(measures: &[&str]) -> Vec<(String, [String; 2])> {
-    let means = COLUMNS.iter().filter_map(|(heading, at)| {
-        if let Some(entry) = at.strip_prefix("/check/slip_zone/") {
-            let entry = entry.strip_suffix("/value")?;
-            let place = format!("/check/slip_zone/{entry}/ci95");
-            return Some((format!("{heading}_ci95"), [place, String::new()]));
-        }
-        let name = heading.strip_suffix(DEVIATION)?;
-        let in_check = name.strip_prefix("patch_").unwrap_or(name);
-        let places =
-            [format!("/summary/window/ci95/{name}"), format!("/check/patch/{in_check}/ci95")];
-        Some((format!("{name}_ci95"), places))
-    });
-    let measures = measures.iter().map(|name| {
-        (format!("check_{name}_ci95"), [format!("/check/metrics/{name}/ci95"), String::new()])
-    });
-    means.chain(measures).collect()
-}
-
-/// The value at the first of the pointers that an entry has; null where it has neither.
-fn first<'a>(entry: &'a Value, places: &[String; 2]) -> &'a Value {
-    let there =
-        places.iter().map(|at| if at.is_empty() { &Value::Null } else { value_at(entry, at) });
-    there.into_iter().find(|value| !value.is_null()).unwrap_or(&Value::Null)
-}
-
-/// The value at a pointer into the entry of a run, else null; means over the evaluation window only of a run that is
-/// completed.
-fn value_at<'a>(run: &'a Value, at: &str) -> &'a Value {
-    let mean = ["/summary/contact/", "/summary/window/", "/check/patch/", "/check/slip_zone/"]
-        .iter()
-        .any(|section| at.starts_with(section));
-    match run.pointer(at) {
-        Some(value) if !mean || run["status"] == "completed" => value,
-        _ => &Value::Null,
-    }
-}
-
-fn cell(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
 }
 
 /// A line of comma-separated values (RFC 4180).
@@ -328,6 +389,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use serde_json::json;
 
     #[test]
     fn every_number_of_a_summary_has_a_unit_and_spreads_have_that_of_their_mean() {
@@ -336,11 +398,11 @@ mod tests {
         let run = json!({ "name": "000", "status": "completed", "parameters": { "drive.speed": 40.0 },
             "summary": { "contact": { "normal_force": 1e5 } },
             "check": { "metrics": { "direction": measure }, "slip_zone": zone } });
-        let document = json!({ "parameters": ["drive.speed", "friction.static"], "runs": [run] });
-        let table = Table::of(&document);
+        let sweep = json!({ "parameters": ["drive.speed", "friction.static"], "runs": [run] });
+        let table = Table::of(&serde_json::from_value(sweep).unwrap());
         let of = |name: &str| table.columns.iter().find(|column| column.name == name).unwrap();
-        for (name, at) in COLUMNS {
-            assert!(!at.starts_with("/summary/") || !of(name).units.is_empty(), "{name}");
+        for (name, source) in COLUMNS {
+            assert!(matches!(source, S::Pass) || !of(name).units.is_empty(), "{name}");
         }
         for (name, units) in [
             ("drive.speed", "m/s"),
@@ -355,9 +417,9 @@ mod tests {
         ] {
             assert_eq!(of(name).units, units, "{name}");
         }
-        assert_eq!(of("check_direction").meaning, "angle of the shear");
+        assert_eq!(of("check_direction").meaning, "angle of the shear from -s in slip");
         let place = table.columns.iter().position(|column| column.name == "normal_force").unwrap();
-        assert_eq!(table.runs[0][place], 1e5);
+        assert_eq!(table.runs[0][place], Cell::Number(1e5));
         assert_eq!(table.text().lines().count(), 2);
     }
 }

@@ -114,7 +114,7 @@ fn springs_may_be_swept_in_any_form_and_keys_set_for_all() {
     assert_eq!(sweep.step, Some(StepRule::Fixed));
     let points = sweep.points().unwrap();
     assert!(points.iter().all(|point| point.case.friction.static_ == Some(0.4)));
-    assert_eq!(points[1].parameters["contact.penalty.tangential"]["stiffness"], 1e13);
+    assert_eq!(points[1].parameters["contact.penalty.tangential"]["stiffness"], 1e13.into());
     assert_eq!(points[1].name, "001-tangential-stiffness-1e13");
 }
 

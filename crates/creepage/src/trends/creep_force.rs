@@ -2,10 +2,9 @@
 
 use super::document::Sweep;
 use super::lines::{GROUPS, line};
-use super::measures::{MEASURES, MeasuredPoint, SweepMeasure};
+use super::measures::{MEASURES, SweepMeasure};
 use crate::chart::{Axis, Figure, Panel};
-use crate::check::PostError;
-use serde_json::Value;
+use crate::sweep::result::{Measured, SweepResult};
 use std::path::Path;
 
 /// Name of the figure.
@@ -20,32 +19,26 @@ pub struct ComparedSweep<'a> {
     pub name: String,
     /// Its folder.
     pub folder: &'a Path,
-    /// The content of its `sweep.json`.
-    pub document: &'a Value,
+    /// What it came to.
+    pub result: &'a SweepResult,
 }
 
 /// T/N over `drive.creepage`, from sweeps of the same axes by several methods: a panel for each value of the other
 /// axes, a line for each sweep, with bars for the uncertainty. `None` where no sweep has at least two
 /// creepages.
-///
-/// # Errors
-/// A document that is no sweep.
-pub fn creep_force_figure(
-    sweeps: &[ComparedSweep<'_>],
-) -> Result<Option<(String, Figure)>, PostError> {
-    let mut known = Vec::new();
-    for ComparedSweep { name, folder, document } in sweeps {
-        known.push((name.clone(), Sweep::of(folder, document)?));
-    }
-    let known: Vec<_> = known.iter().map(|(name, sweep)| (name.clone(), sweep)).collect();
-    Ok(creep_force(&known).map(|figure| (CREEP_FORCE.into(), figure)))
+pub fn creep_force_figure(sweeps: &[ComparedSweep<'_>]) -> Option<(String, Figure)> {
+    let known = sweeps.iter().map(|sweep| Sweep::of(sweep.folder, sweep.result));
+    let known: Vec<_> = known.collect();
+    let names = sweeps.iter().map(|sweep| sweep.name.clone());
+    let figure = creep_force(&names.zip(&known).collect::<Vec<_>>())?;
+    Some((CREEP_FORCE.into(), figure))
 }
 
 /// A curve: the values of the other axes, the name of the sweep, and T/N over creepage (10⁻³).
 struct Curve {
     others: String,
     sweep: String,
-    points: Vec<(f64, MeasuredPoint)>,
+    points: Vec<(f64, Measured)>,
 }
 
 /// The figure of sweeps with their names. A single sweep has all its curves in one panel.

@@ -1,26 +1,19 @@
-//! The runs of a sweep, from its document.
+//! The runs of a sweep, in groups along its axes.
 
-use crate::check::PostError;
-use serde_json::Value;
+use crate::sweep::result::{Entry, SweepResult};
 use std::path::{Path, PathBuf};
+use toml::Value;
 
-/// A sweep, from its document `sweep.json`.
+/// A sweep along its axes.
 pub(crate) struct Sweep<'a> {
     /// Its folder.
     pub folder: PathBuf,
     /// Keys of the axes, without that of the members of an ensemble.
     pub axes: Vec<&'a str>,
     /// The runs; of a sweep with an ensemble its points, means over their members.
-    pub runs: Vec<Run<'a>>,
+    pub runs: Vec<Entry<'a>>,
     /// Whether the runs are points of an ensemble.
     pub ensemble: bool,
-}
-
-/// A run of a sweep.
-#[derive(Clone, Copy)]
-pub(crate) struct Run<'a> {
-    /// Its entry in the document.
-    pub entry: &'a Value,
 }
 
 /// Runs that differ in one axis only.
@@ -28,37 +21,27 @@ pub(crate) struct Group<'a> {
     /// The other axes with their values; empty where there are none.
     pub label: String,
     /// Value of the axis and run, by rising value.
-    pub members: Vec<(f64, Run<'a>)>,
+    pub members: Vec<(f64, Entry<'a>)>,
 }
 
 impl<'a> Sweep<'a> {
-    /// The sweep of a document.
-    ///
-    /// # Errors
-    /// A document that is no sweep.
-    pub fn of(folder: &Path, document: &'a Value) -> Result<Self, PostError> {
-        let lacks = |what: &str| PostError::Text {
-            path: folder.join("sweep.json"),
-            reason: format!("is no sweep: it has no {what}"),
-        };
-        let axes = document["parameters"].as_array().ok_or_else(|| lacks("parameters"))?;
-        let runs = document["runs"].as_array().ok_or_else(|| lacks("runs"))?;
-        let members = document["ensemble"].as_str();
-        let points = document["points"].as_array().filter(|_| members.is_some());
-        Ok(Self {
+    /// The sweep in `folder`.
+    pub fn of(folder: &Path, result: &'a SweepResult) -> Self {
+        let members = result.plan.ensemble.as_deref().filter(|_| !result.points.is_empty());
+        let axes = result.plan.parameters.iter().map(String::as_str);
+        Self {
             folder: folder.into(),
-            axes: axes
-                .iter()
-                .filter_map(Value::as_str)
-                .filter(|axis| Some(*axis) != members || points.is_none())
-                .collect(),
-            runs: points.unwrap_or(runs).iter().map(|entry| Run { entry }).collect(),
-            ensemble: points.is_some(),
-        })
+            axes: axes.filter(|axis| Some(*axis) != members).collect(),
+            runs: match members {
+                Some(_) => result.points.iter().map(Entry::Point).collect(),
+                None => result.runs.iter().map(Entry::Run).collect(),
+            },
+            ensemble: members.is_some(),
+        }
     }
 
     /// Runs that reached their end: the others have no results to draw.
-    pub fn completed(&self) -> impl Iterator<Item = Run<'a>> + '_ {
+    pub fn completed(&self) -> impl Iterator<Item = Entry<'a>> + '_ {
         self.runs.iter().copied().filter(|run| run.completed())
     }
 
@@ -73,7 +56,7 @@ impl<'a> Sweep<'a> {
     pub fn form(&self, axis: &str) -> &'a str {
         let forms: Vec<&str> = self
             .completed()
-            .filter_map(|run| run.number_in_form(axis))
+            .filter_map(|run| number_in_form(run, axis))
             .map(|(form, _)| form)
             .collect();
         let count = |form: &str| forms.iter().filter(|other| **other == form).count();
@@ -82,8 +65,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// The number that a run has on an axis, in the form of the axis.
-    pub fn number(&self, run: Run<'a>, axis: &str) -> Option<f64> {
-        let (form, number) = run.number_in_form(axis)?;
+    pub fn number(&self, run: Entry<'a>, axis: &str) -> Option<f64> {
+        let (form, number) = number_in_form(run, axis)?;
         (form == self.form(axis)).then_some(number)
     }
 
@@ -107,7 +90,7 @@ impl<'a> Sweep<'a> {
             };
             let others = self.axes.iter().filter(|other| **other != axis);
             let label: Vec<String> = others
-                .map(|other| format!("{other} = {}", value_text(&run.parameter(other))))
+                .map(|other| format!("{other} = {}", value_text(run.parameters().get(*other))))
                 .collect();
             let label = label.join(", ");
             all.members.push((value, run));
@@ -126,46 +109,22 @@ impl<'a> Sweep<'a> {
     }
 }
 
-impl<'a> Run<'a> {
-    pub fn status(self) -> &'a str {
-        self.entry["status"].as_str().unwrap_or("unknown")
-    }
+/// The form of a parameter and its number.
+fn number_in_form<'a>(run: Entry<'a>, key: &str) -> Option<(&'a str, f64)> {
+    let value = run.parameters().get(key)?;
+    let only = || value.as_table().filter(|table| table.len() == 1)?.iter().next();
+    let (form, value) = only().map_or(("", value), |(form, value)| (form.as_str(), value));
+    Some((form, number(value).filter(|number| number.is_finite())?))
+}
 
-    /// A run without a status counts as completed where it has a summary.
-    pub fn completed(self) -> bool {
-        match self.entry["status"].as_str() {
-            Some(status) => status == "completed",
-            None => self.entry["summary"].is_object(),
-        }
-    }
-
-    pub fn parameter(self, key: &str) -> Value {
-        self.entry["parameters"][key].clone()
-    }
-
-    /// The form of a parameter and its number.
-    fn number_in_form(self, key: &str) -> Option<(&'a str, f64)> {
-        let value = &self.entry["parameters"][key];
-        let only = || value.as_object().filter(|table| table.len() == 1)?.iter().next();
-        let (form, value) = only().map_or(("", value), |(form, value)| (form.as_str(), value));
-        Some((form, value.as_f64().filter(|number| number.is_finite())?))
-    }
-
-    /// Its time step (s).
-    pub fn step(self) -> Option<f64> {
-        self.entry.pointer("/summary/dt")?.as_f64()
-    }
-
-    /// Its folder, relative to that of the sweep.
-    pub fn folder(self) -> Option<&'a Path> {
-        self.entry["run"].as_str().map(Path::new)
-    }
+fn number(value: &Value) -> Option<f64> {
+    value.as_float().or(value.as_integer().map(|integer| integer as f64))
 }
 
 /// Smallest and largest time step of runs (s), where they differ by more than rounding.
-pub(crate) fn steps<'a>(runs: impl Iterator<Item = Run<'a>>) -> Option<[f64; 2]> {
+pub(crate) fn steps<'a>(runs: impl Iterator<Item = Entry<'a>>) -> Option<[f64; 2]> {
     let [least, most] = runs
-        .filter_map(Run::step)
+        .filter_map(Entry::step)
         .fold([f64::INFINITY, 0.0], |[a, b], step| [f64::min(a, step), f64::max(b, step)]);
     (most > (1.0 + SAME_STEP) * least).then_some([least, most])
 }
@@ -174,22 +133,20 @@ pub(crate) fn steps<'a>(runs: impl Iterator<Item = Run<'a>>) -> Option<[f64; 2]>
 const SAME_STEP: f64 = 1e-6;
 
 /// A parameter's value as text.
-pub(crate) fn value_text(value: &Value) -> String {
+pub(crate) fn value_text(value: Option<&Value>) -> String {
     match value {
-        Value::Number(n) => n.as_f64().map_or(String::new(), short),
-        Value::String(text) => text.clone(),
-        Value::Null => "\u{2013}".into(),
-        Value::Object(table) => {
-            let entries: Vec<String> =
-                table.iter().map(|(word, value)| format!("{word} {}", value_text(value))).collect();
-            entries.join(", ")
+        None => "\u{2013}".into(),
+        Some(Value::String(text)) => text.clone(),
+        Some(Value::Table(table)) => {
+            let entries = table.iter().map(|(word, v)| format!("{word} {}", value_text(Some(v))));
+            entries.collect::<Vec<_>>().join(", ")
         }
-        other => other.to_string(),
+        Some(other) => number(other).map_or_else(|| other.to_string(), short),
     }
 }
 
 /// A number to four significant digits, without trailing zeros.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let x = format!("{x:.3e}").parse().unwrap_or(x);
     let plain = x == 0.0 || (1e-3..1e6).contains(&f64::abs(x));
     let text = if plain { format!("{x}") } else { format!("{x:e}") };

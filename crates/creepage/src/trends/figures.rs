@@ -1,14 +1,13 @@
 //! The figures of a sweep.
 
 use super::creep_force::{CREEP_FORCE, creep_force};
-use super::document::{Group, Sweep, value_text};
+use super::document::{Group, Sweep, short};
 use super::lines::{GROUPS, axis_over, label, line, spans_decades};
-use super::measures::{MEASURES, MeasuredPoint};
+use super::measures::MEASURES;
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
 use crate::chart::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, viridis};
-use crate::check::PostError;
-use serde_json::Value;
+use crate::sweep::result::{Measured, SweepResult};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -17,12 +16,9 @@ use std::path::{Path, PathBuf};
 /// ([`creep_force_figure`](super::creep_force_figure)). Runs that did not complete are left out, and so
 /// are contact histories that cannot be read.
 ///
-/// `folder` is the folder of the sweep, `sweep` the content of its `sweep.json`.
-///
-/// # Errors
-/// A document that is no sweep.
-pub fn sweep_figures(folder: &Path, sweep: &Value) -> Result<Vec<(String, Figure)>, PostError> {
-    let sweep = Sweep::of(folder, sweep)?;
+/// `folder` is the folder of the sweep.
+pub fn sweep_figures(folder: &Path, sweep: &SweepResult) -> Vec<(String, Figure)> {
+    let sweep = Sweep::of(folder, sweep);
     let mut all = Vec::new();
     let mut known = BTreeMap::new();
     for axis in sweep.numeric_axes() {
@@ -42,7 +38,7 @@ pub fn sweep_figures(folder: &Path, sweep: &Value) -> Result<Vec<(String, Figure
     if let Some(figure) = creep_force(&[(String::new(), &sweep)]) {
         all.push((CREEP_FORCE.into(), figure));
     }
-    Ok(all)
+    all
 }
 
 /// The key of an axis as part of a file name.
@@ -55,7 +51,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     let x = axis_over(&label(axis, sweep.form(axis)), &sweep.values(axis));
     let mut panels = Vec::new();
     for measure in &MEASURES {
-        let lines: Vec<(&Group<'_>, Vec<(f64, MeasuredPoint)>)> = groups
+        let lines: Vec<(&Group<'_>, Vec<(f64, Measured)>)> = groups
             .iter()
             .map(|group| {
                 let points = group.members.iter();
@@ -97,7 +93,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
 }
 
 /// A linear axis of at least 6 % of its middle, so that small changes do not fill it.
-fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, MeasuredPoint)>) -> Axis {
+fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Measured)>) -> Axis {
     let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
         let scatter = point.bar().unwrap_or(0.0);
         [low.min(point.value - scatter), high.max(point.value + scatter)]
@@ -124,7 +120,7 @@ fn profiles(
         known.entry(folder.clone()).or_insert_with(|| profile(&folder).ok());
         // the lightest yellow does not show on paper
         let colour = viridis(0.9 * k as f64 / (count - 1).max(1) as f64);
-        lines.push((value_text(&Value::from(*x)), colour, folder));
+        lines.push((short(*x), colour, folder));
     }
     lines.retain(|(.., folder)| known[folder].is_some());
     if lines.is_empty() {

@@ -1,7 +1,7 @@
 //! Lines of measures over the axis of a sweep.
 
-use super::measures::MeasuredPoint;
 use crate::chart::{Axis, Draw, Series, colour};
+use crate::sweep::result::Measured;
 
 /// Colours of groups of runs.
 pub(super) const GROUPS: [[u8; 3]; 6] =
@@ -34,7 +34,7 @@ pub(super) fn axis_over(text: &str, values: &[f64]) -> Axis {
 pub(super) fn line(
     label: String,
     colour: [u8; 3],
-    points: &[(f64, MeasuredPoint)],
+    points: &[(f64, Measured)],
     log: bool,
 ) -> [Series; 3] {
     let places: Vec<[f64; 2]> = points.iter().map(|(x, point)| [*x, point.value]).collect();
@@ -48,7 +48,7 @@ pub(super) fn line(
 }
 
 /// The bar of a point as a line, then NaN, which ends the line.
-fn bar(x: f64, point: &MeasuredPoint, log: bool) -> Vec<[f64; 2]> {
+fn bar(x: f64, point: &Measured, log: bool) -> Vec<[f64; 2]> {
     let Some(scatter) = point.bar().filter(|scatter| *scatter > 0.0) else {
         return Vec::new();
     };

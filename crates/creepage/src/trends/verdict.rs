@@ -1,14 +1,14 @@
 //! The verdicts of a sweep: every measure along every axis.
 
 use super::document::{Sweep, steps};
-use super::measures::{MEASURES, MeasuredPoint, SweepMeasure};
+use super::measures::{MEASURES, SweepMeasure};
 use super::trend::{Refinement, Sample, Trend, trend};
-use crate::check::PostError;
-use serde_json::{Value, json};
+use crate::sweep::result::{Measured, SweepResult};
+use serde::Serialize;
 use std::path::Path;
 
 /// The verdict on a measure along an axis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepVerdict {
     /// Key of the axis, such as `mesh.zone.size`.
     pub axis: String,
@@ -22,25 +22,14 @@ pub struct SweepVerdict {
     pub points: usize,
     /// Smallest and largest time step of the runs (s), where the step changes along the axis and is not what the
     /// axis gives.
-    pub steps: Option<[f64; 2]>,
+    pub time_steps: Option<[f64; 2]>,
+    /// The verdict in words.
+    pub verdict: &'static str,
+    /// Why, in a sentence.
+    pub why: String,
     /// The trend.
+    #[serde(skip)]
     pub trend: Trend,
-}
-
-impl SweepVerdict {
-    /// The verdict as JSON: measure, axis, whether it settles, and why.
-    pub fn document(&self) -> Value {
-        json!({
-            "axis": self.axis,
-            "others": self.others,
-            "measure": self.measure,
-            "unit": self.unit,
-            "points": self.points,
-            "time_steps": self.steps,
-            "verdict": self.trend.word(),
-            "why": self.trend.sentence(self.points, self.unit),
-        })
-    }
 }
 
 /// Keys whose refinement means smaller values; for all others it means larger values.
@@ -67,17 +56,14 @@ fn refinement(axis: &str, measure: &SweepMeasure) -> Refinement {
 }
 
 /// The verdicts on all measures that the runs of a sweep have, along each axis of numbers; values of the axis that
-/// are not positive are left out. `folder` is the folder of the sweep, `sweep` the content of its `sweep.json`.
-///
-/// # Errors
-/// A document that is no sweep.
-pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>, PostError> {
-    let sweep = Sweep::of(folder, sweep)?;
+/// are not positive are left out. `folder` is the folder of the sweep.
+pub fn sweep_verdicts(folder: &Path, sweep: &SweepResult) -> Vec<SweepVerdict> {
+    let sweep = Sweep::of(folder, sweep);
     let mut verdicts = Vec::new();
     for axis in sweep.numeric_axes() {
         for group in sweep.groups(axis) {
             let steps = steps(group.members.iter().map(|(_, run)| *run));
-            let steps = steps.filter(|_| !OF_THE_STEP.contains(&axis));
+            let time_steps = steps.filter(|_| !OF_THE_STEP.contains(&axis));
             for measure in &MEASURES {
                 let samples: Vec<Sample> = group
                     .members
@@ -85,23 +71,27 @@ pub fn sweep_verdicts(folder: &Path, sweep: &Value) -> Result<Vec<SweepVerdict>,
                     // a value of zero has no place on the fitted trend
                     .filter(|(x, _)| *x > 0.0)
                     .filter_map(|(x, run)| {
-                        let MeasuredPoint { value, half, deviation } = measure.of(*run)?;
+                        let Measured { value, half, deviation } = measure.of(*run)?;
                         Some(Sample { x: *x, value, half, deviation })
                     })
                     .collect();
-                if !samples.is_empty() {
-                    verdicts.push(SweepVerdict {
-                        axis: axis.into(),
-                        others: group.label.clone(),
-                        measure: measure.name,
-                        unit: measure.unit,
-                        points: samples.len(),
-                        steps,
-                        trend: trend(&samples, refinement(axis, measure)),
-                    });
+                if samples.is_empty() {
+                    continue;
                 }
+                let trend = trend(&samples, refinement(axis, measure));
+                verdicts.push(SweepVerdict {
+                    axis: axis.into(),
+                    others: group.label.clone(),
+                    measure: measure.name,
+                    unit: measure.unit,
+                    points: samples.len(),
+                    time_steps,
+                    verdict: trend.word(),
+                    why: trend.sentence(samples.len(), measure.unit),
+                    trend,
+                });
             }
         }
     }
-    Ok(verdicts)
+    verdicts
 }

@@ -232,9 +232,18 @@ pub fn append(
     file.append(interval * step as f64, &values).unwrap();
 }
 
-pub fn judge(folder: &Path, report: Report) -> Result<Checked, PostError> {
+/// A check, and what `creepage check --json` prints of it.
+pub struct Judged {
+    pub checked: Checked,
+    pub document: serde_json::Value,
+}
+
+pub fn judge(folder: &Path, report: Report) -> Result<Judged, PostError> {
     let paths = RunPaths::of(folder)?;
     let mut basis = Basis::read(&paths)?;
     let limits = Limits::for_enforcement(basis.enforcement.as_deref());
-    check(&paths, &mut basis, &CheckOptions { window: None, limits, report, map: None })
+    let options = CheckOptions { window: None, limits, report, map: None };
+    let checked = check(&paths, &mut basis, &options)?;
+    let document = serde_json::to_value(&checked.result).unwrap();
+    Ok(Judged { checked, document })
 }

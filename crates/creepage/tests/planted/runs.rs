@@ -3,12 +3,12 @@ use crate::planted::*;
 use creepage::check::{Pairing, Report};
 use serde_json::Value;
 
-fn measured(found: &creepage::check::Checked, name: &str) -> f64 {
+fn measured(found: &Judged, name: &str) -> f64 {
     found.document["metrics"][name]["value"].as_f64().unwrap_or(f64::NAN)
 }
 
 #[track_caller]
-fn is(found: &creepage::check::Checked, name: &str, expected: f64) {
+fn is(found: &Judged, name: &str, expected: f64) {
     let value = measured(found, name);
     assert!(
         (value - expected).abs() <= 1e-10 * expected.abs().max(1.0),
@@ -28,7 +28,7 @@ fn a_perfect_run_passes_the_limits_of_exact_methods() {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), friction, "exact", 40, steady(friction));
         let found = judge(folder.path(), Report::Stricter).unwrap();
-        assert!(found.pass, "{friction}: {:#}", found.document["metrics"]);
+        assert!(found.checked.result.pass, "{friction}: {:#}", found.document["metrics"]);
         for (name, metric) in found.document["metrics"].as_object().unwrap() {
             // the coefficient is not recomputed: these runs do not say which slip the law was given
             let left_out = ["switching_rate", "roughness_ratio", "mu_error", "mu_error_blurred"];
@@ -55,7 +55,7 @@ fn a_perfect_run_that_fluctuates_passes_in_its_own_pairing_and_has_the_roughness
         perfect(FALLING, x, step)
     });
     let found = judge(folder.path(), Report::Only(Pairing::Before)).unwrap();
-    assert!(found.pass, "{:#}", found.document["metrics"]);
+    assert!(found.checked.result.pass, "{:#}", found.document["metrics"]);
     is(&found, "roughness_ratio", 1.0);
     let law = &found.document["metrics"]["roughness_ratio"]["sides"]["bar"]["before"];
     assert!(law["deviation_law"].as_f64().unwrap() > 1e-3, "nothing fluctuates");
@@ -81,7 +81,7 @@ fn slip_in_adhesion_is_found_with_its_size_node_and_time() {
     // the pairing `after` finds it at the traction before
     let time = worst["time"].as_f64().unwrap();
     assert!((time - 7.0 * DT).abs() < 1e-12 || (time - 6.0 * DT).abs() < 1e-12, "{worst}");
-    assert!(!found.pass);
+    assert!(!found.checked.result.pass);
     assert_eq!(found.document["metrics"]["adhesion_slip"]["pass"], false);
 }
 
@@ -104,7 +104,7 @@ fn traction_off_the_bound_by_a_factor_is_found_with_its_factor() {
             assert!((bar[statistic].as_f64().unwrap() - expected).abs() < 1e-10, "{bar}");
         }
         is(&found, "direction", 0.0);
-        assert!(!found.pass);
+        assert!(!found.checked.result.pass);
         // all that slips violates: 2 mm of 7 behind the centre and what lies behind them
         let (mut slipping, mut contact) = (0.0, 0.0);
         for x in surfaces().points.iter().take(NX * NY) {
@@ -165,7 +165,7 @@ fn a_flip_flop_of_two_steps_obeys_the_bound_and_fails_by_its_direction() {
     is(&found, "wrong_direction", 1.0);
     is(&found, "dissipation", 1.0);
     is(&found, "violating_fraction", 1.0);
-    assert!(!found.pass);
+    assert!(!found.checked.result.pass);
     // paired with the slip of the step after, the same run looks right: hence both are measured
     let after = judge(folder.path(), Report::Only(Pairing::After)).unwrap();
     is(&after, "direction", 0.0);

@@ -1,6 +1,7 @@
 //! Sweeps with planted trends: the verdicts find them, the figures draw what completed.
 use crate::planted::*;
 use creepage::report::sweep_page;
+use creepage::sweep::SweepResult;
 use creepage::trends::{
     ComparedSweep, SweepVerdict, Trend, creep_force_figure, sweep_figures, sweep_verdicts,
 };
@@ -37,6 +38,11 @@ fn failed(k: f64, h: f64) -> Value {
             "reason": "the energy grew <12 times>", "summary": null, "check": null })
 }
 
+/// What `sweep.json` holds.
+fn read(document: Value) -> SweepResult {
+    serde_json::from_value(document).unwrap()
+}
+
 fn verdict<'a>(all: &'a [SweepVerdict], axis: &str, measure: &str) -> &'a SweepVerdict {
     all.iter().find(|v| v.axis == axis && v.measure == measure).unwrap()
 }
@@ -46,8 +52,8 @@ fn planted_trends_get_their_verdicts_and_a_failed_run_is_no_point() {
     let runs: Vec<Value> = [0.1, 1.0, 10.0, 100.0, 1000.0].map(|k| run(k, 1e-3)).into();
     let mut runs = runs;
     runs.push(failed(1e4, 1e-3));
-    let sweep = json!({ "parameters": [SPRING], "runs": runs });
-    let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+    let sweep = read(json!({ "parameters": [SPRING], "runs": runs }));
+    let found = sweep_verdicts(Path::new("s"), &sweep);
     let of = |measure| verdict(&found, SPRING, measure);
     let Trend::Reached(limit) = &of("peak pressure (fit)").trend else {
         panic!("{:?}", of("peak pressure (fit)"));
@@ -61,7 +67,7 @@ fn planted_trends_get_their_verdicts_and_a_failed_run_is_no_point() {
         matches!(of("adhesion_slip").trend, Trend::Vanishes { exponent } if (exponent - 0.5).abs() < 1e-9)
     );
     assert!(matches!(of("switching_rate").trend, Trend::Grows { .. }));
-    assert_eq!(of("violating_fraction").trend.word(), "cannot be told");
+    assert_eq!(of("violating_fraction").verdict, "cannot be told");
     assert!(found.iter().all(|v| v.measure != "wrong_direction"), "nobody measured it");
 }
 
@@ -72,8 +78,8 @@ fn two_axes_have_a_map_a_line_for_each_value_of_the_other_and_a_verdict_for_each
         runs.extend([0.1, 1.0, 10.0, 100.0].map(|k| run(k, h)));
     }
     runs[5] = failed(1.0, 1e-3);
-    let sweep = json!({ "parameters": [SPRING, MESH], "runs": runs });
-    let figures = sweep_figures(Path::new("s"), &sweep).unwrap();
+    let sweep = read(json!({ "parameters": [SPRING, MESH], "runs": runs }));
+    let figures = sweep_figures(Path::new("s"), &sweep);
     let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["measures-contact-penalty-tangential", "measures-mesh-zone-size", "map"]);
     let spring = &figures[0].1;
@@ -88,12 +94,12 @@ fn two_axes_have_a_map_a_line_for_each_value_of_the_other_and_a_verdict_for_each
     assert!((bar[1][1] - bar[0][1] - 2.0).abs() < 1e-9, "{bar:?}");
     let cells = &figures[2].1.panels[0].fill.as_ref().unwrap().cells;
     assert_eq!(cells.len(), 11);
-    let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+    let found = sweep_verdicts(Path::new("s"), &sweep);
     let pressure = found.iter().filter(|v| v.axis == MESH && v.measure == "peak pressure (fit)");
     let pressure: Vec<_> = pressure.collect();
     assert_eq!(pressure.len(), 4);
     // h = 2, 1, 0.5 mm: 40, 10, 2.5 MPa away from the limit, power 2; one value has two points only
-    assert_eq!(pressure[1].trend.word(), "cannot be told");
+    assert_eq!(pressure[1].verdict, "cannot be told");
     let Trend::Reached(limit) = &pressure[3].trend else {
         panic!("{:?}", pressure[3]);
     };
@@ -115,9 +121,9 @@ fn in_series(k: &Value, dt: f64) -> Value {
 #[test]
 fn springs_in_any_form_are_judged_by_their_series_and_never_two_forms_on_one_axis() {
     let of = |runs: Vec<Value>| {
-        let sweep = json!({ "parameters": [SPRING], "runs": runs });
-        let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
-        let figures = sweep_figures(Path::new("s"), &sweep).unwrap();
+        let sweep = read(json!({ "parameters": [SPRING], "runs": runs }));
+        let found = sweep_verdicts(Path::new("s"), &sweep);
+        let figures = sweep_figures(Path::new("s"), &sweep);
         let label = figures[0].1.panels[0].x.label.clone();
         (verdict(&found, SPRING, "T/N").clone(), label)
     };
@@ -141,13 +147,13 @@ fn a_step_that_changes_along_an_axis_is_told_on_the_page_and_beside_the_verdicts
     let page = |dts: [f64; 3], rule: Value| {
         let runs: Vec<Value> =
             [0.1, 1.0, 10.0].iter().zip(dts).map(|(k, dt)| in_series(&json!(k), dt)).collect();
-        let sweep = json!({ "parameters": [SPRING], "runs": runs, "step": { "rule": rule } });
-        let found = sweep_verdicts(Path::new("s"), &sweep).unwrap();
+        let sweep = read(json!({ "parameters": [SPRING], "runs": runs, "step": { "rule": rule } }));
+        let found = sweep_verdicts(Path::new("s"), &sweep);
         let page = sweep_page("kt", Path::new("s/sweep.json"), &sweep).unwrap();
-        (page, verdict(&found, SPRING, "T/N").document()["time_steps"].clone())
+        (page, verdict(&found, SPRING, "T/N").time_steps)
     };
     let (text, steps) = page([334e-9, 200e-9, 92e-9], json!("bound"));
-    assert_eq!(steps, json!([92e-9, 334e-9]));
+    assert_eq!(steps, Some([92e-9, 334e-9]));
     for part in [
         "The time step differs from run to run: 92.00 to 334.0 ns",
         "times the stability limit of each run",
@@ -156,7 +162,7 @@ fn a_step_that_changes_along_an_axis_is_told_on_the_page_and_beside_the_verdicts
         assert!(text.contains(part), "{part}");
     }
     let (text, steps) = page([92e-9; 3], json!("fixed"));
-    assert_eq!(steps, Value::Null);
+    assert_eq!(steps, None);
     assert!(text.contains("Time step of all runs: 92.00 ns") && !text.contains("changes along"));
 }
 
@@ -168,8 +174,8 @@ fn profiles_are_read_from_the_runs_and_runs_without_a_file_are_left_out() {
         write(&folder.path().join(name), FALLING, "penalty", 5, |x, _| perfect(FALLING, x, 0));
         runs[k]["run"] = json!(name);
     }
-    let sweep = json!({ "parameters": [SPRING], "runs": runs });
-    let figures = sweep_figures(folder.path(), &sweep).unwrap();
+    let sweep = read(json!({ "parameters": [SPRING], "runs": runs }));
+    let figures = sweep_figures(folder.path(), &sweep);
     let (name, profiles) = &figures[1];
     assert_eq!(name, "profiles-contact-penalty-tangential");
     let [pressure, shear, slip] = &profiles.panels[..] else { panic!("{profiles:?}") };
@@ -185,8 +191,8 @@ fn profiles_are_read_from_the_runs_and_runs_without_a_file_are_left_out() {
 #[test]
 fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_refused() {
     let runs = [run(0.1, 1e-3), run(1.0, 1e-3), run(10.0, 1e-3), failed(100.0, 1e-3)];
-    let mut sweep = json!({ "parameters": [SPRING], "runs": runs });
-    sweep["runs"][0]["name"] = json!("000-tangential-0.1");
+    let mut sweep = read(json!({ "parameters": [SPRING], "runs": runs }));
+    sweep.runs[0].name = Some("000-tangential-0.1".into());
     let page = sweep_page("kt", Path::new("s/sweep.json"), &sweep).unwrap();
     for part in [
         "creepage run cases/000-tangential-0.1.toml --out again/000-tangential-0.1",
@@ -199,20 +205,27 @@ fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_re
     ] {
         assert!(page.contains(part), "{part}");
     }
-    for bad in [json!({}), json!({ "parameters": [] }), json!(3), json!({ "runs": [] })] {
-        assert!(sweep_figures(Path::new("s"), &bad).is_err());
-        assert!(sweep_verdicts(Path::new("s"), &bad).is_err());
-        assert!(sweep_page("s", Path::new("s/sweep.json"), &bad).is_err());
+    let folder = tempfile::tempdir().unwrap();
+    for bad in [
+        json!({}),
+        json!({ "parameters": [] }),
+        json!(3),
+        json!({ "runs": [] }),
+        json!({ "parameters": [3, SPRING], "runs": [3, null, { "parameters": 4, "run": 5 }] }),
+    ] {
+        std::fs::write(folder.path().join("sweep.json"), bad.to_string()).unwrap();
+        let refused = creepage::sweep_table(folder.path()).unwrap_err().to_string();
+        assert!(refused.contains("sweep.json") && refused.contains("is no sweep"), "{refused}");
     }
-    // words as values, no runs at all, values of another kind: nothing to draw, no harm
+    // words as values, no runs at all: nothing to draw, no harm
     for odd in [
         json!({ "parameters": ["friction.law"], "runs": [
             { "parameters": { "friction.law": "coulomb" }, "status": "completed" },
             { "parameters": { "friction.law": "exponential" }, "status": "completed" }] }),
         json!({ "parameters": [SPRING], "runs": [] }),
-        json!({ "parameters": [3, SPRING], "runs": [3, null, { "parameters": 4, "run": 5 }] }),
     ] {
-        assert!(sweep_figures(Path::new("s"), &odd).unwrap().is_empty());
+        let odd = read(odd);
+        assert!(sweep_figures(Path::new("s"), &odd).is_empty());
         assert!(sweep_page("s", Path::new("s/sweep.json"), &odd).is_ok());
     }
 }
@@ -237,8 +250,8 @@ fn creep_sweep(plateau: f64) -> Value {
 
 #[test]
 fn a_sweep_over_creepage_has_its_creep_force_curve_with_a_line_for_each_law() {
-    let sweep = creep_sweep(0.3);
-    let figures = sweep_figures(Path::new("s"), &sweep).unwrap();
+    let sweep = read(creep_sweep(0.3));
+    let figures = sweep_figures(Path::new("s"), &sweep);
     let (_, curve) = figures.iter().find(|(name, _)| name == "creep-force").unwrap();
     let [panel] = &curve.panels[..] else { panic!("{} panels", curve.panels.len()) };
     let named: Vec<&str> =
@@ -251,18 +264,18 @@ fn a_sweep_over_creepage_has_its_creep_force_curve_with_a_line_for_each_law() {
 
 #[test]
 fn curves_of_several_methods_stand_in_one_panel_for_each_law() {
-    let sweeps = [creep_sweep(0.3), creep_sweep(0.28), creep_sweep(0.27)];
+    let sweeps = [0.3, 0.28, 0.27].map(|plateau| read(creep_sweep(plateau)));
     let names = ["elements", "half-spaces", "quasi-static"];
     let compared: Vec<ComparedSweep<'_>> = names
         .iter()
         .zip(&sweeps)
-        .map(|(name, document)| ComparedSweep {
+        .map(|(name, result)| ComparedSweep {
             name: (*name).into(),
             folder: Path::new("s"),
-            document,
+            result,
         })
         .collect();
-    let (_, figure) = creep_force_figure(&compared).unwrap().unwrap();
+    let (_, figure) = creep_force_figure(&compared).unwrap();
     assert_eq!(figure.panels.len(), 2);
     let labels = |k: usize| -> Vec<String> {
         let labels = figure.panels[k].series.iter().map(|s| s.label.clone());
@@ -284,8 +297,9 @@ fn a_creep_force_curve_through_zero_tells_the_creepage_of_free_rolling_and_shows
         run
     };
     sweep["runs"] = json!([of(-1e-3, -0.149), of(0.0, -0.053), of(1e-3, 0.043)]);
-    let compared = [ComparedSweep { name: "".into(), folder: Path::new("s"), document: &sweep }];
-    let (_, figure) = creep_force_figure(&compared).unwrap().unwrap();
+    let sweep = read(sweep);
+    let compared = [ComparedSweep { name: "".into(), folder: Path::new("s"), result: &sweep }];
+    let (_, figure) = creep_force_figure(&compared).unwrap();
     // 53/96 of the way, by hand
     assert!(
         figure.caption.contains("T = 0, by interpolation, at creepage 0.552e-3"),
@@ -295,14 +309,14 @@ fn a_creep_force_curve_through_zero_tells_the_creepage_of_free_rolling_and_shows
     let panel = &figure.panels[0];
     assert!(panel.x.range.unwrap()[0] <= -1.0 && panel.y.range.unwrap()[0] <= -0.149);
     // none where the curve has one sign
-    let compared =
-        [ComparedSweep { name: "".into(), folder: Path::new("s"), document: &creep_sweep(0.3) }];
-    assert!(!creep_force_figure(&compared).unwrap().unwrap().1.caption.contains("T = 0"));
+    let sweep = read(creep_sweep(0.3));
+    let compared = [ComparedSweep { name: "".into(), folder: Path::new("s"), result: &sweep }];
+    assert!(!creep_force_figure(&compared).unwrap().1.caption.contains("T = 0"));
 }
 
 #[test]
 fn a_sweep_without_creepage_has_no_creep_force_curve() {
-    let sweep = json!({ "parameters": [SPRING], "runs": [run(1.0, 1e-3), run(10.0, 1e-3)] });
-    let compared = [ComparedSweep { name: "kt".into(), folder: Path::new("s"), document: &sweep }];
-    assert!(creep_force_figure(&compared).unwrap().is_none());
+    let sweep = read(json!({ "parameters": [SPRING], "runs": [run(1.0, 1e-3), run(10.0, 1e-3)] }));
+    let compared = [ComparedSweep { name: "kt".into(), folder: Path::new("s"), result: &sweep }];
+    assert!(creep_force_figure(&compared).is_none());
 }

@@ -8,12 +8,13 @@ use crate::run::error::RunError;
 use crate::run::log::{Log, REFUSED};
 use crate::run::record::{RecordBasis, result_files};
 use crate::run::resume::ResumePoint;
-use crate::run::summary::{without_rolling, write as write_summary};
+use crate::run::summary::without_rolling;
 use crate::run::text_file::remove;
 use crate::scenario::{Model, Start};
 use crate::scenario::{Progress, ScenarioError};
 use crate::scenario::{restart, start};
 use output::layout::file;
+use output::summary::Summary;
 use output::{LOG_END, NotWritten, RunFiles};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -22,7 +23,7 @@ use std::time::Instant;
 /// How a run begins.
 pub(super) enum Preloaded {
     /// No preload was found, or a stop was asked for: the summary that says so.
-    NotPreloaded(serde_json::Value),
+    NotPreloaded(Box<Summary>),
     /// The simulation can be stepped; with the files of a run that begins, or the state of one that goes on.
     Rolling(Box<Start>, Option<Box<RunFiles>>, Option<Box<State>>),
 }
@@ -58,9 +59,11 @@ pub(super) fn begin(
             remove_results(&options.out)?;
             let ScenarioError::Preload(error) = error else { return refuse(error, log) };
             let summary = without_rolling(case, model, options.threads, wall, &error);
-            let document = write_summary(&options.out, &summary, &basis.provenance)?;
-            log.say(&format!("{LOG_END}{:?} before rolling: {error}", summary.status))?;
-            Ok(Preloaded::NotPreloaded(document))
+            let summary = summary.write(&options.out, &basis.provenance)?;
+            if let Some(status) = summary.status {
+                log.say(&format!("{LOG_END}{status:?} before rolling: {error}"))?;
+            }
+            Ok(Preloaded::NotPreloaded(Box::new(summary)))
         }
     }
 }

@@ -21,10 +21,9 @@ use dynamics::Energies;
 use ending::{Ended, conclude};
 use halfspace::{Rolling, RollingState, StepSums};
 use output::layout::file;
-use output::summary::Status;
+use output::summary::{Status, Summary};
 use output::{NotWritten, Provenance};
 use recorder::{HalfSpaceRecorder, HalfSpaceRecorderState};
-use serde_json::Value;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -47,11 +46,11 @@ pub(super) fn run(
     wall: Instant,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
-) -> Result<Value, RunError> {
+) -> Result<Summary, RunError> {
     observe(&stage(case, Stage::Mesh));
     let make = |_: Option<&ResumePoint<State>>| Ok(half_space(case, options.law.as_ref())?);
     let opened = match open(case, options, make, tell)? {
-        Opening::Complete(summary) => return Ok(complete(&options.out, summary)),
+        Opening::Complete(summary) => return Ok(complete(&options.out, *summary)),
         Opening::Run(opened) => *opened,
     };
     let OpenRun { held, mut log, mut model, point } = opened;

@@ -14,6 +14,7 @@ use crate::scenario::Model;
 use crate::scenario::memory::{BYTES_PER_ELEMENT, enough_for_zones, enough_memory};
 use output::NotWritten;
 use output::layout::file;
+use output::summary::Summary;
 use serde::de::DeserializeOwned;
 
 /// A run of the model `M` about to begin, or to go on from a state `T`.
@@ -29,7 +30,7 @@ pub(crate) struct OpenRun<M, T> {
 /// What there is to do in a folder.
 pub(crate) enum Opening<M, T> {
     /// Nothing: the run is complete. Its summary.
-    Complete(serde_json::Value),
+    Complete(Box<Summary>),
     /// A run to begin, or to go on with.
     Run(Box<OpenRun<M, T>>),
 }

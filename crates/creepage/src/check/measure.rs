@@ -1,0 +1,112 @@
+//! The measures of the contact conditions, each declared once: name, unit, statistic, definition, limits.
+
+use crate::check::limits::Limit;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// What a measure is.
+#[derive(Clone, Copy, Debug)]
+pub struct Definition {
+    /// Its name in documents and options, on which scripts rely.
+    pub name: &'static str,
+    /// Unit of its value.
+    pub units: &'static str,
+    /// The statistic over nodes and times that its value is: `max`, `rms`, `share` and so on.
+    pub statistic: &'static str,
+    /// Its definition, in a phrase.
+    pub about: &'static str,
+    /// Limit for methods that enforce the conditions exactly.
+    pub exact: Option<Limit>,
+    /// Limit for a usable penalty method.
+    pub penalty: Option<Limit>,
+}
+
+/// Declares the measures, in the order in which tables show them: unit, statistic, definition, limit for exact
+/// methods, limit for penalty methods.
+macro_rules! measures {
+    ($($Measure:ident $name:literal ($units:literal, $statistic:literal, $about:literal, $exact:expr, $penalty:expr))*) => {
+        /// A measure of the contact conditions; `docs/checks.md` defines each.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        pub enum Measure {
+            $(#[doc = concat!($about, " (", $units, ", ", $statistic, ")")] #[serde(rename = $name)] $Measure,)*
+        }
+
+        impl Measure {
+            /// All of them, in the order in which tables show them.
+            pub const ALL: &[Self] = &[$(Self::$Measure),*];
+
+            /// What it is.
+            pub const fn definition(self) -> Definition {
+                match self {
+                    $(Self::$Measure => Definition {
+                        name: $name, units: $units, statistic: $statistic, about: $about, exact: $exact, penalty: $penalty,
+                    },)*
+                }
+            }
+        }
+    };
+}
+
+measures! {
+    Penetration "penetration" ("1", "max", "penetration over Hertz's approach", most(1e-3), None)
+    Tension "tension" ("1", "max", "tension over p0", most(0.0), most(0.0))
+    Complementarity "complementarity" ("1", "max", "|gap| p_n/(delta p0)", most(1e-3), None)
+    Cone "cone" ("1", "max", "p_f/(mu_S p_n) - 1 above the cone", most(1e-10), most(1e-10))
+    AdhesionSlip "adhesion_slip" ("1", "max", "|s|/s_c below 0.98 of the bound", most(1e-3), None)
+    MuError "mu_error"
+        ("1", "max", "mu used over the law's, recomputed from the records, - 1", most(1e-10), most(TWO_PASSES))
+    MuErrorBlurred "mu_error_blurred"
+        ("1", "median", "the same beyond the blur, where not every step is recorded", most(MU_BLURRED), most(MU_BLURRED))
+    LawError "law_error" ("1", "rms", "p_f/(mu(|s|) p_n) - 1 in slip", None, most(0.02))
+    LawErrorOwn "law_error_own" ("1", "rms", "the same with the mu used", most(1e-8), None)
+    LawErrorLetSlip "law_error_let_slip" ("1", "rms", "law_error where the algorithm lets slip", None, most(0.02))
+    Direction "direction" ("deg", "rms", "angle of the shear from -s in slip", most(0.1), most(5.0))
+    DirectionLetSlip "direction_let_slip" ("deg", "rms", "direction where the algorithm lets slip", None, most(5.0))
+    WrongDirection "wrong_direction" ("1", "share", "slip with that angle above 90 deg", None, None)
+    Dissipation "dissipation" ("1", "share", "contact power of the wrong sign", most(0.0), None)
+    ViolatingFraction "violating_fraction" ("1", "share", "of the contact area", most(0.0), most(0.05))
+    RoughnessRatio "roughness_ratio"
+        ("1", "ratio", "sd_t(p_f/p_n) over sd_t(mu(|s|)) in slip", between(0.999, 1.001), between(0.8, 1.25))
+    LawScatter "law_scatter" ("1", "rms", "distance from the law's graph", most(1e-8), None)
+    SwitchingRate "switching_rate" ("1", "rate", "stick-slip switches per h/c_s", None, None)
+    MeshMode "mesh_mode" ("1", "rms", "slip that alternates from node to node", None, None)
+}
+
+/// Limit of `mu_error` for penalty springs: the coefficient of a node is the mean over both passes, whose
+/// projections are recomputed to a tenth of this.
+const TWO_PASSES: f64 = 1e-4;
+/// Limit of `mu_error_blurred`.
+const MU_BLURRED: f64 = 5e-3;
+
+const fn most(value: f64) -> Option<Limit> {
+    Some(Limit::Most(value))
+}
+
+const fn between(low: f64, high: f64) -> Option<Limit> {
+    Some(Limit::Between(low, high))
+}
+
+impl Measure {
+    /// Its name in documents and options.
+    pub const fn name(self) -> &'static str {
+        self.definition().name
+    }
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Measure {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::ALL.iter().copied().find(|measure| measure.name() == name).ok_or_else(|| {
+            let names: Vec<_> = Self::ALL.iter().map(|measure| measure.name()).collect();
+            format!("there is no measure '{name}'; the measures are {}", names.join(", "))
+        })
+    }
+}
