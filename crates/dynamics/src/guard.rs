@@ -40,7 +40,7 @@ pub struct GuardLimits {
     pub least_force: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// First and last x of the bar, which the hub must not pass (m).
+    /// First and last x of the lower body, which the hub must not pass (m).
     pub track: [f64; 2],
 }
 
@@ -121,7 +121,7 @@ pub enum Cause {
         /// Normal force (N).
         force: f64,
     },
-    /// The disk has left the bar upwards.
+    /// The upper body has left the lower one upwards.
     ContactLost {
         /// Since when (s).
         since: f64,
@@ -133,11 +133,11 @@ pub enum Cause {
         /// What they brought (J).
         energy: f64,
     },
-    /// The disk has reached the end of the bar.
-    EndOfBar {
+    /// The upper body has reached the end of the lower one.
+    EndOfTrack {
         /// Where the hub is in x (m).
         hub: f64,
-        /// Where the bar ends (m).
+        /// Where the lower body ends (m).
         end: f64,
     },
 }
@@ -148,8 +148,8 @@ pub struct Location {
     /// The contact node that the cause names, else the node that moves fastest relative to its body's
     /// rigid motion.
     pub node: usize,
-    /// Whether it is of the disk.
-    pub on_disk: bool,
+    /// What its body is called.
+    pub body: &'static str,
     /// Its reference position (m).
     pub position: [f64; 3],
     /// Its speed relative to its body (m/s).
@@ -173,6 +173,8 @@ pub struct Diagnosis {
     pub imbalance: f64,
     /// Where.
     pub place: Location,
+    /// What the upper and the lower body are called.
+    pub bodies: [&'static str; 2],
 }
 
 /// The energy that nothing supplied, in brackets, where it is one.
@@ -186,7 +188,7 @@ fn from_nowhere(imbalance: f64) -> String {
 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { step, time, imbalance, place, .. } = self;
+        let Self { step, time, imbalance, place, bodies: [upper, lower], .. } = self;
         write!(f, "stopped at step {step}, t = {:.6} ms: ", time * 1e3)?;
         match self.cause {
             Cause::UnstableStep { ratio } => write!(
@@ -256,7 +258,7 @@ impl fmt::Display for Diagnosis {
             )?,
             Cause::ContactLost { since, limit } => write!(
                 f,
-                "contact is lost: the disk has left the bar, without normal force since t = {:.6} ms \
+                "contact is lost: the {upper} has left the {lower}, without normal force since t = {:.6} ms \
                  (allowed: {:.6} ms)",
                 since * 1e3,
                 limit * 1e3
@@ -266,22 +268,22 @@ impl fmt::Display for Diagnosis {
                 "the mesh that follows the patch does not carry the motion along: its moves brought {energy:.3e} J, more \
                  than a quarter of the energy exchanged"
             )?,
-            Cause::EndOfBar { hub, end } => write!(
+            Cause::EndOfTrack { hub, end } => write!(
                 f,
-                "the disk has reached the end of the bar: its hub is at x = {:.3} mm, the bar ends \
+                "the {upper} has reached the end of the {lower}: its hub is at x = {:.3} mm, the {lower} ends \
                  at {:.3} mm",
                 hub * 1e3,
                 end * 1e3
             )?,
         }
         let [x, y, z] = place.position.map(|c| c * 1e3);
-        let body = if place.on_disk { "disk" } else { "bar" };
         write!(
             f,
-            ". {} node {} of the {body} (reference position {x:.3}, {y:.3}, {z:.3} mm), {:.3e} m/s \
+            ". {} node {} of the {} (reference position {x:.3}, {y:.3}, {z:.3} mm), {:.3e} m/s \
              relative to its body; smallest det F {} in element {}",
             if self.is_contact() { "At" } else { "Worst at" },
             place.node,
+            place.body,
             place.speed,
             // what has blown up would fill the line with digits
             if place.jacobian.abs() < 1e3 {
@@ -465,7 +467,7 @@ impl Simulation {
             let [first, last] = limits.track;
             if x < first || x > last {
                 let end = if x < first { first } else { last };
-                return Some(Cause::EndOfBar { hub: x, end });
+                return Some(Cause::EndOfTrack { hub: x, end });
             }
         }
         if self.ledger.moved.abs() > allowed(&self.ledger) {
@@ -532,6 +534,7 @@ impl Simulation {
         });
         let node = spot.map_or_else(|| self.fastest(), |spot| spot.node);
         let (element, jacobian) = self.system.solid.most_folded(&self.nodes.displacement);
+        let [upper, lower] = self.system.names;
         Diagnosis {
             step: report.step,
             time: report.time,
@@ -539,19 +542,20 @@ impl Simulation {
             imbalance: report.energies.map_or(0.0, |now| self.ledger.imbalance(&now)),
             place: Location {
                 node,
-                on_disk: self.system.disk.contains(&node),
+                body: if self.system.upper.contains(&node) { upper } else { lower },
                 position: self.system.solid.reference()[node].xyz(),
                 speed: self.relative_speed(node),
                 element,
                 jacobian,
             },
+            bodies: [upper, lower],
         }
     }
 
     /// Speed of a node relative to the rigid motion of its body (m/s).
     fn relative_speed(&self, node: usize) -> f64 {
         let at = match &self.system.hub {
-            Some(hub) if self.system.disk.contains(&node) => {
+            Some(hub) if self.system.upper.contains(&node) => {
                 RigidMotion::new(hub).at(self.system.solid.reference()[node]).0
             }
             _ => [0.0; 4],

@@ -118,7 +118,7 @@ impl Resultant {
     }
 }
 
-/// A rigid hub that carries the nodes of the disk's inner ring.
+/// A rigid hub that carries the nodes of the upper body's inner ring.
 #[derive(Clone, Debug)]
 pub struct Hub {
     /// Centre in the reference configuration (m).
@@ -216,7 +216,7 @@ impl Hub {
         }
     }
 
-    /// The hub with a counterweight that balances the disk `nodes`, as wheels are balanced: the lumped masses of a mesh that
+    /// The hub with a counterweight that balances the upper body `nodes`, as wheels are balanced: the lumped masses of a mesh that
     /// is coarser on one side do not balance by themselves.
     pub fn balanced(
         mut self,

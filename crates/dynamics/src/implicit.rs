@@ -9,7 +9,7 @@
 //! conditions of exact contact. With g^n >= 0 their work `dt r . G w` is never positive: contact feeds no energy. Elastic bodies lose
 //! `(theta - 1/2)(|v^{n+1} - v^n|_M^2 + |u^{n+1} - u^n|_K^2)` in a step, nothing with theta = 1/2.
 //!
-//! The step is solved by Newton's method with the stiffness of the undeformed state, turned with the disk, and conjugate
+//! The step is solved by Newton's method with the stiffness of the undeformed state, turned with the upper body, and conjugate
 //! gradients; after each iteration contact corrects its forces (module `solve`). The hub takes part as a rigid body whose velocity over a step follows
 //! from that over the step before and the forces of the step.
 
@@ -223,12 +223,12 @@ impl Simulation {
         let turns = |hub: HubState| system.hub.as_ref().map(|body| RigidMotion::of(body, hub));
         let before = system.hub.as_ref().and_then(|hub| turns(hub.state)).unwrap_or_default();
         let after = turns(solved.hub).unwrap_or_default();
-        let (disk, reference) = (&system.disk, system.solid.reference());
+        let (upper, reference) = (&system.upper, system.solid.reference());
         let mut inertia = exact_sum::ExactSum::ZERO;
         let arrays = nodes.displacement.iter_mut().zip(&mut nodes.velocity).zip(&implicit.w);
         for (n, (((u, v), w), inverse)) in arrays.zip(&nodes.inverse_mass).enumerate() {
             let mut rigid = [0.0; 4];
-            if disk.contains(&n) {
+            if upper.contains(&n) {
                 let [old, new] = [before, after].map(|motion| motion.at(reference[n]).0);
                 (0..3).for_each(|i| rigid[i] = new[i] - old[i]);
             }

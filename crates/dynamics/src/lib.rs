@@ -1,4 +1,4 @@
-//! Explicit dynamics of the disk on the bar.
+//! Dynamics of an upper body, carried by a hub, that rolls on a lower one.
 //!
 //! Central difference with half-step velocities v^{n-1/2} and lumped mass. A step reads as the
 //! method does: internal force, given forces and quiet ends, contact, then velocity and position of every node in one

@@ -19,8 +19,8 @@ const LINEAR: f64 = 1e-2;
 const MOST_ITERATIONS: usize = 80;
 const MOST_PRODUCTS: usize = 4000;
 
-/// Side 0 of contact is the disk, which turns.
-const DISK: usize = 0;
+/// Side 0 of contact is the upper body, which turns.
+const UPPER: usize = 0;
 
 impl Implicit {
     /// Solves a span as one step. Changes neither displacements nor velocities; where it fails, contact is as it was.
@@ -113,10 +113,10 @@ impl Implicit {
             }
             let turned = system.hub.is_some();
             let compliance = |node: u32, loaded: u32| {
-                let on_disk = turned && side_of(fields.trace(), loaded) == DISK;
+                let on_upper = turned && side_of(fields.trace(), loaded) == UPPER;
                 let at = borne.binary_search(&loaded).unwrap_or_default();
                 let nodes = [node, loaded, sources[at]];
-                columns.block(fields.trace(), rows, nodes, on_disk.then_some(frame.angle))
+                columns.block(fields.trace(), rows, nodes, on_upper.then_some(frame.angle))
             };
             exact.set_compliance(&compliance);
         }
@@ -220,8 +220,9 @@ impl Implicit {
                 continue;
             }
             let (w, v) = (self.w[n], nodes.velocity[n]);
-            let on_disk = alpha > 0.0 && system.disk.contains(&n);
-            let (rigid, arm) = if on_disk { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
+            let on_upper = alpha > 0.0 && system.upper.contains(&n);
+            let (rigid, arm) =
+                if on_upper { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
             let mut pull = [0.0; 3];
             for i in 0..3 {
                 // the dashpot of mass damping is relative to the rigid motion, that of a quiet end to the ground
@@ -233,7 +234,7 @@ impl Implicit {
                 power.add(dashpot * (w[i] - rigid[i]));
                 pull[i] = dashpot;
             }
-            if on_disk {
+            if on_upper {
                 let moment = [
                     arm[1] * pull[2] - arm[2] * pull[1],
                     arm[2] * pull[0] - arm[0] * pull[2],

@@ -170,7 +170,7 @@ fn the_load_on_a_hub_reaches_the_ground_through_long_steps() {
     let hub =
         Hub::new([1e-3, 1e-3, 4e-3], &top, reference, mass, 1e-3, spin, Vertical::Load(100.0));
     setup.system.hub = Some(hub);
-    setup.system.disk = 0..mesh.nodes.len();
+    setup.system.upper = 0..mesh.nodes.len();
     setup.system.fixed = (0..mesh.nodes.len() as u32)
         .map(|node| Fixed { node, axes: [false, true, false] })
         .collect();

@@ -170,7 +170,7 @@ pub fn start(
     };
 
     let field = RollingField {
-        disk: DISK,
+        upper: DISK,
         centre: hub.centre,
         speed: case.drive.speed,
         omega: case.drive.speed / nominal,
@@ -272,7 +272,8 @@ fn assemble(
             .map(|&node| Fixed { node, axes: [false, true, false] })
             .collect(),
         paired: model.paired.clone(),
-        disk: model.mesh.bodies[DISK].nodes.clone(),
+        names: ["disk", "bar"],
+        upper: model.mesh.bodies[DISK].nodes.clone(),
         mass_damping: case.damping.mass,
         multiplicity: model.multiplicity,
         ..System::free(solid, model.mass.clone())
