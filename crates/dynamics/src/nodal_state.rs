@@ -3,7 +3,7 @@
 //! They are split into chunks, which threads take in any order; what is summed up over the nodes is summed exactly.
 //! Contact sees the nodes of its surfaces alone, the trace: the loops to it and from it are here too.
 
-use crate::nodes::NodeSums;
+use crate::node_sums::NodeSums;
 use contact::{Contact, ContactSums, FreeMotion, PenaltyContact, TraceFields, TraceStep};
 use mesh::Padded;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! What moves the hub sideways: it drifts, or turns about the vertical and rolls along a curve.
 
-use crate::hub::{HubState, smoothstep};
+use crate::ramp::smoothstep;
 
 /// Lateral creepage and spin of the hub, both rising by a smoothstep.
 ///
@@ -27,12 +27,12 @@ pub struct Sideways {
 
 impl Sideways {
     /// Velocity in x and y (m/s) and angular velocity about +z (rad/s) at the time `half` (s), half a step `dt` (s) after
-    /// the state `from`.
-    pub(crate) fn velocities(&self, from: HubState, half: f64, dt: f64) -> [f64; 3] {
+    /// the hub had drifted by `y` (m) and turned to `heading` (rad).
+    pub(crate) fn velocities(&self, [y, heading]: [f64; 2], half: f64, dt: f64) -> [f64; 3] {
         let share = smoothstep(half, self.ramp);
         let turning = share * self.spin * self.speed;
-        let (sin, cos) = libm::sincos(from.heading + 0.5 * dt * turning);
-        let along = self.speed - turning * self.behind * from.y;
+        let (sin, cos) = libm::sincos(heading + 0.5 * dt * turning);
+        let along = self.speed - turning * self.behind * y;
         let across = share * self.lateral_creepage * self.speed;
         [along * cos - across * sin, along * sin + across * cos, turning]
     }

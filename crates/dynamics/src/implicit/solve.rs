@@ -24,7 +24,7 @@ const UPPER: usize = 0;
 
 impl Implicit {
     /// Solves a span as one step. Changes neither displacements nor velocities; where it fails, contact is as it was.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         system: &mut System,
         nodes: &mut NodalState,
