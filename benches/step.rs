@@ -76,7 +76,7 @@ fn rolling(size: f64) -> Simulation {
     let velocity = dynamics::rolling_field(&mesh, &displacement, &field);
     Simulation::new(Setup {
         system: System {
-            contact: Some(Box::new(contact)),
+            contact: Some(contact.into()),
             hub: Some(hub),
             quiet,
             held,

@@ -12,7 +12,7 @@ use crate::guard::{GuardLimits, LostContact, allowed, looks_at_shape, violated};
 use crate::ledger::Energies;
 use crate::load::Fixed;
 use crate::simulation::{Simulation, StepReport};
-use contact::Contact;
+use contact::ContactTables;
 use mesh::Padded;
 
 /// Lanczos steps for the frequency of the assembly with the springs that are closed at the stop.
@@ -28,7 +28,7 @@ struct Spot {
 }
 
 /// The node of either surface at which `measure` is largest or no number.
-fn worst_spot(contact: &dyn Contact, measure: impl Fn(&Spot) -> f64) -> Option<Spot> {
+fn worst_spot(contact: &dyn ContactTables, measure: impl Fn(&Spot) -> f64) -> Option<Spot> {
     let mut worst: Option<(f64, Spot)> = None;
     for side in 0..2 {
         let mut table = contact.nodal_table(side);

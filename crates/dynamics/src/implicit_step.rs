@@ -6,7 +6,7 @@ use crate::implicit::{CUTS, Implicit, Solved, Span};
 use crate::ledger::{Energies, Works};
 use crate::simulation::{Simulation, StepReport};
 use crate::unsolved::{Effort, Unsolved};
-use contact::ContactSums;
+use contact::{ContactSums, Method};
 use mesh::Padded;
 use std::time::Instant;
 
@@ -20,8 +20,7 @@ impl Simulation {
     /// If `theta` lies outside 1/2 to 1, or contact is a method of springs.
     pub fn set_implicit(&mut self, theta: f64) {
         assert!((0.5..=1.0).contains(&theta), "theta from 1/2 to 1");
-        let contact = self.system.contact.as_mut();
-        assert!(contact.is_none_or(|contact| contact.exact_mut().is_some()), "exact contact");
+        assert!(!matches!(self.system.contact, Some(Method::Penalty(_))), "exact contact");
         self.implicit = Some(Box::new(Implicit::new(theta, &self.system, &self.nodes)));
     }
 

@@ -8,7 +8,7 @@ use crate::load::{Fixed, Load};
 use crate::nodal_state::{NodalState, TraceNode};
 use crate::paired;
 use crate::quiet::{QuietEnd, QuietWork};
-use contact::{Contact, ContactSums};
+use contact::{ContactSums, Method};
 use mesh::Padded;
 use solid::{ForceSums, Solid};
 use std::time::{Duration, Instant};
@@ -18,7 +18,7 @@ pub struct System {
     /// The elements.
     pub solid: Solid,
     /// The contact of the two bodies; none for a free body.
-    pub contact: Option<Box<dyn Contact>>,
+    pub contact: Option<Method>,
     /// The hub; none for a free body.
     pub hub: Option<Hub>,
     /// The quiet ends; empty for none.
@@ -156,8 +156,8 @@ impl System {
     /// (N), for small `x` (m).
     pub(crate) fn add_tangent_product(&mut self, x: &[Padded], y: &mut [Padded]) {
         self.solid.add_stiffness_product(x, y);
-        if let Some(contact) = &self.contact {
-            contact.add_stiffness_product(x, y);
+        if let Some(Method::Penalty(springs)) = &self.contact {
+            springs.stiffness_product(x, y);
         }
     }
 }

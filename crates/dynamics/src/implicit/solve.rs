@@ -9,7 +9,7 @@ use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
 use crate::unsolved::Unsolved;
-use contact::{ContactSums, Corrected};
+use contact::{ContactSums, Corrected, Method};
 use mesh::Padded;
 
 /// A step is solved where the residual over the forces, and the change of contact forces over the largest, are below this.
@@ -75,7 +75,7 @@ impl Implicit {
             (0..2).for_each(|i| unknown[i] += self.correction.hub[i]);
             corrected = self.correct_contact(system, nodes, span);
         }
-        if let Some(contact) = system.contact.as_mut().and_then(|contact| contact.exact_mut()) {
+        if let Some(Method::Exact(contact)) = &mut system.contact {
             contact.reject_implicit();
         }
         Err(at)
@@ -97,7 +97,7 @@ impl Implicit {
         fields.gather_velocities(&nodes.velocity);
         let motion = fields.motion(time, dt);
         contact.follow(&motion);
-        if let Some(exact) = contact.exact_mut() {
+        if let Method::Exact(exact) = &mut contact {
             exact.begin_implicit(&motion, &system.paired);
             let (columns, rows) = (&mut self.columns[cuts], &self.rows);
             let mut borne: Vec<u32> = exact.borne_by().collect();
@@ -130,8 +130,8 @@ impl Implicit {
         nodes: &mut NodalState,
         Span { time, dt, .. }: Span,
     ) -> Corrected {
-        let exact = system.contact.as_mut().and_then(|contact| contact.exact_mut());
-        let (Some(exact), Some(fields)) = (exact, &mut nodes.trace) else {
+        let (Some(Method::Exact(exact)), Some(fields)) = (&mut system.contact, &mut nodes.trace)
+        else {
             return Corrected::default();
         };
         fields.gather_velocities(&self.w);
@@ -145,12 +145,13 @@ impl Implicit {
         nodes: &mut NodalState,
         Span { time, dt, .. }: Span,
     ) -> ContactSums {
-        let Some(contact) = &mut system.contact else { return ContactSums::default() };
-        let Some(fields) = &mut nodes.trace else { return ContactSums::default() };
+        let (Some(Method::Exact(exact)), Some(fields)) = (&mut system.contact, &mut nodes.trace)
+        else {
+            return ContactSums::default();
+        };
         fields.gather_velocities(&self.w);
         fields.clear_forces();
         let step = fields.step(time, dt);
-        let Some(exact) = contact.exact_mut() else { return ContactSums::default() };
         exact.end_implicit(&step.motion, &system.paired, step.force)
     }
 
@@ -179,7 +180,7 @@ impl Implicit {
         solved.given = system.load.power(at, &self.w);
         solved.given += system.quiet.add_reactions(&self.w, force);
         if let Some(fields) = &mut nodes.trace
-            && let Some(exact) = system.contact.as_mut().and_then(|contact| contact.exact_mut())
+            && let Some(Method::Exact(exact)) = &mut system.contact
         {
             // contact loads the first nodes of pairs
             paired::share(&system.paired, force);

@@ -83,7 +83,7 @@ fn cubes(mu: f64) -> Result<(Mesh, Setup), ContactError> {
     let below = |node: &usize| mesh.nodes[*node][2] < -1.9e-3;
     let held = (0..n).filter(below).map(|node| node as u32).collect();
     let system = crate::System {
-        contact: Some(Box::new(contact)),
+        contact: Some(contact.into()),
         held,
         load: crate::Load { ramp: 2e-5, ..weight },
         ..crate::System::free(solid, mass)
