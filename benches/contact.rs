@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use contact::{
-    BodyMaterial, Contact, FreeMotion, Normals, PenaltyContact, PenaltySettings, Stiffness,
+    BodyMaterial, ContactStep, FreeMotion, Normals, PenaltyContact, PenaltySettings, Stiffness,
     TraceFields,
 };
 use friction::{Exponential, Lagged};
@@ -117,7 +117,7 @@ impl Rolling {
         let fields = &mut self.fields;
         fields.gather_positions(&self.displacement);
         fields.gather_velocities(&self.velocity);
-        let contact: &mut dyn Contact = &mut self.contact;
+        let contact: &mut dyn ContactStep = &mut self.contact;
         contact.follow(&fields.motion(0.0, self.dt));
         fields.gather_forces(contact.loaded().iter().copied(), &self.force);
         let step = fields.step(0.0, self.dt);

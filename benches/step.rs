@@ -72,15 +72,15 @@ fn rolling(size: f64) -> Simulation {
     let quiet = QuietEnd::new(&mesh, &ends, &STEEL, &held);
     let mut displacement = vec![Padded::ZERO; mesh.nodes.len()];
     displacement[disk.nodes.clone()].fill(Padded::new([0.0, 0.0, -APPROACH]));
-    let field = RollingField { disk: 0, centre, speed: SPEED, omega, dt };
+    let field = RollingField { upper: 0, centre, speed: SPEED, omega, dt };
     let velocity = dynamics::rolling_field(&mesh, &displacement, &field);
     Simulation::new(Setup {
         system: System {
-            contact: Some(Box::new(contact)),
+            contact: Some(contact.into()),
             hub: Some(hub),
             quiet,
             held,
-            disk: disk.nodes.clone(),
+            upper: disk.nodes.clone(),
             ..System::free(solid, mass)
         },
         displacement,

@@ -1,7 +1,9 @@
 //! Contact forces on the generated meshes: a rigid disk is pressed into a rigid bar, rolled and
 //! slid, and the nodal forces are summed up apart from the contact's own sums.
 
-use contact::{BodyMaterial, Contact, ContactSums, PenaltyContact, PenaltySettings, TraceFields};
+use contact::{
+    BodyMaterial, ContactStep, ContactSums, PenaltyContact, PenaltySettings, TraceFields,
+};
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Mesh, Padded};
 

@@ -171,9 +171,9 @@ fn collide(n: usize, c: f64, method: Method) -> Result<Collision, Cause> {
     setup.system.contact = Some(if method != Method::Penalty {
         let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let law = Box::new(Coulomb { mu: 0.0 });
-        Box::new(ExactContact::new(&mesh, surfaces.map(|s| (s, material)), &settings, law)?)
+        ExactContact::new(&mesh, surfaces.map(|s| (s, material)), &settings, law)?.into()
     } else {
-        Box::new(contact)
+        contact.into()
     });
     let masses = setup.system.mass.clone();
     let bar: f64 = masses[first.clone()].iter().sum();

@@ -13,7 +13,7 @@
 use crate::body::{STEEL, contact_material};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
-use contact::{Contact, Normals, PenaltyContact, PenaltySettings, Stiffness, TraceFields};
+use contact::{ContactStep, Normals, PenaltyContact, PenaltySettings, Stiffness, TraceFields};
 use friction::Coulomb;
 use mesh::{Disk, FineZone, Grading, Mesh, Padded, Surface};
 use std::f64::consts::TAU;

@@ -261,7 +261,7 @@ impl Mode {
         let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };
         let surfaces = surfaces.map(|s| (s, material));
         setup.system.contact =
-            Some(Box::new(ExactContact::new(&mesh, surfaces, &settings, Box::new(law))?));
+            Some(ExactContact::new(&mesh, surfaces, &settings, Box::new(law))?.into());
         Ok(setup)
     }
 }

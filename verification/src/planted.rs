@@ -11,7 +11,7 @@ use crate::{
     Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, mindlin,
     patch, rolling_limits, shear_column, sliding,
 };
-use contact::{Contact, PenaltyContact};
+use contact::{ContactRestart, PenaltyContact};
 use friction::{Implicit, Lagged};
 use mesh::Mesh;
 use solid::Element;

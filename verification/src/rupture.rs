@@ -41,7 +41,7 @@ use crate::body::{ONE_POINT, at_rest_with, contact_material, side_nodes};
 use crate::convergence::Convergence;
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::{Field, Row};
-use contact::{Contact, ExactContact, ExactSettings, NodalContact};
+use contact::{ContactTables, ExactContact, ExactSettings, NodalContact};
 use dynamics::{Fixed, Setup, Simulation};
 use friction::{NodeConditions, NodeFriction, SlipWeakening};
 use mesh::{Mesh, quad_corner_areas};
@@ -237,7 +237,7 @@ fn model(h: f64) -> Result<(Setup, NodalContact, Monitor), Cause> {
     )?;
     let table = contact.nodal_table(0);
     let monitor = Monitor::new(&mesh, &table, h);
-    setup.system.contact = Some(Box::new(contact));
+    setup.system.contact = Some(contact.into());
     Ok((setup, table, monitor))
 }
 

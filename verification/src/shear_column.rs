@@ -226,7 +226,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
             let contact = ExactContact::new(&mesh, surfaces, &settings, law)?;
             let mut setup = at_rest(&mesh, SHEARED, 0.67, None)?;
             let step = setup.dt;
-            setup.system.contact = Some(Box::new(contact));
+            setup.system.contact = Some(contact.into());
             (setup, 0.0, step)
         }
         Interface::Penalty { k, finer } => {
@@ -241,7 +241,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
             let contact = PenaltyContact::new(&mesh, surfaces, &settings, None, law)?;
             let mut setup = at_rest(&mesh, SHEARED, 0.67 / finer, Some(&contact))?;
             let step = finer * setup.dt;
-            setup.system.contact = Some(Box::new(contact));
+            setup.system.contact = Some(contact.into());
             (setup, PRESSURE / k, step)
         }
     };

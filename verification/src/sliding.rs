@@ -35,8 +35,8 @@ use crate::body::{STEEL, at_rest, contact_material, side_nodes};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{
-    BodyMaterial, Contact, ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySettings,
-    Rows, Stiffness,
+    BodyMaterial, ContactStep, ExactContact, ExactSettings, Normals, PenaltyContact,
+    PenaltySettings, Rows, Stiffness,
 };
 use dynamics::{Load, Setup, Simulation};
 use friction::Coulomb;
@@ -282,9 +282,9 @@ impl Block {
         let down = [0.0, 0.0, acceleration[2]];
         let (mut settling, contact) = setup(&mesh, down, 1.0, mu)?;
         settling.system.contact = Some(match method {
-            Method::Penalty => Box::new(contact),
-            Method::Exact(rows) => Box::new(exact(&mesh, rows, mu)?),
-            Method::Implicit { .. } => Box::new(exact(&mesh, Rows::NodeToFace, mu)?),
+            Method::Penalty => contact.into(),
+            Method::Exact(rows) => exact(&mesh, rows, mu)?.into(),
+            Method::Implicit { .. } => exact(&mesh, Rows::NodeToFace, mu)?.into(),
         });
         let pressure = -down[2] * MATERIAL.density * BLOCK[2];
         let body = mesh.bodies[0].nodes.clone();
@@ -321,16 +321,16 @@ impl Block {
             let at = contact.trace().positions(setup.system.solid.reference(), &before);
             contact.apply_frictionless(&at, &mut vec![Padded::ZERO; at.len()]);
         }
-        let contact: Box<dyn Contact> = match method {
-            Method::Penalty => Box::new(contact),
+        let contact: contact::Method = match method {
+            Method::Penalty => contact.into(),
             Method::Exact(rows) => {
                 setup.system.solid = damped(&mesh, 0.3 * setup.dt)?;
-                Box::new(exact(&mesh, rows, mu)?)
+                exact(&mesh, rows, mu)?.into()
             }
             Method::Implicit { longer, .. } => {
                 setup.system.solid = damped(&mesh, 0.3 * setup.dt)?;
                 setup.dt *= longer;
-                Box::new(exact(&mesh, Rows::NodeToFace, mu)?)
+                exact(&mesh, Rows::NodeToFace, mu)?.into()
             }
         };
         setup.system.contact = Some(contact);

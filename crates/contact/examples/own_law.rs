@@ -7,7 +7,7 @@
 //! ```
 
 use contact::{
-    BodyMaterial, Contact, ExactContact, ExactSettings, FreeMotion, TraceFields, TraceStep,
+    BodyMaterial, ContactStep, ExactContact, ExactSettings, FreeMotion, TraceFields, TraceStep,
 };
 use friction::{NodeConditions, NodeFriction};
 use mesh::{Face, Mesh, Padded, Surface};

@@ -19,7 +19,9 @@ mod implicit;
 pub use implicit::{Corrected, Matrix3};
 
 use crate::constraint::{Constraint, MasterNode, MasterPoint, Rows, face_shares, within};
-use crate::enforcement::{Contact, FreeMotion};
+use crate::enforcement::{
+    ContactRenumbering, ContactRestart, ContactStep, ContactTables, FreeMotion,
+};
 use crate::face::{EDGE, Positions, shape};
 use crate::mortar::{Mean, Mortar};
 use crate::nodal::NodalContact;
@@ -600,7 +602,7 @@ impl ExactContact {
     }
 }
 
-impl Contact for ExactContact {
+impl ContactStep for ExactContact {
     fn trace(&self) -> &Trace {
         &self.trace
     }
@@ -680,7 +682,9 @@ impl Contact for ExactContact {
         let own = self.trace.side(self.slave);
         follow_first(&mut self.constraints[self.slave], own, pairs);
     }
+}
 
+impl ContactRenumbering for ExactContact {
     fn renumber(&mut self, renumbering: Renumbering<'_>) -> usize {
         let Self { sides, trace, search, constraints, slave, mortar, .. } = self;
         let in_mesh = [trace.side(0), trace.side(1)];
@@ -688,13 +692,9 @@ impl Contact for ExactContact {
         let renumbered = Renumbered { sides, in_mesh, search };
         renumbered.rows(*slave, &mut constraints[*slave], means, renumbering)
     }
+}
 
-    fn exact_mut(&mut self) -> Option<&mut ExactContact> {
-        Some(self)
-    }
-
-    fn add_stiffness_product(&self, _: &[Padded], _: &mut [Padded]) {}
-
+impl ContactTables for ExactContact {
     fn nodal_table(&self, side: usize) -> NodalContact {
         NodalContact::whole(&self.trace, &self.sides, side)
     }
@@ -726,7 +726,9 @@ impl Contact for ExactContact {
     fn enforced_on(&self) -> Option<usize> {
         Some(self.slave)
     }
+}
 
+impl ContactRestart for ExactContact {
     fn snapshot(&self) -> ContactState {
         let means = self.mortar.as_ref().map(|(_, means)| means.clone()).unwrap_or_default();
         let (constraints, master_nodes) =

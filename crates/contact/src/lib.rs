@@ -1,7 +1,7 @@
 //! Contact of two deformable surfaces: search, gap and slip kinematics, enforcement by penalty in
 //! two passes with a friction spring or exactly in one, patch measures.
 //!
-//! Side 0 is the first surface given (the disk's tread), side 1 the second (the bar's top). In
+//! Side 0 is the first surface given (of the upper body), side 1 the second (of the lower). In
 //! pass `i` the nodes of side `i` are slaves and the faces of the other side are masters; the
 //! forces of both passes of penalty contact add. SI units.
 
@@ -15,12 +15,14 @@ mod face;
 mod gap;
 mod gap_function;
 pub mod mesh_mode;
+mod method;
 mod mortar;
 mod motion;
 mod nodal;
 mod nodal_normals;
 pub mod patch;
 mod penalty;
+mod penalty_enforcement;
 mod penalty_point;
 mod penalty_springs;
 #[cfg(test)]
@@ -40,11 +42,14 @@ mod trace;
 mod vector;
 
 pub use constraint::Rows;
-pub use enforcement::{Contact, FreeMotion};
+pub use enforcement::{
+    Contact, ContactRenumbering, ContactRestart, ContactStep, ContactTables, FreeMotion,
+};
 pub use error::ContactError;
 pub use exact::{Corrected, ExactContact, ExactSettings, Matrix3};
 pub use gap::Gap;
 pub use gap_function::GapFunction;
+pub use method::Method;
 pub use motion::Motion;
 pub use nodal::NodalContact;
 pub use nodal_normals::Normals;

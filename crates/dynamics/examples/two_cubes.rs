@@ -45,7 +45,7 @@ fn main() {
     let top = &mesh.bodies[0].node_sets["z+"];
     let share = -FORCE / top.len() as f64;
     let system = System {
-        contact: Some(Box::new(contact)),
+        contact: Some(contact.into()),
         held: mesh.bodies[1].node_sets["z-"].clone(),
         load: Load { forces: top.iter().map(|&n| (n, [0.0, 0.0, share])).collect(), ramp: RAMP },
         ..System::free(solid, mass)

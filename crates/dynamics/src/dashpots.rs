@@ -1,10 +1,10 @@
 //! Mass-proportional damping relative to the rigid motion.
 //!
-//! Each node of the disk is tied to the hub by a dashpot alpha m, each node of the bar to the
+//! Each node of the upper body is tied to the hub by a dashpot alpha m, each node of the lower body to the
 //! ground. The force on a node is -alpha m (v - v_rigid); its reaction acts on the hub, so that
 //! the dashpots dissipate alpha m |v - v_rigid|^2 and never push the whole. v_rigid is the hub's
 //! motion at the node's *undeformed* place: the preload pattern, which stays in space while the
-//! disk turns through it, then meets no mean drag.
+//! upper body turns through it, then meets no mean drag.
 
 use crate::hub::{Hub, HubState};
 use mesh::Padded;
@@ -15,8 +15,8 @@ use std::ops::Range;
 pub(crate) struct Dashpots {
     /// Damping rate (1/s).
     pub(crate) alpha: f64,
-    /// Nodes of the disk.
-    pub(crate) disk: Range<usize>,
+    /// Nodes of the upper body.
+    pub(crate) upper: Range<usize>,
     /// The hub's motion, if there is a hub.
     pub(crate) motion: Option<RigidMotion>,
 }

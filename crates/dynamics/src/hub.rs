@@ -1,5 +1,6 @@
 //! The rigid hub: its nodes follow one rigid body, which turns about its axle, and with the axle about the vertical.
 
+use crate::ramp::{interpolated, smoothstep};
 use crate::second_moments::SecondMoments;
 use crate::sideways::Sideways;
 use exact_sum::ExactSum;
@@ -118,7 +119,7 @@ impl Resultant {
     }
 }
 
-/// A rigid hub that carries the nodes of the disk's inner ring.
+/// A rigid hub that carries the nodes of the upper body's inner ring.
 #[derive(Clone, Debug)]
 pub struct Hub {
     /// Centre in the reference configuration (m).
@@ -216,7 +217,7 @@ impl Hub {
         }
     }
 
-    /// The hub with a counterweight that balances the disk `nodes`, as wheels are balanced: the lumped masses of a mesh that
+    /// The hub with a counterweight that balances the upper body `nodes`, as wheels are balanced: the lumped masses of a mesh that
     /// is coarser on one side do not balance by themselves.
     pub fn balanced(
         mut self,
@@ -485,7 +486,7 @@ impl Hub {
         let [sx, sz] = placement.turned(self.moment);
         let half = time + 0.5 * dt;
         let [vx, vy, turning] = match &self.sideways {
-            Some(sideways) => sideways.velocities(old, half, dt),
+            Some(sideways) => sideways.velocities([old.y, old.heading], half, dt),
             None => [old.vx, old.vy, old.turning],
         };
         let [ax, ay] = placement.along_and_across([(vx - old.vx) / dt, (vy - old.vy) / dt]);
@@ -654,40 +655,5 @@ impl Placement {
             cos_minus_one * y + sin * ahead + self.state.y,
             self.cos_minus_one * z - self.sin * x + self.state.z,
         ]
-    }
-}
-
-/// 3 s^2 - 2 s^3 with s = t/ramp held in [0, 1]; a ramp of zero length is a step.
-pub fn smoothstep(t: f64, ramp: f64) -> f64 {
-    if t >= ramp {
-        return 1.0;
-    }
-    let s = (t / ramp).max(0.0);
-    s * s * (3.0 - 2.0 * s)
-}
-
-/// The value at `time` (s) on straight lines between `points` (s, value) of rising times, and that of the last point after
-/// it.
-pub fn interpolated(points: &[[f64; 2]], time: f64) -> f64 {
-    let after = points.partition_point(|[t, _]| *t <= time);
-    match (points.get(after.wrapping_sub(1)), points.get(after)) {
-        (Some([t0, x0]), Some([t1, x1])) => x0 + (x1 - x0) * ((time - t0) / (t1 - t0)),
-        (Some([_, x]), None) | (None, Some([_, x])) => *x,
-        (None, None) => 0.0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_table_is_linear_between_its_points_and_stays_at_the_last_value() {
-        let table = [[0.0, 1.0], [2.0, 3.0], [2.5, -1.0]];
-        for (t, x) in
-            [(0.0, 1.0), (1.0, 2.0), (2.0, 3.0), (2.25, 1.0), (2.5, -1.0), (9.0, -1.0), (-1.0, 1.0)]
-        {
-            assert_eq!(interpolated(&table, t), x, "{t}");
-        }
     }
 }

@@ -9,7 +9,7 @@
 //! conditions of exact contact. With g^n >= 0 their work `dt r . G w` is never positive: contact feeds no energy. Elastic bodies lose
 //! `(theta - 1/2)(|v^{n+1} - v^n|_M^2 + |u^{n+1} - u^n|_K^2)` in a step, nothing with theta = 1/2.
 //!
-//! The step is solved by Newton's method with the stiffness of the undeformed state, turned with the disk, and conjugate
+//! The step is solved by Newton's method with the stiffness of the undeformed state, turned with the upper body, and conjugate
 //! gradients; after each iteration contact corrects its forces (module `solve`). The hub takes part as a rigid body whose velocity over a step follows
 //! from that over the step before and the forces of the step.
 
@@ -17,28 +17,26 @@ mod columns;
 mod operator;
 mod solve;
 
-use crate::dashpots::RigidMotion;
-use crate::hub::{HubState, HubWork, Resultant};
-use crate::ledger::{Energies, Works};
-use crate::simulation::{Simulation, StepReport};
-use crate::unsolved::{Effort, Unsolved};
+use crate::hub::{HubState, Resultant};
+use crate::nodal_state::NodalState;
+use crate::system::System;
+use crate::unsolved::Effort;
 use columns::{Columns, Rows};
 use contact::ContactSums;
 use mesh::Padded;
 use operator::{ConjugateGradients, Operator, Vectors};
 use std::collections::BTreeSet;
-use std::time::Instant;
 
 /// A step that is not solved is cut in halves, these again, so often.
-const CUTS: usize = 4;
+pub(crate) const CUTS: usize = 4;
 
 /// The implicit integrator: its parameter, and the arrays that it works with.
 pub(crate) struct Implicit {
-    theta: f64,
+    pub(crate) theta: f64,
     operator: Operator,
     gradients: ConjugateGradients,
     /// Mean velocity over the step (m/s), that of the nodes of the hub too.
-    w: Vec<Padded>,
+    pub(crate) w: Vec<Padded>,
     /// Displacement `u + theta dt w` (m).
     moved: Vec<Padded>,
     residual: Vectors,
@@ -50,9 +48,28 @@ pub(crate) struct Implicit {
 }
 
 impl Implicit {
-    /// Mean velocities over the last step (m/s).
-    pub(crate) fn step_velocity(&self) -> &[Padded] {
-        &self.w
+    /// The integrator of a system with `theta` from 1/2 to 1.
+    pub(crate) fn new(theta: f64, system: &System, nodes: &NodalState) -> Self {
+        let n = nodes.displacement.len();
+        let trace = system.contact.as_ref().map(|contact| contact.trace().clone());
+        let centre = system.hub.as_ref().map(|hub| hub.centre);
+        Self {
+            theta,
+            operator: Operator::new(system, nodes),
+            gradients: ConjugateGradients::new(n),
+            w: vec![Padded::ZERO; n],
+            moved: vec![Padded::ZERO; n],
+            residual: Vectors::new(n),
+            correction: Vectors::new(n),
+            rows: Rows::new(&trace.unwrap_or_default(), system.solid.reference(), centre),
+            columns: (0..=CUTS).map(|_| Columns::default()).collect(),
+            effort: Effort::default(),
+        }
+    }
+
+    /// `w . K w` of the mean velocity over the last step (W/s).
+    pub(crate) fn stiffness_energy(&mut self, system: &mut System) -> f64 {
+        self.operator.stiffness_energy(system, &self.w)
     }
 
     /// The nodes whose columns are in the count of products, of whole steps and of each cut.
@@ -71,194 +88,22 @@ impl Implicit {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {
     /// Where it begins (s).
-    time: f64,
+    pub(crate) time: f64,
     /// How long it is (s).
-    dt: f64,
+    pub(crate) dt: f64,
     /// How often the step was cut to give it.
-    cuts: usize,
+    pub(crate) cuts: usize,
 }
 
 /// What a solved step leaves.
 #[derive(Clone, Copy, Debug, Default)]
-struct Solved {
-    contact: ContactSums,
+pub(crate) struct Solved {
+    pub(crate) contact: ContactSums,
     /// Power that viscous stresses, dashpots of the nodes and quiet ends dissipate (W).
-    dissipated: f64,
+    pub(crate) dissipated: f64,
     /// Power of given forces and of the reactions of the quiet ends (W).
-    given: f64,
+    pub(crate) given: f64,
     /// On the hub, mass damping included.
-    load: Resultant,
-    hub: HubState,
-}
-
-impl Simulation {
-    /// Takes implicit steps from here on, with `theta` from 1/2 (second order) to 1 (first order, most dissipative).
-    ///
-    /// The velocities of the present state then are those of its own time, not of half a step before. Contact, if there is any, must be
-    /// [exact](contact::ExactContact).
-    ///
-    /// # Panics
-    /// If `theta` lies outside 1/2 to 1, or contact is a method of springs.
-    pub fn set_implicit(&mut self, theta: f64) {
-        assert!((0.5..=1.0).contains(&theta), "theta from 1/2 to 1");
-        let contact = self.system.contact.as_mut();
-        assert!(contact.is_none_or(|contact| contact.exact_mut().is_some()), "exact contact");
-        let n = self.nodes.displacement.len();
-        self.implicit = Some(Box::new(Implicit {
-            theta,
-            operator: Operator::new(&self.system, &self.nodes),
-            gradients: ConjugateGradients::new(n),
-            w: vec![Padded::ZERO; n],
-            moved: vec![Padded::ZERO; n],
-            residual: Vectors::new(n),
-            correction: Vectors::new(n),
-            rows: self.rows(),
-            columns: (0..=CUTS).map(|_| Columns::default()).collect(),
-            effort: Effort::default(),
-        }));
-    }
-
-    /// The rows of the contact surfaces.
-    fn rows(&self) -> Rows {
-        let trace = self.system.contact.as_ref().map(|contact| contact.trace().clone());
-        let centre = self.system.hub.as_ref().map(|hub| hub.centre);
-        Rows::new(&trace.unwrap_or_default(), self.system.solid.reference(), centre)
-    }
-
-    /// What implicit steps took so far; none of explicit ones.
-    pub fn effort(&self) -> Option<Effort> {
-        self.implicit.as_ref().map(|implicit| implicit.effort)
-    }
-
-    /// One implicit step from t^n to t^{n+1}. With `read` the energies at t^n enter the ledger.
-    pub(crate) fn implicit_step(&mut self, read: bool) -> StepReport {
-        let (n, dt) = (self.step, self.dt);
-        let time = n as f64 * dt;
-        let energies = read.then(|| self.energies());
-        let omega_before = self.system.hub.as_ref().map_or(0.0, |h| h.state.omega);
-        let begun = Instant::now();
-        let mut report = StepReport { step: n, time, energies, ..StepReport::default() };
-        match self.take(Span { time, dt, cuts: 0 }) {
-            Ok(contact) => report.contact = contact.times(self.system.multiplicity),
-            Err(unsolved) => report.unsolved = Some(unsolved),
-        }
-        self.timers.nodes += begun.elapsed();
-        self.step += 1;
-        if let Some(hub) = &self.system.hub {
-            report.drive = hub.reaction.times(self.system.multiplicity);
-            report.omega = 0.5 * (omega_before + hub.state.omega);
-        }
-        report
-    }
-
-    /// The energies of the present state, read into the ledger.
-    fn energies(&mut self) -> Energies {
-        let multiplicity = self.system.multiplicity;
-        let nodes = &mut self.nodes;
-        let sums =
-            self.system.solid.subtract_elastic_force(&nodes.displacement, &mut nodes.force, true);
-        nodes.force.fill(Padded::ZERO);
-        let kinetic = nodes.velocity.iter().zip(&nodes.inverse_mass).map(|(v, w)| {
-            let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-            if *w > 0.0 { 0.5 * square / w } else { 0.0 }
-        });
-        let hub = self.system.hub.as_ref().map_or(0.0, |hub| hub.kinetic());
-        let now = Energies {
-            kinetic: multiplicity * (exact_sum::sum(kinetic) + hub),
-            internal: multiplicity * sums.internal,
-            hourglass: multiplicity * sums.hourglass,
-            contact_stored: 0.0,
-            friction_dissipated: self.ledger.friction,
-            damping_dissipated: self.ledger.damping,
-            contact_damping: self.ledger.contact_damping,
-            external_work: self.ledger.external,
-        };
-        self.ledger.read(&now);
-        now
-    }
-
-    /// Solves a span as one step, or in halves where that fails.
-    fn take(&mut self, span: Span) -> Result<ContactSums, Unsolved> {
-        let Some(mut implicit) = self.implicit.take() else { return Ok(ContactSums::default()) };
-        let solved = implicit.solve(&mut self.system, &mut self.nodes, span);
-        let result = match solved {
-            Ok(solved) => {
-                implicit.effort.solved += 1;
-                self.finish(&mut implicit, span, &solved);
-                let mut contact = solved.contact;
-                if span.cuts > 0 {
-                    // of whole steps alone
-                    contact.steepness = [0.0; 2];
-                }
-                Ok(contact)
-            }
-            Err(unsolved) => {
-                self.nodes.force.fill(Padded::ZERO);
-                Err(unsolved)
-            }
-        };
-        self.implicit = Some(implicit);
-        let unsolved = match result {
-            Ok(contact) => return Ok(contact),
-            Err(unsolved) => unsolved,
-        };
-        if span.cuts == CUTS {
-            return Err(unsolved);
-        }
-        if let Some(implicit) = &mut self.implicit {
-            implicit.effort.cut += 1;
-        }
-        let half = 0.5 * span.dt;
-        self.take(Span { dt: half, cuts: span.cuts + 1, ..span })?;
-        self.take(Span { time: span.time + half, dt: half, cuts: span.cuts + 1 })
-    }
-
-    /// Moves nodes and hub to the end of a solved span, and books the works.
-    fn finish(&mut self, implicit: &mut Implicit, span: Span, solved: &Solved) {
-        let (theta, dt, multiplicity) = (implicit.theta, span.dt, self.system.multiplicity);
-        let (system, nodes) = (&mut self.system, &mut self.nodes);
-        // the mean velocity of the step is all that the stiffness product needs
-        let stiffness = implicit.operator.stiffness_energy(system, &implicit.w);
-        // what a rigid turn changes in the velocities, elements give back: their forces turn on within the step
-        let turns = |hub: HubState| system.hub.as_ref().map(|body| RigidMotion::of(body, hub));
-        let before = system.hub.as_ref().and_then(|hub| turns(hub.state)).unwrap_or_default();
-        let after = turns(solved.hub).unwrap_or_default();
-        let (disk, reference) = (&system.disk, system.solid.reference());
-        let mut inertia = exact_sum::ExactSum::ZERO;
-        let arrays = nodes.displacement.iter_mut().zip(&mut nodes.velocity).zip(&implicit.w);
-        for (n, (((u, v), w), inverse)) in arrays.zip(&nodes.inverse_mass).enumerate() {
-            let mut rigid = [0.0; 4];
-            if disk.contains(&n) {
-                let [old, new] = [before, after].map(|motion| motion.at(reference[n]).0);
-                (0..3).for_each(|i| rigid[i] = new[i] - old[i]);
-            }
-            let mut square = 0.0;
-            for i in 0..3 {
-                let change = (w[i] - v[i]) / theta;
-                square += (change - rigid[i]) * (change - rigid[i]);
-                v[i] = if *inverse > 0.0 { v[i] + change } else { w[i] };
-                u[i] += dt * w[i];
-            }
-            if *inverse > 0.0 {
-                inertia.add(square / inverse);
-            }
-        }
-        let mut work = HubWork::default();
-        let mut lost = (theta - 0.5) * (inertia.value() + dt * dt * stiffness);
-        if let Some(hub) = &mut system.hub {
-            let old = hub.state;
-            work = hub.advance(span.time, dt, &solved.load);
-            hub.state = solved.hub;
-            hub.place([old, hub.state], dt, &mut nodes.displacement, &mut nodes.velocity);
-            lost += hub.kinetic_of_change(old);
-        }
-        let contact = &solved.contact;
-        self.ledger.add(&Works {
-            friction: multiplicity * contact.friction_ahead,
-            damping: multiplicity * (contact.damping_ahead + dt * solved.dissipated + lost),
-            contact_damping: multiplicity * contact.damping_ahead,
-            // the drive acts over the whole step at the velocity of the step
-            external: multiplicity * (2.0 * work.after + dt * solved.given),
-        });
-    }
+    pub(crate) load: Resultant,
+    pub(crate) hub: HubState,
 }

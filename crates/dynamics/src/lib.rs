@@ -1,4 +1,4 @@
-//! Explicit dynamics of the disk on the bar.
+//! Dynamics of an upper body, carried by a hub, that rolls on a lower one.
 //!
 //! Central difference with half-step velocities v^{n-1/2} and lumped mass. A step reads as the
 //! method does: internal force, given forces and quiet ends, contact, then velocity and position of every node in one
@@ -8,17 +8,22 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod central_difference;
+mod check;
 mod dashpots;
+mod diagnosis;
 mod guard;
 mod hub;
 mod implicit;
+mod implicit_step;
 mod ledger;
 mod load;
 mod mesh_move;
 mod nodal_state;
+mod node_sums;
 mod nodes;
 mod paired;
 mod quiet;
+mod ramp;
 mod relax;
 mod rolling;
 mod second_moments;
@@ -29,14 +34,14 @@ mod system;
 mod unsolved;
 mod window;
 
-pub use guard::{
-    Cause, Diagnosis, GuardLimits, Location, LostContact, SHAPE_STEPS, USUAL_HOURGLASS,
-};
-pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical, interpolated, smoothstep};
+pub use diagnosis::{Cause, Diagnosis, Location, USUAL_HOURGLASS};
+pub use guard::{GuardLimits, LostContact, SHAPE_STEPS};
+pub use hub::{DriveReaction, Hub, HubState, Resultant, Spin, Vertical};
 pub use ledger::{Energies, Ledger};
 pub use load::{Fixed, Load};
 pub use mesh_move::Moved;
 pub use quiet::QuietEnd;
+pub use ramp::{interpolated, smoothstep};
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
 pub use rolling::{RollingField, rolling_field};
 pub use sideways::Sideways;

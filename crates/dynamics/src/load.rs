@@ -1,6 +1,6 @@
 //! Given forces and directions in which nodes do not move.
 
-use crate::hub::smoothstep;
+use crate::ramp::smoothstep;
 use mesh::Padded;
 
 /// Forces on nodes that keep their direction, rising together by a smoothstep.

@@ -1,20 +1,20 @@
 //! A mesh that follows the patch.
 //!
-//! The fine zone of either body is a few patches long. The mesh of the bar moves ahead along the bar by a length
-//! of the pattern of its zone when the hub has passed it by half of that; the mesh of the disk turns back against the disk by
-//! the angle of the same length when the disk has turned by half of that. Each node then takes over the motion of the material
+//! The fine zone of either body is a few patches long. The mesh of the lower body moves ahead along it by a length
+//! of the pattern of its zone when the hub has passed it by half of that; the mesh of the upper body turns back against the body by
+//! the angle of the same length when that has turned by half of that. Each node then takes over the motion of the material
 //! where it is now: that of the node that was there, as it is, or what a quadratic fit to the nodes around gives.
 //! Coordinates move with the mesh: the origin goes ahead, and the hub falls back by the same length. What is stored of the
 //! reference configuration, such as masses and gradients, is that of the mesh and stays.
 //!
-//! The disk turns through its mesh. Its motion is the rigid motion of the hub and a rest. The rest is interpolated, by its
+//! The upper body turns through its mesh. Its motion is the rigid motion of the hub and a rest. The rest is interpolated, by its
 //! components along the radius, across, and around the axis. The nodes that interpolate then receive a small rigid motion, so
 //! that the momentum of the rest and its moment are what they were. The rigid motion itself needs no such correction: the
-//! hub balances the disk in either place of the mesh (module `hub`).
+//! hub balances the upper body in either place of the mesh (module `hub`).
 //!
 //! Displacements receive besides what their sources miss of those at rest ([`Missed`](crate::Missed)).
 //!
-//! Material that enters the bar has the motion of its front end. The ledger books what the move brings or takes.
+//! Material that enters the lower body has the motion of its front end. The ledger books what the move brings or takes.
 
 use crate::hub::HubState;
 use crate::load::Fixed;
@@ -47,17 +47,17 @@ impl Simulation {
     pub fn move_window(&mut self) -> Result<Option<Moved>, RestoreError> {
         let Some(hub) = self.system.hub.as_ref().map(|hub| hub.state) else { return Ok(None) };
         let Some(window) = self.window.take() else { return Ok(None) };
-        let turns = hub.angle > 0.5 * window.disk.by;
-        let advances = hub.x > 0.5 * window.bar.by;
+        let turns = hub.angle > 0.5 * window.upper.by;
+        let advances = hub.x > 0.5 * window.lower.by;
         let mut moved = None;
         if turns || advances {
-            let (before, [disk, bar]) = self.present()?;
+            let (before, [upper, lower]) = self.present()?;
             let mut lost = 0;
             if turns {
-                lost += self.turn(&window, disk);
+                lost += self.turn(&window, upper);
             }
             if advances {
-                lost += self.advance(&window, bar);
+                lost += self.advance(&window, lower);
             }
             Fixed::clear(&self.system.fixed, &mut self.nodes.displacement);
             Fixed::clear(&self.system.fixed, &mut self.nodes.velocity);
@@ -69,7 +69,7 @@ impl Simulation {
     }
 
     /// What the energies at the present state have beyond the external work (J), as its step would read them, and the
-    /// forces of contact on disk and bar then (N).
+    /// forces of contact on both bodies then (N).
     fn present(&mut self) -> Result<(f64, [[f64; 3]; 2]), RestoreError> {
         let state = self.snapshot();
         let report = self.step(true);
@@ -90,9 +90,9 @@ impl Simulation {
         self.system.contact.as_mut().map_or(0, |contact| contact.renumber(renumbering))
     }
 
-    /// Moves the mesh of the bar ahead.
+    /// Moves the mesh of the lower body ahead.
     fn advance(&mut self, window: &Window, force: [f64; 3]) -> usize {
-        let MeshMove { nodes, sources, by, missed } = &window.bar;
+        let MeshMove { nodes, sources, by, missed } = &window.lower;
         let missed = missed.under([force[0], force[2], 0.0]);
         let (u, v) = (&mut self.nodes.displacement, &mut self.nodes.velocity);
         let placed = sources.iter().zip(missed);
@@ -106,7 +106,7 @@ impl Simulation {
             self.nodes.displacement[n as usize] = Padded::ZERO;
             self.nodes.velocity[n as usize] = Padded::ZERO;
         }
-        self.nodes.displacement[window.disk.nodes.clone()].iter_mut().for_each(|u| u[0] -= by);
+        self.nodes.displacement[window.upper.nodes.clone()].iter_mut().for_each(|u| u[0] -= by);
         if let Some(hub) = &mut self.system.hub {
             hub.state.x -= by;
         }
@@ -114,11 +114,11 @@ impl Simulation {
         self.renumber(nodes, &window.successors[1])
     }
 
-    /// Turns the mesh of the disk back against the disk.
+    /// Turns the mesh of the upper body back against the body.
     fn turn(&mut self, window: &Window, force: [f64; 3]) -> usize {
-        let MeshMove { nodes, sources, by, missed } = &window.disk;
+        let MeshMove { nodes, sources, by, missed } = &window.upper;
         let Some(hub) = &mut self.system.hub else { return 0 };
-        // at the lowest point of the disk, outward is down
+        // at the lowest point of the upper body, outward is down
         let missed = missed.under([force[0], -force[2], hub.state.omega * hub.state.omega]);
         let reference = self.system.solid.reference();
         let (from, to) = (hub.state, HubState { angle: hub.state.angle - by, ..hub.state });
@@ -127,8 +127,8 @@ impl Simulation {
         let free = |n: usize| self.nodes.inverse_mass[n] > 0.0;
         let mass = &self.system.mass;
         let momentum = |u: &[Padded], v: &[Padded]| {
-            let disk = nodes.clone().filter(|&n| free(n));
-            Momentum::sum(disk.map(|n| {
+            let upper = nodes.clone().filter(|&n| free(n));
+            Momentum::sum(upper.map(|n| {
                 let (arm, rigid) =
                     (to.arm(reference[n], u[n]), to.rigid_velocity(reference[n], u[n]));
                 (mass[n], arm, [v[n][0] - rigid[0], v[n][2] - rigid[1]])
@@ -172,7 +172,7 @@ fn sum(a: Padded, b: Padded) -> Padded {
     Padded::new([0, 1, 2].map(|i| a[i] + b[i]))
 }
 
-/// The hub's rigid motion, which carries the disk.
+/// The hub's rigid motion, which carries the upper body.
 struct Carrier {
     centre: [f64; 3],
     state: HubState,

@@ -3,8 +3,8 @@
 //! They are split into chunks, which threads take in any order; what is summed up over the nodes is summed exactly.
 //! Contact sees the nodes of its surfaces alone, the trace: the loops to it and from it are here too.
 
-use crate::nodes::NodeSums;
-use contact::{Contact, ContactSums, FreeMotion, PenaltyContact, TraceFields, TraceStep};
+use crate::node_sums::NodeSums;
+use contact::{ContactStep, ContactSums, FreeMotion, PenaltyContact, TraceFields, TraceStep};
 use mesh::Padded;
 use rayon::prelude::*;
 
@@ -68,7 +68,7 @@ impl<S: Clone + Default + Send + Sync> NodalState<S> {
     }
 
     /// Shows the nodes of its surfaces, of reference positions `reference` (m) over the mesh, to `contact`.
-    pub(crate) fn trace_of(&mut self, contact: &dyn Contact, reference: &[Padded]) {
+    pub(crate) fn trace_of(&mut self, contact: &dyn ContactStep, reference: &[Padded]) {
         self.trace = Some(TraceFields::new(contact.trace(), reference, &self.inverse_mass));
     }
 
@@ -104,7 +104,7 @@ impl<S: Clone + Default + Send + Sync> NodalState<S> {
     /// gives the velocity (m/s) of a node after the step under a force (N).
     pub(crate) fn add_contact_force(
         &mut self,
-        contact: &mut dyn Contact,
+        contact: &mut dyn ContactStep,
         [time, dt]: [f64; 2],
         free: impl Fn(&TraceNode, [f64; 3]) -> [f64; 3] + Sync,
     ) -> ContactSums {

@@ -3,29 +3,10 @@
 use crate::dashpots::{Dashpots, RigidMotion};
 use crate::hub::Resultant;
 use crate::nodal_state::{Chunk, NodalState, TraceNode};
+use crate::node_sums::NodeSums;
 use mesh::Padded;
 use rayon::prelude::*;
 use solid::Level;
-
-/// What the update sums up over the free nodes.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct NodeSums {
-    /// sum 1/2 m v^{n-1/2} . v^{n+1/2} (J), the kinetic energy that central difference
-    /// conserves; zero unless asked for.
-    pub(crate) kinetic: f64,
-    /// Power that the dashpots dissipate (W).
-    pub(crate) dashpot_power: f64,
-    /// Reaction of the disk's dashpots on the hub; on a straight path force in x and z and moment about y alone.
-    pub(crate) reaction: Resultant,
-}
-
-impl NodeSums {
-    fn add(&mut self, other: &Self) {
-        self.kinetic += other.kinetic;
-        self.dashpot_power += other.dashpot_power;
-        self.reaction.add(&other.reaction);
-    }
-}
 
 /// What an update is told.
 #[derive(Clone, Copy)]
@@ -103,7 +84,7 @@ pub(crate) fn free_velocity(
     let &TraceNode { number, reference, velocity: v, inverse_mass } = node;
     let mut after = [0, 1, 2].map(|i: usize| v[i] + dt * inverse_mass * force[i]);
     if let Some(d) = dashpots.filter(|_| inverse_mass > 0.0) {
-        let motion = if d.disk.contains(&number) { d.motion } else { None }.unwrap_or_default();
+        let motion = if d.upper.contains(&number) { d.motion } else { None }.unwrap_or_default();
         let (rigid, _) = motion.at(reference);
         for i in 0..3 {
             after[i] -= dt * d.alpha * (v[i] - rigid[i]);
@@ -139,7 +120,7 @@ fn undamped<const KINETIC: bool>(nodes: Nodes<'_>, dt: f64) -> NodeSums {
     NodeSums { kinetic: 0.5 * twice_kinetic, ..NodeSums::default() }
 }
 
-/// The same with dashpots; `first` is the number of the first node. The disk's nodes are contiguous,
+/// The same with dashpots; `first` is the number of the first node. The upper body's nodes are contiguous,
 /// so that a chunk falls into at most three runs of one body.
 #[inline(always)]
 fn damped<const KINETIC: bool>(
@@ -151,12 +132,13 @@ fn damped<const KINETIC: bool>(
     let Nodes { u, v, f, inverse_mass } = nodes;
     let mut sums = NodeSums::default();
     let end = first + inverse_mass.len();
-    let [disk_start, disk_end] =
-        [dashpots.disk.start, dashpots.disk.end].map(|n| n.clamp(first, end));
-    let runs = [(first..disk_start, false), (disk_start..disk_end, true), (disk_end..end, false)];
-    for (run, on_disk) in runs {
+    let [upper_start, upper_end] =
+        [dashpots.upper.start, dashpots.upper.end].map(|n| n.clamp(first, end));
+    let runs =
+        [(first..upper_start, false), (upper_start..upper_end, true), (upper_end..end, false)];
+    for (run, on_upper) in runs {
         let local = run.start - first..run.end - first;
-        let motion = if on_disk { dashpots.motion } else { None }.unwrap_or_default();
+        let motion = if on_upper { dashpots.motion } else { None }.unwrap_or_default();
         let nodes = Nodes {
             u: &mut u[local.clone()],
             v: &mut v[local.clone()],
@@ -254,7 +236,7 @@ mod tests {
         let mass: Vec<f64> =
             (0..9001).map(|i| if i % 97 == 0 { 0.0 } else { 1.0 + f64::from(i % 13) }).collect();
         let reference = field(0.4);
-        let dashpots = Dashpots { alpha: 4e3, disk: 100..7000, motion: None };
+        let dashpots = Dashpots { alpha: 4e3, upper: 100..7000, motion: None };
         for dashpots in [None, Some(&dashpots)] {
             for kinetic in [false, true] {
                 let run = |level| {

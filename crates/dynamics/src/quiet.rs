@@ -1,4 +1,4 @@
-//! Lysmer's quiet boundary at the ends of the bar.
+//! Lysmer's quiet boundary at the ends of the lower body.
 
 use crate::load::Fixed;
 use exact_sum::ExactSum;

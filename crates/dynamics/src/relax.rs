@@ -5,8 +5,8 @@
 //! elements equally fast; the damping is the critical one of the slowest mode in motion,
 //! c = 2 sqrt(v.K v/v.M~ v), with K v taken from the change of the force.
 //!
-//! The disk moves relative to the hub, and the hub is a coordinate of its own with a mass that
-//! fits the contact springs: else the slowest mode would be all the disk's fictitious mass, far
+//! The upper body moves relative to the hub, and the hub is a coordinate of its own with a mass that
+//! fits the contact springs: else the slowest mode would be all the upper body's fictitious mass, far
 //! above its true one, rocking on the contact.
 
 use crate::hub::Hub;
@@ -26,15 +26,15 @@ pub struct Relaxation<'a> {
     pub load: f64,
     /// Nodes that stay where they are.
     pub held: &'a [u32],
-    /// Nodes of the disk.
-    pub disk: std::ops::Range<usize>,
-    /// Angular velocity whose centrifugal force acts on the disk (rad/s).
+    /// Nodes of the upper body.
+    pub upper: std::ops::Range<usize>,
+    /// Angular velocity whose centrifugal force acts on the upper body (rad/s).
     pub omega: f64,
     /// True lumped masses (kg).
     pub mass: &'a [f64],
     /// Largest eigenvalue of the element stiffnesses summed at each node (N/m).
     pub stiffness: &'a [f64],
-    /// Displacement of the disk in z at the start (m), negative where it is pressed down.
+    /// Displacement of the upper body in z at the start (m), negative where it is pressed down.
     pub start: f64,
     /// Kinetic over internal energy at convergence; the force balance is held to its square root.
     pub tolerance: f64,
@@ -51,7 +51,7 @@ pub struct RelaxationReport {
     pub kinetic_ratio: f64,
     /// Contact normal force (N).
     pub normal_force: f64,
-    /// |load, contact and centrifugal force on hub and disk together|/load.
+    /// |load, contact and centrifugal force on hub and upper body together|/load.
     pub force_error: f64,
     /// Displacement of the hub in z (m).
     pub hub: f64,
@@ -90,13 +90,13 @@ const CHECK: usize = 20;
 const NODE_SHARE: f64 = 0.3;
 const HUB_SHARE: f64 = 2.0;
 
-/// Acceleration of a hub whose disk does not touch yet (m per iteration squared).
+/// Acceleration of a hub whose body does not touch yet (m per iteration squared).
 const FALL: f64 = 1e-6;
 
 /// Largest growth of the estimated slowest frequency from one check to the next.
 const RISE: f64 = 1.005;
 
-/// Relaxes from the undeformed state, the disk moved by `setup.start`; returns the displacements.
+/// Relaxes from the undeformed state, the upper body moved by `setup.start`; returns the displacements.
 ///
 /// `observe` sees a report every few iterations and returns false to stop.
 pub fn relax(
@@ -129,10 +129,10 @@ pub fn relax(
                 node.mass = NODE_SHARE * (setup.stiffness[i] + contact_bound[i]);
             }
             // Until bodies touch, the load moves the hub by FALL per iteration squared.
-            spring = f64::max(spring, contact_stiffness(contact, &setup.disk, n));
+            spring = f64::max(spring, contact_stiffness(contact, &setup.upper, n));
             hub.mass = if spring > 0.0 { HUB_SHARE * spring } else { setup.load / FALL };
         }
-        // The disk's internal forces cancel: what moves the hub is load, contact and spin.
+        // The upper body's internal forces cancel: what moves the hub is load, contact and spin.
         let hub_force = touching.force[0][2] + pull - setup.load;
         let mut motion = Quotient {
             stiffness: hub.v * (hub.force_before - hub_force),
@@ -144,7 +144,7 @@ pub fn relax(
         hub.v = damped.keep * hub.v + damped.kick * hub_force / hub.mass;
         hub.z += hub.v;
         hub.force_before = hub_force;
-        advance(&mut nodes, &mut fictitious, damped, &setup.disk, hub.v);
+        advance(&mut nodes, &mut fictitious, damped, &setup.upper, hub.v);
         motion.stiffness += nodes.sum(|p| p.stiffness);
         motion.mass += nodes.sum(|p| p.mass);
         if check {
@@ -206,17 +206,17 @@ struct Damped {
     kick: f64,
 }
 
-/// The `n` nodes at rest relative to the hub, the disk moved by the start.
+/// The `n` nodes at rest relative to the hub, the upper body moved by the start.
 fn nodes_at_start(setup: &Relaxation<'_>, n: usize) -> NodalState<Quotient> {
     let mut u = vec![Padded::ZERO; n];
-    u[setup.disk.clone()].iter_mut().for_each(|u| u.0[2] = setup.start);
+    u[setup.upper.clone()].iter_mut().for_each(|u| u.0[2] = setup.start);
     let mut inverse_mass: Vec<f64> = setup.mass[..n].iter().map(|m| 1.0 / m).collect();
     let still = setup.held.iter().chain(&setup.hub.nodes);
     still.for_each(|&i| inverse_mass[i as usize] = 0.0);
     NodalState::new(u, vec![Padded::ZERO; n], inverse_mass)
 }
 
-/// Sets the forces to the centrifugal force of the disk's masses and to zero elsewhere (N); returns
+/// Sets the forces to the centrifugal force of the upper body's masses and to zero elsewhere (N); returns
 /// its resultant in z, that of the counterweight with it.
 fn centrifugal(
     nodes: &mut NodalState<Quotient>,
@@ -230,7 +230,7 @@ fn centrifugal(
         sums.pull = 0.0;
         for (i, (f, u)) in (first..).zip(f.iter_mut().zip(u)) {
             *f = Padded::ZERO;
-            if setup.disk.contains(&i) {
+            if setup.upper.contains(&i) {
                 *f = spin.force(setup.mass[i], reference[i], *u);
                 sums.pull += f.0[2];
             }
@@ -239,12 +239,12 @@ fn centrifugal(
     setup.omega * setup.omega * setup.hub.counterweight[1] + nodes.sum(|p| p.pull)
 }
 
-/// One damped step of all nodes; the disk moves with the hub by `shift` besides.
+/// One damped step of all nodes; the upper body moves with the hub by `shift` besides.
 fn advance(
     nodes: &mut NodalState<Quotient>,
     fictitious: &mut [Fictitious],
     damped: Damped,
-    disk: &std::ops::Range<usize>,
+    upper: &std::ops::Range<usize>,
     shift: f64,
 ) {
     let Damped { keep, kick } = damped;
@@ -265,20 +265,20 @@ fn advance(
                     u.0[k] += v.0[k];
                 }
             }
-            if disk.contains(&i) {
+            if upper.contains(&i) {
                 u.0[2] += shift;
             }
         }
     });
 }
 
-/// Stiffness (N/m) of the closed contact against moving the disk as a whole in z.
-fn contact_stiffness(contact: &PenaltyContact, disk: &std::ops::Range<usize>, n: usize) -> f64 {
+/// Stiffness (N/m) of the closed contact against moving the upper body as a whole in z.
+fn contact_stiffness(contact: &PenaltyContact, upper: &std::ops::Range<usize>, n: usize) -> f64 {
     let mut lift = vec![Padded::ZERO; n];
-    lift[disk.clone()].fill(Padded::new([0.0, 0.0, 1.0]));
+    lift[upper.clone()].fill(Padded::new([0.0, 0.0, 1.0]));
     let mut force = vec![Padded::ZERO; n];
     contact.stiffness_product(&lift, &mut force);
-    exact_sum::sum(force[disk.clone()].iter().map(|f| f.0[2]))
+    exact_sum::sum(force[upper.clone()].iter().map(|f| f.0[2]))
 }
 
 /// The hub's vertical motion in fictitious time.

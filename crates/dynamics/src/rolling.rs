@@ -5,9 +5,9 @@ use mesh::{Mesh, Padded};
 /// What the rolling velocity field needs to know.
 #[derive(Clone, Copy, Debug)]
 pub struct RollingField {
-    /// Index of the disk among the bodies.
-    pub disk: usize,
-    /// Centre of the disk in the reference configuration (m).
+    /// Index of the upper body among the bodies.
+    pub upper: usize,
+    /// Centre of the upper body in the reference configuration (m).
     pub centre: [f64; 3],
     /// Speed in x (m/s).
     pub speed: f64,
@@ -21,9 +21,9 @@ pub struct RollingField {
 /// the contact while material flows through it.
 ///
 /// With Y the rigidly moving reference position and the preload displacement u fixed in the frame
-/// that travels with the hub, x = Y + u(Y): the disk moves with v = V + (I + grad u) omega x Y
-/// and the bar, which flows backwards through its pattern, with v = -V du/dx. The half step back
-/// takes off the centripetal acceleration of the disk.
+/// that travels with the hub, x = Y + u(Y): the upper body moves with v = V + (I + grad u) omega x Y
+/// and the lower body, which flows backwards through its pattern, with v = -V du/dx. The half step back
+/// takes off the centripetal acceleration of the upper body.
 pub fn rolling_field(mesh: &Mesh, displacement: &[Padded], field: &RollingField) -> Vec<Padded> {
     let gradients = solid::nodal_gradients(mesh, displacement);
     let mut velocity = vec![Padded::ZERO; mesh.nodes.len()];
@@ -31,16 +31,16 @@ pub fn rolling_field(mesh: &Mesh, displacement: &[Padded], field: &RollingField)
         for n in body.nodes.clone() {
             let h = &gradients[n];
             let (x, z) = (mesh.nodes[n][0] - field.centre[0], mesh.nodes[n][2] - field.centre[2]);
-            let carrier = if index == field.disk {
+            let carrier = if index == field.upper {
                 [field.omega * z, 0.0, -field.omega * x]
             } else {
                 [-field.speed, 0.0, 0.0]
             };
             for i in 0..3 {
                 let flow: f64 = (0..3).map(|j| h[i][j] * carrier[j]).sum();
-                velocity[n].0[i] = flow + if index == field.disk { carrier[i] } else { 0.0 };
+                velocity[n].0[i] = flow + if index == field.upper { carrier[i] } else { 0.0 };
             }
-            if index == field.disk {
+            if index == field.upper {
                 velocity[n].0[0] += field.speed;
                 let back = 0.5 * field.dt * field.omega * field.omega;
                 velocity[n].0[0] += back * x;

@@ -127,7 +127,7 @@ impl Simulation {
     /// half step. Of the last part of an implicit step that was cut. Of implicit steps they are no part of the state: zero until this simulation
     /// takes one.
     pub fn step_velocity(&self) -> &[Padded] {
-        self.implicit.as_ref().map_or(&self.nodes.velocity, |implicit| implicit.step_velocity())
+        self.implicit.as_ref().map_or(&self.nodes.velocity, |implicit| &implicit.w)
     }
 
     /// Velocities at the half step before the present (m/s); with implicit steps at the present.

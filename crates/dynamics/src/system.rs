@@ -8,7 +8,7 @@ use crate::load::{Fixed, Load};
 use crate::nodal_state::{NodalState, TraceNode};
 use crate::paired;
 use crate::quiet::{QuietEnd, QuietWork};
-use contact::{Contact, ContactSums};
+use contact::{ContactSums, Method};
 use mesh::Padded;
 use solid::{ForceSums, Solid};
 use std::time::{Duration, Instant};
@@ -18,7 +18,7 @@ pub struct System {
     /// The elements.
     pub solid: Solid,
     /// The contact of the two bodies; none for a free body.
-    pub contact: Option<Box<dyn Contact>>,
+    pub contact: Option<Method>,
     /// The hub; none for a free body.
     pub hub: Option<Hub>,
     /// The quiet ends; empty for none.
@@ -32,8 +32,10 @@ pub struct System {
     pub paired: Vec<[u32; 2]>,
     /// Given forces; empty for none.
     pub load: Load,
-    /// Nodes of the disk, whose rigid motion is the hub's.
-    pub disk: std::ops::Range<usize>,
+    /// What the upper and the lower body are called where the guards speak of them.
+    pub names: [&'static str; 2],
+    /// Nodes of the upper body, whose rigid motion is the hub's.
+    pub upper: std::ops::Range<usize>,
     /// Lumped masses (kg).
     pub mass: Vec<f64>,
     /// Mass-proportional damping relative to the rigid motion (1/s).
@@ -55,7 +57,8 @@ impl System {
             fixed: Vec::new(),
             paired: Vec::new(),
             load: Load::default(),
-            disk: 0..0,
+            names: ["upper body", "lower body"],
+            upper: 0..0,
             mass,
             mass_damping: 0.0,
             multiplicity: 1.0,
@@ -144,7 +147,7 @@ impl System {
     pub(crate) fn dashpots(&self) -> Option<Dashpots> {
         (self.mass_damping > 0.0).then(|| Dashpots {
             alpha: self.mass_damping,
-            disk: self.disk.clone(),
+            upper: self.upper.clone(),
             motion: self.hub.as_ref().map(RigidMotion::new),
         })
     }
@@ -153,8 +156,8 @@ impl System {
     /// (N), for small `x` (m).
     pub(crate) fn add_tangent_product(&mut self, x: &[Padded], y: &mut [Padded]) {
         self.solid.add_stiffness_product(x, y);
-        if let Some(contact) = &self.contact {
-            contact.add_stiffness_product(x, y);
+        if let Some(Method::Penalty(springs)) = &self.contact {
+            springs.stiffness_product(x, y);
         }
     }
 }

@@ -118,8 +118,8 @@ fn a_slender_bar_carries_waves_at_sqrt_e_over_rho() {
         }
     }
     let mut simulation = Simulation::new(setup);
-    let bar = (STEEL.young / STEEL.density).sqrt();
-    while simulation.time() < 0.6 * n as f64 * h / bar {
+    let rod = (STEEL.young / STEEL.density).sqrt();
+    while simulation.time() < 0.6 * n as f64 * h / rod {
         simulation.step(false);
     }
     // Dispersion blurs the front but not the momentum behind it: p = rho A c t v0.
@@ -128,15 +128,15 @@ fn a_slender_bar_carries_waves_at_sqrt_e_over_rho() {
         .map(|i| simulation.velocity()[i].0[0])
         .sum();
     let speed = sum * h / 4.0 / (v0 * simulation.time());
-    assert!((speed / bar - 1.0).abs() < 0.01, "{speed} against {bar}");
+    assert!((speed / rod - 1.0).abs() < 0.01, "{speed} against {rod}");
 }
 
 #[test]
 fn quiet_ends_swallow_a_longitudinal_wave_within_one_percent_of_its_amplitude() {
     let (n, h) = (160, 1e-3);
     let mut mesh = mesh::block([n, 1, 1], [n as f64 * h, h, h]);
-    mesh.bodies[0].name = "bar".into();
-    // nu = 0: the bar wave is the confined wave, for which the dashpot is exact
+    mesh.bodies[0].name = "rod".into();
+    // nu = 0: the wave of a rod is the confined wave, for which the dashpot is exact
     let material = Material { poisson: 0.0, ..STEEL };
     let end = mesh.bodies[0].surfaces["x+"].clone();
     let mut setup =
@@ -262,7 +262,7 @@ fn carried() -> Simulation {
     );
     hub.state.vx = 10.0;
     setup.system.hub = Some(hub);
-    setup.system.disk = 0..mesh.nodes.len();
+    setup.system.upper = 0..mesh.nodes.len();
     Simulation::new(setup)
 }
 
@@ -277,7 +277,7 @@ fn a_hub_whose_centre_of_mass_lies_off_its_axis_keeps_momentum_and_energy() {
         (hub.state.vx, hub.state.omega) = (3.0, 1e4);
         let total: f64 = mass.iter().sum();
         setup.system.hub = Some(hub);
-        setup.system.disk = 0..mesh.nodes.len();
+        setup.system.upper = 0..mesh.nodes.len();
         let mass = setup.system.mass.clone();
         let mut simulation = Simulation::new(setup);
         let momentum = |simulation: &Simulation| -> f64 {
@@ -335,7 +335,7 @@ fn moves_of_the_mesh_that_bring_as_much_energy_as_is_exchanged_stop_the_run() {
 }
 
 #[test]
-fn the_end_of_the_bar_stops_a_hub_that_passes_it() {
+fn the_end_of_the_track_stops_a_hub_that_passes_it() {
     let mut simulation = carried();
     simulation.set_limits(GuardLimits { track: [0.0, 2.1e-3], ..GuardLimits::default() });
     let found = (0..1000).find_map(|n| {
@@ -343,11 +343,14 @@ fn the_end_of_the_bar_stops_a_hub_that_passes_it() {
         simulation.check(&report)
     });
     let found = found.unwrap();
-    assert!(matches!(found.cause, Cause::EndOfBar { end: 2.1e-3, .. }), "{found}");
+    assert!(matches!(found.cause, Cause::EndOfTrack { end: 2.1e-3, .. }), "{found}");
     // ten steps are read at a time
     let passed = 0.1e-3 / 10.0;
     assert!((found.time - passed).abs() <= 11.0 * simulation.dt(), "{} {passed}", found.time);
-    assert!(found.to_string().contains("end of the bar"), "{found}");
+    assert!(
+        found.to_string().contains("the upper body has reached the end of the lower body"),
+        "{found}"
+    );
 }
 
 #[test]

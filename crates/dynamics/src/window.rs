@@ -11,7 +11,7 @@ pub struct MeshMove {
     pub nodes: Range<usize>,
     /// Where each of them finds its motion.
     pub sources: Vec<Source>,
-    /// How far the mesh moves: along the bar (m), or about the axis of the disk (rad).
+    /// How far the mesh moves: along the lower body (m), or about the axis of the upper body (rad).
     pub by: f64,
     /// What the sources miss of the displacements.
     pub missed: Missed,
@@ -62,17 +62,17 @@ impl MeshMove {
 /// The moves of a mesh that follows the patch.
 #[derive(Clone, Debug)]
 pub struct Window {
-    pub(crate) disk: MeshMove,
-    pub(crate) bar: MeshMove,
-    /// The successors of the nodes of the disk and of the bar.
+    pub(crate) upper: MeshMove,
+    pub(crate) lower: MeshMove,
+    /// The successors of the nodes of both bodies.
     pub(crate) successors: [Vec<Option<u32>>; 2],
 }
 
 impl Window {
-    /// The moves of disk and bar.
-    pub fn new(disk: MeshMove, bar: MeshMove) -> Self {
-        let successors = [&disk, &bar].map(MeshMove::successors);
-        Self { disk, bar, successors }
+    /// The moves of both bodies.
+    pub fn new(upper: MeshMove, lower: MeshMove) -> Self {
+        let successors = [&upper, &lower].map(MeshMove::successors);
+        Self { upper, lower, successors }
     }
 }
 
@@ -81,6 +81,6 @@ impl Window {
 pub struct Travel {
     /// The origin of the coordinates along x, from where it was at the start (m).
     pub x: f64,
-    /// The mesh of the disk against the disk (rad).
+    /// The mesh of the upper body against the body (rad).
     pub angle: f64,
 }

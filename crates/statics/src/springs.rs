@@ -1,7 +1,7 @@
 //! The normal springs of penalty contact in equilibrium: their forces, and their part of the tangent.
 
 use crate::link::Link;
-use contact::{Contact, PenaltyContact};
+use contact::{ContactStep, PenaltyContact};
 use mesh::Padded;
 
 /// What the normal springs did.

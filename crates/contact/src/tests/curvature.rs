@@ -4,7 +4,7 @@ use crate::plates::{STEEL, plate, tread};
 use crate::search::Listed;
 use crate::surface::ContactSurface;
 use crate::vector::{Vec3, norm, sub};
-use crate::{Contact, PenaltySettings};
+use crate::{ContactStep, PenaltySettings};
 use friction::Coulomb;
 use mesh::Padded;
 

@@ -1,7 +1,7 @@
 use super::step_on_trace;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
-use crate::{Contact, ContactSums, ExactContact, ExactSettings, NodalContact, Normals, Rows};
+use crate::{ContactSums, ContactTables, ExactContact, ExactSettings, NodalContact, Normals, Rows};
 use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
 

@@ -1,7 +1,7 @@
 use super::{K, Rig, SETTINGS};
 use crate::search::Listed;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
-use crate::{Contact, PenaltySettings, Stiffness};
+use crate::{ContactTables, PenaltySettings, Stiffness};
 use friction::{
     Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeConditions, NodeFriction, Remembering,
 };
@@ -108,7 +108,7 @@ fn part_of_the_surface_has_the_values_of_the_whole() {
     let mut whole = rig.contact.nodal_table(0);
     rig.contact.nodal(&mut whole);
     let face = mesh::Face { nodes: [whole.nodes[8], whole.nodes[9], whole.nodes[3], 9999], hex: 0 };
-    let mut part = Contact::nodal_table_of(&rig.contact, 0, &[face]);
+    let mut part = ContactTables::nodal_table_of(&rig.contact, 0, &[face]);
     rig.contact.nodal(&mut part);
     assert_eq!(part.nodes, [whole.nodes[3], whole.nodes[8], whole.nodes[9]]);
     for (row, i) in [3, 8, 9].into_iter().enumerate() {

@@ -17,7 +17,7 @@ use crate::run::means::Means;
 use crate::run::mesh_mode::WatchedFaces;
 use crate::run::probes::Probes;
 use crate::scenario::{BAR, DISK, Model};
-use ::contact::{Contact, NodalContact};
+use ::contact::{ContactTables, NodalContact};
 use dynamics::{Hub, Simulation, StepReport, Travel};
 use mesh::Padded;
 use output::layout::{BODIES, BodyFields, Pairing, file};
@@ -264,7 +264,7 @@ impl Recorder {
 pub(crate) fn result_files(
     case: &Case,
     model: &Model,
-    contact: &dyn Contact,
+    contact: &dyn ContactTables,
     basis: &RecordBasis<'_>,
 ) -> Result<RunFiles, RunError> {
     let tables = tables(model, contact);
@@ -275,14 +275,14 @@ pub(crate) fn result_files(
 }
 
 /// Tables of the nodes of both fine zones.
-fn tables(model: &Model, contact: &dyn Contact) -> [NodalContact; 2] {
+fn tables(model: &Model, contact: &dyn ContactTables) -> [NodalContact; 2] {
     [DISK, BAR].map(|side| contact.nodal_table_of(side, &model.zones[side]))
 }
 
 fn watched(
     case: &Case,
     model: &Model,
-    contact: &dyn Contact,
+    contact: &dyn ContactTables,
     tables: &[NodalContact; 2],
     basis: &RecordBasis<'_>,
 ) -> Result<WatchedFaces, RunError> {
@@ -291,7 +291,7 @@ fn watched(
 
 fn surfaces<'a>(
     model: &Model,
-    contact: &dyn Contact,
+    contact: &dyn ContactTables,
     tables: [NodalContact; 2],
     mesh_mode: &'a WatchedFaces,
 ) -> Surfaces<'a> {

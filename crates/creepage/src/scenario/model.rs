@@ -5,7 +5,7 @@ use crate::case::friction_law;
 use crate::case::schema::{Case, Enforcement};
 use crate::scenario::error::ScenarioError;
 use contact::{
-    BodyMaterial, Contact, ExactContact, ExactSettings, GapFunction, PenaltyContact,
+    BodyMaterial, ExactContact, ExactSettings, GapFunction, Method, PenaltyContact,
     PenaltySettings, StabilityScale,
 };
 use friction::OwnLaw;
@@ -155,12 +155,12 @@ impl Model {
     ///
     /// # Errors
     /// As those of [`Model::penalty_contact`].
-    pub fn contact_nodes(&self, case: &Case) -> Result<Box<dyn Contact>, ScenarioError> {
+    pub fn contact_nodes(&self, case: &Case) -> Result<Method, ScenarioError> {
         Ok(match case.contact.enforcement {
-            Enforcement::Exact => Box::new(self.exact_contact(case)?),
+            Enforcement::Exact => self.exact_contact(case)?.into(),
             Enforcement::Penalty => {
                 let any = StabilityScale { omega_elastic: 1.0, dt: 1.0 };
-                Box::new(self.penalty_contact(case, any)?)
+                self.penalty_contact(case, any)?.into()
             }
         })
     }

@@ -346,7 +346,7 @@ impl Remedy for Cause {
             Self::MeshMoves { .. } => remedy!(
                 "lengthen mesh.window, or lower mesh.zone.size; without mesh.window the zone stays"
             ),
-            Self::EndOfBar { .. } => {
+            Self::EndOfTrack { .. } => {
                 remedy!("roll less (time.roll), or lengthen the bar (bar.length)")
             }
         }

@@ -96,7 +96,7 @@ fn causes() -> Vec<Cause> {
         NotFinite {} Unsolved { 0: unsolved } Friction { mu: 9.0, limit: 5.0, slip_speed: 0.0, pressure: 0.0 }
         Inverted { volume_ratio: -1.0 } Hourglass { share: 1.0, limit: 0.5, coefficient: 0.05 }
         Penetration { depth: 1.0, limit: 0.5, force: 1.0 } ContactLost { since: 0.0, limit: 1.0 }
-        MeshMoves { energy: 1.0 } EndOfBar { hub: 1.0, end: 0.5 });
+        MeshMoves { energy: 1.0 } EndOfTrack { hub: 1.0, end: 0.5 });
     others.into_iter().chain([weak]).collect()
 }
 

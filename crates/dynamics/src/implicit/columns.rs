@@ -24,7 +24,7 @@ pub(crate) struct Columns {
     pub(crate) counted: BTreeSet<u32>,
 }
 
-/// The nodes of the trace in rows along the surface: of the bar along x, of a disk around its axle.
+/// The nodes of the trace in rows along the surface: of the lower body along x, of a body on a hub around its axle.
 #[derive(Debug)]
 pub(crate) struct Rows {
     /// Of each node: its row, its place in it.
@@ -41,7 +41,7 @@ const SAME: f64 = 1e-6;
 const ALIKE: f64 = 0.02;
 
 impl Rows {
-    /// Of the `trace` of a mesh with reference positions `reference` (m); with the centre of a disk, if side 0 is one (m).
+    /// Of the `trace` of a mesh with reference positions `reference` (m); with the centre of the hub that side 0 turns about, if there is one (m).
     pub(crate) fn new(trace: &Trace, reference: &[Padded], centre: Option<[f64; 3]>) -> Self {
         let positions = trace.gather(reference);
         let around = |node: usize| centre.filter(|_| node < trace.side(0).len());
@@ -141,7 +141,7 @@ impl Columns {
         if self.counted.insert(node) { products } else { 0 }
     }
 
-    /// The velocity of `node` under unit forces on `loaded`, of the same side, by the column of `source`; that of the disk
+    /// The velocity of `node` under unit forces on `loaded`, of the same side, by the column of `source`; that of the upper body
     /// turned by `angle` (rad).
     pub(crate) fn block(
         &self,

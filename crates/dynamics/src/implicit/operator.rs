@@ -1,6 +1,6 @@
 //! The matrix of an implicit step, `A = M/(theta dt) + C + (theta dt + eta) K`, as a product, and conjugate gradients with it.
 //!
-//! K is the stiffness of the undeformed state, that of the disk turned with the hub, by the products of the element kernels; C are the
+//! K is the stiffness of the undeformed state, that of the upper body turned with the hub, by the products of the element kernels; C are the
 //! dashpots of quiet ends and of mass-proportional damping, eta is the Kelvin–Voigt time. Unknowns are the velocities of the free nodes and the velocity
 //! of the hub along z and about its axle, where forces decide on them.
 
@@ -77,7 +77,7 @@ pub(crate) struct Frame {
     pub(crate) lead: f64,
     /// Time step (s), which the hub's mass goes with.
     pub(crate) dt: f64,
-    /// Angle that the disk has turned (rad).
+    /// Angle that the upper body has turned (rad).
     pub(crate) angle: f64,
     /// Whether the hub moves; else its nodes are held.
     pub(crate) with_hub: bool,
@@ -191,7 +191,7 @@ impl Operator {
 
     /// `y = K x` with `x` small enough by the factor `small`, both over all nodes; in `answer`.
     fn stiffness_product(&mut self, system: &mut System, x: &[Padded], small: f64) {
-        let disk = system.disk.clone();
+        let upper = system.upper.clone();
         let (sin, cos) = libm::sincos(self.frame.angle);
         let turned = &mut self.turned;
         turned.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(to, x)| {
@@ -201,7 +201,7 @@ impl Operator {
         });
         if sin != 0.0 {
             // back by the turn about +y
-            for x in &mut turned[disk.clone()] {
+            for x in &mut turned[upper.clone()] {
                 (x[0], x[2]) = (cos * x[0] - sin * x[2], cos * x[2] + sin * x[0]);
             }
         }
@@ -214,7 +214,7 @@ impl Operator {
             }
         });
         if sin != 0.0 {
-            for y in &mut self.answer[disk] {
+            for y in &mut self.answer[upper] {
                 (y[0], y[2]) = (cos * y[0] + sin * y[2], cos * y[2] - sin * y[0]);
             }
         }

@@ -9,7 +9,7 @@ use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
 use crate::unsolved::Unsolved;
-use contact::{ContactSums, Corrected};
+use contact::{ContactSums, Corrected, Method};
 use mesh::Padded;
 
 /// A step is solved where the residual over the forces, and the change of contact forces over the largest, are below this.
@@ -19,12 +19,12 @@ const LINEAR: f64 = 1e-2;
 const MOST_ITERATIONS: usize = 80;
 const MOST_PRODUCTS: usize = 4000;
 
-/// Side 0 of contact is the disk, which turns.
-const DISK: usize = 0;
+/// Side 0 of contact is the upper body, which turns.
+const UPPER: usize = 0;
 
 impl Implicit {
     /// Solves a span as one step. Changes neither displacements nor velocities; where it fails, contact is as it was.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         system: &mut System,
         nodes: &mut NodalState,
@@ -75,7 +75,7 @@ impl Implicit {
             (0..2).for_each(|i| unknown[i] += self.correction.hub[i]);
             corrected = self.correct_contact(system, nodes, span);
         }
-        if let Some(contact) = system.contact.as_mut().and_then(|contact| contact.exact_mut()) {
+        if let Some(Method::Exact(contact)) = &mut system.contact {
             contact.reject_implicit();
         }
         Err(at)
@@ -97,7 +97,7 @@ impl Implicit {
         fields.gather_velocities(&nodes.velocity);
         let motion = fields.motion(time, dt);
         contact.follow(&motion);
-        if let Some(exact) = contact.exact_mut() {
+        if let Method::Exact(exact) = &mut contact {
             exact.begin_implicit(&motion, &system.paired);
             let (columns, rows) = (&mut self.columns[cuts], &self.rows);
             let mut borne: Vec<u32> = exact.borne_by().collect();
@@ -113,10 +113,10 @@ impl Implicit {
             }
             let turned = system.hub.is_some();
             let compliance = |node: u32, loaded: u32| {
-                let on_disk = turned && side_of(fields.trace(), loaded) == DISK;
+                let on_upper = turned && side_of(fields.trace(), loaded) == UPPER;
                 let at = borne.binary_search(&loaded).unwrap_or_default();
                 let nodes = [node, loaded, sources[at]];
-                columns.block(fields.trace(), rows, nodes, on_disk.then_some(frame.angle))
+                columns.block(fields.trace(), rows, nodes, on_upper.then_some(frame.angle))
             };
             exact.set_compliance(&compliance);
         }
@@ -130,8 +130,8 @@ impl Implicit {
         nodes: &mut NodalState,
         Span { time, dt, .. }: Span,
     ) -> Corrected {
-        let exact = system.contact.as_mut().and_then(|contact| contact.exact_mut());
-        let (Some(exact), Some(fields)) = (exact, &mut nodes.trace) else {
+        let (Some(Method::Exact(exact)), Some(fields)) = (&mut system.contact, &mut nodes.trace)
+        else {
             return Corrected::default();
         };
         fields.gather_velocities(&self.w);
@@ -145,12 +145,13 @@ impl Implicit {
         nodes: &mut NodalState,
         Span { time, dt, .. }: Span,
     ) -> ContactSums {
-        let Some(contact) = &mut system.contact else { return ContactSums::default() };
-        let Some(fields) = &mut nodes.trace else { return ContactSums::default() };
+        let (Some(Method::Exact(exact)), Some(fields)) = (&mut system.contact, &mut nodes.trace)
+        else {
+            return ContactSums::default();
+        };
         fields.gather_velocities(&self.w);
         fields.clear_forces();
         let step = fields.step(time, dt);
-        let Some(exact) = contact.exact_mut() else { return ContactSums::default() };
         exact.end_implicit(&step.motion, &system.paired, step.force)
     }
 
@@ -179,7 +180,7 @@ impl Implicit {
         solved.given = system.load.power(at, &self.w);
         solved.given += system.quiet.add_reactions(&self.w, force);
         if let Some(fields) = &mut nodes.trace
-            && let Some(exact) = system.contact.as_mut().and_then(|contact| contact.exact_mut())
+            && let Some(Method::Exact(exact)) = &mut system.contact
         {
             // contact loads the first nodes of pairs
             paired::share(&system.paired, force);
@@ -220,8 +221,9 @@ impl Implicit {
                 continue;
             }
             let (w, v) = (self.w[n], nodes.velocity[n]);
-            let on_disk = alpha > 0.0 && system.disk.contains(&n);
-            let (rigid, arm) = if on_disk { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
+            let on_upper = alpha > 0.0 && system.upper.contains(&n);
+            let (rigid, arm) =
+                if on_upper { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
             let mut pull = [0.0; 3];
             for i in 0..3 {
                 // the dashpot of mass damping is relative to the rigid motion, that of a quiet end to the ground
@@ -233,7 +235,7 @@ impl Implicit {
                 power.add(dashpot * (w[i] - rigid[i]));
                 pull[i] = dashpot;
             }
-            if on_disk {
+            if on_upper {
                 let moment = [
                     arm[1] * pull[2] - arm[2] * pull[1],
                     arm[2] * pull[0] - arm[0] * pull[2],

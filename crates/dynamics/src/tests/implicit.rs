@@ -83,7 +83,7 @@ fn cubes(mu: f64) -> Result<(Mesh, Setup), ContactError> {
     let below = |node: &usize| mesh.nodes[*node][2] < -1.9e-3;
     let held = (0..n).filter(below).map(|node| node as u32).collect();
     let system = crate::System {
-        contact: Some(Box::new(contact)),
+        contact: Some(contact.into()),
         held,
         load: crate::Load { ramp: 2e-5, ..weight },
         ..crate::System::free(solid, mass)
@@ -170,7 +170,7 @@ fn the_load_on_a_hub_reaches_the_ground_through_long_steps() {
     let hub =
         Hub::new([1e-3, 1e-3, 4e-3], &top, reference, mass, 1e-3, spin, Vertical::Load(100.0));
     setup.system.hub = Some(hub);
-    setup.system.disk = 0..mesh.nodes.len();
+    setup.system.upper = 0..mesh.nodes.len();
     setup.system.fixed = (0..mesh.nodes.len() as u32)
         .map(|node| Fixed { node, axes: [false, true, false] })
         .collect();

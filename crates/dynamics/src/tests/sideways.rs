@@ -20,7 +20,7 @@ fn setup(mesh: &Mesh, nodes: &[u32], spin: Spin, vertical: Vertical, sideways: S
     hub.sideways = Some(sideways);
     (hub.state.vx, hub.state.omega) = (sideways.speed, 1e4);
     setup.system.hub = Some(hub);
-    setup.system.disk = 0..mesh.nodes.len();
+    setup.system.upper = 0..mesh.nodes.len();
     setup
 }
 
@@ -107,7 +107,7 @@ fn an_elastic_body_on_a_hub_that_turns_keeps_its_balance_of_energy_with_dashpots
 }
 
 #[test]
-fn the_disk_slips_over_the_bar_by_minus_spin_y_and_spin_x_and_the_drift() {
+fn the_upper_body_slips_over_the_lower_by_minus_spin_y_and_spin_x_and_the_drift() {
     let mesh = cube();
     let (speed, spin, lateral_creepage) = (30.0, 0.3, 2e-3);
     let sideways = Sideways { speed, lateral_creepage, spin, ramp: 0.0, behind: 0.0 };
@@ -153,7 +153,7 @@ fn the_hub_follows_an_arc_and_the_patch_behind_it_keeps_its_speed() {
     let arc = [libm::sin(heading) / spin, (1.0 - libm::cos(heading)) / spin];
     assert!((state.x - arc[0]).abs() < 1e-6 / spin && (state.y - arc[1]).abs() < 1e-6 / spin);
     let (state, _) = ends[1];
-    // of the patch, which is where the disk was before it drifted
+    // of the patch, which is where the upper body was before it drifted
     let speed_there = state.vx * libm::cos(state.heading)
         + state.vy * libm::sin(state.heading)
         + state.turning * state.y;

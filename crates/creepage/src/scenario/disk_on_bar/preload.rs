@@ -152,7 +152,7 @@ impl Bodies<'_> {
             hub: self.hub,
             load: case.load.normal,
             held: self.held,
-            disk: model.mesh.bodies[DISK].nodes.clone(),
+            upper: model.mesh.bodies[DISK].nodes.clone(),
             omega: rolling_omega(case),
             mass: &model.mass,
             stiffness: &stiffness,

@@ -12,7 +12,7 @@ use crate::scenario::model::{BAR, DISK, Model};
 use crate::scenario::numbers::numbers;
 use crate::scenario::progress::Progress;
 use crate::scenario::start::{InitialState, KeptState, RollingRadius, Stability, Start};
-use contact::{Contact, PenaltyContact, StabilityScale};
+use contact::{ContactStep, Method, PenaltyContact, StabilityScale};
 use dynamics::{
     Fixed, Hub, QuietEnd, RollingField, Setup, Sideways, Simulation, SimulationState, Spin, System,
     Vertical,
@@ -170,7 +170,7 @@ pub fn start(
     };
 
     let field = RollingField {
-        disk: DISK,
+        upper: DISK,
         centre: hub.centre,
         speed: case.drive.speed,
         omega: case.drive.speed / nominal,
@@ -198,9 +198,9 @@ pub fn start(
         solid.subtract_elastic_force(&displacement, &mut force, false);
         quiet.keep_reactions(&force);
     }
-    let contact: Box<dyn Contact> = match springs {
-        Some(springs) => Box::new(springs),
-        None => Box::new(model.exact_contact(case)?),
+    let contact: Method = match springs {
+        Some(springs) => springs.into(),
+        None => model.exact_contact(case)?.into(),
     };
     let radius = RollingRadius { nominal, effective };
     let found = KeptState { stability, radius, preload, preload_wall, steps: steps as u64 };
@@ -218,11 +218,11 @@ pub fn restart(
     state: &SimulationState,
 ) -> Result<Start, ScenarioError> {
     let solid = model.solid(case)?;
-    let contact: Box<dyn Contact> = match case.contact.enforcement {
-        Enforcement::Exact => Box::new(model.exact_contact(case)?),
+    let contact: Method = match case.contact.enforcement {
+        Enforcement::Exact => model.exact_contact(case)?.into(),
         Enforcement::Penalty => {
             let scale = scale(case, found.stability.omega_elastic);
-            Box::new(model.penalty_contact(case, scale)?)
+            model.penalty_contact(case, scale)?.into()
         }
     };
     let (hub, quiet) = (hub(case, model, &solid), quiet(model));
@@ -237,7 +237,7 @@ pub fn restart(
 /// What a simulation is made of.
 struct Parts {
     solid: Solid,
-    contact: Box<dyn Contact>,
+    contact: Method,
     hub: Hub,
     quiet: QuietEnd,
     displacement: Vec<Padded>,
@@ -272,7 +272,8 @@ fn assemble(
             .map(|&node| Fixed { node, axes: [false, true, false] })
             .collect(),
         paired: model.paired.clone(),
-        disk: model.mesh.bodies[DISK].nodes.clone(),
+        names: ["disk", "bar"],
+        upper: model.mesh.bodies[DISK].nodes.clone(),
         mass_damping: case.damping.mass,
         multiplicity: model.multiplicity,
         ..System::free(solid, model.mass.clone())
