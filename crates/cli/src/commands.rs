@@ -237,13 +237,9 @@ fn done<T: Serialize>(args: &Args, results: &T, page: fn(&T) -> String) -> Resul
 }
 
 fn view(args: &Args, ViewArgs { options, no_open }: &ViewArgs) -> Result<u8, Error> {
-    let document = creepage::view(options)?;
-    args.show(&document, || files::page(&document));
-    if !no_open
-        && !args.json
-        && let Some(page) = document["page"].as_str()
-        && open::that_detached(page).is_err()
-    {
+    let viewed = creepage::view(options)?;
+    args.show(&viewed, || files::view(&viewed));
+    if !no_open && !args.json && open::that_detached(&viewed.page).is_err() {
         args.say("no browser could be started: open the page by hand");
     }
     Ok(0)

@@ -25,9 +25,9 @@ pub use case_source::CaseSource;
 pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
 pub use compare::{CompareOptions, compare};
 pub use error::{BAD_INPUT, Error, FAILED, INTERRUPTED, STOPPED_BY_GUARD};
-pub use export_k::{ExportKOptions, export_k};
-pub use import_contact::{ImportContactOptions, import_contact};
-pub use import_k::{ImportKOptions, import_k};
+pub use export_k::{ExportKOptions, ExportedK, export_k};
+pub use import_contact::{ImportContactOptions, ImportedContact, import_contact};
+pub use import_k::{ImportKOptions, ImportedK, import_k};
 pub use listener::Listener;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
@@ -38,4 +38,4 @@ pub use slider::{
 };
 pub use sweep::{PlannedOrRun, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
-pub use view::{ViewOptions, view};
+pub use view::{ViewOptions, Viewed, view};

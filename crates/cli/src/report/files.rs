@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use creepage::{Drawn, Reported};
-use serde_json::Value;
-
-use super::layout::text as word;
+use creepage::check::Imported;
+use creepage::ls_dyna::Account;
+use creepage::{Drawn, ExportedK, ImportedContact, ImportedK, Reported, Viewed};
 
 /// The figures of `plot`.
 pub fn figures(drawn: &Drawn) -> String {
@@ -23,41 +22,37 @@ pub fn report(reported: &Reported) -> String {
 }
 
 /// The page of `view`.
-pub fn page(document: &Value) -> String {
-    format!("{}\n", word(document, "/page"))
+pub fn view(viewed: &Viewed) -> String {
+    format!("{}\n", viewed.page.display())
 }
 
 /// The contact history of `import-contact`.
-pub fn contact_history(document: &Value) -> String {
-    let [nodes, faces, steps] = ["nodes", "faces", "steps"].map(|key| &document[key]);
-    format!("{}: {nodes} nodes, {faces} faces, {steps} records\n", word(document, "/file"))
+pub fn contact_history(ImportedContact { file, size }: &ImportedContact) -> String {
+    let Imported { nodes, faces, steps, .. } = size;
+    format!("{}: {nodes} nodes, {faces} faces, {steps} records\n", file.display())
 }
 
 /// The case of `import-k`, and what the keyword file lost.
-pub fn case(document: &Value) -> String {
+pub fn case(ImportedK { case, elements, notes, cards, .. }: &ImportedK) -> String {
     let mut page = String::new();
-    for note in document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+    for note in notes {
         let _ = writeln!(page, "  {note}");
     }
-    let [used, ignored] = ["used", "ignored"].map(|fate| &document["cards"][fate]);
+    let Account { used, ignored, .. } = cards;
     let _ = writeln!(
         page,
         "  cards: {used} used, {ignored} ignored (docs/ls-dyna.md lists which), none refused"
     );
-    let (case, elements) = (word(document, "/case"), &document["elements"]);
-    page + &format!(
-        "{case}: {elements} elements; creepage run {}\n",
-        creepage::sweep::plan::quoted(case)
-    )
+    let case = case.display().to_string();
+    let quoted = creepage::sweep::plan::quoted(&case);
+    page + &format!("{case}: {elements} elements; creepage run {quoted}\n")
 }
 
 /// The keyword file of `export-k`, and what it says in another way than the case.
-pub fn deck(document: &Value) -> String {
+pub fn deck(ExportedK { file, unit, nodes, elements, notes, .. }: &ExportedK) -> String {
     let mut page = String::new();
-    for note in document["notes"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+    for note in notes {
         let _ = writeln!(page, "  nearly: {note}");
     }
-    let [nodes, elements] = ["nodes", "elements"].map(|key| &document[key]);
-    let [file, unit] = ["/file", "/unit"].map(|key| word(document, key));
-    page + &format!("{file}: {nodes} nodes, {elements} elements, in {unit}\n")
+    page + &format!("{}: {nodes} nodes, {elements} elements, in {unit}\n", file.display())
 }

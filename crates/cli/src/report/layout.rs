@@ -2,20 +2,8 @@
 
 use std::fmt::Write;
 
-use serde_json::Value;
-
 /// Shown where there is no number.
 const NONE: &str = "-";
-
-/// The number at a pointer such as `/contact/creepage`, if it is one.
-pub fn number(document: &Value, pointer: &str) -> Option<f64> {
-    document.pointer(pointer).and_then(Value::as_f64)
-}
-
-/// The text at a pointer, empty where there is none.
-pub fn text<'a>(document: &'a Value, pointer: &str) -> &'a str {
-    document.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
-}
 
 /// A number with `significant` digits: plain where that is readable, with an exponent elsewhere.
 pub fn digits(x: Option<f64>, significant: i32) -> String {

@@ -8,6 +8,7 @@ use output::layout::{CONSTANT, CONTACT, HISTORY};
 use output::{
     Cells, FieldSpec, GridSpec, OutputError, Provenance, StaticField, TransientGrid, Values,
 };
+use serde::Serialize;
 use thiserror::Error;
 
 /// Paths of the CSV tables of a contact history and of the file to write.
@@ -27,7 +28,7 @@ pub struct ImportFiles<'a> {
 }
 
 /// The size of an imported history.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Imported {
     /// Number of nodes.
     pub nodes: usize,

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::run::{BlockElement, Level};
-use serde_json::Value;
+use crate::run::{BenchResult, BlockElement, Level};
 
 #[cfg(feature = "clap")]
 use crate::commands::values::words::{element, kernels};
@@ -34,22 +33,23 @@ pub struct BenchOptions {
     pub element: BlockElement,
 }
 
-/// Measures the element kernel and the whole step on this machine, beside what its memory and arithmetic allow; returns
-/// the document of `creepage bench --json`.
+/// Measures the element kernel and the whole step on this machine, beside what its memory and arithmetic allow.
 ///
 /// # Errors
 /// A key of the reference case that cannot be used; kernels that this machine cannot run.
-pub fn bench(options: &BenchOptions) -> Result<Value, Error> {
+pub fn bench(options: &BenchOptions) -> Result<BenchResult, Error> {
     THREADS.check("--threads", options.threads.as_ref())?;
     ONE_PER_CORE.check("--threads", options.threads.as_ref())?;
     EDGE.check("--block", options.block.as_ref())?;
     KERNELS.check("--kernels", options.kernels.as_ref())?;
     let threads = options.threads.unwrap_or_else(all_cores);
     if let Some(n) = options.block {
-        return Ok(crate::run::bench_block(n, options.element, threads, options.kernels)?);
+        let found = crate::run::bench_block(n, options.element, threads, options.kernels)?;
+        return Ok(BenchResult::Block(found));
     }
     // the reference case is no file: a key that the error is about is looked for in the options
     let (path, sets) = (PathBuf::from("reference.toml"), options.sets.clone());
     crate::run::bench(threads, options.kernels, &options.sets)
+        .map(BenchResult::Reference)
         .map_err(|error| CaseSource { path, sets, text: Some(String::new()) }.placed(error))
 }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use crate::ls_dyna::{RollingMotion, Units, export, unsayable};
 use output::files::made::KEYWORDS;
-use serde_json::{Value, json};
+use serde::Serialize;
 
-use crate::commands::outputs::claim;
+use crate::commands::outputs::{claim, shown};
 #[cfg(feature = "clap")]
 use crate::commands::values::words::units;
 use crate::{CaseSource, Error, Listener};
@@ -26,14 +26,31 @@ pub struct ExportKOptions {
     pub unit: Units,
 }
 
-/// Writes a case as a keyword file, and returns the document of `creepage export-k --json`: file, unit, nodes, elements, preload_time (s),
-/// notes.
+/// A keyword file that was written: the document of `creepage export-k --json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExportedK {
+    /// The file.
+    #[serde(serialize_with = "shown")]
+    pub file: PathBuf,
+    /// Its units.
+    pub unit: String,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of elements.
+    pub elements: usize,
+    /// Time in which the deck presses the bodies together (s).
+    pub preload_time: f64,
+    /// What it says in another way than the case.
+    pub notes: Vec<String>,
+}
+
+/// Writes a case as a keyword file.
 ///
 /// The static preload is found first: the deck presses the hub down to its depth.
 ///
 /// # Errors
 /// What of the case keyword files cannot say; a case that cannot be run; a file that cannot be written, or is not to be written over.
-pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result<Value, Error> {
+pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result<ExportedK, Error> {
     let case = options.case.load(listener)?;
     let cannot = unsayable(&case);
     if !cannot.is_empty() {
@@ -59,12 +76,12 @@ pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result
             "choose another file with --out FILE",
         )
     })?;
-    Ok(json!({
-        "file": out.display().to_string(),
-        "unit": options.unit.name(),
-        "nodes": model.mesh.nodes.len(),
-        "elements": model.mesh.hexes.len(),
-        "preload_time": rolling.preload_time(),
-        "notes": made.notes,
-    }))
+    Ok(ExportedK {
+        file: out,
+        unit: options.unit.name().into(),
+        nodes: model.mesh.nodes.len(),
+        elements: model.mesh.hexes.len(),
+        preload_time: rolling.preload_time(),
+        notes: made.notes,
+    })
 }

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use crate::check::{ImportFiles, Imported};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::Error;
-use crate::commands::outputs::claim_grid;
+use crate::commands::outputs::{claim_grid, shown};
 
 /// The tables to read, and the file to write.
 #[derive(Clone, Debug, Default)]
@@ -32,16 +32,24 @@ pub struct ImportContactOptions {
     pub out: PathBuf,
 }
 
-/// Brings a contact history of another code into the layout that [`check`](crate::check()) reads; returns the document of
-/// `creepage import-contact --json`: file, nodes, faces, steps, rows.
+/// A contact history that was written: the document of `creepage import-contact --json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct ImportedContact {
+    /// The file.
+    #[serde(serialize_with = "shown")]
+    pub file: PathBuf,
+    /// Its size.
+    #[serde(flatten)]
+    pub size: Imported,
+}
+
+/// Brings a contact history of another code into the layout that [`check`](crate::check()) reads.
 ///
 /// # Errors
 /// Tables that cannot be read; a file that cannot be written, or is not to be written over.
-pub fn import_contact(options: &ImportContactOptions) -> Result<Value, Error> {
+pub fn import_contact(options: &ImportContactOptions) -> Result<ImportedContact, Error> {
     let ImportContactOptions { nodes, faces, values, out } = options;
     claim_grid("--out", out, &[nodes, faces, values].map(PathBuf::clone))?;
-    let Imported { nodes, faces, steps, rows } =
-        crate::check::import_contact(&ImportFiles { nodes, faces, values, out })?;
-    let file = out.display().to_string();
-    Ok(json!({ "file": file, "nodes": nodes, "faces": faces, "steps": steps, "rows": rows }))
+    let size = crate::check::import_contact(&ImportFiles { nodes, faces, values, out })?;
+    Ok(ImportedContact { file: out.clone(), size })
 }

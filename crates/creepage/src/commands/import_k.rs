@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use crate::case::Case;
 use crate::ls_dyna::{Account, Source, Units, translate};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::Error;
+use crate::commands::outputs::shown;
 #[cfg(feature = "clap")]
 use crate::commands::values::words::units;
 
@@ -31,12 +32,28 @@ pub struct ImportKOptions {
     pub out: Option<PathBuf>,
 }
 
-/// Makes a case and a mesh file of a keyword file, and returns the document of `creepage import-k --json`: case, mesh,
-/// elements, notes, and cards: how many were used, ignored and refused.
+/// A case made of a keyword file: the document of `creepage import-k --json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct ImportedK {
+    /// The case file.
+    #[serde(serialize_with = "shown")]
+    pub case: PathBuf,
+    /// The mesh file.
+    #[serde(serialize_with = "shown")]
+    pub mesh: PathBuf,
+    /// Number of elements.
+    pub elements: usize,
+    /// What the keyword file lost.
+    pub notes: Vec<String>,
+    /// What became of its cards.
+    pub cards: Account,
+}
+
+/// Makes a case and a mesh file of a keyword file.
 ///
 /// # Errors
 /// A card that is not known, by its file and line; an included file that must not be read; files that are there already or cannot be written; a case that cannot be run.
-pub fn import_k(options: &ImportKOptions) -> Result<Value, Error> {
+pub fn import_k(options: &ImportKOptions) -> Result<ImportedK, Error> {
     let source = Source { file: &options.file, include_outside: options.include_outside };
     let made = translate(&source, options.unit, "mesh.inp")?;
     let folder = options.out.clone().unwrap_or_else(|| options.file.with_extension(""));
@@ -48,14 +65,8 @@ pub fn import_k(options: &ImportKOptions) -> Result<Value, Error> {
     write(&folder, &case, &made.case)?;
     // the case is judged as any other, so that what is wrong is told now
     let found = crate::run::mesh_report(&Case::load(&case, &[])?, None)?;
-    let Account { used, ignored, refused } = made.cards;
-    Ok(json!({
-        "case": case.display().to_string(),
-        "mesh": mesh.display().to_string(),
-        "elements": found["elements"].as_u64().unwrap_or_default(),
-        "notes": made.notes,
-        "cards": { "used": used, "ignored": ignored, "refused": refused },
-    }))
+    let (elements, notes, cards) = (found.elements, made.notes, made.cards);
+    Ok(ImportedK { case, mesh, elements, notes, cards })
 }
 
 fn write(folder: &Path, path: &Path, text: &str) -> Result<(), Error> {

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::run::MeshReport;
 use serde::Deserialize;
-use serde_json::Value;
 
 use crate::commands::outputs::claim_grid;
 use crate::commands::values::MESH;
@@ -23,12 +23,11 @@ pub struct MeshOptions {
     pub case: CaseSource,
 }
 
-/// Builds the mesh of a case, and returns the document of `creepage mesh --json`: counts, quality, stable step (s),
-/// estimate of memory (MB) and time (s). The listener hears the case's warnings.
+/// Builds the mesh of a case. The listener hears the case's warnings.
 ///
 /// # Errors
 /// A case or a mesh that cannot be used; a file that cannot be written, or is not to be written over.
-pub fn mesh(options: &MeshOptions, listener: &mut dyn Listener) -> Result<Value, Error> {
+pub fn mesh(options: &MeshOptions, listener: &mut dyn Listener) -> Result<MeshReport, Error> {
     MESH.check("--out", options.out.as_ref())?;
     let case = options.case.load(listener)?;
     if let Some(out) = &options.out {

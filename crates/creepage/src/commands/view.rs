@@ -4,11 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use output::files::made::PAGE;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use crate::commands::outputs::claim;
+use crate::commands::outputs::{claim, shown};
 use crate::report::scene_page;
 use crate::run::folder::RUN_FILES;
 use crate::scene::SceneError;
@@ -26,19 +25,26 @@ pub struct ViewOptions {
     pub out: Option<PathBuf>,
 }
 
-/// Writes a self-contained page with the interactive scene of a run, and returns the document of
-/// `creepage view --json`: the page.
+/// The page of a run's scene: the document of `creepage view --json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Viewed {
+    /// The page.
+    #[serde(serialize_with = "shown")]
+    pub page: PathBuf,
+}
+
+/// Writes a self-contained page with the interactive scene of a run.
 ///
 /// # Errors
 /// Records that cannot be read; a page that cannot be written, or would be written over another file.
-pub fn view(options: &ViewOptions) -> Result<Value, Error> {
+pub fn view(options: &ViewOptions) -> Result<Viewed, Error> {
     let page = options.out.clone().unwrap_or_else(|| options.run.join("scene.html"));
     let text = scene_page(&options.run)?;
     claim("--out", &page, &PAGE, &RUN_FILES.map(|file| options.run.join(file)))?;
     fs::write(&page, text).map_err(|error| {
         Error::plain(format!("--out {}: cannot write the page: {error}", page.display()))
     })?;
-    Ok(json!({ "page": page.display().to_string() }))
+    Ok(Viewed { page })
 }
 
 impl From<SceneError> for Error {

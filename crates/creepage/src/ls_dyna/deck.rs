@@ -1,5 +1,6 @@
 //! What a keyword file says, card by card.
 
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 use crate::ls_dyna::cards::{AFTER_END, Card};
@@ -67,7 +68,7 @@ pub(super) struct Deck {
 }
 
 /// What became of the cards of a deck.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Account {
     /// Cards whose fields the case takes.
     pub used: usize,

@@ -7,14 +7,14 @@ mod machine;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-pub use block::{BlockElement, bench_block};
+pub use block::{BlockBench, BlockElement, bench_block};
 
 use crate::case::hertz::hertz;
 use crate::case::schema::{Case, PreloadMethod};
 use crate::run::error::RunError;
 use crate::scenario::start;
 use mesh::Padded;
-use serde_json::json;
+use serde::Serialize;
 use solid::Level;
 
 /// Steps or kernel calls per sample, and samples, of which the median counts.
@@ -34,6 +34,53 @@ static = 0.5
 method = \"none\"
 ";
 
+/// What was measured.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(untagged)]
+pub enum BenchResult {
+    /// On the reference disk and bar.
+    Reference(ReferenceBench),
+    /// On a free block.
+    Block(BlockBench),
+}
+
+/// Speed on the reference disk and bar, and what this machine allows.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct ReferenceBench {
+    /// Threads used.
+    pub threads: usize,
+    /// The instructions that the kernels used.
+    pub kernels: &'static str,
+    /// Number of elements.
+    pub elements: u64,
+    /// Bandwidth of the memory, by the triad of STREAM (GB/s).
+    pub bandwidth_gb_s: f64,
+    /// Multiply-additions in registers (GFLOP/s).
+    pub peak_gflop_s: f64,
+    /// Internal force alone (ns).
+    pub kernel_ns_per_element: f64,
+    /// Whole step (ns).
+    pub step_ns_per_element: f64,
+    /// Share of the step that the internal force takes.
+    pub internal_force_fraction: f64,
+    /// The same of contact.
+    pub contact_fraction: f64,
+    /// The same of quiet ends and given forces.
+    pub boundary_fraction: f64,
+    /// The same of nodes and hub.
+    pub nodes_fraction: f64,
+    /// What a step must move (B).
+    pub bytes_per_element: f64,
+    /// What it must compute (flop).
+    pub flops_per_element: f64,
+    /// The least time that both allow (ns).
+    pub roofline_ns_per_element: f64,
+    /// That over the time of the step.
+    pub roofline_fraction: f64,
+    /// Memory of the time loop (B).
+    pub time_loop_bytes_per_element: f64,
+}
+
 /// Measures the element kernel, a whole step, and the machine's bandwidth and arithmetic, on the reference disk and
 /// bar at 1 mm, with so many `threads` and these `kernels` (by default the machine's best). `sets` are keys of the
 /// case, `KEY=VALUE` as on the command line.
@@ -45,12 +92,12 @@ pub fn bench(
     threads: usize,
     kernels: Option<Level>,
     sets: &[String],
-) -> Result<serde_json::Value, RunError> {
+) -> Result<ReferenceBench, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     pool.install(|| measure(threads, kernels.unwrap_or_else(Level::detect), sets))
 }
 
-fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<serde_json::Value, RunError> {
+fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<ReferenceBench, RunError> {
     let mut case = Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), sets)?;
     // With the undeformed disk lowered by Hertz's approach about as many nodes touch as after a preload.
     if case.preload.method == PreloadMethod::None {
@@ -100,24 +147,24 @@ fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<serde_json
     let roofline = (bytes / bandwidth).max(flops / peak);
     let [internal, contact, boundary, moved] = stages;
     let total = internal + contact + boundary + moved;
-    Ok(json!({
-        "threads": threads,
-        "kernels": kernels.name(),
-        "elements": elements as u64,
-        "bandwidth_gb_s": bandwidth,
-        "peak_gflop_s": peak,
-        "kernel_ns_per_element": per(kernel),
-        "step_ns_per_element": per(step),
-        "internal_force_fraction": internal / total,
-        "contact_fraction": contact / total,
-        "boundary_fraction": boundary / total,
-        "nodes_fraction": moved / total,
-        "bytes_per_element": bytes,
-        "flops_per_element": flops,
-        "roofline_ns_per_element": roofline,
-        "roofline_fraction": roofline / per(step),
-        "time_loop_bytes_per_element": simulation.bytes() as f64 / elements,
-    }))
+    Ok(ReferenceBench {
+        threads,
+        kernels: kernels.name(),
+        elements: elements as u64,
+        bandwidth_gb_s: bandwidth,
+        peak_gflop_s: peak,
+        kernel_ns_per_element: per(kernel),
+        step_ns_per_element: per(step),
+        internal_force_fraction: internal / total,
+        contact_fraction: contact / total,
+        boundary_fraction: boundary / total,
+        nodes_fraction: moved / total,
+        bytes_per_element: bytes,
+        flops_per_element: flops,
+        roofline_ns_per_element: roofline,
+        roofline_fraction: roofline / per(step),
+        time_loop_bytes_per_element: simulation.bytes() as f64 / elements,
+    })
 }
 
 /// Median wall time of `work` (s).

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::case::schema::Case;
 use crate::scenario::Model;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// Part of the numbers of fields and of contact that compression leaves, measured on the small case and on the
 /// reference case and rounded up.
@@ -79,19 +79,35 @@ impl Disk {
         })
     }
 
-    /// In megabytes, as `creepage mesh` shows it, with what is free for `folder` (null where the system does
-    /// not tell).
-    pub(crate) fn json(&self, folder: &Path) -> Value {
+    /// In megabytes, with what is free for `folder`.
+    pub(crate) fn estimate(&self, folder: &Path) -> DiskEstimate {
         let mb = |bytes: f64| bytes / 1e6;
-        json!({
-            "total_mb": mb(self.total()),
-            "fields_mb": mb(self.fields),
-            "contact_mb": mb(self.contact),
-            "history_mb": mb(self.history),
-            "checkpoints_mb": mb(self.checkpoints),
-            "free_mb": output::free_space(folder).map(|free| mb(free as f64)),
-        })
+        DiskEstimate {
+            total_mb: mb(self.total()),
+            fields_mb: mb(self.fields),
+            contact_mb: mb(self.contact),
+            history_mb: mb(self.history),
+            checkpoints_mb: mb(self.checkpoints),
+            free_mb: output::free_space(folder).map(|free| mb(free as f64)),
+        }
     }
+}
+
+/// Room on the disk that a run takes (MB).
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct DiskEstimate {
+    /// All files.
+    pub total_mb: f64,
+    /// Fields of the bodies.
+    pub fields_mb: f64,
+    /// Contact surfaces.
+    pub contact_mb: f64,
+    /// Scalars over time, and probes.
+    pub history_mb: f64,
+    /// Checkpoints.
+    pub checkpoints_mb: f64,
+    /// What is free; none where the system does not tell.
+    pub free_mb: Option<f64>,
 }
 
 #[cfg(test)]

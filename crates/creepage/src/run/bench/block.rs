@@ -5,7 +5,7 @@ use crate::run::error::RunError;
 use crate::scenario::ScenarioError;
 use dynamics::{Setup, Simulation, System};
 use mesh::Padded;
-use serde_json::json;
+use serde::Serialize;
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
@@ -35,6 +35,25 @@ impl BlockElement {
     }
 }
 
+/// Speed on a free block.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct BlockBench {
+    /// Elements along an edge.
+    pub block: usize,
+    /// Which element.
+    pub element: &'static str,
+    /// Threads used.
+    pub threads: usize,
+    /// The instructions that the kernels used.
+    pub kernels: &'static str,
+    /// Number of elements.
+    pub elements: usize,
+    /// u_z of the last node (m), to compare with other codes.
+    pub corner_after_20_steps: f64,
+    /// Whole step (ns).
+    pub step_ns_per_element: f64,
+}
+
 /// Measures whole steps of a free block of `n`^3 elements of 1 mm that starts with v_z = -z/L (m/s), where L is its
 /// edge, with so many `threads` and these `kernels` (by default the machine's best).
 ///
@@ -48,7 +67,7 @@ pub fn bench_block(
     element: BlockElement,
     threads: usize,
     kernels: Option<Level>,
-) -> Result<serde_json::Value, RunError> {
+) -> Result<BlockBench, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let level = kernels.unwrap_or_else(Level::detect);
     pool.install(|| {
@@ -64,15 +83,15 @@ pub fn bench_block(
                 simulation.step(false);
             });
         });
-        Ok(json!({
-            "block": n,
-            "element": element.name(),
-            "threads": threads,
-            "kernels": level.name(),
-            "elements": elements,
-            "corner_after_20_steps": corner,
-            "step_ns_per_element": seconds / repeats as f64 / elements as f64 * 1e9,
-        }))
+        Ok(BlockBench {
+            block: n,
+            element: element.name(),
+            threads,
+            kernels: level.name(),
+            elements,
+            corner_after_20_steps: corner,
+            step_ns_per_element: seconds / repeats as f64 / elements as f64 * 1e9,
+        })
     })
 }
 
