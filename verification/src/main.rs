@@ -9,9 +9,10 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
+use creepage::FailureResult;
 use creepage::chart::FigureError;
 use miette::{Diagnostic, MietteHandlerOpts, Report};
-use serde_json::{Value, json};
+use serde::Serialize;
 use thiserror::Error;
 use verification::{PROBLEMS, Problem, Row, Size, VerifyError};
 
@@ -68,13 +69,6 @@ impl Failure {
             Self::Problem(_) => 3,
         }
     }
-
-    /// The JSON document of a failure, as that of `creepage`.
-    fn document(&self) -> Value {
-        let help = self.help().map(|help| help.to_string()).unwrap_or_default();
-        json!({ "status": "failed", "exit_code": self.exit_code(), "error": self.to_string(), "help": help,
-            "others": [] })
-    }
 }
 
 fn main() -> ExitCode {
@@ -87,7 +81,7 @@ fn main() -> ExitCode {
         let code = failure.exit_code();
         if options.json {
             // where standard output takes nothing, its failure is the one that is told
-            let _ = print_document(&failure.document());
+            let _ = print_document(&FailureResult::of(&failure, code));
         }
         eprintln!("{:?}", Report::new(failure));
         code
@@ -98,10 +92,8 @@ fn main() -> ExitCode {
 fn verify(options: &Options) -> Result<u8, Failure> {
     let shown = !options.json && !options.quiet;
     if options.list {
-        let named = |problem: &Problem| json!({ "name": problem.name, "about": problem.about });
-        let document = json!({ "problems": PROBLEMS.iter().map(named).collect::<Vec<_>>() });
         if options.json {
-            print_document(&document)?;
+            print_document(&Listed { problems: PROBLEMS })?;
         } else if shown {
             print(&page::names(PROBLEMS))?;
         }
@@ -125,8 +117,8 @@ fn verify(options: &Options) -> Result<u8, Failure> {
     }
     let pass = rows.iter().all(|row| row.pass);
     if options.json {
-        let results: Vec<Value> = rows.iter().map(document).collect();
-        print_document(&json!({ "results": results, "pass": pass }))?;
+        let results = rows.iter().map(VerificationRow::of).collect();
+        print_document(&VerificationResult { results, pass })?;
     } else if shown {
         print(&page::count(&rows))?;
     }
@@ -155,18 +147,37 @@ fn draw(rows: &[Row], folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A row with the signed error on each mesh beside the values, over the reference where that is not zero.
-fn document(row: &Row) -> Value {
-    let mut document = json!(row);
-    let scale = if row.reference == 0.0 { 1.0 } else { row.reference };
-    let errors: Vec<f64> =
-        row.meshes.iter().map(|sample| (sample.value - row.reference) / scale).collect();
-    document["mesh_errors"] = json!(errors);
-    document
+/// The document of `--list --json`.
+#[derive(Serialize)]
+struct Listed {
+    problems: &'static [Problem],
 }
 
-fn print_document(document: &Value) -> io::Result<()> {
-    print(&format!("{document:#}\n"))
+/// The document of `--json`.
+#[derive(Serialize)]
+struct VerificationResult<'a> {
+    results: Vec<VerificationRow<'a>>,
+    pass: bool,
+}
+
+/// A row with the signed error on each mesh beside the values, over the reference where that is not zero.
+#[derive(Serialize)]
+struct VerificationRow<'a> {
+    #[serde(flatten)]
+    row: &'a Row,
+    mesh_errors: Vec<f64>,
+}
+
+impl<'a> VerificationRow<'a> {
+    fn of(row: &'a Row) -> Self {
+        let scale = if row.reference == 0.0 { 1.0 } else { row.reference };
+        let error = |value: f64| (value - row.reference) / scale;
+        Self { row, mesh_errors: row.meshes.iter().map(|sample| error(sample.value)).collect() }
+    }
+}
+
+fn print_document(document: &impl Serialize) -> io::Result<()> {
+    print(&(serde_json::to_string_pretty(document)? + "\n"))
 }
 
 /// Writes on standard output. A reader that closed the pipe wants no more.

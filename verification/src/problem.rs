@@ -1,6 +1,7 @@
 //! What a verification problem is.
 
 use crate::Row;
+use serde::Serialize;
 use thiserror::Error;
 
 /// How large a problem is run.
@@ -13,12 +14,13 @@ pub enum Size {
 }
 
 /// A verification problem.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Problem {
     /// Name on the command line, unique.
     pub name: &'static str,
     /// What it verifies, in one sentence.
     pub about: &'static str,
+    #[serde(skip)]
     pub(crate) run: fn(Size) -> Outcome,
 }
 

@@ -216,7 +216,7 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
         }
         Command::Slider(options) => {
             let found = creepage::slider(options, &mut SliderWatch::new(args))?;
-            args.show(&found.document(), || slider::text(&found));
+            args.show(&found, || slider::text(&found));
             Ok(found.exit_code())
         }
         Command::Verify(options) => crate::verify::command(args, options),

@@ -4,7 +4,6 @@
 
 mod args;
 mod commands;
-mod failure;
 mod manual;
 mod progress;
 mod render;
@@ -19,7 +18,7 @@ use std::ffi::OsString;
 use std::sync::{Arc, atomic::AtomicBool};
 
 use clap::Parser;
-use creepage::{BAD_INPUT, Error};
+use creepage::{BAD_INPUT, Error, FailureResult};
 use miette::Report;
 use tracing_subscriber::filter::LevelFilter;
 
@@ -44,7 +43,7 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
     });
     printed(done.unwrap_or_else(|error| {
         if json {
-            report::print_json(&failure::document(&error));
+            report::print_json(&FailureResult::of(&error, error.exit_code()));
         }
         told(error)
     }))
@@ -86,11 +85,19 @@ fn full_disks_are_errors() -> Result<(), Error> {
     Ok(())
 }
 
+/// The document of wrong usage, from the text for the terminal: the first paragraph says what was wrong, the others
+/// what to do.
+fn wrong_usage(text: &str) -> FailureResult {
+    let (error, help) = text.split_once("\n\n").unwrap_or((text, ""));
+    let words: Vec<_> = error.trim_start_matches("error: ").split_whitespace().collect();
+    FailureResult::new(&words.join(" "), BAD_INPUT, help.trim())
+}
+
 /// Help and version that were asked for, or wrong usage.
 fn usage(error: &clap::Error, words: &[OsString]) -> u8 {
     let wanted = words.iter().any(|word| word == "--json");
     if error.use_stderr() && wanted {
-        report::print_json(&failure::usage(&error.render().to_string()));
+        report::print_json(&wrong_usage(&error.render().to_string()));
     }
     let printed_error = error.print();
     if error.use_stderr() {

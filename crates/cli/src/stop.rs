@@ -10,11 +10,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use creepage::{Error, INTERRUPTED};
+use creepage::{Error, FailureResult, INTERRUPTED};
 #[cfg(unix)]
 use output::files::input;
 
-use crate::failure::failure;
 use crate::report;
 use crate::terminal;
 
@@ -82,7 +81,7 @@ impl Stop {
 
     fn end(&self) -> ! {
         if self.json {
-            report::print_json(&failure("interrupted", INTERRUPTED));
+            report::print_json(&FailureResult::new("interrupted", INTERRUPTED, ""));
         }
         std::process::exit(INTERRUPTED.into());
     }

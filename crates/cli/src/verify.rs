@@ -6,10 +6,9 @@ use std::process::Command;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use creepage::{Error, INTERRUPTED};
+use creepage::{Error, FailureResult, INTERRUPTED};
 
 use crate::args::Args;
-use crate::failure::failure;
 use crate::report;
 
 /// Which problems to run, and how.
@@ -83,7 +82,7 @@ pub fn command(args: &Args, options: &VerifyArgs) -> Result<u8, Error> {
     let _ = child.kill();
     child.wait().map_err(failed)?;
     if args.json {
-        report::print_json(&failure("interrupted", INTERRUPTED));
+        report::print_json(&FailureResult::new("interrupted", INTERRUPTED, ""));
     }
     Ok(INTERRUPTED)
 }

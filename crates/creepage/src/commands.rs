@@ -24,7 +24,9 @@ pub use bench::{BenchOptions, bench};
 pub use case_source::CaseSource;
 pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
 pub use compare::{CompareOptions, compare};
-pub use error::{BAD_INPUT, Error, FAILED, INTERRUPTED, STOPPED_BY_GUARD};
+pub use error::{
+    BAD_INPUT, Error, FAILED, FailureResult, FurtherError, INTERRUPTED, STOPPED_BY_GUARD,
+};
 pub use export_k::{ExportKOptions, ExportedK, export_k};
 pub use import_contact::{ImportContactOptions, ImportedContact, import_contact};
 pub use import_k::{ImportKOptions, ImportedK, import_k};
@@ -34,7 +36,8 @@ pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
 pub use slider::{
-    LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderRun, slider,
+    LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderResult,
+    SliderRun, slider,
 };
 pub use sweep::{PlannedOrRun, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;

@@ -83,7 +83,7 @@ pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 pub fn slider<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, told| {
         let found = creepage::slider(&options, told)?;
-        Ok(Answer::new(found.exit_code(), &found.document()))
+        Ok(Answer::new(found.exit_code(), &found))
     })
 }
 

@@ -1,9 +1,10 @@
 //! How well the block sticks to the belt: slip in the first adhesion and after the first capture.
 
 use crate::{Parameters, State};
+use serde::Serialize;
 
 /// Spurious slip after the belt has captured the block again: the exact solution sticks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ringing {
     /// Time of the capture (s), at which the slip velocity has returned to zero after a collapse.
     pub capture: f64,

@@ -9,9 +9,10 @@
 //!   friction once `Lambda (Lambda - 2) kappa s_adhes >= mu_S`, from the step **dt_2** on.
 
 use crate::{ParameterError, Parameters, State, explicit_step};
+use serde::Serialize;
 
 /// A threshold of the time step, found in two ways.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Threshold {
     /// By the formula (s).
     pub formula: f64,
@@ -21,12 +22,14 @@ pub struct Threshold {
 }
 
 /// Both thresholds of the explicit method.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Thresholds {
     /// dt_1: above it the block chatters in adhesion.
+    #[serde(rename = "dt_1")]
     pub chatter: Threshold,
     /// dt_2: above it chatter makes the block collapse too early; `None` for a law that does not
     /// fall with slip speed.
+    #[serde(rename = "dt_2")]
     pub collapse: Option<Threshold>,
 }
 

@@ -7,6 +7,7 @@ use crate::run::RunError;
 use crate::sweep::SweepError;
 use miette::Diagnostic;
 use output::OutputError;
+use serde::Serialize;
 use slider::BlowUp;
 use thiserror::Error;
 
@@ -20,6 +21,42 @@ pub const BAD_INPUT: u8 = 2;
 pub const STOPPED_BY_GUARD: u8 = 3;
 /// Exit code: interrupted.
 pub const INTERRUPTED: u8 = 130;
+
+/// The document of a command that failed: with `--json`, standard output holds one document whatever happens.
+#[derive(Clone, Debug, Serialize)]
+pub struct FailureResult {
+    status: &'static str,
+    exit_code: u8,
+    error: String,
+    help: String,
+    others: Vec<FurtherError>,
+}
+
+/// What else was wrong.
+#[derive(Clone, Debug, Serialize)]
+pub struct FurtherError {
+    error: String,
+    help: Option<String>,
+}
+
+impl FailureResult {
+    /// A failure with its message, its exit code, and what to do.
+    pub fn new(error: &str, exit_code: u8, help: &str) -> Self {
+        let (error, help) = (error.to_owned(), help.to_owned());
+        Self { status: "failed", exit_code, error, help, others: Vec::new() }
+    }
+
+    /// That of an error, with what else was wrong.
+    pub fn of(error: &dyn Diagnostic, exit_code: u8) -> Self {
+        let help = |diagnostic: &dyn Diagnostic| diagnostic.help().map(|help| help.to_string());
+        let others = error.related().into_iter().flatten();
+        let others =
+            others.map(|other| FurtherError { error: other.to_string(), help: help(other) });
+        let others = others.collect();
+        let help = help(error).unwrap_or_default();
+        Self { others, ..Self::new(&error.to_string(), exit_code, &help) }
+    }
+}
 
 /// Why a command did not come to its end, and what to do.
 #[derive(Debug, Error, Diagnostic)]

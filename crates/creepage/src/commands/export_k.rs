@@ -78,7 +78,7 @@ pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result
     })?;
     Ok(ExportedK {
         file: out,
-        unit: options.unit.name().into(),
+        unit: options.unit.name(),
         nodes: model.mesh.nodes.len(),
         elements: model.mesh.hexes.len(),
         preload_time: rolling.preload_time(),

@@ -9,10 +9,10 @@ use std::sync::atomic::Ordering;
 
 use crate::figures::slider::{self as figures, figure_6, figure_7, figure_8, time_step_map};
 use ::slider::tables::{self, Tables};
-use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds};
+use ::slider::{Method, Outcome, Parameters, Ringing, Thresholds};
 use output::files::made::SLIDER;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use output::summary::Status;
+use serde::{Deserialize, Serialize};
 
 use crate::commands::error::INTERRUPTED;
 use crate::commands::outputs::claim;
@@ -66,8 +66,9 @@ impl SliderOptions {
     }
 }
 
-/// What the slider gave.
-#[derive(Clone, Debug)]
+/// What the slider gave: the document of `creepage slider --json`.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
 pub enum SliderFound {
     /// Tables 2, 3 and 4 of the paper.
     Tables(Tables),
@@ -78,7 +79,8 @@ pub enum SliderFound {
 }
 
 /// A run of the slider.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "SliderResult")]
 pub struct SliderRun {
     /// Its parameters.
     pub parameters: Parameters,
@@ -90,24 +92,66 @@ pub struct SliderRun {
     pub figures: Vec<PathBuf>,
 }
 
-impl SliderFound {
-    /// The document of `creepage slider --json`.
-    pub fn document(&self) -> Value {
-        match self {
-            Self::Tables(tables) => json!(tables),
-            Self::Thresholds(found) => json!({
-                "dt_1": threshold(found.chatter), "dt_2": found.collapse.map(threshold),
-            }),
-            Self::Run(run) => {
-                let mut document = document(&run.parameters, run.method, &run.outcome);
-                if !run.figures.is_empty() {
-                    document["figures"] = json!(run.figures);
-                }
-                document
-            }
+/// The numbers of a run of the slider; NaN, which is null in JSON, where there is none.
+#[derive(Clone, Debug, Serialize)]
+pub struct SliderResult {
+    /// Name of the time stepping.
+    pub method: &'static str,
+    /// Time step (s).
+    pub dt: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Damping (N s/m).
+    pub damping: f64,
+    /// Least displacement (m).
+    pub x_min: f64,
+    /// Largest displacement after t = 0.7 s (m).
+    pub x_max: f64,
+    /// Largest velocity (m/s).
+    pub v_max: f64,
+    /// Whether it was interrupted.
+    pub status: Status,
+    /// Steps taken.
+    pub steps: u64,
+    /// Root mean square of the slip velocity in adhesion (m/s).
+    pub adhesion_slip: f64,
+    /// Spurious slip after the belt has captured the block.
+    pub ringing: Option<Ringing>,
+    /// Iterations of the implicit method.
+    pub picard_iterations: u64,
+    /// Most of them in a step.
+    pub most_picard_iterations: u32,
+    /// Steps that were solved by bracketing.
+    pub fallback_steps: u64,
+    /// The figures that were drawn.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<PathBuf>,
+}
+
+impl From<SliderRun> for SliderResult {
+    fn from(run: SliderRun) -> Self {
+        let SliderRun { parameters, method, outcome, figures } = run;
+        Self {
+            method: method.name(),
+            dt: parameters.dt,
+            mass: parameters.mass,
+            damping: parameters.damping,
+            x_min: outcome.x_min,
+            x_max: outcome.x_max,
+            v_max: outcome.v_max,
+            status: if outcome.stopped { Status::Interrupted } else { Status::Completed },
+            steps: outcome.steps,
+            adhesion_slip: outcome.adhesion_slip,
+            ringing: outcome.ringing,
+            picard_iterations: outcome.picard,
+            most_picard_iterations: outcome.most_picard,
+            fallback_steps: outcome.fallbacks,
+            figures,
         }
     }
+}
 
+impl SliderFound {
     /// Exit code of the command line: 0, 130 when interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
@@ -210,26 +254,6 @@ fn plot(
 /// The paper's t in [0.78, 0.80] s, or the same share of a shorter or longer run.
 fn zoom(p: &Parameters) -> [f64; 2] {
     [0.156 * p.end, 0.160 * p.end]
-}
-
-fn document(p: &Parameters, method: Method, out: &Outcome) -> Value {
-    // numbers that do not exist are null
-    let number = |value: f64| value.is_finite().then_some(value);
-    let ringing = out.ringing.map(
-        |r| json!({ "capture": r.capture, "peak": r.peak, "rms": r.rms, "later_rms": r.later_rms }),
-    );
-    json!({
-        "method": method.name(), "dt": p.dt, "mass": p.mass, "damping": p.damping,
-        "x_min": out.x_min, "x_max": number(out.x_max), "v_max": out.v_max,
-        "status": if out.stopped { "interrupted" } else { "completed" },
-        "steps": out.steps, "adhesion_slip": number(out.adhesion_slip), "ringing": ringing,
-        "picard_iterations": out.picard, "most_picard_iterations": out.most_picard,
-        "fallback_steps": out.fallbacks,
-    })
-}
-
-fn threshold(t: Threshold) -> Value {
-    json!({ "formula": t.formula, "bisection": t.bisection })
 }
 
 impl From<Unwritable> for Error {

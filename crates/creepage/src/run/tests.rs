@@ -126,9 +126,9 @@ fn the_mesh_report_estimates_the_time_of_explicit_steps_alone() {
         Case::from_text(&text, Path::new("short.toml"), &[]).unwrap()
     };
     let explicit = crate::run::mesh_report(&case(""), None).unwrap();
-    assert!(explicit["estimate"]["run_time_s"].as_f64().unwrap() > 0.0);
+    assert!(explicit.estimate.run_time_s.unwrap() > 0.0);
     let implicit = "time.integrator = \"implicit\"\ntime.step = 1e-5\n";
     let implicit = crate::run::mesh_report(&case(implicit), None).unwrap();
-    assert!(implicit["estimate"]["run_time_s"].is_null());
-    assert!(implicit["estimate"]["steps"].as_f64().unwrap() > 0.0);
+    assert!(implicit.estimate.run_time_s.is_none());
+    assert!(implicit.estimate.steps > 0.0);
 }

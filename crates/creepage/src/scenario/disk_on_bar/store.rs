@@ -26,7 +26,6 @@ use mesh::Padded;
 use output::files::input;
 use output::hexadecimal;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 use sha2::{Digest, Sha256};
 
 use super::preload::Preloaded;
@@ -57,30 +56,22 @@ pub(crate) fn key(case: &Case, kernels: &str) -> String {
     let penalty = &case.contact.penalty;
     let relaxation = case.preload.method == PreloadMethod::Relaxation;
     let by_step = |s: Stiffness| matches!(s, Stiffness::Stability(_));
-    let basis = json!({
-        "version": env!("CARGO_PKG_VERSION"),
-        "kernels": kernels,
-        "disk": case.disk,
-        "bar": case.bar,
-        "material": case.material,
-        "mesh": case.mesh,
-        "element": case.element,
-        "load": [case.load.normal, case.load.hub_mass],
-        // the centrifugal force
-        "speed": case.drive.speed,
-        "enforcement": case.contact.enforcement,
-        "rows": case.contact.rows,
-        "curvature": case.contact.curvature,
-        "normals": case.contact.normals,
-        "normal": penalty.normal,
-        "preload": case.preload.undisturbed(),
+    let steps = by_step(penalty.normal) || relaxation && by_step(penalty.tangential);
+    // as a tuple, since text that nobody reads needs no names
+    let basis = (
+        (env!("CARGO_PKG_VERSION"), kernels),
+        (&case.disk, &case.bar, &case.material, &case.mesh, &case.element),
+        // the speed for the centrifugal force
+        (case.load.normal, case.load.hub_mass, case.drive.speed),
+        (case.contact.enforcement, case.contact.rows, case.contact.curvature, case.contact.normals),
+        (penalty.normal, case.preload.undisturbed()),
         // relaxation takes its fictitious masses from both springs
-        "relaxation": relaxation.then_some((penalty, &case.damping)),
+        relaxation.then_some((penalty, &case.damping)),
         // springs that are a fraction of the stability limit follow the step
-        "step": (by_step(penalty.normal) || relaxation && by_step(penalty.tangential))
-            .then_some((case.time.factor, case.time.step)),
-    });
-    hexadecimal(&Sha256::digest(basis.to_string()))
+        steps.then_some((case.time.factor, case.time.step)),
+    );
+    let basis = serde_json::to_string(&basis).unwrap_or_default();
+    hexadecimal(&Sha256::digest(basis))
 }
 
 /// The preload of `case` from `folder`, or else by `find`; that one is then kept in `folder` for others.
@@ -167,7 +158,7 @@ fn read(path: &Path, key: &str, nodes: usize) -> Result<Option<Preloaded>, Strin
 }
 
 fn write(path: &Path, header: &Header, displacement: &[Padded]) -> std::io::Result<()> {
-    let mut content = format!("{MAGIC}\n{}\n", json!(header)).into_bytes();
+    let mut content = format!("{MAGIC}\n{}\n", serde_json::to_string(header)?).into_bytes();
     for u in displacement {
         u.xyz().iter().for_each(|x| content.extend(x.to_le_bytes()));
     }
