@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::sweep::result::{
-    COMPLETED, Entry, MeanOfMeans, MeanValue, Parameters, PointCheck, PointSummary, PointWindow,
-    SweepPoint, SweepRun,
+    COMPLETED, Entry, MeanOfMeans, MeanValue, Parameters, PointCheck, PointHalves, PointSummary,
+    PointWindow, SweepPoint, SweepRun,
 };
 use output::confidence::interval;
-use output::summary::MEANS;
+use output::summary::{MEANS, Window};
 
 /// Key of the axis of an ensemble's members.
 pub(crate) const AXIS: &str = "preload.seed";
@@ -45,9 +45,12 @@ fn point(parameters: Parameters, members: &[&SweepRun]) -> SweepPoint {
         let of = means.iter().filter(|(mean, _)| mean.key().0 == wanted);
         of.map(|(mean, [value, _])| (*mean, *value)).collect()
     };
-    let end = |of: fn(&output::summary::Window) -> Option<f64>| {
-        over(&completed, |run| of(run.summary()?.window.as_ref()?)).map(|[mean, _]| mean)
+    let end = |of: fn(&Window) -> Option<f64>| {
+        over(&completed, |run| of(run.summary()?.window.as_ref()?))
     };
+    let ends = [end(|window| window.from), end(|window| window.to)];
+    let [[from, from_half], [to, to_half]] =
+        ends.map(|end| [end.map(|[mean, _]| mean), end.map(|[_, half]| half)]);
     // one member alone has no interval
     let status = if completed.len() > 1 { COMPLETED } else { "failed" };
     SweepPoint {
@@ -60,9 +63,13 @@ fn point(parameters: Parameters, members: &[&SweepRun]) -> SweepPoint {
             dt: completed.first().and_then(|run| run.step()),
             contact: section("contact"),
             window: PointWindow {
-                ci95: means.iter().map(|(mean, [_, half])| (*mean, *half)).collect(),
-                from: end(|window| window.from),
-                to: end(|window| window.to),
+                ci95: PointHalves {
+                    from: from_half,
+                    to: to_half,
+                    means: means.iter().map(|(mean, [_, half])| (*mean, *half)).collect(),
+                },
+                from,
+                to,
                 means: section("window"),
             },
         },
@@ -129,8 +136,8 @@ mod tests {
         close(summary.contact[&Mean::TractionCoefficient], 0.3);
         assert_eq!(summary.dt, Some(0.5e-7));
         let half = 4.303 * 0.1 / 3.0_f64.sqrt();
-        close(summary.window.ci95[&Mean::TractionCoefficient], half);
-        close(summary.window.ci95[&Mean::Torque], 2.0 * half);
+        close(summary.window.ci95.means[&Mean::TractionCoefficient], half);
+        close(summary.window.ci95.means[&Mean::Torque], 2.0 * half);
         close(check.metrics[&Measure::LawError].ci95, 0.0);
         assert!(!summary.contact.contains_key(&Mean::Creepage), "no member has one");
         let parameters = json!(points[0].parameters);

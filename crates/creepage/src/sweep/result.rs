@@ -150,12 +150,24 @@ pub struct PointSummary {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointWindow {
     /// Half the width of the 95 % confidence intervals of all means.
-    pub ci95: BTreeMap<Mean, f64>,
+    pub ci95: PointHalves,
     /// Its ends (s).
     pub from: Option<f64>,
     /// See `from`.
     pub to: Option<f64>,
     /// The means.
+    #[serde(flatten)]
+    pub means: BTreeMap<Mean, f64>,
+}
+
+/// Half the widths of the 95 % confidence intervals of a point's window.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointHalves {
+    /// Of its ends (s).
+    pub from: Option<f64>,
+    /// See `from`.
+    pub to: Option<f64>,
+    /// Of the means.
     #[serde(flatten)]
     pub means: BTreeMap<Mean, f64>,
 }
@@ -320,7 +332,7 @@ impl<'a> Entry<'a> {
             Self::Point(point) => {
                 let PointSummary { contact, window, .. } = &point.summary;
                 let found = contact.get(&mean).or_else(|| window.means.get(&mean));
-                let half = window.ci95.get(&mean).copied();
+                let half = window.ci95.means.get(&mean).copied();
                 Some(Measured { value: *found?, half, deviation: None })
             }
         }

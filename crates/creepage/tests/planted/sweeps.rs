@@ -320,3 +320,30 @@ fn a_sweep_without_creepage_has_no_creep_force_curve() {
     let compared = [ComparedSweep { name: "kt".into(), folder: Path::new("s"), result: &sweep }];
     assert!(creep_force_figure(&compared).is_none());
 }
+
+/// A sweep of two members of one point, as the version with free JSON documents wrote it.
+const WRITTEN: &str = include_str!("../fixtures/sweep-written-before.json");
+
+#[test]
+fn a_sweep_with_summaries_and_checks_that_was_written_before_reads_back_with_every_key_and_value() {
+    fn same(written: &Value, again: &Value, at: &str) {
+        match (written, again) {
+            (Value::Object(written), Value::Object(again)) => {
+                for (key, value) in written {
+                    let found = again.get(key).unwrap_or_else(|| panic!("{at}/{key} is gone"));
+                    same(value, found, &format!("{at}/{key}"));
+                }
+            }
+            (Value::Array(written), Value::Array(again)) => {
+                assert_eq!(written.len(), again.len(), "{at}");
+                for (i, (written, again)) in written.iter().zip(again).enumerate() {
+                    same(written, again, &format!("{at}/{i}"));
+                }
+            }
+            _ => assert_eq!(written, again, "{at}"),
+        }
+    }
+    let result: SweepResult = serde_json::from_str(WRITTEN).unwrap();
+    same(&serde_json::from_str(WRITTEN).unwrap(), &serde_json::to_value(&result).unwrap(), "");
+    assert!(result.runs.iter().all(|run| run.completed()) && result.points.len() == 1);
+}
