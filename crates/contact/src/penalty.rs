@@ -95,7 +95,7 @@ impl PenaltyContact {
         Ok(contact)
     }
 
-    /// Adds the contact forces (N) at `x^n` to `force`, on the nodes of the [trace](crate::Contact::trace).
+    /// Adds the contact forces (N) at `x^n` to `force`, on the nodes of the [trace](crate::ContactStep::trace).
     ///
     /// # Panics
     /// If a slice has fewer entries than the trace has nodes.
