@@ -26,6 +26,7 @@ pub enum LawError {
 ///
 /// A parameter that is not given has its default or belongs to another law.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(extend("additionalProperties" = false))]
 pub struct Parameters {
     /// The law.
     #[serde(default)]

@@ -18,7 +18,7 @@ const RELAXATION_SPEED: Number = Number {
 pub(crate) const DECLARATION: Declaration = Declaration {
     word: "prakash_clifton",
     sentence: "A shear strength that follows the pressure.",
-    coefficient: "shear strength that follows `static` times the pressure over `distance` = L",
+    coefficient: "shear strength that follows `static` times the pressure over `distance`",
     numbers: &[
         (STATIC, LeftOut::Refused),
         (DISTANCE, LeftOut::Refused),

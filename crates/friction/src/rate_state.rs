@@ -52,7 +52,7 @@ const AGE: Number = Number {
 pub(crate) const DECLARATION: Declaration = Declaration {
     word: "rate_state",
     sentence: "Dieterich and Ruina's law.",
-    coefficient: "Dieterich-Ruina, L = `distance`",
+    coefficient: "Dieterich-Ruina",
     numbers: &[
         (DISTANCE, LeftOut::Refused),
         (REFERENCE, LeftOut::Default(0.6)),

@@ -89,7 +89,7 @@ pub(crate) fn all_laws() -> String {
         "" => format!("`\"{}\"`", law.word),
         said => format!("`\"{}\"` ({said})", law.word),
     });
-    let (last, before) = laws.split_at(LAWS.len() - 1);
+    let (before, last) = laws.split_at(LAWS.len() - 1);
     format!("{} or {}. Default `\"{}\"`.", before.join(", "), last.concat(), LAWS[0].word)
 }
 

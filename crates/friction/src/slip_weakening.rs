@@ -10,14 +10,15 @@ pub const DISTANCE: Number = Number {
     path: "friction.distance",
     unit: "m",
     range: [1e-12, 10.0],
-    sentence: "Slip over which friction changes (m).",
+    sentence: "Slip over which friction changes (m): d_0 of `\"slip_weakening\"`, L of `\"rate_state\"` and \
+               `\"prakash_clifton\"`.",
     remedy: "give the slip over which friction changes, in metres: `distance = 10e-6`",
 };
 
 pub(crate) const DECLARATION: Declaration = Declaration {
     word: "slip_weakening",
     sentence: "A coefficient that falls linearly with slip.",
-    coefficient: "linear from `static` to `dynamic` over `distance` = d_0",
+    coefficient: "linear from `static` to `dynamic` over `distance`",
     numbers: &[
         (STATIC, LeftOut::Refused),
         (DISTANCE, LeftOut::Refused),

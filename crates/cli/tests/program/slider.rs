@@ -66,7 +66,7 @@ fn what_is_wrong_with_a_parameter_file_is_shown_at_its_line() {
         ("dt = 1e-4\nspeed = 1\n", ["slider.toml:2", "unknown field `speed`"]),
         ("dt = 1e-4\ndecay = \"six\"\n", ["slider.toml:2", "invalid type: string"]),
         ("mass = 1\nmu_static = 6\n", ["slider.toml:2", "mu_static = 6  is out of range"]),
-        ("law = \"rate_state\"\n", ["slider.toml:1", "--distance"]),
+        ("law = \"rate_state\"\n", ["slider.toml:1", "is none of the slider"]),
         ("law = \"polach\"\nratio = 0.4\n", ["slider.toml:1", "needs --decay"]),
         ("= 3\n", ["slider.toml:1", "slider.toml"]),
         ("expression = \"0.3 + q\"\n", ["slider.toml:1", "'q' at position 7"]),

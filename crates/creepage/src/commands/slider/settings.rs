@@ -321,6 +321,9 @@ impl<'a> Sources<'a> {
             (None, None) => Kind::Exponential,
         });
         let law = kind.declaration();
+        if !law.is_steady() {
+            return Err(self.not_of_the_slider(law));
+        }
         let mut parameters = friction::Parameters { law: kind, ..Default::default() };
         for number in law_numbers::numbers() {
             let key = number.key();
@@ -347,15 +350,16 @@ impl<'a> Sources<'a> {
         if let Some(key) = parameters.missing() {
             return Err(self.missing(law, key));
         }
-        match parameters.steady(Expression::new) {
-            Some(law) => law.map_err(|error| {
-                self.at("expression", &error.to_string(), "see `creepage slider --help`")
-            }),
-            None => {
-                let message = format!("the friction law '{}' is none of the slider", law.word);
-                Err(self.at("law", &message, "`creepage slider --help` lists its laws"))
-            }
-        }
+        let no_law = || self.not_of_the_slider(law);
+        parameters.steady(Expression::new).ok_or_else(no_law)?.map_err(|error| {
+            self.at("expression", &error.to_string(), "see `creepage slider --help`")
+        })
+    }
+
+    fn not_of_the_slider(&self, law: &Declaration) -> Box<SettingError> {
+        let message =
+            format!("the friction law '{}' is none of the slider, which keeps no state", law.word);
+        self.at("law", &message, "`creepage slider --help` lists its laws")
     }
 
     /// Refuses a parameter that the law does not use.
