@@ -5,7 +5,8 @@ use std::path::Path;
 
 use runs::{Results, load, project, run_with, small};
 
-const LAWS: [&[&str]; 7] = [
+const LAWS: [&[&str]; 8] = [
+    &["friction.law=polach", "friction.ratio=0.4", "friction.decay=6"],
     &["friction.law=slip_weakening", "friction.dynamic=0.2", "friction.distance=2e-6"],
     &["friction.law=rate_state", "friction.distance=2e-6"],
     &["friction.law=rate_state", "friction.distance=2e-6", "friction.state=slip"],

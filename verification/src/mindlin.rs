@@ -58,7 +58,7 @@ impl Mindlin {
     fn of(case: &Case) -> Self {
         let (a, steel) = (hertz(case).a, case.disk_material());
         let shear = steel.young / (2.0 * (1.0 + steel.poisson));
-        let bound = case.friction.static_.unwrap_or(0.0) * case.load.normal;
+        let bound = case.friction.number("static").unwrap_or(0.0) * case.load.normal;
         let whole = 3.0 * bound * (2.0 - steel.poisson) / (8.0 * shear * a);
         let turn = 1.0 - libm::pow(1.0 - SHIFT / whole, 1.5);
         Self { a, bound, whole, turn }

@@ -36,8 +36,8 @@ pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, RunOptions, run};
 pub use slider::{
-    LawName, MethodName, SettingError, Settings, SliderFound, SliderOptions, SliderResult,
-    SliderRun, slider,
+    LawName, LawNumbers, MethodName, SettingError, Settings, SliderFound, SliderOptions,
+    SliderResult, SliderRun, slider,
 };
 pub use sweep::{PlannedOrRun, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;

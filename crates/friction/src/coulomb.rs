@@ -1,6 +1,28 @@
 //! Coulomb's law.
 
-use crate::FrictionLaw;
+use crate::declaration::{Make, no_defaults};
+use crate::{Declaration, FrictionLaw, LeftOut, Number};
+use std::sync::Arc;
+
+/// `static`, of most laws.
+pub const STATIC: Number = Number {
+    path: "friction.static",
+    unit: "-",
+    range: [0.0, 5.0],
+    sentence: "Coefficient of friction at zero slip velocity (dimensionless).",
+    remedy: "give the coefficient of friction: `static = 0.5`",
+};
+
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "coulomb",
+    sentence: "A constant coefficient.",
+    coefficient: "one coefficient, `static`",
+    numbers: &[(STATIC, LeftOut::Refused)],
+    needs: &[],
+    takes: &[],
+    write_defaults: no_defaults,
+    make: Make::Steady(|p, _| Ok(Arc::new(Coulomb { mu: p.value(STATIC) }))),
+};
 
 /// Coulomb's law: one coefficient at every slip speed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,48 @@
 //! Friction that falls exponentially.
 
-use crate::FrictionLaw;
+use crate::coulomb::STATIC;
+use crate::declaration::{Make, no_defaults};
+use crate::{Declaration, FrictionLaw, LeftOut, Number};
+use std::sync::Arc;
+
+/// `dynamic`, of the laws that fall to a coefficient.
+pub const DYNAMIC: Number = Number {
+    path: "friction.dynamic",
+    unit: "-",
+    range: [0.0, 5.0],
+    sentence: "Coefficient at high slip velocity, or after slip (dimensionless), at most `static`.",
+    remedy: "give a coefficient of friction: 0.32",
+};
+
+/// `decay`, of the laws that fall exponentially.
+pub const DECAY: Number = Number {
+    path: "friction.decay",
+    unit: "s/m",
+    range: [0.0, 1e4],
+    sentence: "Decay of the coefficient with slip velocity (s/m).",
+    remedy: "give the decay in s/m: 6.0",
+};
+
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "exponential",
+    sentence: "A coefficient that falls exponentially with slip velocity.",
+    coefficient: "Eq 8 of the paper: mu(s) = dynamic + (static - dynamic) exp(-decay |s|)",
+    numbers: &[
+        (STATIC, LeftOut::Refused),
+        (DYNAMIC, LeftOut::Default(0.32)),
+        (DECAY, LeftOut::Default(6.0)),
+    ],
+    needs: &[],
+    takes: &["mode", "memory"],
+    write_defaults: no_defaults,
+    make: Make::Steady(|p, _| {
+        Ok(Arc::new(Exponential {
+            mu_static: p.value(STATIC),
+            mu_dynamic: p.value(DYNAMIC),
+            decay: p.value(DECAY),
+        }))
+    }),
+};
 
 /// Friction that falls exponentially with the slip speed, Eq. (8) of Vollebregt (2017):
 /// `mu(s) = mu_dynamic + (mu_static - mu_dynamic) exp(-decay |s|)`.
@@ -25,6 +67,10 @@ impl FrictionLaw for Exponential {
 
     fn slope(&self, slip_speed: f64) -> f64 {
         -self.decay * (self.mu_static - self.mu_dynamic) * libm::exp(-self.decay * slip_speed)
+    }
+
+    fn as_exponential(&self) -> Option<Exponential> {
+        Some(*self)
     }
 }
 

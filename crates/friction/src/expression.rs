@@ -1,10 +1,25 @@
 //! Friction given by a formula.
 
+use crate::declaration::{Make, no_defaults};
+use crate::law::trial_speeds;
 use crate::operators::Operators;
-use crate::{FrictionLaw, NodeConditions};
+use crate::{Declaration, FrictionLaw, NodeConditions};
 use exmex::{Express, FlatEx, MatchLiteral};
 use std::sync::Arc;
 use thiserror::Error;
+
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "expression",
+    sentence: "A coefficient by a formula.",
+    coefficient: "",
+    numbers: &[],
+    needs: &["expression"],
+    takes: &["mode", "memory"],
+    write_defaults: no_defaults,
+    make: Make::Steady(|p, beside| {
+        Ok(Arc::new((beside.formula)(p.expression.as_deref().unwrap_or_default())?))
+    }),
+};
 
 /// The names of a formula: slip speed (m/s), contact pressure (Pa), time (s), position along `x` (m).
 const NAMES: [&str; 4] = ["s", "p", "t", "x"];
@@ -106,11 +121,6 @@ pub enum ExpressionError {
         /// What it gives.
         mu: f64,
     },
-}
-
-/// Slip speeds (m/s) at which a formula is tested: at rest and from 1e-9 to 1e3 m/s.
-pub(super) fn trial_speeds() -> impl Iterator<Item = f64> {
-    std::iter::once(0.0).chain((0..=240).map(|i| libm::pow(10f64, -9.0 + f64::from(i) / 20.0)))
 }
 
 impl Expression {
@@ -234,6 +244,12 @@ impl FrictionLaw for Expression {
     /// At rest; with [`Self::over`] at the largest pressure of the domain, at `t = 0` and `x = 0`.
     fn mu_static(&self) -> f64 {
         self.at_rest
+    }
+
+    /// By a one-sided difference of second order.
+    fn fall_at_rest(&self) -> f64 {
+        let h = 1e-6;
+        (3.0 * self.mu_static() - 4.0 * self.mu(h) + self.mu(2.0 * h)) / (2.0 * h)
     }
 
     fn mu_at(&self, slip_speed: f64, at: &NodeConditions) -> f64 {

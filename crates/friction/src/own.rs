@@ -1,8 +1,28 @@
 //! A friction law that the caller of the program supplies: `friction.law = "python"`.
 
-use crate::{Memory, NodeConditions, NodeFriction, NodeHistory, Remembers};
+use crate::declaration::{Make, no_defaults};
+use crate::{
+    Coulomb, Declaration, Memory, Mode, NodeConditions, NodeFriction, NodeHistory, Remembers,
+};
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
+
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "python",
+    sentence: "A coefficient by a function that is handed over with the run.",
+    coefficient: "a function that the Python package hands over with the run",
+    numbers: &[],
+    needs: &["source"],
+    takes: &["mode", "memory"],
+    write_defaults: no_defaults,
+    make: Make::AtNode(|p, beside| match beside.own {
+        Some(own) => {
+            let implicit = p.memory.is_none() && p.mode == Some(Mode::Exact);
+            Box::new(Own::new(Arc::clone(own), p.memory, implicit))
+        }
+        None => Box::new(Coulomb { mu: 0.0 }),
+    }),
+};
 
 /// A user's coefficient of friction as a function of the slip speed. It is not part of this program and is expensive to
 /// call, so that it is evaluated for all contact nodes at once.

@@ -1,6 +1,40 @@
 //! Friction whose shear strength follows changes of pressure gradually.
 
-use crate::{NodeConditions, NodeFriction};
+use crate::coulomb::STATIC;
+use crate::declaration::{Make, no_defaults};
+use crate::slip_weakening::DISTANCE;
+use crate::{Declaration, LeftOut, NodeConditions, NodeFriction, Number};
+
+const RELAXATION_SPEED: Number = Number {
+    path: "friction.relaxation_speed",
+    unit: "m/s",
+    range: [1e-9, 1e3],
+    sentence: "V* of `\"prakash_clifton\"` (m/s): the strength follows the pressure at rest in the time `distance` \
+               over this.",
+    remedy: "give V* of the law in m/s: 1.0",
+};
+
+/// The default of V* is that of the benchmarks TPV6 and 7 (Harris et al. 2009).
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "prakash_clifton",
+    sentence: "A shear strength that follows the pressure.",
+    coefficient: "shear strength that follows `static` times the pressure over `distance`",
+    numbers: &[
+        (STATIC, LeftOut::Refused),
+        (DISTANCE, LeftOut::Refused),
+        (RELAXATION_SPEED, LeftOut::Default(1.0)),
+    ],
+    needs: &[],
+    takes: &[],
+    write_defaults: no_defaults,
+    make: Make::AtNode(|p, _| {
+        Box::new(PrakashClifton {
+            mu: p.value(STATIC),
+            distance: p.value(DISTANCE),
+            speed: p.value(RELAXATION_SPEED),
+        })
+    }),
+};
 
 /// `d tau_s/dt = -((|s| + V*)/L) (tau_s - mu p)`: the shear strength `tau_s` relaxes towards Coulomb's
 /// over the distance `L` of slip, and at rest in the time `L/V*`. Prakash and Clifton's (1993) response to

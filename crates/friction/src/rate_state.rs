@@ -1,9 +1,91 @@
 //! Friction of rate and state.
 
-use crate::{NodeConditions, NodeFriction};
+use crate::declaration::Make;
+use crate::slip_weakening::DISTANCE;
+use crate::{Declaration, LeftOut, Mode, NodeConditions, NodeFriction, Number, Parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_2;
+
+const REFERENCE: Number = Number {
+    path: "friction.reference",
+    unit: "-",
+    range: [1e-3, 5.0],
+    sentence: "f_0 of `\"rate_state\"` (dimensionless), the coefficient of steady sliding at `reference_speed`.",
+    remedy: "give a coefficient of friction: 0.6",
+};
+
+const REFERENCE_SPEED: Number = Number {
+    path: "friction.reference_speed",
+    unit: "m/s",
+    range: [1e-12, 100.0],
+    sentence: "V_0 of `\"rate_state\"` (m/s).",
+    remedy: "give V_0 in m/s: 1e-6",
+};
+
+const DIRECT: Number = Number {
+    path: "friction.direct",
+    unit: "-",
+    range: [1e-4, 1.0],
+    sentence: "Direct effect a of `\"rate_state\"` (dimensionless).",
+    remedy: "give the direct effect a: 0.008",
+};
+
+const EVOLUTION: Number = Number {
+    path: "friction.evolution",
+    unit: "-",
+    range: [0.0, 1.0],
+    sentence: "Effect of the state b of `\"rate_state\"` (dimensionless); friction falls with slip velocity in the \
+               long run where it is above `direct`.",
+    remedy: "give the effect b: 0.012",
+};
+
+const AGE: Number = Number {
+    path: "friction.age",
+    unit: "s",
+    range: [1e-14, 1e13],
+    sentence: "State theta of `\"rate_state\"` with which contact begins (s).",
+    remedy: "give the state theta in seconds: 10",
+};
+
+/// The defaults are those of the benchmarks TPV101 and 102 (Harris et al. 2009).
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "rate_state",
+    sentence: "Dieterich and Ruina's law.",
+    coefficient: "Dieterich-Ruina",
+    numbers: &[
+        (DISTANCE, LeftOut::Refused),
+        (REFERENCE, LeftOut::Default(0.6)),
+        (REFERENCE_SPEED, LeftOut::Default(1e-6)),
+        (DIRECT, LeftOut::Default(0.008)),
+        (EVOLUTION, LeftOut::Default(0.012)),
+        (AGE, LeftOut::Follows { said: "`distance` over `reference_speed`", of: age_of_steady_sliding }),
+    ],
+    needs: &[],
+    takes: &["state", "mode"],
+    write_defaults,
+    make: Make::AtNode(|p, _| {
+        Box::new(RateState {
+            reference: p.value(REFERENCE),
+            reference_speed: p.value(REFERENCE_SPEED),
+            direct: p.value(DIRECT),
+            evolution: p.value(EVOLUTION),
+            distance: p.value(DISTANCE),
+            law: p.state.unwrap_or_default(),
+            initial: p.value(AGE),
+            lagged: p.mode.unwrap_or_default() == Mode::Lagged,
+        })
+    }),
+};
+
+fn age_of_steady_sliding(p: &Parameters) -> f64 {
+    p.value(DISTANCE) / p.value(REFERENCE_SPEED)
+}
+
+fn write_defaults(p: &mut Parameters, exact: bool) {
+    p.state.get_or_insert_default();
+    p.mode.get_or_insert(if exact { Mode::Exact } else { Mode::Lagged });
+}
 
 /// How the state of rate-and-state friction evolves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

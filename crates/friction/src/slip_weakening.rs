@@ -1,6 +1,40 @@
 //! Friction that weakens with accumulated slip.
 
-use crate::{NodeConditions, NodeFriction};
+use crate::coulomb::STATIC;
+use crate::declaration::{Make, no_defaults};
+use crate::exponential::DYNAMIC;
+use crate::{Declaration, LeftOut, NodeConditions, NodeFriction, Number};
+
+/// `distance`, of the laws whose friction changes with the path of slip.
+pub const DISTANCE: Number = Number {
+    path: "friction.distance",
+    unit: "m",
+    range: [1e-12, 10.0],
+    sentence: "Slip over which friction changes (m): d_0 of `\"slip_weakening\"`, L of `\"rate_state\"` and \
+               `\"prakash_clifton\"`.",
+    remedy: "give the slip over which friction changes, in metres: `distance = 10e-6`",
+};
+
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "slip_weakening",
+    sentence: "A coefficient that falls linearly with slip.",
+    coefficient: "linear from `static` to `dynamic` over `distance`",
+    numbers: &[
+        (STATIC, LeftOut::Refused),
+        (DISTANCE, LeftOut::Refused),
+        (DYNAMIC, LeftOut::Default(0.32)),
+    ],
+    needs: &[],
+    takes: &[],
+    write_defaults: no_defaults,
+    make: Make::AtNode(|p, _| {
+        Box::new(SlipWeakening {
+            mu_static: p.value(STATIC),
+            mu_dynamic: p.value(DYNAMIC),
+            distance: p.value(DISTANCE),
+        })
+    }),
+};
 
 /// `mu = mu_S - (mu_S - mu_D) min(|slip|/d_0, 1)`: linear slip weakening (Ida 1972; Andrews 1976), the
 /// law of the dynamic rupture benchmarks (Harris et al. 2009, TPV3).

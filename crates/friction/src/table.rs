@@ -1,7 +1,21 @@
 //! Friction given by points.
 
-use crate::FrictionLaw;
+use crate::declaration::{Make, no_defaults};
+use crate::law::Strengthens;
+use crate::{Declaration, FrictionLaw};
+use std::sync::Arc;
 use thiserror::Error;
+
+pub(crate) const DECLARATION: Declaration = Declaration {
+    word: "table",
+    sentence: "A coefficient by points.",
+    coefficient: "",
+    numbers: &[],
+    needs: &["table"],
+    takes: &["mode", "memory"],
+    write_defaults: no_defaults,
+    make: Make::Steady(|p, _| Ok(Arc::new(Table::new(p.table.clone().unwrap_or_default())?))),
+};
 
 /// `mu(|s|)` by linear interpolation between points; beyond the last point it stays constant.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +111,17 @@ impl FrictionLaw for Table {
 
     fn mu_static(&self) -> f64 {
         self.points.first().map_or(0.0, |p| p[1])
+    }
+
+    fn fall_at_rest(&self) -> f64 {
+        match self.points() {
+            [a, b, ..] => (a[1] - b[1]) / (b[0] - a[0]),
+            _ => 0.0,
+        }
+    }
+
+    fn strengthens(&self) -> Option<Strengthens> {
+        self.points.windows(2).find_map(|pair| Strengthens::between([pair[0], pair[1]]))
     }
 }
 

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use friction::{
-    Expression, Mode, NodeConditions, NodeFriction, NodeHistory, Parameters, Remembers, slip_speed,
+    Declaration, Expression, FrictionLaw as _, Kind, LAWS, LeftOut, Mode, NodeConditions,
+    NodeFriction, NodeHistory, Number, OTHERS, Parameters, Remembers, all_parameters, slip_speed,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -27,11 +28,13 @@ impl Law {
     /// The same law where the unit of length is the millimetre.
     fn in_millimetres(&self) -> Box<dyn NodeFriction> {
         let mut p = self.parameters.clone();
-        let longer = |x: &mut Option<f64>| x.iter_mut().for_each(|x| *x *= 1e3);
-        longer(&mut p.distance);
-        longer(&mut p.relaxation_speed);
-        longer(&mut p.reference_speed);
-        p.decay.iter_mut().for_each(|k| *k /= 1e3);
+        for (number, value) in p.numbers.given_mut() {
+            match number.unit {
+                "m" | "m/s" => *value *= 1e3,
+                "s/m" => *value /= 1e3,
+                unit => assert!(unit == "-" || unit == "s", "{unit}"),
+            }
+        }
         p.table.iter_mut().flatten().for_each(|[speed, _]| *speed *= 1e3);
         p.expression.iter_mut().for_each(|text| *text = text.replace('s', "(s/1000)"));
         p.memory.iter_mut().for_each(|memory| {
@@ -207,6 +210,28 @@ fn gives_the_same_coefficients_in_other_units(law: &Law) {
     });
 }
 
+/// Laws without state, all of which fall here.
+fn falls_from_the_coefficient_at_rest_by_its_slope(law: &Law) {
+    let Some(law) = law.parameters.steady(Expression::untried).transpose().unwrap() else {
+        return;
+    };
+    assert_eq!((law.mu(0.0), law.strengthens()), (law.mu_static(), None));
+    let by_difference = (law.mu(0.0) - law.mu(1e-7)) / 1e-7;
+    assert!((law.fall_at_rest() - by_difference).abs() < 1e-5, "{by_difference}");
+    if let Some(same) = law.as_exponential() {
+        let least = same.mu_dynamic;
+        assert!((0.0..=same.mu_static).contains(&least) && same.decay >= 0.0, "{same:?}");
+        for_histories(|history, _| {
+            for &(speed, _) in history {
+                let (mu, slope) = (law.mu(speed), law.slope(speed));
+                assert!((mu - same.mu(speed)).abs() < 1e-15, "{mu} at {speed} m/s");
+                assert!((slope - same.slope(speed)).abs() < 1e-15 * (1.0 + slope.abs()));
+                assert!((least..=law.mu_static()).contains(&mu), "{mu} at {speed} m/s");
+            }
+        });
+    }
+}
+
 macro_rules! every_law_keeps {
     ($text:expr; $($rule:ident)*) => {
         use super::*;
@@ -230,6 +255,7 @@ macro_rules! laws {
                 has_the_same_bits_for_one_node_and_for_all_at_once
                 dissipates_and_keeps_the_bound_where_a_node_slips
                 gives_the_same_coefficients_in_other_units
+                falls_from_the_coefficient_at_rest_by_its_slope
             }
         })*
     };
@@ -240,6 +266,9 @@ laws! {
     exponential_lagged: "law = 'exponential'\nstatic = 0.5";
     exponential_at_the_same_instant: "law = 'exponential'\nstatic = 0.5\nmode = 'exact'";
     exponential_with_memory: "law = 'exponential'\nstatic = 0.5\nmemory.distance = 1e-5";
+    polach_lagged: "law = 'polach'\nstatic = 0.55\nratio = 0.4\ndecay = 0.6";
+    polach_at_the_same_instant:
+        "law = 'polach'\nstatic = 0.55\nratio = 0.4\ndecay = 0.6\nmode = 'exact'";
     slip_weakening: "law = 'slip_weakening'\nstatic = 0.5\ndistance = 1e-5";
     rate_state_ageing: "law = 'rate_state'\ndistance = 1e-5\nmode = 'exact'";
     rate_state_slip: "law = 'rate_state'\nstate = 'slip'\ndistance = 1e-5\nmode = 'exact'";
@@ -254,8 +283,47 @@ laws! {
 #[test]
 fn every_law_of_a_case_file_has_its_line() {
     let lines = include_str!("every_law.rs");
-    for uses in friction::USES.iter().filter(|uses| uses.word != "python") {
-        let named = format!("law = '{}'", uses.word);
-        assert!(uses.word == "coulomb" || lines.contains(&named), "{}", uses.word);
+    for word in LAWS.map(|law| law.word).into_iter().filter(|word| *word != "python") {
+        let named = format!("law = '{word}'");
+        assert!(word == "coulomb" || lines.contains(&named), "{word}");
+    }
+}
+
+#[test]
+fn every_law_has_its_word_and_parameters_that_exist_in_their_ranges() {
+    for kind in Kind::ALL {
+        let law = kind.declaration();
+        let read: Parameters = toml::from_str(&format!("law = '{}'", law.word)).unwrap();
+        assert_eq!((read.law, law.kind()), (kind, kind));
+        assert_eq!(Declaration::of(law.word).unwrap().word, law.word);
+        for key in law.needs.iter().chain(law.takes) {
+            assert!(OTHERS.contains(key), "{key}");
+        }
+        for (number, left_out) in law.numbers {
+            assert_eq!(
+                Number::of(number.key()),
+                Some(number),
+                "two declarations of {}",
+                number.path
+            );
+            let [low, high] = number.range;
+            if let LeftOut::Default(value) = left_out {
+                assert!((low..=high).contains(value), "{}", number.path);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_documents_name_the_keys_of_every_law() {
+    let text = include_str!("../../../docs/method.md");
+    for law in LAWS {
+        let row = text.lines().find(|line| line.starts_with(&format!("| `\"{}\"` |", law.word)));
+        let row = row.unwrap_or_else(|| panic!("docs/method.md has no row for {}", law.word));
+        let keys = row.rsplit('|').nth(1).unwrap();
+        let named = all_parameters().filter(|key| keys.contains(&format!("`{key}`")));
+        let mut wanted: Vec<_> = law.keys().collect();
+        wanted.sort_by_key(|key| all_parameters().position(|other| other == *key));
+        assert_eq!(named.collect::<Vec<_>>(), wanted, "docs/method.md: {row}");
     }
 }

@@ -111,8 +111,9 @@ fn advanced(p: &Parameters, state: &State, slip: f64) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use friction::{Exponential, SteadyLaw};
+    use friction::Exponential;
     use proptest::prelude::*;
+    use std::sync::Arc;
 
     prop_compose! {
         fn parameters()(
@@ -137,7 +138,7 @@ mod tests {
                 spring,
                 damping,
                 adhesion: libm::pow(10f64, adhesion),
-                law: SteadyLaw::Exponential(Exponential { mu_static, mu_dynamic, decay }),
+                law: Arc::new(Exponential { mu_static, mu_dynamic, decay }),
                 dt: libm::pow(10f64, dt),
                 x0,
                 v0,

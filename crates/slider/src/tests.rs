@@ -1,8 +1,9 @@
 //! What the methods do over a whole run.
 
 use crate::*;
-use friction::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
+use friction::{Coulomb, Exponential, Expression, FrictionLaw, Memory, Table};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 fn at(dt: f64) -> Parameters {
     Parameters { dt, ..Parameters::default() }
@@ -113,11 +114,11 @@ fn one_law_in_three_forms_gives_one_motion() {
     let forms = |method| {
         let points = (0..=30_000).map(|i| f64::from(i) * 5e-4);
         let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
-        let table = points.map(|s| [s, friction::FrictionLaw::mu(&law, s)]).collect();
+        let table = points.map(|s| [s, law.mu(s)]).collect();
         [
-            SteadyLaw::Exponential(law),
-            SteadyLaw::Expression(Expression::new("0.32 + 0.18*exp(-6*s)").unwrap()),
-            SteadyLaw::Table(Table::new(table).unwrap()),
+            Arc::new(law) as Arc<dyn FrictionLaw>,
+            Arc::new(Expression::new("0.32 + 0.18*exp(-6*s)").unwrap()),
+            Arc::new(Table::new(table).unwrap()),
         ]
         .map(|law| run(&Parameters { law, ..at(1e-4) }, method, unobserved).unwrap())
     };
@@ -130,7 +131,7 @@ fn one_law_in_three_forms_gives_one_motion() {
 
 #[test]
 fn constant_friction_makes_the_block_stick_and_then_slide_steadily() {
-    let law = SteadyLaw::Coulomb(Coulomb { mu: 0.5 });
+    let law: Arc<dyn FrictionLaw> = Arc::new(Coulomb { mu: 0.5 });
     for method in Method::ALL {
         let p = Parameters { law: law.clone(), damping: 1.0, end: 20.0, ..at(1e-5) };
         let mut last = p.start();

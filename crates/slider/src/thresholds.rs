@@ -158,7 +158,8 @@ fn collapses_early(p: &Parameters, dt: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use friction::{Coulomb, Exponential, SteadyLaw};
+    use friction::{Coulomb, Exponential};
+    use std::sync::Arc;
 
     /// Relative differences of the bisections from the formulas.
     fn differences(p: &Parameters) -> [f64; 2] {
@@ -180,7 +181,7 @@ mod tests {
         for p in [
             Parameters { mass: 0.1, ..Parameters::default() },
             Parameters { spring: 100.0, ..Parameters::default() },
-            Parameters { law: SteadyLaw::Exponential(law), ..Parameters::default() },
+            Parameters { law: Arc::new(law), ..Parameters::default() },
         ] {
             assert!(differences(&p).iter().all(|d| d.abs() < 0.05), "{:?}", differences(&p));
         }
@@ -194,7 +195,7 @@ mod tests {
 
     #[test]
     fn friction_that_does_not_fall_never_collapses_early() {
-        let law = SteadyLaw::Coulomb(Coulomb { mu: 0.4 });
+        let law = Arc::new(Coulomb { mu: 0.4 });
         let p = Parameters { law, ..Parameters::default() };
         assert_eq!(thresholds(&p).unwrap().collapse, None);
     }

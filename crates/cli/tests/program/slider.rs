@@ -63,6 +63,11 @@ fn what_is_wrong_with_a_parameter_file_is_shown_at_its_line() {
         ("speed = 1\n", ["slider.toml:1", "speed"]),
         ("law = \"coulomb\"\ndecay = 3\n", ["slider.toml:2", "does not use decay"]),
         ("mu_static = 0.3\nmu_dynamic = 0.4\n", ["slider.toml:2", "--allow-strengthening"]),
+        ("dt = 1e-4\nspeed = 1\n", ["slider.toml:2", "unknown field `speed`"]),
+        ("dt = 1e-4\ndecay = \"six\"\n", ["slider.toml:2", "invalid type: string"]),
+        ("mass = 1\nmu_static = 6\n", ["slider.toml:2", "mu_static = 6  is out of range"]),
+        ("law = \"rate_state\"\n", ["slider.toml:1", "is none of the slider"]),
+        ("law = \"polach\"\nratio = 0.4\n", ["slider.toml:1", "needs --decay"]),
         ("= 3\n", ["slider.toml:1", "slider.toml"]),
         ("expression = \"0.3 + q\"\n", ["slider.toml:1", "'q' at position 7"]),
     ] {
@@ -84,6 +89,15 @@ fn options_come_before_the_parameter_file() {
     let out = json(&slider(&["--json", "--config", &path.display().to_string(), "--dt", "1e-4"]));
     assert_eq!((&out["method"], &out["dt"]), (&"exact".into(), &1e-4.into()));
     assert_eq!((&out["mass"], &out["steps"]), (&0.02.into(), &10_000.into()));
+}
+
+#[test]
+fn polachs_law_moves_the_block_as_the_same_law_of_equation_8() {
+    let run =
+        |law: &[&str]| json(&slider(&[&["--json", "--t-end", "1"], law].concat()))["x_max"].clone();
+    let polach = ["--law", "polach", "--mu-static", "0.5", "--ratio", "0.64", "--decay", "6"];
+    let [x, same] = [run(&polach), run(&[])].map(|x_max| x_max.as_f64().unwrap());
+    assert!((x - same).abs() < 1e-9, "{x} {same}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::case::key::{Form, Key, STIFFNESS, number};
 use crate::case::keys::{self, KEYS};
 use crate::case::layers::{Layers, get, join, key_error_in};
 use crate::case::{quantity, units};
-use friction::USES;
+use friction::Declaration;
 
 /// Most mistakes in one message: more would hide the first.
 const MOST_MISTAKES: usize = 20;
@@ -146,7 +146,7 @@ fn check_needed(layers: &Layers, errors: &mut Vec<KeyError>) {
 /// Whether the friction law uses `static`; true for an unknown law, which was refused before.
 fn needs_static(layers: &Layers) -> bool {
     let law = get(&layers.table, "friction.law").and_then(Value::as_str);
-    USES.iter().find(|uses| Some(uses.word) == law).is_none_or(|uses| uses.has("static"))
+    law.and_then(Declaration::of).is_none_or(|law| law.has("static"))
 }
 
 fn missing(layers: &Layers, section: &str, name: &str, key: &Key) -> KeyError {

@@ -2,29 +2,15 @@
 
 use crate::case::hertz::hertz;
 use crate::case::key::Form::{Curve, Number, Text};
-use crate::case::key::{Key, key, needed, within, word};
+use crate::case::key::{Key, key, within, word};
 use crate::case::schema::Case;
 use crate::case::section::rows;
-use friction::{Domain, Expression, LawError, NodeFriction, OwnLaw, USES};
+use friction::{Domain, Expression, LAWS, LawError, NUMBERS, NodeFriction, OwnLaw};
 use std::sync::Arc;
 
 rows! {
-    /// The keys of `[friction]`; the crate `friction` declares the parameters.
-    "friction.law" => word(&LAWS);
-    "friction.static"
-        => needed(Number(within(0.0, 5.0)), "-", "give the coefficient of friction: `static = 0.5`");
-    "friction.dynamic" => key(Number(within(0.0, 5.0)), "-", "give a coefficient of friction: 0.32");
-    "friction.decay" => key(Number(within(0.0, 1e4)), "s/m", "give the decay in s/m: 6.0");
-    "friction.distance"
-        => key(Number(within(1e-12, 10.0)), "m",
-            "give the slip over which friction changes, in metres: `distance = 10e-6`");
-    "friction.relaxation_speed" => key(Number(within(1e-9, 1e3)), "m/s", "give V* of the law in m/s: 1.0");
-    "friction.reference" => key(Number(within(1e-3, 5.0)), "-", "give a coefficient of friction: 0.6");
-    "friction.reference_speed" => key(Number(within(1e-12, 100.0)), "m/s", "give V_0 in m/s: 1e-6");
-    "friction.direct" => key(Number(within(1e-4, 1.0)), "-", "give the direct effect a: 0.008");
-    "friction.evolution" => key(Number(within(0.0, 1.0)), "-", "give the effect b: 0.012");
+    /// The keys of `[friction]` that are no numbers.
     "friction.state" => word(&["ageing", "slip"]);
-    "friction.age" => key(Number(within(1e-14, 1e13)), "s", "give the state theta in seconds: 10");
     "friction.table"
         => key(Curve(within(0.0, 1e4), within(0.0, 100.0)), "",
             "give the path of a CSV file, relative to this one, or pairs of slip velocity (m/s), rising from 0, \
@@ -40,12 +26,26 @@ rows! {
         => key(Number(within(1e-12, 100.0)), "m/s", "give the slip speed below which friction adapts in time: 10e-3");
 }
 
+/// The key of the law and those of its numbers, which the crate `friction` declares.
+pub(crate) const LAW: &[Key] = &{
+    let mut rows = [Key { path: "friction.law", ..word(&WORDS) }; NUMBERS.len() + 1];
+    let mut i = 0;
+    while i < NUMBERS.len() {
+        let [low, high] = NUMBERS[i].range;
+        let row = key(Number(within(low, high)), NUMBERS[i].unit, NUMBERS[i].remedy);
+        let needed = NUMBERS[i].is_needed_by_default();
+        i += 1;
+        rows[i] = Key { path: NUMBERS[i - 1].path, needed, ..row };
+    }
+    rows
+};
+
 /// The words of `friction.law`.
-const LAWS: [&str; USES.len()] = {
-    let mut words = [""; USES.len()];
+const WORDS: [&str; LAWS.len()] = {
+    let mut words = [""; LAWS.len()];
     let mut law = 0;
     while law < words.len() {
-        words[law] = USES[law].word;
+        words[law] = LAWS[law].word;
         law += 1;
     }
     words

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::case::key::{Form, Key, Range, STIFFNESS};
 use crate::case::keys::KEYS;
 use crate::case::schema::Case;
-use friction::USES;
+use friction::LAWS;
 
 /// The JSON Schema (draft 2020-12) of a case file, with every key's unit and allowed range.
 pub fn json_schema() -> Value {
@@ -109,7 +109,7 @@ fn allow_extending(schema: &mut Value) {
     }
     // a law may do without the coefficient at rest
     if let Some(friction) = required.get_mut("friction") {
-        let without = USES.iter().filter(|uses| !uses.has("static")).map(|uses| uses.word);
+        let without = LAWS.iter().filter(|law| !law.has("static")).map(|law| law.word);
         let law = json!({ "enum": without.collect::<Vec<_>>() });
         let then = std::mem::take(friction);
         *friction = json!({

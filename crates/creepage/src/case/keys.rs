@@ -23,7 +23,7 @@ const SECTIONS: &[&[&[Key]]] = &[
     Element::KEYS,
     Load::KEYS,
     Drive::KEYS,
-    &[friction_law::KEYS],
+    &[friction_law::LAW, friction_law::KEYS],
     Contact::KEYS,
     Penalty::KEYS,
     Damping::KEYS,

@@ -18,7 +18,7 @@ use crate::case::error::{CaseError, KeyError};
 use crate::case::excerpt::Excerpt;
 use crate::case::friction_law;
 use crate::case::keys;
-use friction::USES;
+use friction::Declaration;
 
 /// A chain of `extends` longer than this is taken for a mistake.
 const LONGEST_CHAIN: usize = 16;
@@ -262,7 +262,7 @@ impl Layers {
             }
         }
         let law = get(&top, "friction.law").and_then(Value::as_str);
-        if let Some(chosen) = USES.iter().find(|uses| Some(uses.word) == law) {
+        if let Some(chosen) = law.and_then(Declaration::of) {
             friction::all_parameters()
                 .filter(|key| !chosen.has(key))
                 .for_each(|key| self.drop_key(&friction_law::path(key)));

@@ -17,7 +17,7 @@ use crate::case::schema::{
 };
 use crate::case::units::{digits, mistaken};
 use friction::Expression;
-use friction::{DYNAMIC, Mode, Parameters, USES, Uses};
+use friction::{DYNAMIC, LAWS, Mode, Parameters, STATIC};
 use toml::{Table, Value};
 
 /// More steps than the first are taken for a typing mistake; more than the second deserve a warning.
@@ -267,11 +267,11 @@ fn quoted(key: &str, words: &[&str]) -> String {
 
 /// The friction law has the keys that it uses, no others, and they agree.
 fn check_friction(friction: &Parameters, found: &mut Findings) {
-    let uses = Uses::of(friction.law);
+    let uses = friction.declaration();
     let law = format!("friction.law = \"{}\"", uses.word);
     for key in friction.given().filter(|key| !uses.has(key)) {
         let path = friction_law::path(key);
-        let others = USES.iter().filter(|other| other.has(key)).map(|other| other.word);
+        let others = LAWS.iter().filter(|other| other.has(key)).map(|other| other.word);
         found.require(
             false,
             &[&path],
@@ -282,7 +282,7 @@ fn check_friction(friction: &Parameters, found: &mut Findings) {
             ),
         );
     }
-    for key in uses.needs.iter().filter(|&&key| !friction.given().any(|given| given == key)) {
+    for key in uses.needs().filter(|&key| !friction.given().any(|given| given == key)) {
         let path = friction_law::path(key);
         let row = keys::find(&path);
         let allowed = row.map_or(String::new(), |row| row.form.allowed(row.unit));
@@ -294,8 +294,7 @@ fn check_friction(friction: &Parameters, found: &mut Findings) {
         );
     }
     if uses.has("dynamic") {
-        let (rest, dynamic) =
-            (friction.static_.unwrap_or(0.0), friction.dynamic.unwrap_or(DYNAMIC));
+        let (rest, dynamic) = (friction.value(STATIC), friction.value(DYNAMIC));
         found.require(
             dynamic <= rest,
             &["friction.dynamic", "friction.static"],

@@ -7,14 +7,14 @@ use friction::{Coulomb, Exponential, FrictionLaw, Kind, Parameters};
 pub enum Law {
     /// One coefficient.
     Coulomb(Coulomb),
-    /// Eq. (8).
+    /// Eq. (8), or a law of its form.
     Exponential(Exponential),
 }
 
 impl Law {
     /// The law of these parameters, if it is one of the two.
     pub(crate) fn of(parameters: &Parameters) -> Option<Self> {
-        let mu_static = parameters.static_?;
+        let mu_static = parameters.number("static")?;
         match parameters.law {
             Kind::Coulomb => Some(Self::Coulomb(Coulomb { mu: mu_static })),
             _ => parameters.exponential().map(Self::Exponential),

@@ -1,6 +1,7 @@
 //! The 1-D slider.
 
 mod csv_file;
+mod law_numbers;
 mod settings;
 
 use std::ops::ControlFlow;
@@ -19,8 +20,10 @@ use crate::commands::outputs::claim;
 use crate::commands::values::exclude;
 use crate::{Error, Listener};
 use csv_file::{CsvFile, Unwritable};
+pub use friction::Kind as LawName;
+pub use law_numbers::LawNumbers;
 use settings::Sources;
-pub use settings::{LawName, MethodName, SettingError, Settings};
+pub use settings::{MethodName, SettingError, Settings};
 
 /// What to compute with the slider.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -48,7 +51,7 @@ pub struct SliderOptions {
     pub thresholds: bool,
     /// Compute Tables 2, 3 and 4 of the paper and set them beside the printed values
     #[cfg_attr(feature = "clap", arg(long,
-        conflicts_with_all = ["Settings", "config", "csv", "plot"]))]
+        conflicts_with_all = ["Settings", "LawNumbers", "config", "csv", "plot"]))]
     pub tables: bool,
 }
 

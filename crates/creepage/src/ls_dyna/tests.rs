@@ -50,7 +50,11 @@ fn the_cards_of_the_small_model_become_the_keys_of_the_table() {
     assert_eq!(case.friction.law, Kind::Exponential);
     // 0.006 s/mm
     assert_eq!(
-        (case.friction.static_, case.friction.dynamic, case.friction.decay),
+        (
+            case.friction.number("static"),
+            case.friction.number("dynamic"),
+            case.friction.number("decay")
+        ),
         (Some(0.5), Some(0.32), Some(6.0))
     );
     assert_eq!(case.contact.penalty.normal, Stiffness::Factor(1.0));
@@ -107,7 +111,7 @@ fn equal_coefficients_of_friction_or_no_decay_are_coulombs_law() {
     ] {
         let old = "       0.5      0.32    0.0060       0.0      10.0";
         let case = case(&import(&DECK.replace(old, line)).unwrap());
-        assert_eq!((case.friction.law, case.friction.static_), (Kind::Coulomb, Some(0.5)));
+        assert_eq!((case.friction.law, case.friction.number("static")), (Kind::Coulomb, Some(0.5)));
     }
 }
 

@@ -28,7 +28,7 @@ use crate::scenario::progress::{Progress, Stage};
 use crate::scenario::{InitialState, Start};
 use begin::{Preloaded, begin};
 use dynamics::Simulation;
-use friction::{Kind, Uses};
+use friction::Kind;
 use opening::{OpenRun, Opening, log_model, model, open};
 pub use options::RunOptions;
 use output::NotWritten;
@@ -82,7 +82,7 @@ fn run_in_pool(
     let law = case.friction.law;
     match (law == Kind::Python, options.law.is_some()) {
         (true, false) => return Err(RunError::NoLaw),
-        (false, true) => return Err(RunError::UnusedLaw { law: Uses::of(law).word }),
+        (false, true) => return Err(RunError::UnusedLaw { law: law.declaration().word }),
         _ => {}
     }
     if case.is_half_space() {

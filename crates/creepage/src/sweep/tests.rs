@@ -38,7 +38,7 @@ fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
         .iter()
         .map(|c| {
             (
-                c.friction.static_.unwrap(),
+                c.friction.number("static").unwrap(),
                 c.drive.creepage.as_ref().and_then(Creepage::number).unwrap(),
             )
         })
@@ -75,7 +75,7 @@ fn a_zip_takes_the_values_together() {
         .iter()
         .map(|c| {
             (
-                c.friction.static_.unwrap(),
+                c.friction.number("static").unwrap(),
                 c.drive.creepage.as_ref().and_then(Creepage::number).unwrap(),
             )
         })
@@ -87,7 +87,10 @@ fn a_zip_takes_the_values_together() {
 fn spans_hold_their_ends_to_the_bit_and_are_even_between() {
     let axis = |span: &str| {
         let text = format!("[[axis]]\nkey = \"friction.static\"\n{span}\n");
-        cases(&text).iter().map(|case| case.friction.static_.unwrap()).collect::<Vec<f64>>()
+        cases(&text)
+            .iter()
+            .map(|case| case.friction.number("static").unwrap())
+            .collect::<Vec<f64>>()
     };
     let log = axis("log = { from = 0.003, to = 3.0, n = 4 }");
     assert_eq!((log[0], log[3]), (0.003, 3.0));
@@ -113,7 +116,7 @@ fn springs_may_be_swept_in_any_form_and_keys_set_for_all() {
     let sweep = sweep.unwrap();
     assert_eq!(sweep.step, Some(StepRule::Fixed));
     let points = sweep.points().unwrap();
-    assert!(points.iter().all(|point| point.case.friction.static_ == Some(0.4)));
+    assert!(points.iter().all(|point| point.case.friction.number("static") == Some(0.4)));
     assert_eq!(points[1].parameters["contact.penalty.tangential"]["stiffness"], 1e13.into());
     assert_eq!(points[1].name, "001-tangential-stiffness-1e13");
 }

@@ -1,5 +1,6 @@
 //! Lines of measures over the axis of a sweep.
 
+use crate::case::keys;
 use crate::chart::{Axis, Draw, Series, colour};
 use crate::sweep::result::Measured;
 
@@ -11,14 +12,16 @@ pub(super) const GROUPS: [[u8; 3]; 6] =
 pub(super) fn label(axis: &str, form: &str) -> String {
     let unit = match axis {
         _ if form == "stiffness" => "N/m\u{b3}",
-        "mesh.zone.size" | "time.roll" | "friction.distance" | "friction.memory.distance" => "m",
+        "mesh.zone.size" | "time.roll" => "m",
         "time.step" | "drive.ramp" | "time.duration" | "damping.kelvin_voigt" => "s",
-        "friction.decay" => "s/m",
         "drive.speed" => "m/s",
         "drive.torque" => "Nm",
         "load.normal" => "N",
         "damping.mass" => "1/s",
         "material.young" => "Pa",
+        _ if axis.starts_with("friction.") => {
+            keys::find(axis).map(|key| key.unit).filter(|unit| !unit.is_empty()).unwrap_or("-")
+        }
         _ => "-",
     };
     format!("{axis} ({unit})")

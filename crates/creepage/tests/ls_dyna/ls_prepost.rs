@@ -66,7 +66,10 @@ fn contact_and_friction_are_those_of_the_deck() {
         let law = &case.friction;
         assert_eq!(law.law, Kind::Exponential, "{deck}");
         // 0.005 s/mm
-        assert_eq!((law.static_, law.dynamic, law.decay), (Some(0.4), Some(0.3), Some(5.0)));
+        assert_eq!(
+            (law.number("static"), law.number("dynamic"), law.number("decay")),
+            (Some(0.4), Some(0.3), Some(5.0))
+        );
         assert_eq!(case.contact.penalty.normal, Stiffness::Factor(0.1), "{deck}");
         assert_eq!(case.contact.penalty.damping, 0.2, "{deck}");
         let mesh = mesh(&made);

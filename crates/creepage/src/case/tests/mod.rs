@@ -197,8 +197,8 @@ fn every_case_of_the_project_loads() {
         assert!(case.warnings().is_empty(), "{name}: {:?}", case.warnings());
     }
     let weak = Case::load(&cases.join("zhao-li/control-weak.toml"), &[]).unwrap();
-    assert_eq!(weak.friction.decay, Some(0.05));
-    assert_eq!(weak.friction.dynamic, Some(0.32));
+    assert_eq!(weak.friction.number("decay"), Some(0.05));
+    assert_eq!(weak.friction.number("dynamic"), Some(0.32));
 }
 
 #[test]
@@ -264,7 +264,7 @@ fn an_upper_layer_takes_back_the_other_choice() {
     let case = set(&["time.roll=0.05", "time.duration=1e-3"]).unwrap();
     assert_eq!((case.time.roll, case.time.duration), (None, Some(1e-3)));
     let case = set(&["friction.law=exponential", "friction.decay=3", "friction.law=coulomb"]);
-    assert_eq!(case.unwrap().friction.decay, None);
+    assert_eq!(case.unwrap().friction.number("decay"), None);
     // A stiffness is one value, not a section to merge into.
     let case = set(&[
         "contact.penalty.normal={ stiffness = 1e13 }",
@@ -328,13 +328,16 @@ fn computed_sizes_in_warnings_have_four_digits_and_are_never_zero() {
 fn a_law_needs_and_gets_only_its_own_keys() {
     // what the layer beneath chose is taken back
     let case = set(&["friction.law=rate_state", "friction.distance=1e-5"]).unwrap();
-    assert_eq!(case.friction.static_, None);
-    assert_eq!((case.friction.reference, case.friction.reference_speed), (Some(0.6), Some(1e-6)));
-    assert_eq!(case.friction.age, Some(1e-5 / 1e-6));
+    assert_eq!(case.friction.number("static"), None);
+    assert_eq!(
+        (case.friction.number("reference"), case.friction.number("reference_speed")),
+        (Some(0.6), Some(1e-6))
+    );
+    assert_eq!(case.friction.number("age"), Some(1e-5 / 1e-6));
     let sets =
         ["friction.law=exponential", "friction.memory.distance=1e-5", "friction.law=coulomb"];
     let case = set(&[&sets[..], &["friction.static=0.4"]].concat()).unwrap();
-    assert_eq!((case.friction.memory, case.friction.decay), (None, None));
+    assert_eq!((case.friction.memory, case.friction.number("decay")), (None, None));
     let case =
         set(&["contact.enforcement=exact", "friction.law=rate_state", "friction.distance=1"]);
     let case = case.unwrap();
@@ -348,6 +351,7 @@ fn a_case_with_any_friction_law_loads_to_itself() {
         &["friction.law=slip_weakening", "friction.distance=1e-5"][..],
         &["friction.law=rate_state", "friction.distance=1e-5", "friction.state=slip"],
         &["friction.law=prakash_clifton", "friction.distance=1e-5"],
+        &["friction.law=polach", "friction.ratio=0.4", "friction.decay=0.6"],
         &["friction.law=table", "friction.table=[[0, 0.5], [0.1, 0.30000000000000004]]"],
         &["friction.law=expression", "friction.expression=\"0.3 + 0.1*exp(-s)*max(p, 1e3)/1e12\""],
         &[

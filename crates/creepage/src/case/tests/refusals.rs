@@ -332,6 +332,18 @@ fn wrong_friction_is_refused_with_its_key_and_line() {
             "law = \"prakash_clifton\"\nstatic = 0.5\ndistance = 1e-5\ndecay = 6",
             vec!["short.toml:8:", "friction.decay", "not used", "\"exponential\""],
         ),
+        (
+            "law = \"polach\"\nstatic = 0.55\nratio = 0.4",
+            vec!["short.toml:5:", "friction.decay is missing", "polach", "s/m"],
+        ),
+        (
+            "law = \"polach\"\nstatic = 0.55\nratio = 40\ndecay = 0.6",
+            vec!["short.toml:7:", "friction.ratio = 40", "at most 1", "give the ratio"],
+        ),
+        (
+            "law = \"polach\"\nstatic = 0.55\nratio = 0.4\ndecay = 0.6\ndynamic = 0.2",
+            vec!["short.toml:9:", "friction.dynamic", "not used", "\"slip_weakening\""],
+        ),
         ("law = \"rate_state\"\ndistance = 1e-5\nstate = \"old\"", vec!["\"ageing\" or \"slip\""]),
         ("law = \"rate_state\"\ndistance = 1e-5\ndirect = 0", vec!["friction.direct = 0"]),
         (

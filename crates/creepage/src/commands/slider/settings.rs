@@ -2,18 +2,23 @@
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::case::{Excerpt, table};
-use friction::{Coulomb, Exponential, Expression, Memory, SteadyLaw, Table};
+use crate::commands::slider::law_numbers::{self, LawNumbers};
+#[cfg(feature = "clap")]
+use friction::LAWS;
+use friction::{Declaration, Expression, FrictionLaw, Kind, Memory, Number, STATIC, Table};
 use miette::{Diagnostic, SourceSpan};
 use output::files::{input, printable};
+use serde::de::IntoDeserializer as _;
 use serde::{Deserialize, Serialize};
 use slider::{Method, ParameterError, Parameters};
 use thiserror::Error;
 
 /// Everything that can be set, as options and, with the same names, as keys of a TOML file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct Settings {
     /// Time stepping [default: implicit]
@@ -51,17 +56,12 @@ pub struct Settings {
     #[cfg_attr(feature = "clap", arg(long, value_name = "M/S", allow_negative_numbers = true))]
     pub v0: Option<f64>,
     /// Friction law [default: exponential, or what --table or --expression gives]
-    #[cfg_attr(feature = "clap", arg(long, value_enum))]
-    pub law: Option<LawName>,
-    /// Coefficient of friction at rest (coulomb, exponential) [default: 0.5]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "MU", allow_negative_numbers = true))]
-    pub mu_static: Option<f64>,
-    /// Coefficient at high slip speed (exponential) [default: 0.32]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "MU", allow_negative_numbers = true))]
-    pub mu_dynamic: Option<f64>,
-    /// Decay k_fric of friction with slip speed (exponential, s/m) [default: 6]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "S/M", allow_negative_numbers = true))]
-    pub decay: Option<f64>,
+    #[cfg_attr(feature = "clap", arg(long, value_parser = laws()))]
+    pub law: Option<Kind>,
+    /// Numbers of the friction law.
+    #[serde(flatten)]
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub numbers: LawNumbers,
     /// Friction law as a CSV file: slip speed (m/s), mu
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
     pub table: Option<PathBuf>,
@@ -113,30 +113,31 @@ impl MethodName {
     }
 }
 
-/// The friction laws by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
-pub enum LawName {
-    /// One coefficient
-    Coulomb,
-    /// Falling with slip speed, Eq (17)
-    Exponential,
-    /// Points from --table
-    Table,
-    /// The formula of --expression
-    Expression,
+/// The default of a number that its law needs: that of the paper.
+pub(super) fn paper(number: &Number) -> Option<f64> {
+    (*number == STATIC).then_some(0.5)
 }
 
-impl LawName {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Coulomb => "coulomb",
-            Self::Exponential => "exponential",
-            Self::Table => "table",
-            Self::Expression => "expression",
-        }
+/// That there is no setting of this name.
+pub(super) fn unknown(name: &str) -> String {
+    let settings = serde_json::to_value(Settings::default()).unwrap_or_default();
+    let names = settings.as_object().into_iter().flat_map(serde_json::Map::keys);
+    let mut names: Vec<&str> = names.map(String::as_str).collect();
+    for number in law_numbers::numbers() {
+        names.push(law_numbers::name(number));
     }
+    format!("unknown field `{name}`, expected one of `{}`", names.join("`, `"))
+}
+
+/// The laws of the slider, those without state.
+#[cfg(feature = "clap")]
+fn laws() -> impl clap::builder::TypedValueParser<Value = Kind> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
+    let value =
+        |law: &Declaration| PossibleValue::new(law.word).help(law.sentence.trim_end_matches('.'));
+    let steady = LAWS.into_iter().filter(|law| law.is_steady());
+    let words = PossibleValuesParser::new(steady.map(value));
+    words.map(|word| Declaration::of(&word).map(Declaration::kind).unwrap_or_default())
 }
 
 /// A setting that cannot be used.
@@ -172,11 +173,14 @@ impl File {
             })
         })?;
         let file = Self { name, text, settings: Settings::default() };
+        let help = "keys are the names of the options with _ for -, for example t_end = 5; see \
+                    `creepage slider --help`";
+        if let Some((span, problem)) = file.misplaced() {
+            return Err(file.error(Some(span), &problem, help));
+        }
         match toml::from_str(&file.text) {
             Ok(settings) => Ok(Self { settings, ..file }),
             Err(error) => {
-                let help = "keys are the names of the options with _ for -, for example t_end = 5; \
-                            see `creepage slider --help`";
                 let message = error.message().replace('\n', "; ");
                 let told = file.error(error.span(), &message, help);
                 // What is no TOML may be any file that can be read: of it a place is told, and no text.
@@ -201,6 +205,22 @@ impl File {
             source_code,
             span,
             help: help.into(),
+        })
+    }
+
+    /// The first key that is no setting, or number of a law that is none, with its problem.
+    fn misplaced(&self) -> Option<(Range<usize>, String)> {
+        let table = toml::de::DeTable::parse(&self.text).ok()?;
+        let settings = serde_json::to_value(Settings::default()).ok()?;
+        table.get_ref().iter().find_map(|(key, value)| {
+            let name: &str = key.get_ref();
+            if law_numbers::named(name).is_some() {
+                let number = f64::deserialize(value.clone().into_deserializer());
+                return number
+                    .err()
+                    .map(|error| (value.span(), error.message().replace('\n', "; ")));
+            }
+            settings.get(name).is_none().then(|| (key.span(), unknown(name)))
         })
     }
 
@@ -267,18 +287,18 @@ impl<'a> Sources<'a> {
         let allowed = options.allow_strengthening.or(file.allow_strengthening).unwrap_or(false);
         match parameters.law.strengthens() {
             Some(rise) if !allowed => {
-                let key = match parameters.law {
-                    SteadyLaw::Table(_) => "table",
-                    SteadyLaw::Expression(_) => "expression",
-                    SteadyLaw::Exponential(_) | SteadyLaw::Coulomb(_) => "mu_dynamic",
-                };
                 let help = "laws that strengthen are studied with --allow-strengthening";
-                let message = match parameters.law {
-                    SteadyLaw::Exponential(law) => format!(
-                        "mu_dynamic = {} is above mu_static = {}: it must be from 0 to mu_static",
-                        law.mu_dynamic, law.mu_static
-                    ),
-                    _ => rise.to_string(),
+                let (key, message) = match parameters.law.as_exponential() {
+                    Some(law) => {
+                        let (rest, fast) = (law.mu_static, law.mu_dynamic);
+                        let allowed = "it must be from 0 to mu_static";
+                        (
+                            "mu_dynamic",
+                            format!("mu_dynamic = {fast} is above mu_static = {rest}: {allowed}"),
+                        )
+                    }
+                    None if self.table().is_some() => ("table", rise.to_string()),
+                    None => ("expression", rise.to_string()),
                 };
                 Err(self.at(key, &message, help))
             }
@@ -291,66 +311,78 @@ impl<'a> Sources<'a> {
         self.at(error.key, &error.to_string(), "`creepage slider --help` lists the parameters")
     }
 
-    fn law(&self) -> Result<SteadyLaw, Box<SettingError>> {
+    fn law(&self) -> Result<Arc<dyn FrictionLaw>, Box<SettingError>> {
         let (options, file) = (self.options, &self.file.settings);
         let table = self.table();
         let expression = options.expression.as_ref().or(file.expression.as_ref());
-        let mu_static = options.mu_static.or(file.mu_static);
-        let mu_dynamic = options.mu_dynamic.or(file.mu_dynamic);
-        let decay = options.decay.or(file.decay);
-        let law = options.law.or(file.law).unwrap_or(match (&table, &expression) {
-            (Some(_), _) => LawName::Table,
-            (None, Some(_)) => LawName::Expression,
-            (None, None) => LawName::Exponential,
+        let kind = options.law.or(file.law).unwrap_or(match (&table, &expression) {
+            (Some(_), _) => Kind::Table,
+            (None, Some(_)) => Kind::Expression,
+            (None, None) => Kind::Exponential,
         });
-        let used: &[&str] = match law {
-            LawName::Coulomb => &["mu_static"],
-            LawName::Exponential => &["mu_static", "mu_dynamic", "decay"],
-            LawName::Table => &["table"],
-            LawName::Expression => &["expression"],
-        };
-        let given = [
-            ("mu_static", mu_static.is_some()),
-            ("mu_dynamic", mu_dynamic.is_some()),
-            ("decay", decay.is_some()),
-            ("table", table.is_some()),
-            ("expression", expression.is_some()),
-        ];
-        for (key, given) in given {
-            if given && !used.contains(&key) {
-                let message = format!("the friction law '{}' does not use {key}", law.name());
-                let help = format!(
-                    "leave it out, or choose another law; {} uses {}",
-                    law.name(),
-                    used.join(", ")
-                );
-                return Err(self.at(key, &message, &help));
+        let law = kind.declaration();
+        if !law.is_steady() {
+            return Err(self.not_of_the_slider(law));
+        }
+        let mut parameters = friction::Parameters { law: kind, ..Default::default() };
+        for number in law_numbers::numbers() {
+            let key = number.key();
+            let given = options.numbers.0.get(key).or(file.numbers.0.get(key));
+            if let Some(value) = given {
+                self.used(law, key, law_numbers::name(number))?;
+                let name = law_numbers::name(number);
+                let unit = number.unit.trim_matches('-');
+                ParameterError::unless_within(number.range, name, value, unit)
+                    .map_err(|error| self.out_of_range(&error))?;
+            }
+            if let Some(value) = given.or(paper(number)) {
+                parameters.numbers.set(number, value);
             }
         }
-        let default = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
-        let mu_static = mu_static.unwrap_or(default.mu_static);
-        match law {
-            LawName::Coulomb => Ok(SteadyLaw::Coulomb(Coulomb { mu: mu_static })),
-            LawName::Exponential => Ok(SteadyLaw::Exponential(Exponential {
-                mu_static,
-                mu_dynamic: mu_dynamic.unwrap_or(default.mu_dynamic),
-                decay: decay.unwrap_or(default.decay),
-            })),
-            LawName::Table => match table {
-                Some(path) => read_table(&path).map(SteadyLaw::Table),
-                None => Err(self.missing("table", "a CSV file: slip speed (m/s), mu")),
-            },
-            LawName::Expression => match expression {
-                Some(text) => Expression::new(text).map(SteadyLaw::Expression).map_err(|error| {
-                    self.at("expression", &error.to_string(), "see `creepage slider --help`")
-                }),
-                None => Err(self.missing("expression", "a formula in s, the slip speed (m/s)")),
-            },
+        if let Some(path) = table {
+            self.used(law, "table", "table")?;
+            parameters.table = Some(read_table(&path)?.points().to_vec());
         }
+        if let Some(text) = expression {
+            self.used(law, "expression", "expression")?;
+            parameters.expression = Some(text.clone());
+        }
+        if let Some(key) = parameters.missing() {
+            return Err(self.missing(law, key));
+        }
+        let no_law = || self.not_of_the_slider(law);
+        parameters.steady(Expression::new).ok_or_else(no_law)?.map_err(|error| {
+            self.at("expression", &error.to_string(), "see `creepage slider --help`")
+        })
     }
 
-    fn missing(&self, key: &str, what: &str) -> Box<SettingError> {
-        let message = format!("the friction law '{key}' needs --{key}: {what}");
+    fn not_of_the_slider(&self, law: &Declaration) -> Box<SettingError> {
+        let message =
+            format!("the friction law '{}' is none of the slider, which keeps no state", law.word);
+        self.at("law", &message, "`creepage slider --help` lists its laws")
+    }
+
+    /// Refuses a parameter that the law does not use.
+    fn used(&self, law: &Declaration, key: &str, name: &str) -> Result<(), Box<SettingError>> {
+        if law.has(key) {
+            return Ok(());
+        }
+        let word = law.word;
+        let numbers = law.numbers.iter().map(|(number, _)| law_numbers::name(number));
+        let uses: Vec<_> = numbers.chain(law.needs.iter().copied()).collect();
+        let message = format!("the friction law '{word}' does not use {name}");
+        let help = format!("leave it out, or choose another law; {word} uses {}", uses.join(", "));
+        Err(self.at(name, &message, &help))
+    }
+
+    fn missing(&self, law: &Declaration, key: &str) -> Box<SettingError> {
+        let (name, what) = match (Number::of(key), key) {
+            (Some(number), _) => (law_numbers::name(number), number.sentence.trim_end_matches('.')),
+            (None, "table") => (key, "a CSV file: slip speed (m/s), mu"),
+            (None, _) => (key, "a formula in s, the slip speed (m/s)"),
+        };
+        let option = name.replace('_', "-");
+        let message = format!("the friction law '{}' needs --{option}: {what}", law.word);
         self.at("law", &message, "`creepage slider --help` has examples")
     }
 

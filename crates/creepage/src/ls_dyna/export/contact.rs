@@ -4,6 +4,7 @@ use super::columns::Cards;
 use super::{RollingMotion, number};
 use crate::case::schema::Stiffness;
 use crate::scenario::{BAR, DISK};
+use friction::STATIC;
 
 /// Contact of tread and top, with its friction.
 pub(super) fn contact(cards: &mut Cards, rolling: &RollingMotion<'_>) {
@@ -23,7 +24,7 @@ pub(super) fn contact(cards: &mut Cards, rolling: &RollingMotion<'_>) {
         ("SPR", 1.0),
         ("MPR", 1.0),
     ]);
-    let mu = case.friction.static_.unwrap_or(0.0);
+    let mu = case.friction.value(STATIC);
     let (dynamic, decay) = match case.friction.exponential() {
         Some(law) => (law.mu_dynamic, law.decay),
         None => (mu, 0.0),

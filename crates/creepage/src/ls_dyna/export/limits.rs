@@ -9,7 +9,7 @@ use friction::Kind;
 /// What of a case keyword files cannot say, one entry each with the key; nothing where the case can be exported.
 pub fn unsayable(case: &Case) -> Vec<String> {
     let (drive, mesh) = (&case.drive, &case.mesh);
-    let law = !matches!(case.friction.law, Kind::Coulomb | Kind::Exponential);
+    let law = case.friction.law != Kind::Coulomb && case.friction.exponential().is_none();
     let found = [
         (case.is_half_space(), "model: half-spaces have no mesh"),
         (
@@ -22,7 +22,7 @@ pub fn unsayable(case: &Case) -> Vec<String> {
         ),
         (
             law,
-            "friction.law: their friction has FS, FD and DC, \"coulomb\" and \"exponential\" alone",
+            "friction.law: their friction has FS, FD and DC, \"coulomb\", \"exponential\" and \"polach\" alone",
         ),
         (case.friction.memory.is_some(), "friction.memory: their friction has none"),
         (mesh.window.is_some(), "mesh.window: a mesh that moves along"),

@@ -140,7 +140,11 @@ fn a_case_comes_back_from_its_keyword_file_with_the_same_mesh() {
             ("drive.creepage", creepage(b), creepage(a)),
             ("drive.ramp", b.drive.ramp(), a.drive.ramp()),
             ("time.duration", b.duration(), a.duration()),
-            ("friction.static", b.friction.static_.unwrap(), a.friction.static_.unwrap()),
+            (
+                "friction.static",
+                b.friction.number("static").unwrap(),
+                a.friction.number("static").unwrap(),
+            ),
             ("contact.penalty.normal", penalty(b), penalty(a)),
             ("contact.penalty.damping", b.contact.penalty.damping, a.contact.penalty.damping),
             ("element.hourglass", b.element.hourglass, a.element.hourglass),
