@@ -48,20 +48,19 @@ impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
         k: &Constants,
         sums: &mut Sums,
     ) -> Modes<L> {
-        let zero = part.zero;
-        let none = [[Vector([zero; 3]); 4]; 3];
+        let zero = part.zero.like(0.0);
         let x = part.reference();
         let fields = Fields {
             x: derivatives(&x),
             u: derivatives(&part.displacement()),
             v: match part.velocity() {
                 Some(v) => derivatives(&v),
-                None => none,
+                None => [[Vector([zero; 3]); 4]; 3],
             },
         };
         let mut total = Total {
-            force: none,
-            unit_pressure: none,
+            force: [[Vector([zero; 3]); 4]; 3],
+            unit_pressure: [[Vector([zero; 3]); 4]; 3],
             volume: zero,
             dilatation: zero,
             dilatation_rate: zero,
@@ -218,15 +217,19 @@ const fn signs(point: usize) -> [usize; 3] {
 #[inline(always)]
 fn derivatives<L: Lanes>(x: &Modes<L>) -> Derivatives<L> {
     let p = x.linear[0][0].like(P);
-    let mut d = [[x.linear[0]; 4]; 3];
+    let mut d = [[Vector([p; 3]); 4]; 3];
     for k in 0..3 {
         let (l, m) = ((k + 1) % 3, (k + 2) % 3);
-        let (a, g) = (x.linear[k], x.hourglass[m]);
-        let (minus, plus) = (g.fnma(p, a), g.fma(p, a));
-        let g = x.hourglass[l] * P;
-        let twist = x.hourglass[3] * P_SQUARED;
-        let (slope_minus, slope_plus) = (g - twist, g + twist);
-        d[k] = [minus - slope_minus, plus - slope_plus, minus + slope_minus, plus + slope_plus];
+        for i in 0..3 {
+            let (a, g) = (x.linear[k][i], x.hourglass[m][i]);
+            let (minus, plus) = (g.fnma(p, a), g.fma(p, a));
+            let (g, twist) = (x.hourglass[l][i] * P, x.hourglass[3][i] * P_SQUARED);
+            let (slope_minus, slope_plus) = (g - twist, g + twist);
+            d[k][0][i] = minus - slope_minus;
+            d[k][1][i] = plus - slope_plus;
+            d[k][2][i] = minus + slope_minus;
+            d[k][3][i] = plus + slope_plus;
+        }
     }
     d
 }
@@ -240,14 +243,16 @@ fn transposed<L: Lanes>(f: &Derivatives<L>) -> Modes<L> {
     let mut out = Modes { linear: [zero; 3], hourglass: [zero; 4] };
     for k in 0..3 {
         let (l, m) = ((k + 1) % 3, (k + 2) % 3);
-        let [f0, f1, f2, f3] = f[k];
-        let (minus, plus) = (f0 + f2, f1 + f3);
-        let (slope_minus, slope_plus) = (f2 - f0, f3 - f1);
-        out.linear[k] = minus + plus;
         let g = &mut out.hourglass;
-        g[m] = (plus - minus).fma(p, g[m]);
-        g[l] = (slope_minus + slope_plus).fma(p, g[l]);
-        g[3] = (slope_plus - slope_minus).fma(p_squared, g[3]);
+        for i in 0..3 {
+            let [f0, f1, f2, f3] = [f[k][0][i], f[k][1][i], f[k][2][i], f[k][3][i]];
+            let (minus, plus) = (f0 + f2, f1 + f3);
+            let (slope_minus, slope_plus) = (f2 - f0, f3 - f1);
+            out.linear[k][i] = minus + plus;
+            g[m][i] = (plus - minus).fma(p, g[m][i]);
+            g[l][i] = (slope_minus + slope_plus).fma(p, g[l][i]);
+            g[3][i] = (slope_plus - slope_minus).fma(p_squared, g[3][i]);
+        }
     }
     out
 }

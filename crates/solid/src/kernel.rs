@@ -353,28 +353,51 @@ impl<L: Lanes> Modes<L> {
     /// The modes of the values `n` at the corners.
     #[inline(always)]
     fn of(n: [Vector<L>; 8]) -> Self {
-        // p: sum over zeta, m: difference over zeta
-        let (p0, p1, p2, p3) = (n[0] + n[4], n[1] + n[5], n[2] + n[6], n[3] + n[7]);
-        let (m0, m1, m2, m3) = (n[4] - n[0], n[5] - n[1], n[6] - n[2], n[7] - n[3]);
-        let (p20, p13) = (p2 - p0, p1 - p3);
-        let (m20, m13) = (m2 - m0, m1 - m3);
-        let (m02, m31) = (m0 + m2, m1 + m3);
-        Self {
-            linear: [p20 + p13, p20 - p13, m02 + m31],
-            hourglass: [m20 - m13, m20 + m13, p0 + p2 - (p1 + p3), m02 - m31],
+        let mut out = Self { linear: [n[0]; 3], hourglass: [n[0]; 4] };
+        // one axis after the other: with the 16 registers of AVX2, whole vectors would spill
+        for i in 0..3 {
+            let [n0, n1, n2, n3] = [n[0][i], n[1][i], n[2][i], n[3][i]];
+            let [n4, n5, n6, n7] = [n[4][i], n[5][i], n[6][i], n[7][i]];
+            // p: sum over zeta, m: difference over zeta
+            let (p0, p1, p2, p3) = (n0 + n4, n1 + n5, n2 + n6, n3 + n7);
+            let (m0, m1, m2, m3) = (n4 - n0, n5 - n1, n6 - n2, n7 - n3);
+            let (p20, p13) = (p2 - p0, p1 - p3);
+            let (m20, m13) = (m2 - m0, m1 - m3);
+            let (m02, m31) = (m0 + m2, m1 + m3);
+            out.linear[0][i] = p20 + p13;
+            out.linear[1][i] = p20 - p13;
+            out.linear[2][i] = m02 + m31;
+            out.hourglass[0][i] = m20 - m13;
+            out.hourglass[1][i] = m20 + m13;
+            out.hourglass[2][i] = p0 + p2 - (p1 + p3);
+            out.hourglass[3][i] = m02 - m31;
         }
+        out
     }
 
     /// The transpose of [`of`](Self::of): forces on the corners from forces on the modes.
     #[inline(always)]
     fn corners(&self) -> [Vector<L>; 8] {
-        let ([a1, a2, a3], [g1, g2, g3, g4]) = (self.linear, self.hourglass);
-        let zero = Vector([a1[0].like(0.0); 3]);
-        let (s, t) = (a1 + a2, a1 - a2);
-        let (c0, c1, c2, c3) = (g3 - s, t - g3, g3 + s, zero - (t + g3));
-        let (s, t) = (g2 + g1, g2 - g1);
-        let (plus, minus) = (a3 + g4, a3 - g4);
-        let (d0, d1, d2, d3) = (plus - s, minus + t, plus + s, minus - t);
-        [c0 - d0, c1 - d1, c2 - d2, c3 - d3, c0 + d0, c1 + d1, c2 + d2, c3 + d3]
+        let zero = self.linear[0][0].like(0.0);
+        let mut n = [Vector([zero; 3]); 8];
+        for i in 0..3 {
+            let [a1, a2, a3] = [self.linear[0][i], self.linear[1][i], self.linear[2][i]];
+            let [g1, g2] = [self.hourglass[0][i], self.hourglass[1][i]];
+            let [g3, g4] = [self.hourglass[2][i], self.hourglass[3][i]];
+            let (s, t) = (a1 + a2, a1 - a2);
+            let (c0, c1, c2, c3) = (g3 - s, t - g3, g3 + s, zero - (t + g3));
+            let (s, t) = (g2 + g1, g2 - g1);
+            let (plus, minus) = (a3 + g4, a3 - g4);
+            let (d0, d1, d2, d3) = (plus - s, minus + t, plus + s, minus - t);
+            n[0][i] = c0 - d0;
+            n[1][i] = c1 - d1;
+            n[2][i] = c2 - d2;
+            n[3][i] = c3 - d3;
+            n[4][i] = c0 + d0;
+            n[5][i] = c1 + d1;
+            n[6][i] = c2 + d2;
+            n[7][i] = c3 + d3;
+        }
+        n
     }
 }

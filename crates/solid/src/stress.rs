@@ -26,7 +26,8 @@ pub(crate) fn one_point_cauchy(
     });
     assert!(nodes);
     // SAFETY: plain Rust; the nodes of the element are within both arrays, as was just asserted.
-    let [x, u] = [reference, displacement].map(|a| unsafe { modes::<f64>(a.as_ptr(), batch, lane) });
+    let [x, u] =
+        [reference, displacement].map(|a| unsafe { modes::<f64>(a.as_ptr(), batch, lane) });
     let Matrix(h) = gradient(&u, &mean_gradient(&x));
     cauchy(&h.map(|row| row.0), material)
 }
