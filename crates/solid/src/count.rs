@@ -3,8 +3,8 @@
 use crate::blocks::{BATCH, Batch};
 use crate::formulation::Volumetric;
 use crate::full::FullyIntegrated;
-use crate::kernel::{Arrays, Constants, Kernel, OnePoint};
-use crate::lanes::Lanes;
+use crate::kernel::{Arrays, Constants, Kernel, OnePoint, block_force};
+use crate::lanes::{Lanes, operators};
 use mesh::Padded;
 use std::cell::Cell;
 
@@ -74,27 +74,16 @@ fn counted<K: Kernel>(energies: bool, viscous: bool) -> Work {
         velocity: rest.as_ptr(),
         force: force.as_mut_ptr(),
     };
-    let mut sums = [0.0; 3];
     TALLY.set(Work::default());
-    let sums = &mut sums;
+    let block = match (energies, viscous) {
+        (false, false) => block_force::<K, Counted, false, false>,
+        (false, true) => block_force::<K, Counted, false, true>,
+        (true, false) => block_force::<K, Counted, true, false>,
+        (true, true) => block_force::<K, Counted, true, true>,
+    };
     // SAFETY: `Counted` needs no special instructions, the batch's indices are those of the eight
     // nodes of each array, and these are local.
-    unsafe {
-        match (energies, viscous) {
-            (false, false) => {
-                K::elements_force::<Counted, false, false>(&batch, 0, 1, &constants, arrays, sums);
-            }
-            (false, true) => {
-                K::elements_force::<Counted, false, true>(&batch, 0, 1, &constants, arrays, sums);
-            }
-            (true, false) => {
-                K::elements_force::<Counted, true, false>(&batch, 0, 1, &constants, arrays, sums);
-            }
-            (true, true) => {
-                K::elements_force::<Counted, true, true>(&batch, 0, 1, &constants, arrays, sums);
-            }
-        }
-    }
+    unsafe { block(&[batch], 1, &constants, arrays) };
     TALLY.get()
 }
 
@@ -123,43 +112,39 @@ fn count(change: fn(&mut Work)) {
 #[derive(Clone, Copy)]
 struct Counted(f64);
 
+/// Passes `value`, whose operations `change` counts.
+fn counting(change: fn(&mut Work), value: f64) -> Counted {
+    count(change);
+    Counted(value)
+}
+
+operators! { Counted:
+    Add add |a, b| counting(|done| done.additions += 1, a.0 + b.0);
+    Sub sub |a, b| counting(|done| done.additions += 1, a.0 - b.0);
+    Mul mul |a, b| counting(|done| done.multiplications += 1, a.0 * b.0);
+    Div div |a, b| counting(|done| done.divisions += 1, a.0 / b.0);
+}
+
 // The arithmetic is that of the portable lane, whose methods need no special instructions.
 impl Lanes for Counted {
     const N: usize = 1;
     unsafe fn splat(v: f64) -> Self {
         Self(v)
     }
-    unsafe fn add(self, o: Self) -> Self {
-        count(|done| done.additions += 1);
-        Self(self.0 + o.0)
+    fn min(self, o: Self) -> Self {
+        counting(|done| done.additions += 1, self.0.min(o.0))
     }
-    unsafe fn sub(self, o: Self) -> Self {
-        count(|done| done.additions += 1);
-        Self(self.0 - o.0)
+    fn sqrt(self) -> Self {
+        counting(|done| done.divisions += 1, self.0.sqrt())
     }
-    unsafe fn mul(self, o: Self) -> Self {
-        count(|done| done.multiplications += 1);
-        Self(self.0 * o.0)
+    fn fma(self, b: Self, c: Self) -> Self {
+        counting(|done| done.multiply_additions += 1, self.0.fma(b.0, c.0))
     }
-    unsafe fn div(self, o: Self) -> Self {
-        count(|done| done.divisions += 1);
-        Self(self.0 / o.0)
+    fn fnma(self, b: Self, c: Self) -> Self {
+        counting(|done| done.multiply_additions += 1, self.0.fnma(b.0, c.0))
     }
-    unsafe fn min(self, o: Self) -> Self {
-        count(|done| done.additions += 1);
-        Self(self.0.min(o.0))
-    }
-    unsafe fn sqrt(self) -> Self {
-        count(|done| done.divisions += 1);
-        Self(self.0.sqrt())
-    }
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
-        count(|done| done.multiply_additions += 1);
-        Self(self.0 * b.0 + c.0)
-    }
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
-        count(|done| done.multiply_additions += 1);
-        Self(c.0 - self.0 * b.0)
+    fn sum(self, lanes: usize) -> f64 {
+        self.0.sum(lanes)
     }
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
         count(|done| done.gathered += 1);
@@ -170,9 +155,6 @@ impl Lanes for Counted {
         count(|done| done.scattered += 1);
         // SAFETY: the caller's contract is that of the trait.
         unsafe { f64::scatter_sub(base, index, v.map(|lane| lane.0), lanes) }
-    }
-    unsafe fn sum(self, lanes: usize) -> f64 {
-        if lanes == 1 { self.0 } else { 0.0 }
     }
 }
 

@@ -24,12 +24,12 @@
 //! A pressure p that is uniform over the element is known only after all points: sum (I + H) C_k is summed beside
 //! the rest, and p times it is added at the end.
 
-use crate::blocks::Batch;
 use crate::kernel::{
-    Arrays, Constants, Kernel, Matrix, Modes, Sums, Vector, bulk_viscosity, contract, cross, dot,
-    dot_add, elastic, green, green_rate, mean_gradient, modes, piola, scatter, trace,
+    Constants, Kernel, Modes, Part, Sums, bulk_viscosity, elastic, green, green_rate,
+    mean_gradient, piola,
 };
 use crate::lanes::Lanes;
+use crate::tensor::{Matrix, Vector};
 
 /// The fully integrated element, with mean dilatation if `MEAN`.
 pub(crate) struct FullyIntegrated<const MEAN: bool>;
@@ -43,110 +43,92 @@ const P_SQUARED: f64 = 1.0 / 3.0;
 
 impl<const MEAN: bool> Kernel for FullyIntegrated<MEAN> {
     #[inline(always)]
-    unsafe fn elements_force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
-        batch: &Batch,
-        lane: usize,
-        count: usize,
+    fn force<L: Lanes, const ENERGY: bool, const VISCOUS: bool>(
+        part: &Part<L, VISCOUS>,
         k: &Constants,
-        arrays: Arrays,
         sums: &mut Sums,
-    ) {
-        // SAFETY: as the caller's throughout.
-        unsafe {
-            let zero = L::splat(0.0);
-            let x = modes::<L>(arrays.reference, batch, lane);
-            let fields = Fields {
-                x: derivatives(&x),
-                u: derivatives(&modes::<L>(arrays.displacement, batch, lane)),
-                v: if VISCOUS {
-                    derivatives(&modes::<L>(arrays.velocity, batch, lane))
-                } else {
-                    [[[zero; 3]; 4]; 3]
-                },
-            };
-            let mut total = Total {
-                force: [[[zero; 3]; 4]; 3],
-                unit_pressure: [[[zero; 3]; 4]; 3],
-                volume: zero,
-                dilatation: zero,
-                dilatation_rate: zero,
-                energy: zero,
-                power: zero,
-            };
-            if L::N == 8 {
-                // Unrolled: with the 32 registers of AVX-512, constant indices need no address
-                // computation and the totals stay in registers.
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(0));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(1));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(2));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(3));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(4));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(5));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(6));
-                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(7));
-            } else {
-                // With fewer registers the totals spill anyway, and unrolled code would not fit its cache.
-                let mut point = 0;
-                while point < 8 {
-                    add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(point));
-                    point += 1;
-                }
+    ) -> Modes<L> {
+        let zero = part.zero.like(0.0);
+        let x = part.reference();
+        let fields = Fields {
+            x: derivatives(&x),
+            u: derivatives(&part.displacement()),
+            v: match part.velocity() {
+                Some(v) => derivatives(&v),
+                None => [[Vector([zero; 3]); 4]; 3],
+            },
+        };
+        let mut total = Total {
+            force: [[Vector([zero; 3]); 4]; 3],
+            unit_pressure: [[Vector([zero; 3]); 4]; 3],
+            volume: zero,
+            dilatation: zero,
+            dilatation_rate: zero,
+            energy: zero,
+            power: zero,
+        };
+        if L::N == 8 {
+            // Unrolled: with the 32 registers of AVX-512, constant indices need no address
+            // computation and the totals stay in registers.
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(0));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(1));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(2));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(3));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(4));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(5));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(6));
+            add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(7));
+        } else {
+            // With fewer registers the totals spill anyway, and unrolled code would not fit its cache.
+            for point in 0..8 {
+                add_point::<L, MEAN, ENERGY, VISCOUS>(&fields, k, &mut total, signs(point));
             }
+        }
 
-            let Total {
-                mut force,
-                unit_pressure,
-                volume,
-                dilatation,
-                dilatation_rate,
-                mut energy,
-                mut power,
-            } = total;
-            if ENERGY {
-                energy = energy.mul(L::splat(0.5));
-            }
-            if MEAN || VISCOUS {
-                let per_volume = L::splat(1.0).div(volume);
-                let mut pressure = zero;
-                if MEAN {
-                    pressure = L::splat(k.lambda).mul(dilatation).mul(per_volume);
-                    if ENERGY {
-                        energy = pressure.mul(dilatation).mul_add(L::splat(0.5), energy);
-                    }
+        let Total {
+            mut force,
+            unit_pressure,
+            volume,
+            dilatation,
+            dilatation_rate,
+            mut energy,
+            mut power,
+        } = total;
+        if ENERGY {
+            energy = energy * 0.5;
+        }
+        if MEAN || VISCOUS {
+            let per_volume = zero.like(1.0) / volume;
+            let mut pressure = zero;
+            if MEAN {
+                pressure = dilatation * k.lambda * per_volume;
+                if ENERGY {
+                    energy = (pressure * dilatation).fma(zero.like(0.5), energy);
                 }
-                if VISCOUS {
-                    let mean = mean_gradient(&x);
-                    let rate = dilatation_rate.mul(per_volume);
-                    let mut viscous = bulk_viscosity(rate, mean.w, mean.squares, k);
-                    if MEAN {
-                        viscous = L::splat(k.lambda * k.kelvin_voigt).mul_add(rate, viscous);
-                    }
-                    power = viscous.mul_add(dilatation_rate, power);
-                    pressure = pressure.add(viscous);
-                }
-                let mut m = 0;
-                while m < 3 {
-                    let mut s = 0;
-                    while s < 4 {
-                        let mut i = 0;
-                        while i < 3 {
-                            force[m][s][i] =
-                                pressure.mul_add(unit_pressure[m][s][i], force[m][s][i]);
-                            i += 1;
-                        }
-                        s += 1;
-                    }
-                    m += 1;
-                }
-            }
-            if ENERGY {
-                sums[0] += energy.sum(count);
             }
             if VISCOUS {
-                sums[2] += power.sum(count);
+                let mean = mean_gradient(&x);
+                let rate = dilatation_rate * per_volume;
+                let mut viscous = bulk_viscosity(rate, mean.w, mean.squares, k);
+                if MEAN {
+                    viscous = rate.fma(zero.like(k.lambda * k.kelvin_voigt), viscous);
+                }
+                power = viscous.fma(dilatation_rate, power);
+                pressure = pressure + viscous;
             }
-            scatter(&transposed(&force), arrays.force, batch, lane, count);
+            for m in 0..3 {
+                for s in 0..4 {
+                    force[m][s] = unit_pressure[m][s].fma(pressure, force[m][s]);
+                }
+            }
         }
+        if ENERGY {
+            sums[0] += energy.sum(part.count);
+        }
+        if VISCOUS {
+            sums[2] += power.sum(part.count);
+        }
+        transposed(&force)
     }
 }
 
@@ -177,68 +159,49 @@ struct Total<L> {
 
 /// Adds the contribution of a Gauss point; `at[k]` is the index of its derivative by xi_k among the four.
 #[inline(always)]
-unsafe fn add_point<L: Lanes, const MEAN: bool, const ENERGY: bool, const VISCOUS: bool>(
+fn add_point<L: Lanes, const MEAN: bool, const ENERGY: bool, const VISCOUS: bool>(
     fields: &Fields<L>,
     k: &Constants,
     total: &mut Total<L>,
     at: [usize; 3],
 ) {
-    unsafe {
-        let zero = L::splat(0.0);
-        let two_g = L::splat(2.0 * k.shear);
-        let lambda = L::splat(k.lambda);
-        let Fields { x, u, v } = fields;
-        let [j1, j2, j3] = [x[0][at[0]], x[1][at[1]], x[2][at[2]]];
-        let c = [cross(j2, j3), cross(j3, j1), cross(j1, j2)];
-        let w = dot(j1, c[0]);
-        let per_w = L::splat(1.0).div(w);
-        let h = gradient([u[0][at[0]], u[1][at[1]], u[2][at[2]]], &c, per_w);
-        let e = green(&h);
-        let tr = trace(&e);
-        // S/512
-        let mut s = elastic(&e, two_g, if MEAN { zero } else { lambda.mul(tr) });
+    let Fields { x, u, v } = fields;
+    let [j1, j2, j3] = [x[0][at[0]], x[1][at[1]], x[2][at[2]]];
+    let c = [j2.cross(j3), j3.cross(j1), j1.cross(j2)];
+    let w = j1.dot(c[0]);
+    let (zero, two_g) = (w.like(0.0), w.like(2.0 * k.shear));
+    let per_w = w.like(1.0) / w;
+    let h = gradient([u[0][at[0]], u[1][at[1]], u[2][at[2]]], &c, per_w);
+    let e = green(&h);
+    let tr = e.trace();
+    // S/512
+    let mut s = elastic(&e, two_g, if MEAN { zero } else { tr * k.lambda });
+    if MEAN || VISCOUS {
+        total.volume = total.volume + w;
+    }
+    if MEAN {
+        total.dilatation = tr.fma(w, total.dilatation);
+    }
+    if ENERGY {
+        total.energy = s.contract(&e).fma(w, total.energy);
+    }
+    if VISCOUS {
+        let rate = green_rate(&h, &gradient([v[0][at[0]], v[1][at[1]], v[2][at[2]]], &c, per_w));
+        let tr = rate.trace();
+        let eta = k.kelvin_voigt;
+        let pressure = if MEAN { zero } else { tr * k.lambda * eta };
+        let viscous = elastic(&rate, two_g * eta, pressure);
+        total.dilatation_rate = tr.fma(w, total.dilatation_rate);
+        total.power = viscous.contract(&rate).fma(w, total.power);
+        s = s + viscous;
+    }
+    let p = piola(&h, &s);
+    for m in 0..3 {
+        let f = &mut total.force[m][at[m]];
+        *f = p.fma(c[m], *f);
         if MEAN || VISCOUS {
-            total.volume = total.volume.add(w);
-        }
-        if MEAN {
-            total.dilatation = tr.mul_add(w, total.dilatation);
-        }
-        if ENERGY {
-            total.energy = contract(&s, &e).mul_add(w, total.energy);
-        }
-        if VISCOUS {
-            let rate =
-                green_rate(&h, &gradient([v[0][at[0]], v[1][at[1]], v[2][at[2]]], &c, per_w));
-            let tr = trace(&rate);
-            let eta = L::splat(k.kelvin_voigt);
-            let pressure = if MEAN { zero } else { lambda.mul(tr).mul(eta) };
-            let viscous = elastic(&rate, two_g.mul(eta), pressure);
-            total.dilatation_rate = tr.mul_add(w, total.dilatation_rate);
-            total.power = contract(&viscous, &rate).mul_add(w, total.power);
-            let mut i = 0;
-            while i < 3 {
-                s[i] = [
-                    s[i][0].add(viscous[i][0]),
-                    s[i][1].add(viscous[i][1]),
-                    s[i][2].add(viscous[i][2]),
-                ];
-                i += 1;
-            }
-        }
-        let p = piola(&h, &s);
-        let mut m = 0;
-        while m < 3 {
-            let mut i = 0;
-            while i < 3 {
-                let f = &mut total.force[m][at[m]][i];
-                *f = dot_add(p[i], c[m], *f);
-                if MEAN || VISCOUS {
-                    let f = &mut total.unit_pressure[m][at[m]][i];
-                    *f = dot_add(h[i], c[m], f.add(c[m][i]));
-                }
-                i += 1;
-            }
-            m += 1;
+            let f = &mut total.unit_pressure[m][at[m]];
+            *f = h.fma(c[m], *f + c[m]);
         }
     }
 }
@@ -252,78 +215,50 @@ const fn signs(point: usize) -> [usize; 3] {
 
 /// The derivatives at the Gauss points from the modes.
 #[inline(always)]
-unsafe fn derivatives<L: Lanes>(x: &Modes<L>) -> Derivatives<L> {
-    unsafe {
-        let (p, p_squared) = (L::splat(P), L::splat(P_SQUARED));
-        let mut d = [[[p; 3]; 4]; 3];
-        let mut k = 0;
-        while k < 3 {
-            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
-            let mut i = 0;
-            while i < 3 {
-                let (a, g) = (x.linear[k][i], x.hourglass[m][i]);
-                let (minus, plus) = (p.neg_mul_add(g, a), p.mul_add(g, a));
-                let g = x.hourglass[l][i].mul(p);
-                let twist = x.hourglass[3][i].mul(p_squared);
-                let (slope_minus, slope_plus) = (g.sub(twist), g.add(twist));
-                d[k][0][i] = minus.sub(slope_minus);
-                d[k][1][i] = plus.sub(slope_plus);
-                d[k][2][i] = minus.add(slope_minus);
-                d[k][3][i] = plus.add(slope_plus);
-                i += 1;
-            }
-            k += 1;
+fn derivatives<L: Lanes>(x: &Modes<L>) -> Derivatives<L> {
+    let p = x.linear[0][0].like(P);
+    let mut d = [[Vector([p; 3]); 4]; 3];
+    for k in 0..3 {
+        let (l, m) = ((k + 1) % 3, (k + 2) % 3);
+        for i in 0..3 {
+            let (a, g) = (x.linear[k][i], x.hourglass[m][i]);
+            let (minus, plus) = (g.fnma(p, a), g.fma(p, a));
+            let (g, twist) = (x.hourglass[l][i] * P, x.hourglass[3][i] * P_SQUARED);
+            let (slope_minus, slope_plus) = (g - twist, g + twist);
+            d[k][0][i] = minus - slope_minus;
+            d[k][1][i] = plus - slope_plus;
+            d[k][2][i] = minus + slope_minus;
+            d[k][3][i] = plus + slope_plus;
         }
-        d
     }
+    d
 }
 
 /// The transpose of [`derivatives`]: forces on modes from forces on derivatives.
 #[inline(always)]
-unsafe fn transposed<L: Lanes>(f: &Derivatives<L>) -> Modes<L> {
-    unsafe {
-        let (p, p_squared) = (L::splat(P), L::splat(P_SQUARED));
-        let zero = [L::splat(0.0); 3];
-        let mut out = Modes { linear: [zero; 3], hourglass: [zero; 4] };
-        let mut k = 0;
-        while k < 3 {
-            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
-            let mut i = 0;
-            while i < 3 {
-                let [f0, f1, f2, f3] = [f[k][0][i], f[k][1][i], f[k][2][i], f[k][3][i]];
-                let (minus, plus) = (f0.add(f2), f1.add(f3));
-                let (slope_minus, slope_plus) = (f2.sub(f0), f3.sub(f1));
-                out.linear[k][i] = minus.add(plus);
-                out.hourglass[m][i] = plus.sub(minus).mul_add(p, out.hourglass[m][i]);
-                let slope = slope_minus.add(slope_plus);
-                out.hourglass[l][i] = slope.mul_add(p, out.hourglass[l][i]);
-                let twist = slope_plus.sub(slope_minus);
-                out.hourglass[3][i] = twist.mul_add(p_squared, out.hourglass[3][i]);
-                i += 1;
-            }
-            k += 1;
+fn transposed<L: Lanes>(f: &Derivatives<L>) -> Modes<L> {
+    let any = f[0][0][0];
+    let (p, p_squared) = (any.like(P), any.like(P_SQUARED));
+    let zero = Vector([any.like(0.0); 3]);
+    let mut out = Modes { linear: [zero; 3], hourglass: [zero; 4] };
+    for k in 0..3 {
+        let (l, m) = ((k + 1) % 3, (k + 2) % 3);
+        let g = &mut out.hourglass;
+        for i in 0..3 {
+            let [f0, f1, f2, f3] = [f[k][0][i], f[k][1][i], f[k][2][i], f[k][3][i]];
+            let (minus, plus) = (f0 + f2, f1 + f3);
+            let (slope_minus, slope_plus) = (f2 - f0, f3 - f1);
+            out.linear[k][i] = minus + plus;
+            g[m][i] = (plus - minus).fma(p, g[m][i]);
+            g[l][i] = (slope_minus + slope_plus).fma(p, g[l][i]);
+            g[3][i] = (slope_plus - slope_minus).fma(p_squared, g[3][i]);
         }
-        out
     }
+    out
 }
 
 /// H = sum D_k C_k^T/w.
 #[inline(always)]
-unsafe fn gradient<L: Lanes>(d: [Vector<L>; 3], c: &[Vector<L>; 3], per_w: L) -> Matrix<L> {
-    unsafe {
-        let mut h = *c;
-        let mut i = 0;
-        while i < 3 {
-            let mut j = 0;
-            while j < 3 {
-                let mut v = d[0][i].mul(c[0][j]);
-                v = d[1][i].mul_add(c[1][j], v);
-                v = d[2][i].mul_add(c[2][j], v);
-                h[i][j] = v.mul(per_w);
-                j += 1;
-            }
-            i += 1;
-        }
-        h
-    }
+fn gradient<L: Lanes>(d: [Vector<L>; 3], c: &[Vector<L>; 3], per_w: L) -> Matrix<L> {
+    d[2].dyad_add(c[2], d[1].dyad_add(c[1], d[0].dyad(c[0]))) * per_w
 }

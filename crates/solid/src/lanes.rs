@@ -6,6 +6,7 @@
 //! instructions and most of the speed.
 
 use mesh::Padded;
+use std::ops::{Add, Div, Mul, Sub};
 
 #[cfg(target_arch = "aarch64")]
 pub(crate) mod neon;
@@ -86,35 +87,72 @@ impl Level {
 
 /// One number for each of `N` elements.
 ///
-/// # Safety
-/// Every method may only run where the instructions of the implementing type are available.
-pub(crate) trait Lanes: Copy {
+/// [`splat`](Self::splat) and [`gather`](Self::gather) may only run where the instructions of the type are available.
+/// All values come from these two, so that a value proves that its arithmetic, which is safe, may run.
+pub(crate) trait Lanes:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<Output = Self>
+{
     /// Number of lanes; divides eight.
     const N: usize;
 
+    /// # Safety
+    /// The instructions of the type are available.
     unsafe fn splat(v: f64) -> Self;
-    unsafe fn add(self, o: Self) -> Self;
-    unsafe fn sub(self, o: Self) -> Self;
-    unsafe fn mul(self, o: Self) -> Self;
-    unsafe fn div(self, o: Self) -> Self;
-    unsafe fn min(self, o: Self) -> Self;
-    unsafe fn sqrt(self) -> Self;
-    /// `self * b + c`
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self;
-    /// `c - self * b`
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self;
+    /// `v` in every lane; `self` proves that the instructions are available.
+    #[inline(always)]
+    fn like(self, v: f64) -> Self {
+        // SAFETY: `self` exists.
+        unsafe { Self::splat(v) }
+    }
+    fn min(self, o: Self) -> Self;
+    fn sqrt(self) -> Self;
+    /// `self * b + c`, fused.
+    fn fma(self, b: Self, c: Self) -> Self;
+    /// `c - self * b`, fused.
+    fn fnma(self, b: Self, c: Self) -> Self;
+    /// Sum of the first `count` lanes in lane order.
+    fn sum(self, count: usize) -> f64;
     /// x, y and z of the nodes `index[0..N]`.
     ///
-    /// `index` must be readable for `N` entries and each must be a valid index into `base`.
+    /// # Safety
+    /// The instructions of the type are available; `index` is readable for `N` entries and each is a valid index into
+    /// `base`.
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3];
     /// Subtracts the first `count` lanes from the nodes `index[0..count]`, in lane order, so that
     /// lanes may share nodes.
     ///
-    /// As [`gather`](Self::gather), and nobody else may access these nodes meanwhile.
+    /// # Safety
+    /// As [`gather`](Self::gather), and nobody else accesses these nodes meanwhile.
     unsafe fn scatter_sub(base: *mut Padded, index: *const u32, v: [Self; 3], count: usize);
-    /// Sum of the first `count` lanes in lane order.
-    unsafe fn sum(self, count: usize) -> f64;
 }
+
+/// The operators of a type of lanes, each with its trait, its method and its value for `a` and `b`, and the product with
+/// a number.
+macro_rules! operators {
+    ($lanes:ident: $($operator:ident $method:ident |$a:ident, $b:ident| $value:expr;)+) => {
+        $(impl std::ops::$operator for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, b: Self) -> Self {
+                let ($a, $b) = (self, b);
+                $value
+            }
+        })+
+        impl std::ops::Mul<f64> for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, b: f64) -> Self {
+                self * crate::lanes::Lanes::like(self, b)
+            }
+        }
+    };
+}
+pub(crate) use operators;
 
 impl Lanes for f64 {
     const N: usize = 1;
@@ -123,37 +161,25 @@ impl Lanes for f64 {
         v
     }
     #[inline(always)]
-    unsafe fn add(self, o: Self) -> Self {
-        self + o
-    }
-    #[inline(always)]
-    unsafe fn sub(self, o: Self) -> Self {
-        self - o
-    }
-    #[inline(always)]
-    unsafe fn mul(self, o: Self) -> Self {
-        self * o
-    }
-    #[inline(always)]
-    unsafe fn div(self, o: Self) -> Self {
-        self / o
-    }
-    #[inline(always)]
-    unsafe fn min(self, o: Self) -> Self {
+    fn min(self, o: Self) -> Self {
         if self < o { self } else { o }
     }
     #[inline(always)]
-    unsafe fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
+    /// Rounds twice: a fused multiply-add without hardware support would be a slow library call.
     #[inline(always)]
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
-        // Rounds twice: a fused multiply-add without hardware support would be a slow library call.
+    fn fma(self, b: Self, c: Self) -> Self {
         self * b + c
     }
     #[inline(always)]
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+    fn fnma(self, b: Self, c: Self) -> Self {
         c - self * b
+    }
+    #[inline(always)]
+    fn sum(self, count: usize) -> f64 {
+        if count == 1 { self } else { 0.0 }
     }
     #[inline(always)]
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
@@ -170,10 +196,6 @@ impl Lanes for f64 {
             node.0[2] -= v[2];
         }
     }
-    #[inline(always)]
-    unsafe fn sum(self, count: usize) -> f64 {
-        if count == 1 { self } else { 0.0 }
-    }
 }
 
 /// The arithmetic of AVX2 in plain Rust: the same operations in the same order, fused where AVX2 fuses.
@@ -187,6 +209,13 @@ impl Four {
     }
 }
 
+operators! { Four:
+    Add add |a, b| a.with(b, |a, b| a + b);
+    Sub sub |a, b| a.with(b, |a, b| a - b);
+    Mul mul |a, b| a.with(b, |a, b| a * b);
+    Div div |a, b| a.with(b, |a, b| a / b);
+}
+
 impl Lanes for Four {
     const N: usize = 4;
     #[inline(always)]
@@ -194,36 +223,24 @@ impl Lanes for Four {
         Self([v; 4])
     }
     #[inline(always)]
-    unsafe fn add(self, o: Self) -> Self {
-        self.with(o, |a, b| a + b)
-    }
-    #[inline(always)]
-    unsafe fn sub(self, o: Self) -> Self {
-        self.with(o, |a, b| a - b)
-    }
-    #[inline(always)]
-    unsafe fn mul(self, o: Self) -> Self {
-        self.with(o, |a, b| a * b)
-    }
-    #[inline(always)]
-    unsafe fn div(self, o: Self) -> Self {
-        self.with(o, |a, b| a / b)
-    }
-    #[inline(always)]
-    unsafe fn min(self, o: Self) -> Self {
+    fn min(self, o: Self) -> Self {
         self.with(o, |a, b| if a < b { a } else { b })
     }
     #[inline(always)]
-    unsafe fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }
     #[inline(always)]
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
+    fn fma(self, b: Self, c: Self) -> Self {
         Self(std::array::from_fn(|i| self.0[i].mul_add(b.0[i], c.0[i])))
     }
     #[inline(always)]
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+    fn fnma(self, b: Self, c: Self) -> Self {
         Self(std::array::from_fn(|i| (-self.0[i]).mul_add(b.0[i], c.0[i])))
+    }
+    #[inline(always)]
+    fn sum(self, count: usize) -> f64 {
+        ordered_sum(&self.0, count)
     }
     #[inline(always)]
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
@@ -241,10 +258,6 @@ impl Lanes for Four {
                 node.0[axis] -= v.0[lane];
             }
         }
-    }
-    #[inline(always)]
-    unsafe fn sum(self, count: usize) -> f64 {
-        ordered_sum(&self.0, count)
     }
 }
 

@@ -28,6 +28,7 @@ mod solid;
 mod stable;
 mod stiffness;
 mod stress;
+mod tensor;
 
 pub use centrifugal::Centrifugal;
 pub use formulation::{Element, Elements, Formulation, Volumetric};

@@ -32,26 +32,19 @@ pub fn multiply_additions(level: Level, flops: usize) -> usize {
 #[inline(always)]
 unsafe fn run<L: Lanes>(rounds: usize, small: f64) -> f64 {
     // SAFETY: as the caller's.
-    unsafe {
-        let (factor, term) = (L::splat(1.0 - small), L::splat(2.0 * small));
-        let mut chains = [L::splat(1.0); CHAINS];
-        let mut round = 0;
-        while round < rounds {
-            let mut i = 0;
-            while i < CHAINS {
-                chains[i] = chains[i].mul_add(factor, term);
-                i += 1;
-            }
-            round += 1;
+    let one = unsafe { L::splat(1.0) };
+    let (factor, term) = (one.like(1.0 - small), one.like(2.0 * small));
+    let mut chains = [one; CHAINS];
+    for _ in 0..rounds {
+        for i in 0..CHAINS {
+            chains[i] = chains[i].fma(factor, term);
         }
-        let mut total = chains[0];
-        let mut i = 1;
-        while i < CHAINS {
-            total = total.add(chains[i]);
-            i += 1;
-        }
-        total.sum(L::N)
     }
+    let mut total = chains[0];
+    for i in 1..CHAINS {
+        total = total + chains[i];
+    }
+    total.sum(L::N)
 }
 
 #[cfg(target_arch = "x86_64")]

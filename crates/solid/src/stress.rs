@@ -7,6 +7,7 @@ use crate::gauss::gauss_points;
 use crate::geometry::{cross, dot};
 use crate::kernel::{gradient, mean_gradient, modes};
 use crate::material::Material;
+use crate::tensor::Matrix;
 use mesh::Padded;
 
 /// Cauchy stress (Pa) of a one-point element, from the gradient that its force uses.
@@ -24,12 +25,11 @@ pub(crate) fn one_point_cauchy(
         node < reference.len() && node < displacement.len()
     });
     assert!(nodes);
-    // SAFETY: plain arithmetic; the nodes of the element are within both arrays, as was just asserted.
-    let h = unsafe {
-        let of_volume = mean_gradient(&modes::<f64>(reference.as_ptr(), batch, lane));
-        gradient(&modes::<f64>(displacement.as_ptr(), batch, lane), &of_volume)
-    };
-    cauchy(&h, material)
+    // SAFETY: plain Rust; the nodes of the element are within both arrays, as was just asserted.
+    let [x, u] =
+        [reference, displacement].map(|a| unsafe { modes::<f64>(a.as_ptr(), batch, lane) });
+    let Matrix(h) = gradient(&u, &mean_gradient(&x));
+    cauchy(&h.map(|row| row.0), material)
 }
 
 /// Cauchy stress (Pa) for the displacement gradient H.

@@ -1,11 +1,19 @@
 //! Vectors of aarch64: two vectors of two lanes make four, so that the sums over elements have the order, and with it
 //! the bits, of AVX2.
 
-use super::{Lanes, Padded, ordered_sum};
+use super::{Lanes, Padded, operators, ordered_sum};
 use std::arch::aarch64::*;
 
 #[derive(Clone, Copy)]
 pub(crate) struct F64x2x2(float64x2_t, float64x2_t);
+
+// SAFETY: a value proves that the instructions are available (see `Lanes`).
+operators! { F64x2x2:
+    Add add |a, b| unsafe { F64x2x2(vaddq_f64(a.0, b.0), vaddq_f64(a.1, b.1)) };
+    Sub sub |a, b| unsafe { F64x2x2(vsubq_f64(a.0, b.0), vsubq_f64(a.1, b.1)) };
+    Mul mul |a, b| unsafe { F64x2x2(vmulq_f64(a.0, b.0), vmulq_f64(a.1, b.1)) };
+    Div div |a, b| unsafe { F64x2x2(vdivq_f64(a.0, b.0), vdivq_f64(a.1, b.1)) };
+}
 
 // SAFETY of the whole impl: every aarch64 machine has NEON; pointers as the trait's methods say.
 impl Lanes for F64x2x2 {
@@ -15,23 +23,7 @@ impl Lanes for F64x2x2 {
         unsafe { Self(vdupq_n_f64(v), vdupq_n_f64(v)) }
     }
     #[inline(always)]
-    unsafe fn add(self, o: Self) -> Self {
-        unsafe { Self(vaddq_f64(self.0, o.0), vaddq_f64(self.1, o.1)) }
-    }
-    #[inline(always)]
-    unsafe fn sub(self, o: Self) -> Self {
-        unsafe { Self(vsubq_f64(self.0, o.0), vsubq_f64(self.1, o.1)) }
-    }
-    #[inline(always)]
-    unsafe fn mul(self, o: Self) -> Self {
-        unsafe { Self(vmulq_f64(self.0, o.0), vmulq_f64(self.1, o.1)) }
-    }
-    #[inline(always)]
-    unsafe fn div(self, o: Self) -> Self {
-        unsafe { Self(vdivq_f64(self.0, o.0), vdivq_f64(self.1, o.1)) }
-    }
-    #[inline(always)]
-    unsafe fn min(self, o: Self) -> Self {
+    fn min(self, o: Self) -> Self {
         // AVX2 gives the second where one is not a number; `vminq_f64` would not
         unsafe {
             Self(
@@ -41,15 +33,15 @@ impl Lanes for F64x2x2 {
         }
     }
     #[inline(always)]
-    unsafe fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         unsafe { Self(vsqrtq_f64(self.0), vsqrtq_f64(self.1)) }
     }
     #[inline(always)]
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
+    fn fma(self, b: Self, c: Self) -> Self {
         unsafe { Self(vfmaq_f64(c.0, self.0, b.0), vfmaq_f64(c.1, self.1, b.1)) }
     }
     #[inline(always)]
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+    fn fnma(self, b: Self, c: Self) -> Self {
         unsafe { Self(vfmsq_f64(c.0, self.0, b.0), vfmsq_f64(c.1, self.1, b.1)) }
     }
     #[inline(always)]
@@ -82,7 +74,7 @@ impl Lanes for F64x2x2 {
         }
     }
     #[inline(always)]
-    unsafe fn sum(self, count: usize) -> f64 {
+    fn sum(self, count: usize) -> f64 {
         let mut lanes = [0.0; 4];
         unsafe {
             vst1q_f64(lanes.as_mut_ptr(), self.0);

@@ -1,10 +1,18 @@
 //! Vectors of x86-64: eight lanes with AVX-512F, four with AVX2 and FMA.
 
-use super::{Lanes, Padded, ordered_sum};
+use super::{Lanes, Padded, operators, ordered_sum};
 use std::arch::x86_64::*;
 
 #[derive(Clone, Copy)]
 pub(crate) struct F64x8(__m512d);
+
+// SAFETY: a value proves that the instructions are available (see `Lanes`).
+operators! { F64x8:
+    Add add |a, b| unsafe { F64x8(_mm512_add_pd(a.0, b.0)) };
+    Sub sub |a, b| unsafe { F64x8(_mm512_sub_pd(a.0, b.0)) };
+    Mul mul |a, b| unsafe { F64x8(_mm512_mul_pd(a.0, b.0)) };
+    Div div |a, b| unsafe { F64x8(_mm512_div_pd(a.0, b.0)) };
+}
 
 // SAFETY of the whole impl: the trait's contract gives AVX-512F; pointers as its methods say.
 // `Padded` is 32 bytes on a 32-byte boundary, so aligned 256-bit access is right.
@@ -15,35 +23,19 @@ impl Lanes for F64x8 {
         unsafe { Self(_mm512_set1_pd(v)) }
     }
     #[inline(always)]
-    unsafe fn add(self, o: Self) -> Self {
-        unsafe { Self(_mm512_add_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn sub(self, o: Self) -> Self {
-        unsafe { Self(_mm512_sub_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn mul(self, o: Self) -> Self {
-        unsafe { Self(_mm512_mul_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn div(self, o: Self) -> Self {
-        unsafe { Self(_mm512_div_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn min(self, o: Self) -> Self {
+    fn min(self, o: Self) -> Self {
         unsafe { Self(_mm512_min_pd(self.0, o.0)) }
     }
     #[inline(always)]
-    unsafe fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         unsafe { Self(_mm512_sqrt_pd(self.0)) }
     }
     #[inline(always)]
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
+    fn fma(self, b: Self, c: Self) -> Self {
         unsafe { Self(_mm512_fmadd_pd(self.0, b.0, c.0)) }
     }
     #[inline(always)]
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+    fn fnma(self, b: Self, c: Self) -> Self {
         unsafe { Self(_mm512_fnmadd_pd(self.0, b.0, c.0)) }
     }
     #[inline(always)]
@@ -110,7 +102,7 @@ impl Lanes for F64x8 {
         }
     }
     #[inline(always)]
-    unsafe fn sum(self, count: usize) -> f64 {
+    fn sum(self, count: usize) -> f64 {
         let mut lanes = [0.0; 8];
         unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), self.0) };
         ordered_sum(&lanes, count)
@@ -139,6 +131,14 @@ unsafe fn subtract(base: *mut Padded, index: *const u32, i: usize, row: __m256d)
 #[derive(Clone, Copy)]
 pub(crate) struct F64x4(__m256d);
 
+// SAFETY: a value proves that the instructions are available (see `Lanes`).
+operators! { F64x4:
+    Add add |a, b| unsafe { F64x4(_mm256_add_pd(a.0, b.0)) };
+    Sub sub |a, b| unsafe { F64x4(_mm256_sub_pd(a.0, b.0)) };
+    Mul mul |a, b| unsafe { F64x4(_mm256_mul_pd(a.0, b.0)) };
+    Div div |a, b| unsafe { F64x4(_mm256_div_pd(a.0, b.0)) };
+}
+
 // SAFETY of the whole impl: the trait's contract gives AVX2 and FMA; the rest as above.
 impl Lanes for F64x4 {
     const N: usize = 4;
@@ -147,35 +147,19 @@ impl Lanes for F64x4 {
         unsafe { Self(_mm256_set1_pd(v)) }
     }
     #[inline(always)]
-    unsafe fn add(self, o: Self) -> Self {
-        unsafe { Self(_mm256_add_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn sub(self, o: Self) -> Self {
-        unsafe { Self(_mm256_sub_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn mul(self, o: Self) -> Self {
-        unsafe { Self(_mm256_mul_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn div(self, o: Self) -> Self {
-        unsafe { Self(_mm256_div_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    unsafe fn min(self, o: Self) -> Self {
+    fn min(self, o: Self) -> Self {
         unsafe { Self(_mm256_min_pd(self.0, o.0)) }
     }
     #[inline(always)]
-    unsafe fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         unsafe { Self(_mm256_sqrt_pd(self.0)) }
     }
     #[inline(always)]
-    unsafe fn mul_add(self, b: Self, c: Self) -> Self {
+    fn fma(self, b: Self, c: Self) -> Self {
         unsafe { Self(_mm256_fmadd_pd(self.0, b.0, c.0)) }
     }
     #[inline(always)]
-    unsafe fn neg_mul_add(self, b: Self, c: Self) -> Self {
+    fn fnma(self, b: Self, c: Self) -> Self {
         unsafe { Self(_mm256_fnmadd_pd(self.0, b.0, c.0)) }
     }
     #[inline(always)]
@@ -225,7 +209,7 @@ impl Lanes for F64x4 {
         }
     }
     #[inline(always)]
-    unsafe fn sum(self, count: usize) -> f64 {
+    fn sum(self, count: usize) -> f64 {
         let mut lanes = [0.0; 4];
         unsafe { _mm256_storeu_pd(lanes.as_mut_ptr(), self.0) };
         ordered_sum(&lanes, count)
