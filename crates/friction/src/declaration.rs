@@ -82,6 +82,9 @@ pub struct Declaration {
     pub(crate) make: Make,
 }
 
+/// A law without state.
+type Steady = Arc<dyn FrictionLaw>;
+
 /// What a law is made of beside its parameters.
 pub(crate) struct Beside<'a> {
     /// Reads the text of a formula.
@@ -94,7 +97,7 @@ pub(crate) struct Beside<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Make {
     /// A law without state. Without the key `mode` its coefficient does not depend on the slip speed.
-    Steady(fn(&Parameters, &Beside) -> Result<Arc<dyn FrictionLaw>, LawError>),
+    Steady(fn(&Parameters, &Beside) -> Result<Steady, LawError>),
     /// A law of a contact node with its state.
     AtNode(fn(&Parameters, &Beside) -> Box<dyn NodeFriction>),
 }
