@@ -118,11 +118,23 @@ fn counting(change: fn(&mut Work), value: f64) -> Counted {
     Counted(value)
 }
 
+fn addition(done: &mut Work) {
+    done.additions += 1;
+}
+
+fn multiplication(done: &mut Work) {
+    done.multiplications += 1;
+}
+
+fn division(done: &mut Work) {
+    done.divisions += 1;
+}
+
 operators! { Counted:
-    Add add |a, b| counting(|done| done.additions += 1, a.0 + b.0);
-    Sub sub |a, b| counting(|done| done.additions += 1, a.0 - b.0);
-    Mul mul |a, b| counting(|done| done.multiplications += 1, a.0 * b.0);
-    Div div |a, b| counting(|done| done.divisions += 1, a.0 / b.0);
+    Add add |a, b| counting(addition, a.0 + b.0);
+    Sub sub |a, b| counting(addition, a.0 - b.0);
+    Mul mul |a, b| counting(multiplication, a.0 * b.0);
+    Div div |a, b| counting(division, a.0 / b.0);
 }
 
 // The arithmetic is that of the portable lane, whose methods need no special instructions.

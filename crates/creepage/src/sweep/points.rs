@@ -37,7 +37,7 @@ pub struct Point {
 
 impl Sweep {
     /// The runs in their order, every case resolved and checked. With [`StepRule::Fixed`](crate::sweep::file::StepRule) each
-    /// still has the step of its own limit: [`plan::prepare`](crate::sweep::plan::prepare) finds the common one.
+    /// still has the step of its own limit: [`plan::prepare`] finds the common one.
     ///
     /// # Errors
     /// Too many runs; a run whose case is refused, at the place in the sweep file that causes it.
