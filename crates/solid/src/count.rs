@@ -112,6 +112,22 @@ fn count(change: fn(&mut Work)) {
 #[derive(Clone, Copy)]
 struct Counted(f64);
 
+fn addition(done: &mut Work) {
+    done.additions += 1;
+}
+
+fn multiplication(done: &mut Work) {
+    done.multiplications += 1;
+}
+
+fn multiply_addition(done: &mut Work) {
+    done.multiply_additions += 1;
+}
+
+fn division(done: &mut Work) {
+    done.divisions += 1;
+}
+
 /// Passes `value`, whose operations `change` counts.
 fn counting(change: fn(&mut Work), value: f64) -> Counted {
     count(change);
@@ -119,10 +135,10 @@ fn counting(change: fn(&mut Work), value: f64) -> Counted {
 }
 
 operators! { Counted:
-    Add add |a, b| counting(|done| done.additions += 1, a.0 + b.0);
-    Sub sub |a, b| counting(|done| done.additions += 1, a.0 - b.0);
-    Mul mul |a, b| counting(|done| done.multiplications += 1, a.0 * b.0);
-    Div div |a, b| counting(|done| done.divisions += 1, a.0 / b.0);
+    Add add |a, b| counting(addition, a.0 + b.0);
+    Sub sub |a, b| counting(addition, a.0 - b.0);
+    Mul mul |a, b| counting(multiplication, a.0 * b.0);
+    Div div |a, b| counting(division, a.0 / b.0);
 }
 
 // The arithmetic is that of the portable lane, whose methods need no special instructions.
@@ -132,16 +148,16 @@ impl Lanes for Counted {
         Self(v)
     }
     fn min(self, o: Self) -> Self {
-        counting(|done| done.additions += 1, self.0.min(o.0))
+        counting(addition, self.0.min(o.0))
     }
     fn sqrt(self) -> Self {
-        counting(|done| done.divisions += 1, self.0.sqrt())
+        counting(division, self.0.sqrt())
     }
     fn fma(self, b: Self, c: Self) -> Self {
-        counting(|done| done.multiply_additions += 1, self.0.fma(b.0, c.0))
+        counting(multiply_addition, self.0.fma(b.0, c.0))
     }
     fn fnma(self, b: Self, c: Self) -> Self {
-        counting(|done| done.multiply_additions += 1, self.0.fnma(b.0, c.0))
+        counting(multiply_addition, self.0.fnma(b.0, c.0))
     }
     fn sum(self, lanes: usize) -> f64 {
         self.0.sum(lanes)
