@@ -78,13 +78,10 @@ pub fn run_with(case: &Case, threads: usize, cache: Option<&Path>) -> (Results, 
 /// A run in `out` that neither replaces nor resumes one.
 pub fn options(out: &Path, threads: usize) -> RunOptions {
     RunOptions {
-        out: out.to_path_buf(),
-        threads,
-        force: false,
-        resume: false,
-        preload_cache: None,
-        source: PathBuf::from("test"),
-        law: None,
+        case: "test".into(),
+        out: Some(out.to_path_buf()),
+        threads: Some(threads),
+        ..RunOptions::default()
     }
 }
 

@@ -152,17 +152,15 @@ fn shifted(h: f64, steps: f64, exact: &Mindlin, planted: &[&str]) -> Result<[f64
     sets.extend(planted.iter().map(|&key| key.to_owned()));
     let case = case(&sets)?;
     let folder = tempfile::tempdir()?;
+    let out = folder.path().join("run");
     let options = RunOptions {
-        preload_cache: None,
-        out: folder.path().join("run"),
-        threads: 1,
-        force: false,
-        resume: false,
-        source: NAME.into(),
-        law: None,
+        case: NAME.into(),
+        out: Some(out.clone()),
+        threads: Some(1),
+        ..RunOptions::default()
     };
     creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
-    let history = HistoryFile::open(options.out.join(file::HISTORY))?;
+    let history = HistoryFile::open(out.join(file::HISTORY))?;
     let read = |name: &str| history.read(name);
     let [time, force, area, stick, lost] = [
         read(&HISTORY.time.name)?,

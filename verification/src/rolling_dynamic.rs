@@ -227,13 +227,9 @@ pub(crate) fn run_case(text: &str, name: &str, sets: &[String]) -> Result<Summar
     let case = Case::from_text(text, Path::new(name), sets)?;
     let folder = tempfile::tempdir()?;
     let options = RunOptions {
-        preload_cache: None,
-        out: folder.path().join("run"),
-        threads: std::thread::available_parallelism().map_or(1, |n| n.get()),
-        force: false,
-        resume: false,
-        source: name.into(),
-        law: None,
+        case: name.into(),
+        out: Some(folder.path().join("run")),
+        ..RunOptions::default()
     };
     Ok(creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?)
 }

@@ -30,6 +30,7 @@ mod naming;
 mod quantity;
 pub mod schema;
 mod section;
+mod source;
 pub mod table;
 #[cfg(test)]
 mod tests;
@@ -43,3 +44,4 @@ pub use excerpt::Excerpt;
 pub use json_schema::json_schema;
 pub use load::{error_at_key, inputs};
 pub use schema::Case;
+pub use source::CaseSource;

@@ -1,7 +1,7 @@
 //! What the command line and Python do, each command as a function with a struct of options.
 
 mod bench;
-mod case_source;
+mod case;
 mod check;
 mod compare;
 mod error;
@@ -21,7 +21,6 @@ mod values;
 mod view;
 
 pub use bench::{BenchOptions, bench};
-pub use case_source::CaseSource;
 pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
 pub use compare::{CompareOptions, compare};
 pub use error::{
@@ -34,7 +33,7 @@ pub use listener::Listener;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
 pub use report::{ReportOptions, Reported, report};
-pub use run::{Ran, RunOptions, run};
+pub use run::{Ran, run};
 pub use slider::{
     LawName, LawNumbers, MethodName, SettingError, Settings, SliderFound, SliderOptions,
     SliderResult, SliderRun, slider,

@@ -82,6 +82,7 @@ pub mod ls_dyna;
 #[cfg(test)]
 mod modules;
 pub mod report;
+pub mod rule;
 pub mod run;
 pub mod scenario;
 pub mod scene;
@@ -90,6 +91,7 @@ pub mod trends;
 
 pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
+pub use case::CaseSource;
 pub use case::json_schema::json_schema as schema;
 pub use chart::Format;
 pub use check::{CheckResult, Checked, Measure, Pairing, Report as PairingReport};
@@ -97,6 +99,6 @@ pub use commands::*;
 pub use friction::OwnLaw;
 pub use ls_dyna::Units;
 pub use output::summary::Summary;
-pub use run::{BlockElement, Level};
+pub use run::{BlockElement, Level, RunOptions};
 pub use scenario::{Cost, Progress, Stage};
 pub use sweep::{Cell, Column, SweepResult, Table, Watched};

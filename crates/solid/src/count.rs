@@ -112,12 +112,6 @@ fn count(change: fn(&mut Work)) {
 #[derive(Clone, Copy)]
 struct Counted(f64);
 
-/// Passes `value`, whose operations `change` counts.
-fn counting(change: fn(&mut Work), value: f64) -> Counted {
-    count(change);
-    Counted(value)
-}
-
 fn addition(done: &mut Work) {
     done.additions += 1;
 }
@@ -126,8 +120,18 @@ fn multiplication(done: &mut Work) {
     done.multiplications += 1;
 }
 
+fn multiply_addition(done: &mut Work) {
+    done.multiply_additions += 1;
+}
+
 fn division(done: &mut Work) {
     done.divisions += 1;
+}
+
+/// Passes `value`, whose operations `change` counts.
+fn counting(change: fn(&mut Work), value: f64) -> Counted {
+    count(change);
+    Counted(value)
 }
 
 operators! { Counted:
@@ -144,16 +148,16 @@ impl Lanes for Counted {
         Self(v)
     }
     fn min(self, o: Self) -> Self {
-        counting(|done| done.additions += 1, self.0.min(o.0))
+        counting(addition, self.0.min(o.0))
     }
     fn sqrt(self) -> Self {
-        counting(|done| done.divisions += 1, self.0.sqrt())
+        counting(division, self.0.sqrt())
     }
     fn fma(self, b: Self, c: Self) -> Self {
-        counting(|done| done.multiply_additions += 1, self.0.fma(b.0, c.0))
+        counting(multiply_addition, self.0.fma(b.0, c.0))
     }
     fn fnma(self, b: Self, c: Self) -> Self {
-        counting(|done| done.multiply_additions += 1, self.0.fnma(b.0, c.0))
+        counting(multiply_addition, self.0.fnma(b.0, c.0))
     }
     fn sum(self, lanes: usize) -> f64 {
         self.0.sum(lanes)

@@ -6,7 +6,8 @@ use crate::run::{BenchResult, BlockElement, Level};
 
 #[cfg(feature = "clap")]
 use crate::commands::values::words::{element, kernels};
-use crate::commands::values::{EDGE, KERNELS, ONE_PER_CORE, THREADS, all_cores};
+use crate::commands::values::{EDGE, KERNELS, ONE_PER_CORE};
+use crate::rule::{THREADS, all_cores};
 use crate::{CaseSource, Error};
 
 /// What to measure.

@@ -19,8 +19,9 @@ use serde::{Deserialize, Serialize};
 use crate::commands::error::{FAILED, INTERRUPTED};
 use crate::commands::outputs::claim;
 use crate::commands::report::{claim_sweep, write_sweep};
-use crate::commands::values::{MEGABYTES, THREADS, all_cores, exclude};
+use crate::commands::values::{MEGABYTES, exclude};
 use crate::commands::{CheckOptions, RunOptions, check, run};
+use crate::rule::{THREADS, all_cores};
 use crate::{Error, Listener};
 
 /// Which sweep, and how its runs are done.

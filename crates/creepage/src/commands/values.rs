@@ -3,21 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use crate::rule::{Rule, all_cores};
 use crate::run::Level;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
 use crate::{Error, Listener};
 
-/// What a value must be.
-pub struct Rule<T> {
-    holds: fn(&T) -> bool,
-    wanted: &'static str,
-}
-
-/// Threads, or runs at a time.
-pub const THREADS: Rule<usize> =
-    Rule { holds: |n| (1..=1024).contains(n), wanted: "a whole number from 1 to 1024 is needed" };
 /// Threads of a measurement.
 pub const ONE_PER_CORE: Rule<usize> =
     Rule { holds: |n| *n <= all_cores(), wanted: "one thread per core at most is needed" };
@@ -56,29 +48,12 @@ fn ends(path: &Path, endings: &[&str]) -> bool {
     path.extension().and_then(|ending| ending.to_str()).is_some_and(|it| endings.contains(&it))
 }
 
-impl<T> Rule<T> {
-    /// The value of an option, where it is as it must be.
-    pub fn check(&self, option: &str, value: Option<&T>) -> Result<(), Error> {
-        match value {
-            Some(value) if !(self.holds)(value) => {
-                Err(Error::plain(format!("{option}: {}", self.wanted)))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
 /// Refuses options that exclude one another, by which of them are given.
 pub fn exclude(option: (&str, bool), others: &[(&str, bool)]) -> Result<(), Error> {
     match others.iter().find(|(_, given)| option.1 && *given) {
         None => Ok(()),
         Some((other, _)) => Err(Error::plain(format!("{} cannot be used with {other}", option.0))),
     }
-}
-
-/// As many threads as there are cores.
-pub fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get())
 }
 
 /// The number of threads of a run: as many as `asked` for, else one per core. More than one per core would only wait for
@@ -116,19 +91,10 @@ where
 /// Values from the words of a command line.
 #[cfg(feature = "clap")]
 pub mod words {
-    use std::str::FromStr;
-
     use crate::ls_dyna::Units;
     use crate::run::{BlockElement, Level};
 
-    use super::{KERNELS, Rule, WINDOW};
-
-    impl<T: FromStr> Rule<T> {
-        /// Reads a value.
-        pub fn read(&self, text: &str) -> Result<T, &'static str> {
-            text.parse().ok().filter(self.holds).ok_or(self.wanted)
-        }
-    }
+    use super::{KERNELS, WINDOW};
 
     /// A window of time (s), either end of which may be left out.
     pub fn window(text: &str) -> Result<[f64; 2], &'static str> {

@@ -3,7 +3,6 @@
 mod begin;
 mod half_space;
 mod opening;
-mod options;
 mod rolling;
 
 use std::path::Path;
@@ -19,6 +18,7 @@ use crate::run::disk::Disk;
 use crate::run::error::RunError;
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
+use crate::run::options::RunOptions;
 use crate::run::postmortem;
 use crate::run::record::{RecordBasis, Recorder};
 use crate::run::resume::ResumePoint;
@@ -30,7 +30,6 @@ use begin::{Preloaded, begin};
 use dynamics::Simulation;
 use friction::Kind;
 use opening::{OpenRun, Opening, log_model, model, open};
-pub use options::RunOptions;
 use output::NotWritten;
 use output::layout::{FOLLOWS, HALF, attribute, file};
 use output::summary::{MeshWindow, Status, Summary};
@@ -52,7 +51,7 @@ pub fn run(
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<Summary, RunError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads()).build()?;
     // The whole run inside the pool: entering it costs microseconds, a step of a small case few more.
     let mut result = pool.install(|| run_in_pool(case, options, stop, observe));
     if let Err(RunError::Output(error)) = &result
@@ -66,7 +65,7 @@ pub fn run(
     }
     if let Err(error @ (RunError::Output(_) | RunError::Text(_))) = &result {
         // as far as that is possible where files could not be written
-        let _ = Log::append(options.out.join(file::LOG))
+        let _ = Log::append(options.folder(case).join(file::LOG))
             .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));
     }
     result
@@ -90,7 +89,7 @@ fn run_in_pool(
     }
     let make = |point: Option<&_>| model(case, options, point);
     let mut opened = match open(case, options, make, |model, log| log_model(case, model, log))? {
-        Opening::Complete(summary) => return Ok(complete(&options.out, *summary)),
+        Opening::Complete(summary) => return Ok(complete(&options.folder(case), *summary)),
         Opening::Run(opened) => *opened,
     };
     observe(&stage(case, Stage::Mesh));
@@ -109,7 +108,7 @@ fn run_in_pool(
         let below = validation::below_the_step(case, simulation.dt());
         below.iter().try_for_each(|line| log.warn(line))?;
         let disk = Disk::of(case, &model, facts.steps as f64);
-        disk.shortage(&options.out).iter().try_for_each(|line| log.warn(line))?;
+        disk.shortage(&options.folder(case)).iter().try_for_each(|line| log.warn(line))?;
         let cost = cost(case, &model, &facts, &simulation)?;
         observe(&Progress { cost, steps: facts.steps, ..stage(case, Stage::Roll) });
     }
@@ -117,7 +116,9 @@ fn run_in_pool(
     held.check_owner()?;
     if resumed.is_some() {
         // what these say of an interruption or a stop is no longer true once the files change
-        [file::SUMMARY, file::POSTMORTEM].iter().try_for_each(|f| remove(&options.out.join(f)))?;
+        [file::SUMMARY, file::POSTMORTEM]
+            .iter()
+            .try_for_each(|f| remove(&options.folder(case).join(f)))?;
     }
     let recorder = Recorder::new(case, &model, &simulation, facts.radius.effective, files, &basis)?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
@@ -133,7 +134,7 @@ fn run_in_pool(
         log.say(line)?;
     }
     if let Some(guard) = &guard {
-        postmortem::write(&options.out, &mut rolled.simulation, guard, &basis.provenance)?;
+        postmortem::write(&options.folder(case), &mut rolled.simulation, guard, &basis.provenance)?;
         log.say(&format!(
             "{} holds both bodies as they were when the run stopped",
             file::POSTMORTEM
@@ -148,7 +149,7 @@ fn run_in_pool(
         means,
         elements,
         nodes,
-        threads: options.threads,
+        threads: options.threads(),
         wall: before + wall.elapsed(),
         rolling,
         output,
@@ -185,7 +186,7 @@ fn basis<'a>(
     point: Option<&ResumePoint<State>>,
 ) -> RecordBasis<'a> {
     RecordBasis {
-        folder: &options.out,
+        folder: &options.folder(case),
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),
@@ -236,9 +237,9 @@ fn conclude(
         summary.mesh_window = Some(MeshWindow { travel, energy });
     }
     held.check_owner()?;
-    let summary = summary.write(&options.out, made)?;
+    let summary = summary.write(&options.folder(case), made)?;
     if ending.status == Status::Completed {
-        remove_checkpoints(&options.out)?;
+        remove_checkpoints(&options.folder(case))?;
     }
     let (status, steps, wall) = (ending.status, summary.steps, summary.wall_s);
     log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;

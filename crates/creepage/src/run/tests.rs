@@ -105,13 +105,9 @@ fn the_function_of_a_law_that_the_case_does_not_use_is_refused() {
     let out = dir.path().join("run");
     let case = Case::from_text(SHORT, Path::new("case.toml"), &[]).unwrap();
     let options = RunOptions {
-        out: out.clone(),
-        threads: 1,
-        force: false,
-        resume: false,
-        preload_cache: None,
-        source: "case.toml".into(),
+        out: Some(out.clone()),
         law: Some(Arc::new(Constant)),
+        ..RunOptions::default()
     };
     let error = crate::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {}).unwrap_err();
     assert!(error.to_string().contains("friction.law = \"coulomb\" does not use"), "{error}");

@@ -1,11 +1,11 @@
 //! A run at its start: preloaded, or in the state of the checkpoint that it goes on from.
 
 use super::opening::OpenRun;
-use super::options::RunOptions;
 use crate::case::schema::Case;
 use crate::run::checkpoint::State;
 use crate::run::error::RunError;
 use crate::run::log::{Log, REFUSED};
+use crate::run::options::RunOptions;
 use crate::run::record::{RecordBasis, result_files};
 use crate::run::resume::ResumePoint;
 use crate::run::summary::without_rolling;
@@ -56,10 +56,10 @@ pub(super) fn begin(
             drop(files);
             // another process may have taken the folder: its files are not removed
             held.check_owner()?;
-            remove_results(&options.out)?;
+            remove_results(&options.folder(case))?;
             let ScenarioError::Preload(error) = error else { return refuse(error, log) };
-            let summary = without_rolling(case, model, options.threads, wall, &error);
-            let summary = summary.write(&options.out, &basis.provenance)?;
+            let summary = without_rolling(case, model, options.threads(), wall, &error);
+            let summary = summary.write(&options.folder(case), &basis.provenance)?;
             if let Some(status) = summary.status {
                 log.say(&format!("{LOG_END}{status:?} before rolling: {error}"))?;
             }
@@ -86,7 +86,7 @@ fn resume(
     opened: &mut OpenRun<Model, State>,
     point: ResumePoint<State>,
 ) -> Result<Preloaded, RunError> {
-    let ResumePoint { state, .. } = point.tell(&options.out, &mut opened.log)?;
+    let ResumePoint { state, .. } = point.tell(&options.folder(case), &mut opened.log)?;
     let start = restart(case, &opened.model, state.found.clone(), &state.simulation)?;
     Ok(Preloaded::Rolling(Box::new(start), None, Some(Box::new(state))))
 }

@@ -4,7 +4,6 @@ mod ending;
 mod recorder;
 
 use super::opening::{OpenRun, Opening, open};
-use super::options::RunOptions;
 use super::{complete, kinds, stage};
 use crate::case::hertz::hertz;
 use crate::case::schema::Case;
@@ -12,6 +11,7 @@ use crate::run::checkpoint::{Clock, RunState};
 use crate::run::error::RunError;
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
+use crate::run::options::RunOptions;
 use crate::run::record::RecordBasis;
 use crate::run::resume::ResumePoint;
 use crate::run::text_file::remove;
@@ -50,16 +50,16 @@ pub(super) fn run(
     observe(&stage(case, Stage::Mesh));
     let make = |_: Option<&ResumePoint<State>>| Ok(half_space(case, options.law.as_ref())?);
     let opened = match open(case, options, make, tell)? {
-        Opening::Complete(summary) => return Ok(complete(&options.out, *summary)),
+        Opening::Complete(summary) => return Ok(complete(&options.folder(case), *summary)),
         Opening::Run(opened) => *opened,
     };
     let OpenRun { held, mut log, mut model, point } = opened;
-    let point = point.map(|point| point.tell(&options.out, &mut log)).transpose()?;
+    let point = point.map(|point| point.tell(&options.folder(case), &mut log)).transpose()?;
     if point.is_none() {
         model.warnings.iter().try_for_each(|line| log.warn(line))?;
     }
     let basis = RecordBasis {
-        folder: &options.out,
+        folder: &options.folder(case),
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),
@@ -74,7 +74,7 @@ pub(super) fn run(
     };
     held.check_owner()?;
     if point.is_some() {
-        remove(&options.out.join(file::SUMMARY))?;
+        remove(&options.folder(case).join(file::SUMMARY))?;
     }
     let mut recorder = HalfSpaceRecorder::new(case, &model, &basis)?;
     let (mut energies, mut before) = (Energies::default(), [Duration::ZERO; 2]);

@@ -1,6 +1,5 @@
 //! Before a run begins: its folder is locked, its model is made, and it is found where the run goes on.
 
-use super::options::RunOptions;
 use crate::case::load::inputs;
 use crate::case::schema::Case;
 use crate::run::checkpoint::State;
@@ -8,6 +7,7 @@ use crate::run::error::RunError;
 use crate::run::folder::{self, Content};
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
+use crate::run::options::RunOptions;
 use crate::run::resume::{self, ResumeFrom, ResumePoint};
 use crate::run::text_file::write_text;
 use crate::scenario::Model;
@@ -43,8 +43,10 @@ pub(crate) fn open<M, T: DeserializeOwned>(
     make: impl FnOnce(Option<&ResumePoint<T>>) -> Result<M, RunError>,
     tell: impl FnOnce(&M, &mut Log) -> Result<(), NotWritten>,
 ) -> Result<Opening<M, T>, RunError> {
-    let begun = folder::is_run(&options.out) || folder::content(&options.out) == Content::Beginning;
-    let held = if options.resume && begun { Some(folder::take(&options.out)?) } else { None };
+    let begun = folder::is_run(&options.folder(case))
+        || folder::content(&options.folder(case)) == Content::Beginning;
+    let held =
+        if options.resume && begun { Some(folder::take(&options.folder(case))?) } else { None };
     let (point, why) = match resume_from(case, options)? {
         Some(ResumeFrom::Complete(summary)) => return Ok(Opening::Complete(summary)),
         Some(ResumeFrom::Checkpoint(point)) => (Some(*point), None),
@@ -54,19 +56,19 @@ pub(crate) fn open<M, T: DeserializeOwned>(
     let replaces = options.force || why.is_some();
     if point.is_none() {
         // A run may be begun anew from the `case.toml` in its own folder, which then is replaced by an equal one.
-        if options.force && !(options.resume && resume::is_of(case, &options.out)) {
-            folder::refuse_inputs(&options.out, &inputs(case, &options.source))?;
+        if options.force && !(options.resume && resume::is_of(case, &options.folder(case))) {
+            folder::refuse_inputs(&options.folder(case), &inputs(case, &options.case.path))?;
         }
         // Before the mesh is made, which takes time; the files of an earlier run are removed only after it.
-        folder::check(&options.out, replaces)?;
+        folder::check(&options.folder(case), replaces)?;
     }
     let model = make(point.as_ref())?;
-    let log_file = options.out.join(file::LOG);
+    let log_file = options.folder(case).join(file::LOG);
     let (held, mut log) = match (&point, held) {
         (Some(_), Some(held)) => (held, Log::append(log_file)?),
-        (_, held) => (folder::prepare(&options.out, replaces, held)?, Log::new(log_file)?),
+        (_, held) => (folder::prepare(&options.folder(case), replaces, held)?, Log::new(log_file)?),
     };
-    write_text(options.out.join(file::CASE), &case.to_toml_with_units())?;
+    write_text(options.folder(case).join(file::CASE), &case.to_toml_with_units())?;
     log_opening(case, options, why, &mut log)?;
     tell(&model, &mut log)?;
     Ok(Opening::Run(Box::new(OpenRun { held, log, model, point })))
@@ -99,7 +101,7 @@ fn log_opening(
         "creepage {}: {} from {}",
         env!("CARGO_PKG_VERSION"),
         case.name,
-        options.source.display()
+        options.case.path.display()
     ))?;
     if let Some(why) = why {
         log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
@@ -140,7 +142,7 @@ fn resume_from<T: DeserializeOwned>(
     if !options.resume {
         return Ok(None);
     }
-    match resume::resume_from(case, &options.out) {
+    match resume::resume_from(case, &options.folder(case)) {
         Ok(origin) => Ok(Some(origin)),
         Err(error) if options.force => Ok(Some(ResumeFrom::Beginning(error.to_string()))),
         Err(error) => Err(error.into()),

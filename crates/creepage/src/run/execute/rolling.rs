@@ -1,11 +1,11 @@
 //! The time loop of a run: steps, output, guards, checkpoints.
 
-use super::options::RunOptions;
 use crate::case::schema::Case;
 use crate::run::checkpoint::{Clock, State};
 use crate::run::error::RunError;
 use crate::run::held::FolderLock;
 use crate::run::means::Means;
+use crate::run::options::RunOptions;
 use crate::run::record::{RecordBasis, Recorder};
 use crate::scenario::progress::{Progress, Stage};
 use crate::scenario::remedy::Remedy;

@@ -5,10 +5,10 @@ use crate::case::hertz::hertz;
 use crate::case::schema::Case;
 use crate::run::checkpoint::remove_checkpoints;
 use crate::run::error::RunError;
-use crate::run::execute::options::RunOptions;
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::means::Means;
+use crate::run::options::RunOptions;
 use crate::run::summary::{contact_means, half_space, window};
 use crate::scenario::HalfSpaceModel;
 use crate::scenario::memory::peak_rss_mb;
@@ -52,9 +52,9 @@ pub(super) fn conclude(
         summary.friction_law = Some(points);
     }
     held.check_owner()?;
-    let summary = summary.write(&options.out, made)?;
+    let summary = summary.write(&options.folder(case), made)?;
     if ended.status == Status::Completed {
-        remove_checkpoints(&options.out)?;
+        remove_checkpoints(&options.folder(case))?;
     }
     let (status, steps, wall) = (ended.status, summary.steps, summary.wall_s);
     log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;
@@ -90,7 +90,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         t_end: rolling.time(),
         elements: 0,
         nodes: points as u64,
-        threads: options.threads as u64,
+        threads: options.threads() as u64,
         wall_s: seconds(ended.wall),
         element_steps_per_s: points * steps as f64 / seconds(ended.rolling),
         peak_rss_mb: peak_rss_mb(),

@@ -1,12 +1,9 @@
-//! The case that a command computes from, and errors about its keys.
+//! Where a case comes from.
 
 use std::path::{Path, PathBuf};
 
-use crate::case::Case;
-use crate::run::RunError;
+use crate::case::{Case, CaseError};
 use serde::Deserialize;
-
-use crate::{Error, Listener};
 
 /// A case: a file, and what is laid over it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -32,24 +29,14 @@ impl<P: AsRef<Path>> From<P> for CaseSource {
 }
 
 impl CaseSource {
-    /// Reads and checks the case, and says its warnings.
+    /// Reads and checks the case.
     ///
     /// # Errors
     /// What is wrong with the case, with the place where it is written.
-    pub fn load(&self, listener: &mut dyn Listener) -> Result<Case, Error> {
-        let case = match &self.text {
-            Some(text) => Case::from_text(text, &self.path, &self.sets)?,
-            None => Case::load(&self.path, &self.sets)?,
-        };
-        case.warnings().iter().for_each(|warning| listener.remark(&format!("warning: {warning}")));
-        Ok(case)
-    }
-
-    /// An error about a key of the case, with the line where the key was written.
-    pub(crate) fn placed(&self, error: RunError) -> Error {
-        let Some(key) = error.key() else { return error.into() };
-        let (text, remedy) = (self.text.as_deref(), error.remedy());
-        crate::case::error_at_key(&self.path, text, &self.sets, key, &error.to_string(), &remedy)
-            .into()
+    pub fn read(&self) -> Result<Case, CaseError> {
+        match &self.text {
+            Some(text) => Case::from_text(text, &self.path, &self.sets),
+            None => Case::load(&self.path, &self.sets),
+        }
     }
 }
