@@ -3,6 +3,7 @@
 use crate::case::CaseError;
 use crate::check::{ImportError, PostError};
 use crate::ls_dyna::DeckError;
+use crate::rule::NotAsWanted;
 use crate::run::RunError;
 use crate::sweep::SweepError;
 use miette::Diagnostic;
@@ -132,6 +133,12 @@ impl Error {
     /// An option that cannot be used; the problem says what it must be.
     pub(crate) fn plain(problem: impl Into<String>) -> Self {
         Self::Option { problem: problem.into(), help: None }
+    }
+}
+
+impl From<NotAsWanted> for Error {
+    fn from(error: NotAsWanted) -> Self {
+        Self::plain(error.to_string())
     }
 }
 

@@ -20,9 +20,9 @@ use crate::commands::error::{FAILED, INTERRUPTED};
 use crate::commands::outputs::claim;
 use crate::commands::report::{claim_sweep, write_sweep};
 use crate::commands::values::{MEGABYTES, exclude};
-use crate::commands::{CheckOptions, RunOptions, check, run};
+use crate::commands::{CheckOptions, check, run};
 use crate::rule::{THREADS, all_cores};
-use crate::{Error, Listener};
+use crate::{Error, Listener, RunOptions};
 
 /// Which sweep, and how its runs are done.
 #[derive(Clone, Debug, Default, Deserialize)]

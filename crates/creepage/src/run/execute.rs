@@ -180,13 +180,9 @@ fn log_facts(
 }
 
 /// What the files of the run are made from besides the case.
-fn basis<'a>(
-    case: &Case,
-    options: &'a RunOptions,
-    point: Option<&ResumePoint<State>>,
-) -> RecordBasis<'a> {
+fn basis(case: &Case, options: &RunOptions, point: Option<&ResumePoint<State>>) -> RecordBasis {
     RecordBasis {
-        folder: &options.folder(case),
+        folder: options.folder(case),
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),

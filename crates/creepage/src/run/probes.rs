@@ -117,7 +117,7 @@ impl Probes {
         case: &Case,
         model: &Model,
         simulation: &Simulation,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
     ) -> Result<Option<Self>, RunError> {
         let given = &case.output.probes;
         if given.bar.is_empty() && given.disk.is_empty() {

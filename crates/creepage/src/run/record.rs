@@ -83,7 +83,7 @@ impl Recorder {
         simulation: &Simulation,
         effective_radius: f64,
         files: Option<RunFiles>,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
     ) -> Result<Self, RunError> {
         let contact = simulation.contact().ok_or(RunError::NoContact)?;
         let files = match files {
@@ -265,7 +265,7 @@ pub(crate) fn result_files(
     case: &Case,
     model: &Model,
     contact: &dyn ContactTables,
-    basis: &RecordBasis<'_>,
+    basis: &RecordBasis,
 ) -> Result<RunFiles, RunError> {
     let tables = tables(model, contact);
     let mesh_mode = watched(case, model, contact, &tables, basis)?;
@@ -284,7 +284,7 @@ fn watched(
     model: &Model,
     contact: &dyn ContactTables,
     tables: &[NodalContact; 2],
-    basis: &RecordBasis<'_>,
+    basis: &RecordBasis,
 ) -> Result<WatchedFaces, RunError> {
     WatchedFaces::new(case, model, tables, contact.enforced_on(), basis.hertz_pressure)
 }
@@ -305,7 +305,7 @@ fn surfaces<'a>(
 fn create_fields(
     case: &Case,
     model: &Model,
-    basis: &RecordBasis<'_>,
+    basis: &RecordBasis,
 ) -> Result<TransientGrid, RunError> {
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
     let mut specs = BODIES.each().map(FieldSpec::clone).to_vec();

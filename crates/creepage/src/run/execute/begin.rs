@@ -34,7 +34,7 @@ pub(super) fn begin(
     case: &Case,
     options: &RunOptions,
     opened: &mut OpenRun<Model, State>,
-    basis: &RecordBasis<'_>,
+    basis: &RecordBasis,
     wall: Instant,
     stop: &AtomicBool,
     observe: &mut (dyn FnMut(&Progress) + Send),

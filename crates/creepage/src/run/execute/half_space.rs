@@ -59,7 +59,7 @@ pub(super) fn run(
         model.warnings.iter().try_for_each(|line| log.warn(line))?;
     }
     let basis = RecordBasis {
-        folder: &options.folder(case),
+        folder: options.folder(case),
         provenance: Provenance {
             creepage_version: env!("CARGO_PKG_VERSION").into(),
             case_hash: case.hash(),
@@ -150,7 +150,7 @@ impl UnderWay<'_> {
     fn roll(
         &mut self,
         options: &RunOptions,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
         stop: &AtomicBool,
         observe: &mut (dyn FnMut(&Progress) + Send),
     ) -> Result<(Status, Option<String>), RunError> {
@@ -184,7 +184,7 @@ impl UnderWay<'_> {
     }
 
     /// Keeps a checkpoint.
-    fn keep(&mut self, basis: &RecordBasis<'_>) -> Result<(), RunError> {
+    fn keep(&mut self, basis: &RecordBasis) -> Result<(), RunError> {
         let begun = Instant::now();
         self.held.check_owner()?;
         let state = State {
@@ -196,7 +196,7 @@ impl UnderWay<'_> {
         };
         let (step, provenance) = (self.model.rolling.steps() as u64, basis.provenance.clone());
         let make = move |results| state.checkpoint(step, provenance, KERNELS.name(), results);
-        self.recorder.keep(make, basis.folder)?;
+        self.recorder.keep(make, &basis.folder)?;
         self.keeping += begun.elapsed();
         Ok(())
     }

@@ -93,7 +93,7 @@ impl<'a> TimeLoop<'a> {
     pub(super) fn roll(
         &mut self,
         options: &RunOptions,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
         stop: &AtomicBool,
         observe: &mut (dyn FnMut(&Progress) + Send),
     ) -> Result<Stopped, RunError> {
@@ -146,7 +146,7 @@ impl<'a> TimeLoop<'a> {
     }
 
     /// Keeps a checkpoint.
-    fn keep(&mut self, basis: &RecordBasis<'_>) -> Result<(), RunError> {
+    fn keep(&mut self, basis: &RecordBasis) -> Result<(), RunError> {
         let begun = Instant::now();
         self.held.check_owner()?;
         let state = State {
@@ -160,7 +160,7 @@ impl<'a> TimeLoop<'a> {
         let provenance = basis.provenance.clone();
         let step = self.simulation.steps() as u64;
         let make = move |results| state.checkpoint(step, provenance, kernels, results);
-        self.recorder.keep(make, basis.folder)?;
+        self.recorder.keep(make, &basis.folder)?;
         self.keeping += begun.elapsed();
         Ok(())
     }

@@ -2,18 +2,18 @@
 
 use crate::run::error::RunError;
 use output::{FieldSpec, GridSpec, History, Kept, Provenance, Results, TransientGrid};
-use std::path::Path;
+use std::path::PathBuf;
 
 /// What the files of a run are made from besides the case.
-pub(crate) struct RecordBasis<'a> {
-    pub(crate) folder: &'a Path,
+pub(crate) struct RecordBasis {
+    pub(crate) folder: PathBuf,
     pub(crate) provenance: Provenance,
     pub(crate) hertz_pressure: f64,
     /// How much of the existing files a resumed run keeps; none for a run that begins.
     pub(crate) keeps: Option<Results>,
 }
 
-impl RecordBasis<'_> {
+impl RecordBasis {
     pub(super) fn grid(
         &self,
         name: &str,

@@ -70,7 +70,7 @@ impl ContactRecord {
     pub(crate) fn files(
         case: &Case,
         surfaces: &Surfaces<'_>,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
         fields: Option<TransientGrid>,
     ) -> Result<RunFiles, RunError> {
         let images = Images::new(surfaces.half, &surfaces.points);

@@ -35,7 +35,7 @@ impl Surfaces<'_> {
         &self,
         case: &Case,
         images: &Images,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
     ) -> Result<TransientGrid, RunError> {
         let Self { tables, points, faces, enforced_on, .. } = self;
         let mut provenance = basis.provenance.clone();

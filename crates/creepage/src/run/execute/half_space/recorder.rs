@@ -56,7 +56,7 @@ impl HalfSpaceRecorder {
     pub(super) fn new(
         case: &Case,
         model: &HalfSpaceModel,
-        basis: &RecordBasis<'_>,
+        basis: &RecordBasis,
     ) -> Result<Self, RunError> {
         let (points, spacing) = (model.points.clone(), case.mesh.zone.size);
         let rows = Rows::of(&points);
