@@ -137,13 +137,6 @@ macro_rules! means {
                     $(Mean::$Window => self.window.as_ref()?.$window,)*
                 }
             }
-
-            /// The means that have a value become what `of` gives.
-            pub fn map_means(&mut self, of: impl Fn(Mean) -> Option<f64>) {
-                $(self.contact.$contact = of(Mean::$Contact);)*
-                let window = self.window.get_or_insert_default();
-                $(window.$window = of(Mean::$Window);)*
-            }
         }
 
         /// All of them.
@@ -190,8 +183,6 @@ section! {
         friction_power: Option<f64> = "mean power of friction; T creepage V in steady rolling" ["W"],
         warnings: Vec<String> = "what is wrong with the means",
         deviation: BTreeMap<Mean, Option<f64>> = "standard deviations of the means",
-        #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-        ci95: BTreeMap<Mean, f64> = "half the width of their 95 % confidence intervals, over the members of an ensemble",
     }
 }
 
