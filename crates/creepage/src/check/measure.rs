@@ -110,3 +110,37 @@ impl FromStr for Measure {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    /// A limit as the documents write it.
+    fn written(limit: Option<Limit>) -> String {
+        match limit {
+            None => "-".into(),
+            Some(Limit::Most(value)) if value > 0.0 && value < 0.01 => format!("{value:e}"),
+            Some(Limit::Most(value)) => value.to_string(),
+            Some(Limit::Between(low, high)) => format!("{low}..{high}"),
+        }
+    }
+
+    #[test]
+    fn the_table_of_the_documents_has_every_measure_in_order_with_its_limits() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/checks.md");
+        let text = std::fs::read_to_string(path).unwrap();
+        let (_, table) = text.split_once("| measure | value | exact | penalty |\n").unwrap();
+        let rows = table.lines().skip(1).take_while(|line| line.starts_with('|'));
+        let found = rows.map(|row| {
+            let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+            format!("{} {} {}", cells[0], cells[cells.len() - 2], cells[cells.len() - 1])
+        });
+        let wanted = Measure::ALL.iter().map(|measure| {
+            let Definition { name, exact, penalty, .. } = measure.definition();
+            format!("`{name}` {} {}", written(exact), written(penalty))
+        });
+        assert_eq!(found.collect::<Vec<_>>(), wanted.collect::<Vec<_>>());
+    }
+}

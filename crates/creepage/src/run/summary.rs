@@ -238,7 +238,6 @@ pub(crate) fn window(case: &Case, means: &Means, status: Status) -> Window {
         friction_power: means.friction_power(),
         warnings: misses.and_then(|means| means.load_warning(case)).into_iter().collect(),
         deviation: deviation.map(|(mean, of)| (mean, of.deviation())).into(),
-        ci95: BTreeMap::new(),
     }
 }
 
