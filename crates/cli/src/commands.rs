@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
-    ImportContactOptions, ImportKOptions, MeshOptions, PlannedOrRun, PlotOptions, ReportOptions,
-    RunOptions, SliderOptions, SweepOptions, ViewOptions,
+    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
+    SliderOptions, SweepFound, SweepOptions, ViewOptions,
 };
 use serde::Serialize;
 
@@ -248,7 +248,7 @@ fn view(args: &Args, ViewArgs { options, no_open }: &ViewArgs) -> Result<u8, Err
 fn sweep(args: &Args, options: &SweepOptions) -> Result<u8, Error> {
     let done = creepage::sweep(options, &mut SweepWatch::new(args))?;
     args.show(&done.result, || match (&done.result, &done.page, &options.plan) {
-        (PlannedOrRun::Run(result), Some(page), _) => {
+        (SweepFound::Result(result), Some(page), _) => {
             report::sweep::text(result, &done.folder, page)
         }
         (.., plan) => plan.iter().map(|plan| format!("{}\n", plan.display())).collect(),

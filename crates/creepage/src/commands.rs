@@ -38,6 +38,6 @@ pub use slider::{
     LawName, LawNumbers, MethodName, SettingError, Settings, SliderFound, SliderOptions,
     SliderResult, SliderRun, slider,
 };
-pub use sweep::{PlannedOrRun, SweepOptions, Swept, sweep};
+pub use sweep::{SweepFound, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
 pub use view::{ViewOptions, Viewed, view};

@@ -36,6 +36,30 @@
 //! # }
 //! ```
 //!
+//! The same case with two coefficients of friction:
+//!
+//! ```
+//! use creepage::{SweepFound, SweepOptions};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scratch = tempfile::tempdir()?;
+//! let base = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
+//! let sweep = scratch.path().join("friction.toml");
+//! let axis = "[[axis]]\nkey = 'friction.static'\nvalues = [0.3, 0.4]";
+//! let set = "[set]\nmesh.zone.size = 1.6e-3\ntime.roll = 0.1e-3\noutput.contact_interval = 5e-6";
+//! std::fs::write(&sweep, format!("base = '{base}'\n{set}\n{axis}"))?;
+//! let out = Some(scratch.path().join("friction"));
+//! let swept = creepage::sweep(&SweepOptions { sweep, out, ..SweepOptions::default() }, &mut ())?;
+//! let SweepFound::Result(result) = swept.result else { unreachable!("no plan was asked for") };
+//! for run in &result.runs {
+//!     let contact = run.summary.as_ref().map(|summary| summary.contact);
+//!     println!("{:?}: {:?}", run.parameters, contact.and_then(|of| of.traction_coefficient));
+//! }
+//! assert!(result.runs.iter().all(|run| run.completed()));
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! The explicit slider with a listener that ends it:
 //!
 //! ```

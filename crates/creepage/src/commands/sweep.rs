@@ -96,7 +96,7 @@ pub struct Swept {
     /// Its folder.
     pub folder: PathBuf,
     /// What `creepage sweep --json` prints.
-    pub result: PlannedOrRun,
+    pub result: SweepFound,
     /// The page about it; none for a plan.
     pub page: Option<PathBuf>,
     /// Whether it was interrupted before all runs were done: with [`SweepOptions::resume`] it goes on.
@@ -106,11 +106,11 @@ pub struct Swept {
 /// What a sweep gave: what its runs gave, or its plan alone.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
-pub enum PlannedOrRun {
+pub enum SweepFound {
     /// Of [`SweepOptions::plan`], also `plan.json` in the folder.
-    Planned(PlanFile),
+    Plan(PlanFile),
     /// Parameters and runs with what they gave, also `sweep.json` in the folder.
-    Run(SweepResult),
+    Result(SweepResult),
 }
 
 impl Swept {
@@ -118,7 +118,7 @@ impl Swept {
     pub fn exit_code(&self) -> u8 {
         match &self.result {
             _ if self.interrupted => INTERRUPTED,
-            PlannedOrRun::Run(result) if !result.runs.iter().all(SweepRun::completed) => FAILED,
+            SweepFound::Result(result) if !result.runs.iter().all(SweepRun::completed) => FAILED,
             _ => 0,
         }
     }
@@ -163,7 +163,7 @@ pub fn sweep(options: &SweepOptions, listener: &mut dyn Listener) -> Result<Swep
         fs::write(path, text).map_err(|error| {
             Error::plain(format!("--plan {}: cannot be written: {error}", path.display()))
         })?;
-        let result = PlannedOrRun::Planned(plan.file);
+        let result = SweepFound::Plan(plan.file);
         return Ok(Swept { folder, result, page: None, interrupted: false });
     }
     let results = runs(options, &sweep.name, &plan, listener)?;
@@ -269,6 +269,6 @@ fn finish(plan: &Plan, result: SweepResult) -> Result<Swept, Error> {
         }
     }
     let page = Some(write_sweep(&plan.folder, &result)?);
-    let result = PlannedOrRun::Run(result);
+    let result = SweepFound::Result(result);
     Ok(Swept { folder: plan.folder.clone(), result, page, interrupted: false })
 }
