@@ -2,7 +2,6 @@
 
 use crate::declaration::{Make, no_defaults};
 use crate::{Declaration, FrictionLaw, LeftOut, Number};
-use std::sync::Arc;
 
 /// `static`, of most laws.
 pub const STATIC: Number = Number {
@@ -21,7 +20,7 @@ pub(crate) const DECLARATION: Declaration = Declaration {
     needs: &[],
     takes: &[],
     write_defaults: no_defaults,
-    make: Make::Steady(|p, _| Ok(Arc::new(Coulomb { mu: p.value(STATIC) }))),
+    make: Make::Constant(|p| Coulomb { mu: p.value(STATIC) }),
 };
 
 /// Coulomb's law: one coefficient at every slip speed.

@@ -1,7 +1,7 @@
 //! What a friction law is to those who choose one: its word, its parameters, and how it is made of them.
 
 use crate::{
-    Expression, ExpressionError, FrictionLaw, Kind, LAWS, LawError, NodeFriction, OwnLaw,
+    Coulomb, Expression, ExpressionError, FrictionLaw, LAWS, LawError, NodeFriction, OwnLaw,
     Parameters,
 };
 use std::sync::Arc;
@@ -96,7 +96,9 @@ pub(crate) struct Beside<'a> {
 /// How a law is made of its parameters, those not given with their defaults.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Make {
-    /// A law without state. Without the key `mode` its coefficient does not depend on the slip speed.
+    /// One coefficient at every slip speed.
+    Constant(fn(&Parameters) -> Coulomb),
+    /// A law without state, with the slip velocity that the key `mode` says.
     Steady(fn(&Parameters, &Beside) -> Result<Steady, LawError>),
     /// A law of a contact node with its state.
     AtNode(fn(&Parameters, &Beside) -> Box<dyn NodeFriction>),
@@ -108,15 +110,9 @@ impl Declaration {
         LAWS.into_iter().find(|law| law.word == word)
     }
 
-    /// Which of the laws it is.
-    pub fn kind(&self) -> Kind {
-        let found = Kind::ALL.into_iter().find(|kind| kind.declaration().word == self.word);
-        found.unwrap_or_default()
-    }
-
     /// Whether it has no state, and so is a law of the slider as well.
     pub fn is_steady(&self) -> bool {
-        matches!(self.make, Make::Steady(_))
+        matches!(self.make, Make::Constant(_) | Make::Steady(_))
     }
 
     /// The keys of the parameters that must be given.

@@ -3,9 +3,9 @@
 use crate::declaration::{Beside, Make};
 use crate::schema::{all_laws, with_laws};
 use crate::{
-    Coulomb, Declaration, Exponential, Expression, ExpressionError, FrictionLaw, Implicit, Kind,
-    Lagged, LeftOut, Memory, NUMBERS, NodeFriction, Number, OwnLaw, Remembering, StateLaw,
-    TableError, Values,
+    Declaration, Exponential, Expression, ExpressionError, FrictionLaw, Implicit, Kind, Lagged,
+    LeftOut, Memory, NUMBERS, NodeFriction, Number, OwnLaw, Remembering, StateLaw, TableError,
+    Values,
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -173,12 +173,10 @@ impl Parameters {
     ) -> Result<Box<dyn NodeFriction>, LawError> {
         let beside = Beside { formula: &formula, own };
         let steady = match self.declaration().make {
+            Make::Constant(make) => return Ok(Box::new(make(self))),
             Make::AtNode(make) => return Ok(make(self, &beside)),
             Make::Steady(make) => make(self, &beside)?,
         };
-        if !self.declaration().has("mode") {
-            return Ok(Box::new(Coulomb { mu: steady.mu_static() }));
-        }
         Ok(match (self.memory, self.mode.unwrap_or_default()) {
             (Some(memory), _) => Box::new(Remembering { steady, memory }),
             (None, Mode::Lagged) => Box::new(Lagged(steady)),
@@ -195,6 +193,7 @@ impl Parameters {
         formula: impl Fn(&str) -> Result<Expression, ExpressionError>,
     ) -> Option<Result<Arc<dyn FrictionLaw>, LawError>> {
         match self.declaration().make {
+            Make::Constant(make) => Some(Ok(Arc::new(make(self)))),
             Make::Steady(make) => Some(make(self, &Beside { formula: &formula, own: None })),
             Make::AtNode(_) => None,
         }
