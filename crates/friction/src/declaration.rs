@@ -216,6 +216,11 @@ macro_rules! laws {
             /// All laws.
             pub const ALL: [Self; LAWS.len()] = [$(Self::$kind,)*];
 
+            /// The law with a given word.
+            pub fn of(word: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|kind| kind.declaration().word == word)
+            }
+
             /// How the law is declared.
             pub const fn declaration(self) -> &'static Declaration {
                 LAWS[self as usize]

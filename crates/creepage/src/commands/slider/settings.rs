@@ -137,7 +137,7 @@ fn laws() -> impl clap::builder::TypedValueParser<Value = Kind> {
         |law: &Declaration| PossibleValue::new(law.word).help(law.sentence.trim_end_matches('.'));
     let steady = LAWS.into_iter().filter(|law| law.is_steady());
     let words = PossibleValuesParser::new(steady.map(value));
-    words.map(|word| Declaration::of(&word).map(Declaration::kind).unwrap_or_default())
+    words.try_map(|word| Kind::of(&word).ok_or("there is no such law"))
 }
 
 /// A setting that cannot be used.
