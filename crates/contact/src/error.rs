@@ -54,7 +54,7 @@ pub enum ContactError {
     /// A law that is to hold at the slip of the same instant, with springs.
     #[error("friction that holds at the slip velocity of the same instant needs exact enforcement")]
     ImplicitLaw,
-    /// `StabilityFraction` without the scale that it is a fraction of.
+    /// [`Stiffness::Stability`](crate::Stiffness::Stability) without the scale that it is a fraction of.
     #[error(
         "a stiffness as a fraction of the stability limit needs the elastic frequency and the \
          time step"

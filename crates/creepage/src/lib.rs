@@ -2,8 +2,8 @@
 //!
 //! What the command line does and what Python does are functions here, each with a struct of options: [`run()`] a
 //! case, look at its [`mesh()`], [`check()`], [`plot()`], [`view()`] and [`report()`] what it gave, [`compare()`] runs, [`sweep()`]
-//! over a grid of parameters, compute with the 1-D [`slider()`]. Each function gives the
-//! document that the command prints with `--json`. Nothing is written to the terminal; who wants to know how far
+//! over a grid of parameters, compute with the 1-D [`slider()`]. Each function gives a
+//! struct that the command prints with `--json`. Nothing is written to the terminal; who wants to know how far
 //! a command is, or to end it, is a [`Listener`]. Numbers are in SI units.
 //!
 //! A run of a few steps of a small case, and its check:

@@ -202,8 +202,10 @@ section! {
     /// Whether slip and the elements below the contact show a mode of the mesh.
     MeshMode {
         alternating_slip: Option<f64> = "slip that alternates from node to node over all slip" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
         alternating_slip_limit: f64 = "beyond this it is a mode of the mesh, or not resolved" ["1"],
         hourglass_energy_in_layers: Option<f64> = "hourglass over strain energy of the elements below the contact" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
         hourglass_energy_limit: f64 = "beyond this they deform by modes of the mesh" ["1"],
         warnings: Vec<String> = "what is wrong with them",
     }
@@ -223,6 +225,7 @@ section! {
     /// What exact enforcement took.
     ExactContact {
         rows: Option<String> = "`node_to_face` or `mortar`",
+        #[serde(deserialize_with = "null_is_nan")]
         kelvin_voigt: f64 = "Kelvin-Voigt time constant" ["s"],
         most_sweeps: u64 = "most sweeps of a step" ["1"],
         unconverged_steps: u64 = "steps whose sweeps did not converge" ["1"],
@@ -239,6 +242,7 @@ section! {
     /// What implicit steps took.
     #[derive(Copy)]
     Implicit {
+        #[serde(deserialize_with = "null_is_nan")]
         theta: f64 = "parameter of the theta method" ["1"],
         solved: u64 = "implicit steps solved" ["1"],
         cut: u64 = "implicit steps cut" ["1"],
@@ -251,10 +255,15 @@ section! {
     /// The frequencies that limit the time step.
     #[derive(Copy)]
     Stability {
+        #[serde(deserialize_with = "null_is_nan")]
         omega_elastic: f64 = "largest frequency of the bodies without contact, with margin" ["rad/s"],
+        #[serde(deserialize_with = "null_is_nan")]
         omega_max: f64 = "largest frequency with the springs of contact closed after the preload, with margin" ["rad/s"],
+        #[serde(deserialize_with = "null_is_nan")]
         omega_bound: f64 = "rigorous upper bound of omega_max, by the bounds of the elements and of the contact springs" ["rad/s"],
+        #[serde(deserialize_with = "null_is_nan")]
         dt_limit: f64 = "longest stable time step: 2/omega_max, less with Kelvin-Voigt damping" ["s"],
+        #[serde(deserialize_with = "null_is_nan")]
         factor: f64 = "time step over that limit" ["1"],
     }
 }
@@ -263,7 +272,9 @@ section! {
     /// Rolling radii of the disk.
     #[derive(Copy)]
     RollingRadius {
+        #[serde(deserialize_with = "null_is_nan")]
         nominal: f64 = "radius of the undeformed disk" ["m"],
+        #[serde(deserialize_with = "null_is_nan")]
         effective: f64 = "R_eff, V over the omega at which the slip averaged over the preloaded patch is zero" ["m"],
         free: Option<f64> = "V over the omega of free rolling, where drive.torque = 0" ["m"],
     }
@@ -276,6 +287,7 @@ section! {
         iterations: u64 = "iterations of Newton's method, or of the relaxation" ["1"],
         #[serde(skip_serializing_if = "Option::is_none")]
         cg_iterations: Option<u64> = "iterations of conjugate gradients, of a static preload" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
         normal_force: f64 = "sum of the contact's normal forces" ["N"],
         #[serde(skip_serializing_if = "Option::is_none")]
         closed_pairs: Option<u64> = "contact points that are closed, of a static preload" ["1"],
@@ -285,6 +297,7 @@ section! {
         facet_residual: Option<f64> = "the same once normals that had to be held follow the facets again" ["1"],
         #[serde(skip_serializing_if = "Option::is_none")]
         kinetic_ratio: Option<f64> = "fictitious kinetic over internal energy at the end, of relaxation" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
         hub_displacement: f64 = "displacement of the hub in z" ["m"],
     }
 }
@@ -313,9 +326,12 @@ section! {
     Spectral {
         grid: [usize; 2] = "points along x and y",
         memory_steps: u64 = "steps of the past that are felt" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
         faded: f64 = "share of the static compliance that is felt at its static value from then on" ["1"],
         inertia: bool = "whether the half-spaces have inertia",
+        #[serde(deserialize_with = "null_is_nan")]
         megabytes: f64 = "memory of the half-spaces" ["MB"],
+        #[serde(deserialize_with = "null_is_nan")]
         iterations_per_step: f64 = "mean iterations of a step" ["1"],
         most_iterations: u64 = "most iterations of a step" ["1"],
         undelayed_steps: u64 = "steps in which a point that stuck began to slip although adhesion was a solution" ["1"],
@@ -326,7 +342,9 @@ section! {
     /// A fine zone that follows the contact.
     #[derive(Copy)]
     MeshWindow {
+        #[serde(deserialize_with = "null_is_nan")]
         travel: f64 = "how far the fine zone has moved" ["m"],
+        #[serde(deserialize_with = "null_is_nan")]
         energy: f64 = "brought by its moves, less what was taken" ["J"],
     }
 }
@@ -559,6 +577,7 @@ mod tests {
                     "reasons": { "stick_border": "none of 3 rows" }, "warnings": [] },
         "preload": { "method": "relaxation", "iterations": 7, "normal_force": 1e5, "kinetic_ratio": 1e-9,
                      "hub_displacement": -1e-4 },
+        "mesh_window": { "travel": 0.1, "energy": null }, "stability": { "omega_max": null, "factor": 0.67 },
         "stages": { "rolling": 6.0 }, "files": { "fields": "", "contact": "contact.vtkhdf", "history": "history.h5" }
     }"#;
 
@@ -573,6 +592,8 @@ mod tests {
         assert_eq!(window.deviation[&Mean::Torque], Some(75.0));
         assert_eq!(window.reasons[&Mean::StickBorder], "none of 3 rows");
         assert_eq!(summary.preload.as_ref().unwrap().kinetic_ratio, Some(1e-9));
+        assert!(summary.mesh_window.unwrap().energy.is_nan());
+        assert!(summary.stability.unwrap().omega_max.is_nan());
     }
 
     #[test]

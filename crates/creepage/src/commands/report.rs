@@ -103,7 +103,7 @@ fn listed(folder: &Path) -> Option<Vec<ListedRun>> {
         let Ok(text) = input::text(&run.join(file::SUMMARY), input::DOCUMENT) else {
             continue;
         };
-        // a summary that is no JSON shows as unknown
+        // a summary that cannot be read shows as unknown
         let summary = serde_json::from_str(&text).unwrap_or_default();
         let name = entry.file_name().to_string_lossy().into_owned();
         runs.push(ListedRun { name, summary, page: run.join("report.html").is_file() });

@@ -23,7 +23,7 @@ const NUMBERS: [Number; 4] = [
     ("T/N", |s| s.contact.traction_coefficient),
     ("creepage (10\u{207b}\u{b3})", |s| Some(1e3 * s.contact.creepage?)),
     ("peak pressure (MPa)", |s| Some(1e-6 * s.contact.peak_pressure?)),
-    ("wall time (s)", |s| Some(s.wall_s)),
+    ("wall time (s)", |s| s.status.map(|_| s.wall_s)),
 ];
 
 /// The HTML page that lists `runs` of the folder called `name`, with links to those that have pages.
