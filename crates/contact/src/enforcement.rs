@@ -1,4 +1,4 @@
-//! What is asked of a method of contact, by who asks.
+//! What the parts of a run ask of a method of contact, a trait for each part.
 
 use crate::renumber::Renumbering;
 use crate::{ContactState, ContactSums, Motion, NodalContact, StateError, Trace};

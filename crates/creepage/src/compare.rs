@@ -134,7 +134,7 @@ fn describe(run: &Compared, label: &str, line: &RunLine) -> ComparedRun {
     ComparedRun {
         name: run.basis.name.clone(),
         label: label.into(),
-        folder: run.paths.folder.clone(),
+        folder: run.paths.folder.display().to_string(),
         side: View::of(line.line.body),
         largest: line.largest,
         largest_over: line.largest_over,

@@ -1,12 +1,12 @@
 //! How the results of a sweep depend on its axes, as figures and as verdicts.
 //!
-//! All data are in the document `sweep.json`, except the profiles: these are read from the contact histories
+//! All data are in `sweep.json`, except the profiles: these are read from the contact histories
 //! of the runs that it names.
 
 mod creep_force;
-mod document;
 mod figures;
 mod fit;
+mod groups;
 mod lines;
 mod measures;
 mod profiles;
@@ -19,5 +19,5 @@ pub(crate) use trend::RULE;
 pub use trend::{Asymptote, Refinement, Sample, Trend, Verdict, trend};
 pub use verdict::{SweepVerdict, sweep_verdicts};
 
-pub(crate) use document::{Sweep, steps, value_text};
+pub(crate) use groups::{Sweep, steps, value_text};
 pub(crate) use measures::{MEASURES, SweepMeasure};

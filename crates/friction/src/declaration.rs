@@ -201,7 +201,7 @@ const fn same(a: &str, b: &str) -> bool {
 /// Declares the modules of the laws and the list of them.
 macro_rules! laws {
     ($($kind:ident: $file:ident;)*) => {
-        $(pub mod $file;)*
+        $(mod $file;)*
 
         /// The friction laws.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -1,4 +1,4 @@
-//! Friction that falls with the slip speed, as in simulations of traction vehicles.
+//! Polach's law: friction that falls with the slip speed to a share of that at rest.
 
 use crate::coulomb::STATIC;
 use crate::declaration::{Make, no_defaults};
@@ -16,7 +16,7 @@ const RATIO: Number = Number {
 
 pub(crate) const DECLARATION: Declaration = Declaration {
     word: "polach",
-    sentence: "A coefficient that falls exponentially to a share of that at rest, as Polach measured it on rails.",
+    sentence: "A coefficient that falls exponentially to a share of that at rest, in Polach's parameters.",
     coefficient: "mu(s) = static ((1 - ratio) exp(-decay |s|) + ratio)",
     numbers: &[
         (STATIC, LeftOut::Refused),
@@ -36,7 +36,7 @@ pub(crate) const DECLARATION: Declaration = Declaration {
 };
 
 /// `mu(s) = mu_0 ((1 - A) exp(-B |s|) + A)` (Polach 2005, Wear 258: 992): Eq. (8) of Vollebregt (2017) with
-/// `mu_dynamic = A mu_0`, in the parameters that are measured on rails.
+/// `mu_dynamic = A mu_0`, in other parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polach {
     /// Coefficient at rest `mu_0`, the largest.
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_dry_rail_has_the_values_of_the_closed_form() {
+    fn coefficient_and_slope_are_those_of_the_closed_form() {
         // 0.55 (0.6 exp(-0.6 s) + 0.4); exp(-0.6) and exp(-6) by an independent calculation (25-digit decimals)
         let law = Polach { mu_static: 0.55, ratio: 0.4, decay: 0.6 };
         for (s, left) in [(0.0, 1.0), (1.0, 0.548_811_636_094_026_4), (10.0, 2.478_752_176_666_358_4e-3)]

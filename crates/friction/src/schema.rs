@@ -34,7 +34,7 @@ impl JsonSchema for Values {
 
 impl Number {
     /// Which laws need it, what it is where it is left out, and that others refuse it.
-    pub fn use_in_laws(&self) -> String {
+    fn use_in_laws(&self) -> String {
         // laws by what they do with it
         let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
         for law in LAWS {

@@ -25,11 +25,6 @@ impl Values {
     pub fn given(&self) -> impl Iterator<Item = (&'static Number, f64)> {
         NUMBERS.iter().filter_map(|number| Some((number, self.get(number.key())?)))
     }
-
-    /// All numbers, to be changed.
-    pub fn given_mut(&mut self) -> impl Iterator<Item = (&'static Number, &mut f64)> {
-        self.0.iter_mut().filter_map(|(key, value)| Some((Number::of(key)?, value)))
-    }
 }
 
 impl Number {

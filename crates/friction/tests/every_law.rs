@@ -28,10 +28,10 @@ impl Law {
     /// The same law where the unit of length is the millimetre.
     fn in_millimetres(&self) -> Box<dyn NodeFriction> {
         let mut p = self.parameters.clone();
-        for (number, value) in p.numbers.given_mut() {
+        for (number, value) in self.parameters.numbers.given() {
             match number.unit {
-                "m" | "m/s" => *value *= 1e3,
-                "s/m" => *value /= 1e3,
+                "m" | "m/s" => p.numbers.set(number, value * 1e3),
+                "s/m" => p.numbers.set(number, value / 1e3),
                 unit => assert!(unit == "-" || unit == "s", "{unit}"),
             }
         }

@@ -80,8 +80,8 @@ pub(crate) fn sums_of_files(
 /// taken for damage.
 ///
 /// # Errors
-/// None that occurs: a summary is text keys and numbers.
-pub(crate) fn seal(summary: &Summary) -> Result<String, OutputError> {
+/// A summary that cannot be written as JSON.
+pub(crate) fn checksum_of(summary: &Summary) -> Result<String, OutputError> {
     let failed = |reason: String| OutputError::Create { path: file::SUMMARY.into(), reason };
     match serde_json::to_value(summary) {
         Ok(Value::Object(entries)) => Ok(own_sum(&entries)),

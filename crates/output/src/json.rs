@@ -1,7 +1,12 @@
 use crate::OutputError;
-use serde::Serialize;
+use serde::de::value::Error as KeyError;
+use serde::de::{IgnoredAny, IntoDeserializer, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
 use std::fs::File;
 use std::io::{BufWriter, Write};
+use std::marker::PhantomData;
 use std::path::Path;
 
 /// Writes `value` as indented JSON to `path`, which holds the complete old text or the complete new one at any
@@ -31,4 +36,38 @@ pub fn write_json_atomically<T: Serialize + ?Sized>(
         let _ = std::fs::remove_file(&partial);
         failed(error.to_string())
     })
+}
+
+/// The entries of a map whose keys this version knows: those that a later version adds are left out.
+///
+/// # Errors
+/// What is no map; a value of a known key that cannot be read.
+pub fn known<'de, D, K, V>(from: D) -> Result<BTreeMap<K, V>, D::Error>
+where
+    D: Deserializer<'de>,
+    K: Deserialize<'de> + Ord,
+    V: Deserialize<'de>,
+{
+    from.deserialize_map(Known(PhantomData))
+}
+
+struct Known<K, V>(PhantomData<(K, V)>);
+
+impl<'de, K: Deserialize<'de> + Ord, V: Deserialize<'de>> Visitor<'de> for Known<K, V> {
+    type Value = BTreeMap<K, V>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a map")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let mut entries = BTreeMap::new();
+        while let Some(key) = map.next_key::<String>()? {
+            match K::deserialize(IntoDeserializer::<KeyError>::into_deserializer(key)) {
+                Ok(key) => drop(entries.insert(key, map.next_value()?)),
+                Err(_) => drop(map.next_value::<IgnoredAny>()?),
+            }
+        }
+        Ok(entries)
+    }
 }

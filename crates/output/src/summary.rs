@@ -3,8 +3,8 @@
 //! Each number is declared once, with its unit and what it is; the sections `units` and `names` of the file and the
 //! columns of sweeps take both from here.
 
-use crate::integrity::{FileSum, seal, sums_of_files};
-use crate::json::write_json_atomically;
+use crate::integrity::{FileSum, checksum_of, sums_of_files};
+use crate::json::{known, write_json_atomically};
 use crate::layout::file;
 use crate::{OutputError, Provenance};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -25,7 +25,7 @@ pub enum Status {
 
 impl Status {
     /// Its word in files.
-    pub fn word(self) -> &'static str {
+    pub const fn word(self) -> &'static str {
         match self {
             Self::Completed => "completed",
             Self::Interrupted => "interrupted",
@@ -174,6 +174,7 @@ section! {
     Window {
         from: Option<f64> = "start of the evaluation window" ["s"],
         to: Option<f64> = "end of the evaluation window" ["s"],
+        #[serde(deserialize_with = "known")]
         reasons: BTreeMap<Mean, String> = "why a mean has no value, or how many rows of the history it leaves out",
         stick_border: Option<f64> = "rear end of the longest stick zone on y = 0 from the centre of the patch" ["m"],
         peak_shear: Option<f64> = "largest nodal shear traction on the bar" ["Pa"],
@@ -182,6 +183,7 @@ section! {
         hourglass_share: Option<f64> = "hourglass over strain energy" ["1"],
         friction_power: Option<f64> = "mean power of friction; T creepage V in steady rolling" ["W"],
         warnings: Vec<String> = "what is wrong with the means",
+        #[serde(deserialize_with = "known")]
         deviation: BTreeMap<Mean, Option<f64>> = "standard deviations of the means",
     }
 }
@@ -285,17 +287,12 @@ section! {
     Preload {
         method: String = "`static` or `relaxation`",
         iterations: u64 = "iterations of Newton's method, or of the relaxation" ["1"],
-        #[serde(skip_serializing_if = "Option::is_none")]
         cg_iterations: Option<u64> = "iterations of conjugate gradients, of a static preload" ["1"],
         #[serde(deserialize_with = "null_is_nan")]
         normal_force: f64 = "sum of the contact's normal forces" ["N"],
-        #[serde(skip_serializing_if = "Option::is_none")]
         closed_pairs: Option<u64> = "contact points that are closed, of a static preload" ["1"],
-        #[serde(skip_serializing_if = "Option::is_none")]
         residual: Option<f64> = "residual force over the load at the end, of a static preload" ["1"],
-        #[serde(skip_serializing_if = "Option::is_none")]
         facet_residual: Option<f64> = "the same once normals that had to be held follow the facets again" ["1"],
-        #[serde(skip_serializing_if = "Option::is_none")]
         kinetic_ratio: Option<f64> = "fictitious kinetic over internal energy at the end, of relaxation" ["1"],
         #[serde(deserialize_with = "null_is_nan")]
         hub_displacement: f64 = "displacement of the hub in z" ["m"],
@@ -381,7 +378,6 @@ section! {
         symmetry: Option<String> = "whether half of the bodies is modelled",
         #[serde(skip_serializing_if = "Option::is_none")]
         kernels: Option<String> = "the instructions that the kernels used",
-        #[serde(skip_serializing_if = "Option::is_none")]
         time_loop_bytes_per_element: Option<f64> = "memory of the time loop over the elements" ["B"],
         #[serde(skip_serializing_if = "Option::is_none")]
         stability: Option<Stability> = "frequencies that limit the time step",
@@ -468,19 +464,30 @@ fn null_is_nan<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-/// The number at `key` of a section of the summary, empty for those outside sections; one of `stages` has no name.
+/// A section of the summary: its key, empty for the numbers outside sections; its numbers; whether a summary has it.
+type Section = (&'static str, &'static [Quantity], fn(&Summary) -> bool);
+
+const SECTIONS: [Section; 15] = [
+    ("", Summary::QUANTITIES, |_| true),
+    ("energy", Energy::QUANTITIES, |_| true),
+    ("contact", Contact::QUANTITIES, |_| true),
+    ("window", Window::QUANTITIES, |summary| summary.window.is_some()),
+    ("checks", Checks::QUANTITIES, |summary| summary.checks.is_some()),
+    ("mesh_mode", MeshMode::QUANTITIES, |summary| summary.mesh_mode.is_some()),
+    ("half_space", HalfSpace::QUANTITIES, |summary| summary.half_space.is_some()),
+    ("stability", Stability::QUANTITIES, |summary| summary.stability.is_some()),
+    ("rolling_radius", RollingRadius::QUANTITIES, |summary| summary.rolling_radius.is_some()),
+    ("preload", Preload::QUANTITIES, |summary| summary.preload.is_some()),
+    ("numbers", Numbers::QUANTITIES, |summary| summary.numbers.is_some()),
+    ("exact_contact", ExactContact::QUANTITIES, |summary| summary.exact_contact.is_some()),
+    ("implicit", Implicit::QUANTITIES, |summary| summary.implicit.is_some()),
+    ("spectral", Spectral::QUANTITIES, |summary| summary.spectral.is_some()),
+    ("mesh_window", MeshWindow::QUANTITIES, |summary| summary.mesh_window.is_some()),
+];
+
+/// The number at `key` of a section, empty for those outside sections; `None` for `stages` and for what is no number.
 pub fn quantity(section: &str, key: &str) -> Option<Quantity> {
-    let quantities = match section {
-        "" => Summary::QUANTITIES,
-        "energy" => Energy::QUANTITIES,
-        "contact" => Contact::QUANTITIES,
-        "window" => Window::QUANTITIES,
-        "checks" => Checks::QUANTITIES,
-        "stability" => Stability::QUANTITIES,
-        "exact_contact" => ExactContact::QUANTITIES,
-        "implicit" => Implicit::QUANTITIES,
-        _ => return None,
-    };
+    let (_, quantities, _) = SECTIONS.iter().find(|(name, ..)| *name == section)?;
     quantities.iter().find(|quantity| quantity.key == key).copied()
 }
 
@@ -493,29 +500,6 @@ impl Mean {
 }
 
 impl Summary {
-    /// The sections that it has, with the numbers of each; those outside sections have none.
-    fn sections(&self) -> Vec<(&'static str, &'static [Quantity])> {
-        let all = [
-            ("", true, Self::QUANTITIES),
-            ("energy", true, Energy::QUANTITIES),
-            ("contact", true, Contact::QUANTITIES),
-            ("window", self.window.is_some(), Window::QUANTITIES),
-            ("checks", self.checks.is_some(), Checks::QUANTITIES),
-            ("mesh_mode", self.mesh_mode.is_some(), MeshMode::QUANTITIES),
-            ("half_space", self.half_space.is_some(), HalfSpace::QUANTITIES),
-            ("stability", self.stability.is_some(), Stability::QUANTITIES),
-            ("rolling_radius", self.rolling_radius.is_some(), RollingRadius::QUANTITIES),
-            ("preload", self.preload.is_some(), Preload::QUANTITIES),
-            ("numbers", self.numbers.is_some(), Numbers::QUANTITIES),
-            ("exact_contact", self.exact_contact.is_some(), ExactContact::QUANTITIES),
-            ("implicit", self.implicit.is_some(), Implicit::QUANTITIES),
-            ("spectral", self.spectral.is_some(), Spectral::QUANTITIES),
-            ("mesh_window", self.mesh_window.is_some(), MeshWindow::QUANTITIES),
-        ];
-        let there = all.into_iter().filter(|(_, there, _)| *there);
-        there.map(|(section, _, quantities)| (section, quantities)).collect()
-    }
-
     /// Fills the sections `units` and `names`. Deviations have the units of their means.
     fn describe(&mut self) {
         let dotted = |section: &str, key: &str| match section {
@@ -523,8 +507,8 @@ impl Summary {
             _ => format!("{section}.{key}"),
         };
         let (mut units, mut names) = (BTreeMap::new(), BTreeMap::new());
-        for (section, quantities) in self.sections() {
-            for quantity in quantities {
+        for (section, quantities, _) in SECTIONS.iter().filter(|(.., has)| has(self)) {
+            for quantity in *quantities {
                 let key = dotted(section, quantity.key);
                 units.insert(key.clone(), quantity.units.to_owned());
                 names.insert(key, quantity.name.to_owned());
@@ -551,7 +535,7 @@ impl Summary {
         self.created = Some(made.created.clone());
         self.describe();
         self.checksums = Some(sums_of_files(folder, &SUMMED)?);
-        self.sha256 = Some(seal(&self)?);
+        self.sha256 = Some(checksum_of(&self)?);
         write_json_atomically(folder.join(file::SUMMARY), &self)?;
         Ok(self)
     }
@@ -594,6 +578,14 @@ mod tests {
         assert_eq!(summary.preload.as_ref().unwrap().kinetic_ratio, Some(1e-9));
         assert!(summary.mesh_window.unwrap().energy.is_nan());
         assert!(summary.stability.unwrap().omega_max.is_nan());
+    }
+
+    #[test]
+    fn a_mean_that_this_version_does_not_know_is_left_out() {
+        let later =
+            WRITTEN.replace("\"torque\": 75.0", "\"torque\": 75.0, \"heat\": { \"W\": 1.0 }");
+        let summary: Summary = serde_json::from_str(&later).unwrap();
+        assert_eq!(summary.window, serde_json::from_str::<Summary>(WRITTEN).unwrap().window);
     }
 
     #[test]

@@ -220,7 +220,7 @@ impl Basis {
     }
 
     /// `[friction]` of the case, without keys that this version does not know.
-    fn parameters(&self) -> Option<Parameters> {
+    pub(super) fn parameters(&self) -> Option<Parameters> {
         let mut table = self.case.as_ref()?.get("friction")?.as_table()?.clone();
         table.retain(|key, _| key == "law" || all_parameters().any(|known| known == key));
         table.try_into().ok()

@@ -4,6 +4,7 @@ use crate::check::limits::{Limit, MethodKind};
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::surface::body_name;
+use output::known;
 use output::layout::Pairing;
 use output::summary;
 use serde::{Deserialize, Serialize};
@@ -32,8 +33,10 @@ pub struct CheckResult {
     /// The kind of method that the limits are for.
     pub limits_for: MethodKind,
     /// The limit of each measure; none where it has none.
+    #[serde(deserialize_with = "known")]
     pub limits: BTreeMap<Measure, Option<Limit>>,
     /// The measures.
+    #[serde(deserialize_with = "known")]
     pub metrics: BTreeMap<Measure, Metric>,
     /// Which slip velocity a traction is paired with.
     pub pairing: PairingUsed,
@@ -46,6 +49,7 @@ pub struct CheckResult {
     /// From where on a node is in contact or adhesion, and violates the law or the direction.
     pub tolerances: Tolerances,
     /// Means of the patch.
+    #[serde(deserialize_with = "known")]
     pub patch: BTreeMap<PatchMeasure, PatchMean>,
     /// Slip that alternates from node to node.
     pub mesh_mode: MeshModeFound,
@@ -233,7 +237,7 @@ pub struct Statistics {
     /// The value of the measure.
     pub value: Option<f64>,
     /// Further statistics.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "known")]
     pub more: BTreeMap<Detail, Option<f64>>,
 }
 
@@ -330,12 +334,12 @@ impl From<Pairing> for Reported {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LawUsed {
-    /// Its word, where its coefficient is a function of the slip speed alone.
+    /// Its word, of Coulomb's law and of those of the form of Eq. (8).
     pub law: Option<String>,
     /// Coefficient at rest.
     #[serde(rename = "static", default, skip_serializing_if = "Option::is_none")]
     pub mu_static: Option<f64>,
-    /// Coefficient at high slip velocity, of Eq. (8).
+    /// Coefficient at high slip velocity, as in Eq. (8).
     #[serde(rename = "dynamic", default, skip_serializing_if = "Option::is_none")]
     pub mu_dynamic: Option<f64>,
     /// Its decay (s/m).
@@ -435,7 +439,7 @@ pub enum SlipZoneFound {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SlipZoneMeasured {
     /// The statistics.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "known")]
     pub statistics: BTreeMap<SlipQuantity, SlipStatistic>,
     /// Rear end of the zone (m).
     #[serde(default)]
@@ -530,6 +534,24 @@ impl CheckResult {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_view_has_one_name_on_pages_and_in_documents() {
+        for view in [View::Disk, View::Bar, View::Other, View::Pair, View::Both] {
+            assert_eq!(serde_json::to_value(view).unwrap(), view.name());
+        }
+    }
+
+    #[test]
+    fn a_measure_that_this_version_does_not_know_is_left_out() {
+        let written = r#"{ "metrics": { "penetration": { "value": 1.0, "sides": { "bar": {
+            "before": { "value": 1.0, "rms": 2.0, "p99": 3.0 } } } }, "stretch": 4 } }"#;
+        let result: CheckResult = serde_json::from_str(written).unwrap();
+        assert_eq!(result.metrics.len(), 1);
+        let rms =
+            result.metrics[&Measure::Penetration].detail(View::Bar, Pairing::Before, Detail::Rms);
+        assert_eq!(rms, Some(2.0));
+    }
 
     #[test]
     fn a_measure_without_a_value_is_not_judged_unless_its_limit_was_asked_for() {

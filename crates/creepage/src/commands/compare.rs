@@ -48,7 +48,7 @@ pub fn compare(options: &CompareOptions) -> Result<ComparisonResult, Error> {
     if let Some(plot) = &options.plot {
         let (folder, stem, format) = parts(plot).ok_or_else(|| Error::plain("--plot: no file"))?;
         let path = found.figure.write_as(folder, stem, format).map_err(PostError::from)?;
-        result.figure = Some(path);
+        result.figure = Some(path.display().to_string());
     }
     Ok(result)
 }

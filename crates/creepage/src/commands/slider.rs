@@ -128,7 +128,7 @@ pub struct SliderResult {
     pub fallback_steps: u64,
     /// The figures that were drawn.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub figures: Vec<PathBuf>,
+    pub figures: Vec<String>,
 }
 
 impl From<SliderRun> for SliderResult {
@@ -149,7 +149,7 @@ impl From<SliderRun> for SliderResult {
             picard_iterations: outcome.picard,
             most_picard_iterations: outcome.most_picard,
             fallback_steps: outcome.fallbacks,
-            figures,
+            figures: figures.iter().map(|path| path.display().to_string()).collect(),
         }
     }
 }

@@ -127,8 +127,8 @@ impl Swept {
 /// Runs a case over a grid of parameters; with [`SweepOptions::plan`] or
 /// [`SweepOptions::collect`] it runs nothing.
 ///
-/// The listener hears how far the sweep is; its flag ends the runs under way in order. A run that fails is told in the
-/// document and stops no other.
+/// The listener hears how far the sweep is; its flag ends the runs under way in order. A run that fails stands in the
+/// result and stops no other.
 ///
 /// # Errors
 /// A sweep file, a case of it or a folder that cannot be used; results that cannot be written.

@@ -25,7 +25,7 @@ pub fn read(folder: &Path) -> Result<Option<SweepResult>, Error> {
 /// The table of the sweep in `folder`, and what it came to; `None` where there is none.
 ///
 /// # Errors
-/// A document that cannot be read.
+/// A `sweep.json` that cannot be read.
 pub fn sweep_table(folder: &Path) -> Result<Option<(Table, SweepResult)>, Error> {
     Ok(read(folder)?.map(|result| (Table::of(&result), result)))
 }

@@ -2,7 +2,6 @@
 
 use crate::check::result::{SlipZoneMeasured, View};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
 
 /// The document of `creepage compare --json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,7 +16,7 @@ pub struct ComparisonResult {
     pub differences: Vec<RunDifference>,
     /// The figure, where one was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub figure: Option<PathBuf>,
+    pub figure: Option<String>,
 }
 
 /// The places along the centre line and the instants at which runs are compared.
@@ -41,7 +40,7 @@ pub struct ComparedRun {
     /// What tells it from the others.
     pub label: String,
     /// Its folder.
-    pub folder: PathBuf,
+    pub folder: String,
     /// The body whose nodes are taken.
     pub side: View,
     /// Largest slip speed.

@@ -10,7 +10,7 @@ use output::summary::Status;
 use crate::check::result::CheckResult;
 use crate::sweep::plan::{CHECK, Plan, RESULTS, SweepError, run_folder};
 use crate::sweep::points::Point;
-use crate::sweep::result::{SweepResult, SweepRun};
+use crate::sweep::result::{COMPLETED, SweepResult, SweepRun};
 use crate::sweep::{ensemble, table};
 
 /// Fields of a run's summary that do not repeat: they depend on the clock, the memory and the number of threads, or
@@ -45,7 +45,7 @@ impl State {
     /// The `status` in the results.
     pub fn word(&self) -> &str {
         match self {
-            Self::Completed => "completed",
+            Self::Completed => COMPLETED,
             Self::Failed(_) => "failed",
             Self::Unchecked => "unchecked",
             Self::Undone(word) => word,

@@ -283,9 +283,9 @@ pub fn open(sweep: &Sweep, folder: &Path) -> Result<Plan, SweepError> {
     Ok(Plan { folder: path(), file, runs, _lock: None })
 }
 
-/// Parts of cases as text, by which equal ones are found.
-pub(super) fn alike(parts: impl Serialize) -> String {
-    serde_json::to_string(&parts).unwrap_or_default()
+/// Parts of cases as text, by which equal ones are found; `None` equals nothing.
+pub(super) fn alike(parts: impl Serialize) -> Option<String> {
+    serde_json::to_string(&parts).ok()
 }
 
 /// `time.factor` times the smallest stability limit of the sweep (s).
@@ -295,7 +295,7 @@ fn smallest_step(
     folder: &Path,
     stop: &AtomicBool,
 ) -> Result<f64, SweepError> {
-    let mut known: Vec<String> = Vec::new();
+    let mut known = Vec::new();
     let mut smallest = f64::INFINITY;
     for run in runs {
         let case = &run.case;
@@ -305,7 +305,7 @@ fn smallest_step(
             (&case.contact, &case.damping, case.preload.undisturbed(), case.drive.speed),
             case.time.factor,
         ));
-        if known.contains(&basis) {
+        if basis.is_some() && known.contains(&basis) {
             continue;
         }
         known.push(basis);

@@ -123,12 +123,14 @@ impl Sweep {
         for point in points {
             let case = &point.case;
             let key = plan::alike((&case.disk, &case.bar, &case.mesh, &case.element));
-            point.elements = match known.get(&key) {
+            let found = key.as_ref().and_then(|key| known.get(key));
+            point.elements = match found {
                 Some(elements) => *elements,
                 None => {
                     let elements = crate::scenario::elements(case);
                     let elements = elements.map_err(|e| self.refused(e, &point.indices))?;
-                    *known.entry(key).or_insert(elements)
+                    known.extend(key.map(|key| (key, elements)));
+                    elements
                 }
             };
         }

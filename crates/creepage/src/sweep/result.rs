@@ -6,7 +6,8 @@ use std::path::Path;
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::result::{CheckResult, SlipQuantity};
-use output::summary::{Mean, Summary};
+use output::known;
+use output::summary::{Mean, Status, Summary};
 use serde::{Deserialize, Serialize};
 
 /// Values of swept keys, by dotted path, as a case file has them.
@@ -141,6 +142,7 @@ pub struct PointSummary {
     /// Time step of the first (s): the members differ in it by no more than their disturbance.
     pub dt: Option<f64>,
     /// Means of the section `contact`.
+    #[serde(deserialize_with = "known")]
     pub contact: BTreeMap<Mean, f64>,
     /// Means of the section `window`.
     pub window: PointWindow,
@@ -156,7 +158,7 @@ pub struct PointWindow {
     /// See `from`.
     pub to: Option<f64>,
     /// The means.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "known")]
     pub means: BTreeMap<Mean, f64>,
 }
 
@@ -168,7 +170,7 @@ pub struct PointHalves {
     /// See `from`.
     pub to: Option<f64>,
     /// Of the means.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "known")]
     pub means: BTreeMap<Mean, f64>,
 }
 
@@ -176,10 +178,13 @@ pub struct PointHalves {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointCheck {
     /// Of the measures.
+    #[serde(deserialize_with = "known")]
     pub metrics: BTreeMap<Measure, MeanValue>,
     /// Of the patch.
+    #[serde(deserialize_with = "known")]
     pub patch: BTreeMap<PatchMeasure, MeanOfMeans>,
     /// Of the slip zone.
+    #[serde(deserialize_with = "known")]
     pub slip_zone: BTreeMap<SlipQuantity, MeanValue>,
 }
 
@@ -242,7 +247,7 @@ pub enum Entry<'a> {
 }
 
 /// The status of a run or a point whose results count.
-pub const COMPLETED: &str = "completed";
+pub const COMPLETED: &str = Status::Completed.word();
 
 impl SweepRun {
     /// Whether it reached its end; one without a status where it has a summary.

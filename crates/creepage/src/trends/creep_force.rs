@@ -1,6 +1,6 @@
 //! The creep-force curve: the tangential force that a creepage needs.
 
-use super::document::Sweep;
+use super::groups::Sweep;
 use super::lines::{GROUPS, line};
 use super::measures::{MEASURES, SweepMeasure};
 use crate::chart::{Axis, Figure, Panel};

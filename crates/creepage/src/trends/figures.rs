@@ -1,7 +1,7 @@
 //! The figures of a sweep.
 
 use super::creep_force::{CREEP_FORCE, creep_force};
-use super::document::{Group, Sweep, short};
+use super::groups::{Group, Sweep, short};
 use super::lines::{GROUPS, axis_over, label, line, spans_decades};
 use super::measures::MEASURES;
 use super::profiles::{Profile, profile};

@@ -1,6 +1,6 @@
 //! The verdicts of a sweep: every measure along every axis.
 
-use super::document::{Sweep, steps};
+use super::groups::{Sweep, steps};
 use super::measures::{MEASURES, SweepMeasure};
 use super::trend::{Refinement, Sample, Trend, trend};
 use crate::sweep::result::{Measured, SweepResult};

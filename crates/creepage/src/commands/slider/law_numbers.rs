@@ -91,14 +91,22 @@ mod options {
             };
             let takers: Vec<_> = LAWS.into_iter().filter_map(takes).collect();
             let laws: Vec<_> = takers.iter().map(|(word, _)| *word).collect();
-            let mut help =
-                format!("{} ({})", number.sentence.trim_end_matches('.'), laws.join(", "));
-            let default = takers.iter().find_map(|(_, left_out)| match left_out {
-                LeftOut::Default(value) => Some(*value),
-                _ => super::super::settings::paper(number),
-            });
-            if let Some(value) = default {
-                help += &format!(" [default: {value}]");
+            let mut sentence = number.sentence.trim_end_matches('.').to_owned();
+            for other in numbers() {
+                let option = format!("--{}", name(other).replace('_', "-"));
+                sentence = sentence.replace(&format!("`{}`", other.key()), &option);
+            }
+            let mut help = format!("{sentence} ({})", laws.join(", "));
+            let default = |(word, left_out): &(&'static str, LeftOut)| match left_out {
+                LeftOut::Default(value) => Some((*word, *value)),
+                _ => Some((*word, super::super::settings::paper(number)?)),
+            };
+            let defaults: Vec<_> = takers.iter().filter_map(default).collect();
+            if let [(_, value), ..] = defaults[..] {
+                let with = defaults.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
+                let with =
+                    if with == laws.join(", ") { String::new() } else { format!(" with {with}") };
+                help += &format!(" [default{with}: {value}]");
             }
             let placeholder = match number.unit {
                 "-" if name(number).starts_with("mu_") => "MU".into(),

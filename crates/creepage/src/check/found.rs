@@ -438,15 +438,14 @@ fn law_used(basis: &Basis, followed: bool) -> LawUsed {
     };
     let none =
         LawUsed { law: None, mu_static: None, mu_dynamic: None, decay: None, bound: bound.into() };
+    let law = basis.parameters().map(|parameters| parameters.declaration().word.to_owned());
     match basis.law {
-        Some(Law::Coulomb(law)) => {
-            LawUsed { law: Some("coulomb".into()), mu_static: Some(law.mu), ..none }
-        }
-        Some(Law::Exponential(law)) => LawUsed {
-            law: Some("exponential".into()),
-            mu_static: Some(law.mu_static),
-            mu_dynamic: Some(law.mu_dynamic),
-            decay: Some(law.decay),
+        Some(Law::Coulomb(of)) => LawUsed { law, mu_static: Some(of.mu), ..none },
+        Some(Law::Exponential(of)) => LawUsed {
+            law,
+            mu_static: Some(of.mu_static),
+            mu_dynamic: Some(of.mu_dynamic),
+            decay: Some(of.decay),
             ..none
         },
         None => none,

@@ -79,7 +79,7 @@ impl<'a> Sweep<'a> {
         values
     }
 
-    /// The completed runs in groups that differ in `axis` only, in the order of the document. Where no two runs
+    /// The completed runs in groups that differ in `axis` only, in the order of the sweep. Where no two runs
     /// do (axes that vary together), all of them are one group.
     pub fn groups(&self, axis: &str) -> Vec<Group<'a>> {
         let mut groups: Vec<Group<'a>> = Vec::new();
