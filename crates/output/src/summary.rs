@@ -459,8 +459,11 @@ impl Files {
     }
 }
 
-/// A number that is null in the file where it was not finite.
+/// A number that is null in JSON where it was not finite; checkpoints, which are binary, hold it as it is.
 fn null_is_nan<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    if !from.is_human_readable() {
+        return f64::deserialize(from);
+    }
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
@@ -578,6 +581,15 @@ mod tests {
         assert_eq!(summary.preload.as_ref().unwrap().kinetic_ratio, Some(1e-9));
         assert!(summary.mesh_window.unwrap().energy.is_nan());
         assert!(summary.stability.unwrap().omega_max.is_nan());
+    }
+
+    #[test]
+    fn a_section_in_a_checkpoint_comes_back_with_its_bits() {
+        let section = Stability { omega_max: f64::NAN, factor: 0.67, ..Stability::default() };
+        let bytes = postcard::to_allocvec(&section).unwrap();
+        let again: Stability = postcard::from_bytes(&bytes).unwrap();
+        assert_eq!(again.omega_max.to_bits(), section.omega_max.to_bits());
+        assert_eq!(again.factor, 0.67);
     }
 
     #[test]

@@ -66,7 +66,7 @@ pub(crate) trait Kernel {
 
 /// Part of a batch: as many elements as a vector has lanes, with the arrays of their nodes.
 ///
-/// Its methods are safe because who makes one fulfils the contract of [`block_force`].
+/// Its methods are safe because [`block_force`] alone makes one, and its callers fulfil its contract.
 pub(crate) struct Part<'a, L, const VISCOUS: bool> {
     batch: &'a Batch,
     /// The first element's lane in the batch.
