@@ -86,7 +86,7 @@ fn rolling(size: f64) -> Simulation {
         displacement,
         velocity,
         dt,
-        omega_max,
+        dt_limit: 2.0 / omega_max,
     })
 }
 

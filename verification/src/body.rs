@@ -60,7 +60,7 @@ pub(crate) fn at_rest_with<'a>(
         displacement: vec![Padded::ZERO; n],
         velocity: vec![Padded::ZERO; n],
         dt: factor * 2.0 / omega_max,
-        omega_max,
+        dt_limit: 2.0 / omega_max,
     })
 }
 

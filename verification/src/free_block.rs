@@ -56,7 +56,7 @@ fn corner(n: usize, reweigh: impl Fn(&mut [f64])) -> Result<f64, SolidError> {
     let mut setup = Setup {
         velocity: mesh.nodes.iter().map(start).collect(),
         dt,
-        omega_max: 2.0 / dt,
+        dt_limit: dt,
         ..at_rest(&mesh, STEEL, 1.0, None)?
     };
     setup.system.solid = solid;

@@ -54,8 +54,9 @@ fn main() {
     let mut velocity = vec![Padded::ZERO; nodes];
     velocity[mesh.bodies[0].nodes.clone()].fill(Padded::new([SPEED, 0.0, 0.0]));
     let displacement = vec![Padded::ZERO; nodes];
-    let dt = 0.67 * 2.0 / omega_max;
-    let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
+    let dt_limit = 2.0 / omega_max;
+    let dt = 0.67 * dt_limit;
+    let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, dt_limit });
 
     println!("  t (us)      N (N)      T/N   closed");
     for n in 0..STEPS {

@@ -113,7 +113,7 @@ impl Simulation {
 
     /// Where energy comes from that nothing supplied.
     fn energy_cause(&mut self, now: &Energies) -> Cause {
-        let ratio = self.dt * self.omega_max / 2.0;
+        let ratio = self.dt / self.dt_limit;
         if ratio > 1.0 && self.implicit.is_none() {
             return Cause::UnstableStep { ratio };
         }
@@ -206,7 +206,7 @@ impl Simulation {
 
     /// The cause that an element is inside out: the step, where that is too long.
     fn inverted(&self, element: usize) -> Cause {
-        let ratio = self.dt * self.omega_max / 2.0;
+        let ratio = self.dt / self.dt_limit;
         if ratio > 1.0 && self.implicit.is_none() {
             return Cause::UnstableStep { ratio };
         }

@@ -23,8 +23,8 @@ pub struct Setup {
     pub velocity: Vec<Padded>,
     /// Time step (s).
     pub dt: f64,
-    /// Largest frequency of the assembly (rad/s), for the diagnosis.
-    pub omega_max: f64,
+    /// Longest stable explicit step (s), for the diagnosis.
+    pub dt_limit: f64,
 }
 
 /// Wall time per stage.
@@ -65,7 +65,7 @@ pub struct Simulation {
     /// Its forces are zero between two steps.
     pub(crate) nodes: NodalState,
     pub(crate) dt: f64,
-    pub(crate) omega_max: f64,
+    pub(crate) dt_limit: f64,
     pub(crate) step: usize,
     pub(crate) ledger: Ledger,
     pub(crate) limits: GuardLimits,
@@ -81,7 +81,7 @@ pub struct Simulation {
 impl Simulation {
     /// A simulation at t = 0.
     pub fn new(setup: Setup) -> Self {
-        let Setup { mut system, mut displacement, mut velocity, dt, omega_max } = setup;
+        let Setup { mut system, mut displacement, mut velocity, dt, dt_limit } = setup;
         system.constrain(&mut displacement, &mut velocity);
         let mut nodes = NodalState::new(displacement, velocity, system.inverse_mass());
         if let Some(contact) = system.contact.as_deref() {
@@ -91,7 +91,7 @@ impl Simulation {
             system,
             nodes,
             dt,
-            omega_max,
+            dt_limit,
             step: 0,
             ledger: Ledger::default(),
             limits: GuardLimits::default(),

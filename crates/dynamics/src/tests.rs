@@ -33,7 +33,7 @@ fn body_of(
         displacement: vec![Padded::ZERO; n],
         velocity: vec![Padded::ZERO; n],
         dt: dt_factor * 2.0 / omega_max,
-        omega_max,
+        dt_limit: 2.0 / omega_max,
     }
 }
 

@@ -90,7 +90,7 @@ fn cubes(mu: f64) -> Result<(Mesh, Setup), ContactError> {
     };
     let rest = vec![Padded::ZERO; n];
     let setup =
-        Setup { system, displacement: rest.clone(), velocity: rest, dt: 1e-6, omega_max: 1e7 };
+        Setup { system, displacement: rest.clone(), velocity: rest, dt: 1e-6, dt_limit: 2e-7 };
     Ok((mesh, setup))
 }
 

@@ -110,6 +110,6 @@ fn block(n: usize, element: BlockElement, level: Level) -> Result<Simulation, Ru
         displacement: vec![Padded::ZERO; nodes],
         velocity: mesh.nodes.iter().map(|x| Padded::new([0.0, 0.0, -x[2] / size])).collect(),
         dt: DT,
-        omega_max: 2.0 / DT,
+        dt_limit: DT,
     }))
 }

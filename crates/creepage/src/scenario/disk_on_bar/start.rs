@@ -278,8 +278,8 @@ fn assemble(
         multiplicity: model.multiplicity,
         ..System::free(solid, model.mass.clone())
     };
-    let omega_max = 2.0 / stability.dt_limit;
-    let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, omega_max });
+    let dt_limit = stability.dt_limit;
+    let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, dt_limit });
     if let Some(theta) = case.theta() {
         simulation.set_implicit(theta);
     }
