@@ -321,4 +321,21 @@ mod tests {
             near(millimetres.halves[i].unwrap(), factor * half);
         }
     }
+
+    #[test]
+    fn a_wave_of_slip_correlates_over_its_length_in_metres_and_its_period_in_seconds() {
+        // the line is 8 mm long; 1.6 mm and 10 us, about a mean over two periods
+        let (wavelength, period) = (1.6e-3, 10e-6);
+        let wave = |x: f64, k: usize| x * 8e-3 / wavelength - 1e-6 * k as f64 / period;
+        let slip = line(1000, |x, k| 2.0 + 0.3 * libm::sin(std::f64::consts::TAU * wave(x, k)));
+        let found = SlipZone::of(&slip, &[1e-6; 1000]).unwrap().correlation;
+        let part = libm::acos(libm::exp(-1.0)) / std::f64::consts::TAU;
+        let near = |found: Option<f64>, exact: f64| {
+            assert!((found.unwrap() / exact - 1.0).abs() < 0.05, "{found:?} {exact:e}");
+        };
+        near(found.length, part * wavelength);
+        near(found.time, part * period);
+        near(found.wavenumber, std::f64::consts::TAU / wavelength);
+        near(found.frequency, 1.0 / period);
+    }
 }

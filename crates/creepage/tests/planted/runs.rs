@@ -337,3 +337,17 @@ fn the_deviation_over_the_window_is_that_of_what_was_planted_record_by_record() 
     let deviation = found.document["metrics"]["law_error"]["deviation"].as_f64().unwrap();
     assert!((deviation - 0.1).abs() < 1e-10, "{deviation}");
 }
+
+#[test]
+fn a_file_without_the_coefficient_says_that_it_lacks_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let leave = Leave { mu: true, ..Leave::default() };
+    write_with(folder.path(), COULOMB, "penalty", 3, DT, leave, steady(COULOMB));
+    let found = judge(folder.path(), Report::Stricter).unwrap();
+    for name in ["law_error_own", "mu_error", "mu_error_blurred"] {
+        let metric = &found.document["metrics"][name];
+        assert_eq!(metric["value"], Value::Null, "{name}");
+        assert_eq!(metric["note"], "the file has no field mu", "{name}");
+    }
+    is(&found, "law_error", 0.0);
+}
