@@ -1,6 +1,7 @@
 //! Runs with planted content: each measure returns what was planted, and the perfect one passes.
 use crate::planted::*;
-use creepage::check::{Pairing, Report};
+use creepage::check::{Basis, CheckOptions, Limits, Pairing, Report, RunPaths, check};
+use output::GridFile;
 use serde_json::Value;
 
 fn measured(found: &Judged, name: &str) -> f64 {
@@ -350,4 +351,80 @@ fn a_file_without_the_coefficient_says_that_it_lacks_it() {
         assert_eq!(metric["note"], "the file has no field mu", "{name}");
     }
     is(&found, "law_error", 0.0);
+}
+
+#[test]
+fn scales_that_nobody_states_are_those_of_the_pressure_of_the_last_record() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), COULOMB, "exact", 4, |x, step| {
+        let node = perfect(COULOMB, x, 0);
+        let part = if step < 3 { 1.0 } else { 0.5 };
+        Node { pressure: part * node.pressure, shear: node.shear.map(|c| part * c), ..node }
+    });
+    let case = folder.path().join("case.toml");
+    let stated = std::fs::read_to_string(&case).unwrap();
+    let left: Vec<&str> = stated
+        .lines()
+        .filter(|line| !line.starts_with("peak_pressure") && !line.starts_with("half_length"))
+        .collect();
+    std::fs::write(&case, left.join("\n")).unwrap();
+    let found = judge(folder.path(), Report::Stated).unwrap();
+    for (name, expected) in [("peak_pressure", 0.5 * P0), ("half_length", A), ("half_width", 5e-3)]
+    {
+        let scale = &found.document["scales"][name];
+        assert!(
+            (scale["value"].as_f64().unwrap() / expected - 1.0).abs() < 1e-9,
+            "{name}: {scale}"
+        );
+        assert_eq!(scale["from"], "pressure of the last record");
+    }
+}
+
+#[test]
+fn the_map_shows_the_measures_of_nodes_in_contact_and_nothing_at_others() {
+    let folder = tempfile::tempdir().unwrap();
+    // 10 % above the bound at nodes that slip, 0.5 % of p0 at nodes outside, which is no contact
+    write(folder.path(), COULOMB, "penalty", 2, |x, _| {
+        let mut node = perfect(COULOMB, x, 0);
+        if node.state == 2 {
+            node.shear = node.shear.map(|c| 1.1 * c);
+        } else if node.pressure == 0.0 {
+            (node.pressure, node.gap) = (5e-3 * P0, -0.2 * APPROACH);
+        }
+        node
+    });
+    let (paths, map) = (RunPaths::of(folder.path()).unwrap(), folder.path().join("map.vtkhdf"));
+    let mut basis = Basis::read(&paths).unwrap();
+    let limits = Limits::for_enforcement(basis.enforcement.as_deref());
+    let options = CheckOptions { window: None, limits, report: Report::Stated, map: Some(&map) };
+    check(&paths, &mut basis, &options).unwrap();
+    let file = GridFile::open(&map).unwrap();
+    assert_eq!(file.times().unwrap(), [0.0, DT]);
+    let of = |field: &str| file.read(field, false, 1).unwrap();
+    let [penetration, ratio, error, cone] =
+        ["penetration", "traction_ratio", "law_error", "cone"].map(of);
+    let (speed, violates) = (of("slip_speed"), of("violates"));
+    for (row, x) in surfaces().points.iter().enumerate() {
+        let node = perfect(COULOMB, *x, 0);
+        let near = |found: f64, exact: f64| (found - exact).abs() < 1e-9;
+        if node.pressure == 0.0 {
+            assert!(near(penetration[row], 0.2), "{x:?}");
+            assert!(
+                [ratio[row], error[row], cone[row], speed[row]].iter().all(|v| v.is_nan()),
+                "{x:?}"
+            );
+            assert_eq!(violates[row], 0.0, "{x:?}");
+        } else if node.state == 2 {
+            let expected = [0.0, 0.55, 0.1, 0.1];
+            let found = [penetration[row], ratio[row], error[row], cone[row]];
+            assert!(found.iter().zip(expected).all(|(a, b)| near(*a, b)), "{x:?}: {found:?}");
+            assert_eq!(violates[row], 1.0, "{x:?}");
+        } else {
+            assert!(
+                near(ratio[row], 0.3) && near(cone[row], 0.0) && near(speed[row], 0.0),
+                "{x:?}"
+            );
+            assert!(error[row].is_nan() && violates[row] == 0.0, "{x:?}");
+        }
+    }
 }
