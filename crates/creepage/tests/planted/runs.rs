@@ -1,6 +1,8 @@
 //! Runs with planted content: each measure returns what was planted, and the perfect one passes.
 use crate::planted::*;
-use creepage::check::{Basis, CheckOptions, Limits, Pairing, Report, RunPaths, check};
+use creepage::check::{
+    Basis, CheckOptions, ContactHistory, Limits, Pairing, Report, RunPaths, Span, check,
+};
 use output::GridFile;
 use serde_json::Value;
 
@@ -427,4 +429,41 @@ fn the_map_shows_the_measures_of_nodes_in_contact_and_nothing_at_others() {
             assert!(error[row].is_nan() && violates[row] == 0.0, "{x:?}");
         }
     }
+}
+
+#[test]
+fn transits_end_with_the_window_of_the_run_where_its_last_record_lies_within_an_interval_before() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), COULOMB, "exact", 40, steady(COULOMB));
+    let last = 39.0 * DT;
+    // half of the records
+    let transits = 20.0 * DT / (2.0 * A / SPEED);
+    for (end_of_run, end) in [(last + 0.9 * DT, last + 0.9 * DT), (last + 1.1 * DT, last)] {
+        let paths = RunPaths::of(folder.path()).unwrap();
+        let mut basis = Basis::read(&paths).unwrap();
+        basis.window = Some([0.0, end_of_run]);
+        let limits = Limits::for_enforcement(basis.enforcement.as_deref());
+        let window = Some(Span::Transits(transits));
+        let options = CheckOptions { window, limits, report: Report::Stated, map: None };
+        let found = check(&paths, &mut basis, &options).unwrap().result.window;
+        for (found, expected) in found.iter().zip([end - 20.0 * DT, end]) {
+            assert!((found - expected).abs() < 1e-12, "{end_of_run:e}: {found:e} {expected:e}");
+        }
+    }
+}
+
+#[test]
+fn a_record_that_is_read_alone_is_that_of_the_stream() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), FALLING, "exact", 4, |x, step| perfect(FALLING, x, step));
+    let history = ContactHistory::open(&folder.path().join("contact.vtkhdf")).unwrap();
+    let mut index = 0;
+    let streamed = history.stream(0..4, |frame| {
+        assert!(frame.motion.is_some() && frame.gap.is_some() && frame.state.is_some());
+        assert_eq!(format!("{:?}", history.record(index)?), format!("{frame:?}"));
+        index += 1;
+        Ok(())
+    });
+    streamed.unwrap();
+    assert_eq!(index, 4);
 }
