@@ -55,6 +55,9 @@ fn with_every_step_recorded_the_law_is_known_and_an_error_of_the_coefficient_is_
     let metric = &found.document["metrics"]["mu_error"];
     assert!((number(&metric["value"]) - 0.03).abs() < 1e-12, "{metric:#}");
     assert!((number(&metric["where"]["time"]) - 2.0 * DT).abs() < 1e-12, "{metric:#}");
+    let law = lagged(2);
+    assert!((number(&metric["where"]["mu_used"]) - 1.03 * law).abs() < 1e-12, "{metric:#}");
+    assert!((number(&metric["where"]["mu_law"]) - law).abs() < 1e-12, "{metric:#}");
 }
 
 #[test]

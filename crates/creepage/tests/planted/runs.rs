@@ -339,6 +339,15 @@ fn the_deviation_over_the_window_is_that_of_what_was_planted_record_by_record() 
     is(&found, "law_error", 0.2 / 2f64.sqrt());
     let deviation = found.document["metrics"]["law_error"]["deviation"].as_f64().unwrap();
     assert!((deviation - 0.1).abs() < 1e-10, "{deviation}");
+    // in those records all that slips violates, in the others nothing does
+    let of = |x: &[f64; 3]| (hertz(*x) > 0.01 * P0).then(|| perfect(COULOMB, *x, 0).state == 2);
+    let slips: Vec<bool> = surfaces().points[..NX * NY].iter().filter_map(of).collect();
+    let share = slips.iter().filter(|slips| **slips).count() as f64 / slips.len() as f64;
+    is(&found, "violating_fraction", 0.5 * share);
+    let metric = &found.document["metrics"]["violating_fraction"];
+    assert!((metric["deviation"].as_f64().unwrap() - 0.5 * share).abs() < 1e-10, "{metric:#}");
+    assert!((metric["where"]["value"].as_f64().unwrap() - share).abs() < 1e-10, "{metric:#}");
+    assert_eq!(metric["where"]["time"], 0.0, "the first of the worst records");
 }
 
 #[test]
