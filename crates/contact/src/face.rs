@@ -486,4 +486,24 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn whichever_edge_of_the_faces_lies_in_the_plane_of_symmetry_the_projection_lies_on_it() {
+        let (mut mesh, top) = plate([0.0, 0.0], [4.0, 3.0], [4, 3], 0.0, 0.5, true);
+        mesh.symmetric = true;
+        mesh.nodes.iter_mut().for_each(|x| x[2] -= 0.2 * x[1]);
+        for turn in 0..4 {
+            let mut top = top.clone();
+            top.faces.iter_mut().for_each(|face| face.nodes.rotate_left(turn));
+            let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
+            let nodes = trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize]));
+            let nodes: Vec<Padded> = nodes.collect();
+            let node = Padded::new([1.3, 0.0, 0.01]).xyz();
+            let found = project(&surface, &Positions(&nodes), false, node, 1, 0.0, 0.0);
+            let found = found.projection.unwrap();
+            assert!((found.gap - 0.01).abs() < 1e-15, "{turn}: {found:?}");
+            let off = [found.point.x[0] - 1.3, found.point.x[1], found.point.x[2]];
+            assert!(off.iter().all(|c| c.abs() < 1e-12), "{turn}: {found:?}");
+        }
+    }
 }

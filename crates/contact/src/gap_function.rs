@@ -136,3 +136,52 @@ impl GapFunction {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::Normals;
+    use crate::plates::{STEEL, plate, together};
+
+    #[test]
+    fn the_gaps_between_two_plates_are_their_distance_from_the_slaves_of_either_side() {
+        let height = 1e-5;
+        let (upper, first) = plate([0.0, 0.0], [8e-3, 8e-3], [5, 5], height, 1e-3, false);
+        let (lower, second) = plate([0.0, 0.0], [8e-3, 8e-3], [4, 4], 0.0, 1e-3, true);
+        let (mesh, second) = together(upper, lower, second);
+        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let rest = vec![Padded::ZERO; reference.len()];
+        for rows in [Rows::NodeToFace, Rows::Mortar] {
+            for (slave, surface, away) in [(0, &first, -1.0), (1, &second, 1.0)] {
+                let normals = Normals::Averaged;
+                let settings = ExactSettings { slave: Some(slave), curvature: true, rows, normals };
+                let surfaces = [(&first, STEEL), (&second, STEEL)];
+                let mut function = GapFunction::new(&mesh, surfaces, &settings).unwrap();
+                let mut gaps = Vec::new();
+                function.at(&reference, &rest, &mut gaps);
+                let mut slaves: Vec<u32> = surface.faces.iter().flat_map(|f| f.nodes).collect();
+                slaves.sort_unstable();
+                slaves.dedup();
+                assert_eq!(gaps.iter().map(|gap| gap.node).collect::<Vec<_>>(), slaves);
+                for gap in &gaps {
+                    assert!((gap.gap - height).abs() < 1e-15, "{rows:?} {slave}: {gap:?}");
+                    assert!((gap.normal[2] + away).abs() < 1e-12, "{rows:?} {slave}: {gap:?}");
+                    // the projection lies under the node
+                    let x = mesh.nodes[gap.node as usize];
+                    for (axis, lift) in [(0, 0.0), (1, 0.0), (2, -away * height)] {
+                        let at =
+                            |(node, weight): &(u32, f64)| weight * mesh.nodes[*node as usize][axis];
+                        let under: f64 = gap.projection.iter().map(at).sum();
+                        assert!(
+                            (under + lift - x[axis]).abs() < 1e-14,
+                            "{rows:?} {slave}: {gap:?}"
+                        );
+                    }
+                }
+                let area: f64 = gaps.iter().map(|gap| gap.area).sum();
+                assert!((area / 64e-6 - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -248,3 +248,36 @@ pub(crate) fn relative_velocity(
 pub fn finer(mean_areas: [f64; 2]) -> usize {
     usize::from(mean_areas[1] < 0.99 * mean_areas[0])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::Constraint;
+
+    #[test]
+    fn a_node_that_moves_as_another_has_its_contact_and_keeps_its_own_projection() {
+        let mut first = Constraint::near(3, 17);
+        (first.xi, first.eta) = (0.25, -0.5);
+        (first.state, first.gap, first.normal_force) = (State::Slip, -1e-6, 120.0);
+        (first.framed, first.mu, first.memory) = ([30.0, -10.0], 0.3, [1e-3, 2e-3]);
+        let mut second = Constraint::near(8, 41);
+        (second.xi, second.eta) = (-0.75, 0.125);
+        // the slaves 3 and 8 are the nodes 20 and 90 of the mesh
+        let own: Vec<u32> = (0..9).map(|slave| if slave < 8 { 17 + slave } else { 90 }).collect();
+        let mut rows = [first, second];
+        follow_first(&mut rows, &own, &[[19, 8], [20, 90], [21, 90]]);
+        let [_, follower] = rows;
+        assert_eq!((follower.slave, follower.face), (8, 41));
+        assert_eq!([follower.xi, follower.eta], [-0.75, 0.125]);
+        assert_eq!(follower.state, State::Slip);
+        assert_eq!([follower.gap, follower.normal_force, follower.mu], [-1e-6, 120.0, 0.3]);
+        assert_eq!([follower.framed, follower.memory], [first.framed, first.memory]);
+    }
+
+    #[test]
+    fn the_finer_side_has_the_smaller_faces_and_is_the_first_of_equals() {
+        assert_eq!([finer([1.0, 2.0]), finer([2.0, 1.0]), finer([1.0, 1.0])], [0, 1, 0]);
+        // equal to round-off
+        assert_eq!(finer([1.0, 1.0 - 1e-12]), 0);
+    }
+}

@@ -137,6 +137,16 @@ mod tests {
     }
 
     #[test]
+    fn corners_on_the_edges_of_the_other_face_stay_each_once() {
+        // no triangle without area is integrated where faces share a corner or an edge
+        assert_eq!(Polygon::quad(UNIT).clipped(&UNIT).len, 4);
+        let half = [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]];
+        for common in [Polygon::quad(UNIT).clipped(&half), Polygon::quad(half).clipped(&UNIT)] {
+            assert_eq!((common.len, common.area()), (4, 0.5));
+        }
+    }
+
+    #[test]
     fn what_lies_apart_has_nothing_in_common() {
         let far = UNIT.map(|[x, y]| [x + 1.5, y]);
         assert_eq!(Polygon::quad(far).clipped(&UNIT).area(), 0.0);

@@ -132,11 +132,14 @@ mod tests {
 
     #[test]
     fn the_jump_ends_where_radiated_and_lost_shear_are_equal() {
-        let at = steel();
-        let s = falling(&LAW, &at).unwrap().s_jump.unwrap();
-        let lost = at.pressure * 0.18 * (1.0 - libm::exp(-6.0 * s));
-        assert!((at.impedance * s - lost).abs() < 1e-9 * lost);
-        assert!(s > 1.0, "the root at rest is another one");
+        for r in [1.01, 1.5, 4.0, 85.7] {
+            let at = Interface { pressure: r * 12.6e6 / (6.0 * 0.18), ..steel() };
+            let falling = falling(&LAW, &at).unwrap();
+            let s = falling.s_jump.unwrap();
+            let lost = at.pressure * 0.18 * (1.0 - libm::exp(-6.0 * s));
+            assert!((at.impedance * s - lost).abs() < 1e-9 * lost, "R = {r}: {s}");
+            assert!(s > falling.s_m.unwrap(), "R = {r}: the root at rest is another one");
+        }
     }
 
     #[test]

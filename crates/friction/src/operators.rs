@@ -94,4 +94,23 @@ mod tests {
         };
         assert_eq!(names(Operators::make()), names(FloatOpsFactory::<f64>::make()));
     }
+
+    #[test]
+    fn every_function_of_a_formula_has_the_bits_of_libm() {
+        for operator in Operators::make() {
+            let name = operator.repr();
+            for i in 1..1000 {
+                let x = 1e-3 * f64::from(i);
+                if let Some(function) = unary(name) {
+                    let x = if name == "acosh" { 1.0 + x } else { x };
+                    let found = (operator.unary().unwrap())(x);
+                    assert_eq!(found.to_bits(), function(x).to_bits(), "{name} of {x}");
+                }
+                if let Some(function) = binary(name) {
+                    let found = (operator.bin().unwrap().apply)(x, 0.7);
+                    assert_eq!(found.to_bits(), function(x, 0.7).to_bits(), "{name} of {x}");
+                }
+            }
+        }
+    }
 }

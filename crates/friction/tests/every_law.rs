@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use friction::{
-    Declaration, Expression, FrictionLaw as _, Kind, LAWS, LeftOut, Mode, NodeConditions,
+    Declaration, Expression, FrictionLaw as _, Kind, LAWS, LeftOut, Mode, NUMBERS, NodeConditions,
     NodeFriction, NodeHistory, Number, OTHERS, Parameters, Remembers, all_parameters, slip_speed,
 };
 use proptest::prelude::*;
@@ -325,5 +325,41 @@ fn the_documents_name_the_keys_of_every_law() {
         let mut wanted: Vec<_> = law.keys().collect();
         wanted.sort_by_key(|key| all_parameters().position(|other| other == *key));
         assert_eq!(named.collect::<Vec<_>>(), wanted, "docs/method.md: {row}");
+    }
+}
+
+#[test]
+fn a_number_that_is_left_out_has_its_default() {
+    for law in Kind::ALL {
+        let parameters = Parameters { law, ..Parameters::default() };
+        for (number, left_out) in law.declaration().numbers {
+            let expected = match left_out {
+                LeftOut::Refused => 0.0,
+                LeftOut::Default(value) => *value,
+                LeftOut::Follows { of, .. } => of(&parameters),
+            };
+            assert_eq!(parameters.value(*number), expected, "{} of {law:?}", number.path);
+        }
+    }
+}
+
+#[test]
+fn every_case_gives_the_numbers_that_the_default_law_needs_and_no_others() {
+    let needed = NUMBERS.iter().filter(|number| number.is_needed_by_default());
+    let of_default: Vec<_> = Parameters::default().declaration().needs().collect();
+    assert_eq!(needed.map(Number::key).collect::<Vec<_>>(), of_default);
+}
+
+#[test]
+fn the_schema_names_every_law_with_its_coefficient_and_every_parameter() {
+    let schema = schemars::schema_for!(Parameters).to_value();
+    let properties = schema["properties"].as_object().unwrap();
+    for key in all_parameters() {
+        assert!(properties[key]["description"].is_string(), "{key}");
+    }
+    let said = properties["law"]["description"].as_str().unwrap();
+    for law in LAWS {
+        assert!(said.contains(&format!("`\"{}\"`", law.word)), "{} in {said}", law.word);
+        assert!(said.contains(law.coefficient), "{} in {said}", law.coefficient);
     }
 }

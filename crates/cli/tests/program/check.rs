@@ -197,7 +197,7 @@ fn a_run_without_contact_says_so() {
 #[test]
 fn data_of_other_codes_need_pressure_shear_slip_and_scales_only() {
     let folder = tempfile::tempdir().unwrap();
-    let bare = Leave { gap: true, motion: true };
+    let bare = Leave { gap: true, motion: true, mu: false };
     planted::write_with(folder.path(), COULOMB, "other", 5, 1e-6, bare, |x, _| {
         perfect(COULOMB, x, 0)
     });

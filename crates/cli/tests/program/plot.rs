@@ -86,7 +86,7 @@ fn every_line_of_an_instant_names_it_and_a_caption_names_colours_that_are_there(
 #[test]
 fn one_format_can_be_chosen_and_bare_data_have_the_figures_that_they_allow() {
     let folder = tempfile::tempdir().unwrap();
-    let bare = Leave { gap: true, motion: true };
+    let bare = Leave { gap: true, motion: true, mu: false };
     write_with(folder.path(), COULOMB, "other", 1, 1e-6, bare, |x, _| perfect(COULOMB, x, 0));
     let out = folder.path().join("pictures");
     let output = Command::new(env!("CARGO_BIN_EXE_creepage"))

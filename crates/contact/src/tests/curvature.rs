@@ -97,3 +97,27 @@ fn rolling_penetration_is_the_circles_with_and_off_by_the_sag_without_the_correc
     let (facets, _) = rolling(false);
     assert!((facets / SAG - 1.0).abs() < 0.05, "{facets:e} {SAG:e}");
 }
+
+#[test]
+fn normals_beyond_facets_are_the_circles_whichever_corner_comes_first_and_however_skew_they_are() {
+    for (turn, skew) in [(1, 0.0), (0, 0.4), (3, -0.6)] {
+        let (mut mesh, mut faces) = tread(RADIUS, 0.5 * ARC, 8e-3, [CELLS, 4], 2e-3);
+        mesh.nodes.iter_mut().for_each(|x| x[1] += skew * x[0]);
+        faces.faces.iter_mut().for_each(|face| face.nodes.rotate_left(turn));
+        let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
+        let position: Vec<Padded> =
+            trace.gather(&mesh.nodes).into_iter().map(Padded::new).collect();
+        for i in 0..200 {
+            let (s, c) = libm::sincos((f64::from(i) / 199.0 - 0.5) * 0.8 * ARC);
+            let r = RADIUS + 1e-4;
+            let node = Padded::new([r * s, 1.1e-3 + skew * r * s, RADIUS - r * c]).xyz();
+            let found = project(&surface, &Positions(&position), true, node, 30, 0.0, 0.0);
+            let found = found.projection.unwrap();
+            assert!((found.gap - 1e-4).abs() < 1e-6 * SAG, "{turn} {skew}: {:e}", found.gap - 1e-4);
+            for (found, exact) in [0, 1, 2].map(|i| found.point.normal[i]).iter().zip([s, 0.0, -c])
+            {
+                assert!((found - exact).abs() < 1e-8 * 1e-3 / RADIUS, "{turn} {skew}: {found:e}");
+            }
+        }
+    }
+}

@@ -5,6 +5,7 @@ mod curvature;
 mod dent;
 mod every_enforcement;
 mod exact;
+mod implicit;
 mod normal;
 mod search;
 mod slip;

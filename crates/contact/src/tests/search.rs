@@ -129,3 +129,18 @@ fn surfaces_that_only_one_or_two_faces_share_are_found() {
         assert!(sums.closed > 0, "{faces}: {sums:?}");
     }
 }
+
+#[test]
+fn bodies_that_have_come_twice_as_fast_since_the_last_look_are_found_when_they_touch() {
+    let mut rig = Rig::plates(4, 4, Coulomb { mu: 0.3 });
+    // each may move by a margin until they touch: a tenth of it by the first look, then two tenths a step
+    let margin = 0.1 * 2e-3;
+    for step in 0..10 {
+        let moved = if step == 0 { 0.0 } else { 0.2 * f64::from(step) - 0.1 } * margin;
+        let sums = rig.step(|body, x: Vec3| {
+            let z = if body == 0 { x[2] + 2.0 * margin - moved } else { x[2] + moved };
+            [x[0], x[1], z]
+        });
+        assert_eq!(sums.closed, if moved > margin { 50 } else { 0 }, "step {step}: {sums:?}");
+    }
+}

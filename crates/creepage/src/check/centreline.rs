@@ -133,4 +133,13 @@ mod tests {
             assert_eq!(interpolate(&at, x, value), wanted);
         }
     }
+
+    #[test]
+    fn a_place_has_the_mean_and_deviation_over_the_time_that_its_records_stand_for() {
+        // 4 at place 0 for a quarter of the time, else 8; the others are constant
+        let row = |first: f64| (0..PLACES).map(|i| if i == 0 { first } else { 3.0 }).collect();
+        let found = profile(&vec![row(4.0), row(8.0), row(8.0)], &[0.5, 1.0, 0.5]);
+        assert_eq!(found[0], [7.0, f64::sqrt(3.0)]);
+        assert!(found[1..].iter().all(|of| *of == [3.0, 0.0]));
+    }
 }

@@ -175,4 +175,14 @@ mod tests {
         let found = Correlation::of(&rows, &times, DX);
         assert!(found.time.is_none() && found.frequency.is_none() && found.length.is_some());
     }
+
+    #[test]
+    fn few_records_have_the_interval_between_them_and_one_has_none() {
+        assert_eq!(interval(&[5.0, 5.25]), Some(0.25));
+        assert_eq!(interval(&[5.0, 5.25, 5.5]), Some(0.25));
+        assert_eq!(
+            (interval(&[5.0, 5.25, 6.0]), interval(&[5.0]), interval(&[])),
+            (None, None, None)
+        );
+    }
 }

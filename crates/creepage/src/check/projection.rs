@@ -155,11 +155,8 @@ impl Pair {
                 }
                 best = nearest(&mut self.near(x), x);
             }
+            // the faces are sorted: none of those near was found
             if best.is_none() && self.over_convex_edges {
-                if !sorted {
-                    self.sort_faces(surface, displacement);
-                    sorted = true;
-                }
                 let beyond =
                     |projection: &Projection| projection.at[0].abs().max(projection.at[1].abs());
                 let on_edge = |face| project(corners(face), x, [0.0; 2], CONVEX_EDGE).on_face();

@@ -533,6 +533,7 @@ impl CheckResult {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]
@@ -565,5 +566,15 @@ mod tests {
         assert_eq!(of(Some(1e-2), limit, false), Some(false));
         assert_eq!(of(Some(f64::INFINITY), limit, false), Some(false));
         assert_eq!(of(Some(1e-2), None, false), None);
+    }
+
+    #[test]
+    fn the_measures_beyond_their_limits_are_those_that_do_not_pass() {
+        let written = r#"{ "metrics": { "penetration": { "pass": true }, "cone": { "pass": false },
+            "direction": { "pass": false }, "tension": { "pass": true } } }"#;
+        let result: CheckResult = serde_json::from_str(written).unwrap();
+        let mut beyond: Vec<Measure> = result.beyond_limit().collect();
+        beyond.sort_unstable_by_key(|measure| measure.name());
+        assert_eq!(beyond, [Measure::Cone, Measure::Direction]);
     }
 }

@@ -304,4 +304,38 @@ mod tests {
         assert!(fluctuation.note.as_ref().unwrap().contains("farther apart"));
         assert_eq!(fluctuation.ci95, None);
     }
+
+    #[test]
+    fn in_another_unit_slip_has_the_same_share_and_interval_of_the_share() {
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let burst = |k: usize| if (k % 37) < 5 { 1.0 + 0.5 * sign(k) } else { 0.1 };
+        let zone =
+            |unit: f64| SlipZone::of(&line(2000, |x, k| unit * (x + burst(k))), &[1e-6; 2000]);
+        let [metres, millimetres] = [1.0, 1e3].map(|unit| zone(unit).unwrap());
+        let near = |found: f64, exact: f64| assert!((found / exact - 1.0).abs() < 1e-9, "{found}");
+        near(millimetres.fluctuating_share.unwrap(), metres.fluctuating_share.unwrap());
+        near(millimetres.fluctuation.unwrap(), 1e3 * metres.fluctuation.unwrap());
+        for (i, factor) in [1e3, 1e3, 1.0].into_iter().enumerate() {
+            let half = metres.halves[i].unwrap();
+            assert!(half > 0.0);
+            near(millimetres.halves[i].unwrap(), factor * half);
+        }
+    }
+
+    #[test]
+    fn a_wave_of_slip_correlates_over_its_length_in_metres_and_its_period_in_seconds() {
+        // the line is 8 mm long; 1.6 mm and 10 us, about a mean over two periods
+        let (wavelength, period) = (1.6e-3, 10e-6);
+        let wave = |x: f64, k: usize| x * 8e-3 / wavelength - 1e-6 * k as f64 / period;
+        let slip = line(1000, |x, k| 2.0 + 0.3 * libm::sin(std::f64::consts::TAU * wave(x, k)));
+        let found = SlipZone::of(&slip, &[1e-6; 1000]).unwrap().correlation;
+        let part = libm::acos(libm::exp(-1.0)) / std::f64::consts::TAU;
+        let near = |found: Option<f64>, exact: f64| {
+            assert!((found.unwrap() / exact - 1.0).abs() < 0.05, "{found:?} {exact:e}");
+        };
+        near(found.length, part * wavelength);
+        near(found.time, part * period);
+        near(found.wavenumber, std::f64::consts::TAU / wavelength);
+        near(found.frequency, 1.0 / period);
+    }
 }

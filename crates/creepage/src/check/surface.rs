@@ -98,3 +98,26 @@ fn tributary_areas(points: &[Vec3], faces: &[[u32; 4]]) -> Vec<f64> {
     }
     area
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tributary_areas_of_two_faces_are_a_quarter_of_each_at_its_corners() {
+        // a square of 2 m on the plane z = 1 m, and one that stands on its edge, 2 m x 3 m
+        let points: [[f64; 3]; 6] = [
+            [0.0, 0.0, 1.0],
+            [2.0, 0.0, 1.0],
+            [2.0, 2.0, 1.0],
+            [0.0, 2.0, 1.0],
+            [2.0, 2.0, 4.0],
+            [2.0, 0.0, 4.0],
+        ];
+        let faces = [[0, 1, 2, 3], [1, 5, 4, 2]];
+        let expected = [1.0, 2.5, 2.5, 1.0, 1.5, 1.5];
+        for (found, expected) in tributary_areas(&points, &faces).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+        }
+    }
+}

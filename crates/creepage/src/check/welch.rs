@@ -79,4 +79,18 @@ mod tests {
         let power: f64 = spectrum.iter().map(|p| p[1] * step).sum();
         assert!((power / (0.5 * amplitude * amplitude) - 1.0).abs() < 1e-6, "{power}");
     }
+
+    #[test]
+    fn a_long_record_has_the_density_of_one_of_its_segments() {
+        let (dt, frequency) = (1e-7, 1e6 / 1.024);
+        let wave = |count: i32| -> Vec<f64> {
+            (0..count).map(|i| libm::sin(TAU * frequency * dt * f64::from(i))).collect()
+        };
+        let [one, many] = [SEGMENT as i32, 8 * SEGMENT as i32].map(|n| density(&wave(n), dt));
+        let top = one.iter().fold(0.0, |top: f64, p| top.max(p[1]));
+        assert_eq!(one.len(), many.len());
+        for (a, b) in one.iter().zip(&many) {
+            assert!(a[0] == b[0] && (a[1] - b[1]).abs() < 1e-9 * top, "{a:?} {b:?}");
+        }
+    }
 }

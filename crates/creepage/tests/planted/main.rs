@@ -3,6 +3,7 @@
 
 mod contact_maps;
 mod half_space;
+mod law_followed;
 mod planted;
 mod runs;
 mod sweeps;

@@ -111,6 +111,7 @@ pub fn perfect(friction: &str, x: [f64; 3], step: usize) -> Node {
 pub struct Leave {
     pub gap: bool,
     pub motion: bool,
+    pub mu: bool,
 }
 
 /// Writes a run of `steps` records one time step apart.
@@ -135,13 +136,25 @@ pub fn case(folder: &Path, friction: &str, enforcement: &str) {
 }
 
 pub fn create(path: &Path, s: &Surfaces, leave: Leave) -> TransientGrid {
+    create_with(path, s, leave, &[])
+}
+
+/// With further attributes of the file: name and text.
+pub fn create_with(
+    path: &Path,
+    s: &Surfaces,
+    leave: Leave,
+    attributes: &[(&str, &str)],
+) -> TransientGrid {
     let mut fields = vec![
         FieldSpec::scalar("pressure", "Pa", "p"),
         FieldSpec::vector("shear", "Pa", "t"),
         FieldSpec::vector("slip_velocity", "m/s", "s"),
-        FieldSpec::scalar("mu", "1", "mu"),
         FieldSpec::label("state", "1", "state"),
     ];
+    if !leave.mu {
+        fields.push(FieldSpec::scalar("mu", "1", "mu"));
+    }
     if !leave.gap {
         fields.push(FieldSpec::scalar("gap", "m", "gap"));
     }
@@ -153,7 +166,10 @@ pub fn create(path: &Path, s: &Surfaces, leave: Leave) -> TransientGrid {
         creepage_version: "0".into(),
         case_hash: "0".into(),
         created: "2026-01-01T00:00:00Z".into(),
-        attributes: Vec::new(),
+        attributes: attributes
+            .iter()
+            .map(|(name, text)| ((*name).into(), (*text).into()))
+            .collect(),
     };
     let constant = [
         StaticField {
@@ -219,9 +235,11 @@ pub fn append(
         Values::Scalar(&pressure),
         Values::Vector(&shear),
         Values::Vector(&slip),
-        Values::Scalar(&mu),
         Values::Integer(&state),
     ];
+    if !leave.mu {
+        values.push(Values::Scalar(&mu));
+    }
     if !leave.gap {
         values.push(Values::Scalar(&gap));
     }

@@ -1,6 +1,9 @@
 //! Runs with planted content: each measure returns what was planted, and the perfect one passes.
 use crate::planted::*;
-use creepage::check::{Pairing, Report};
+use creepage::check::{
+    Basis, CheckOptions, ContactHistory, Limits, Pairing, Report, RunPaths, Span, check,
+};
+use output::GridFile;
 use serde_json::Value;
 
 fn measured(found: &Judged, name: &str) -> f64 {
@@ -336,4 +339,140 @@ fn the_deviation_over_the_window_is_that_of_what_was_planted_record_by_record() 
     is(&found, "law_error", 0.2 / 2f64.sqrt());
     let deviation = found.document["metrics"]["law_error"]["deviation"].as_f64().unwrap();
     assert!((deviation - 0.1).abs() < 1e-10, "{deviation}");
+    // in those records all that slips violates, in the others nothing does
+    let of = |x: &[f64; 3]| (hertz(*x) > 0.01 * P0).then(|| perfect(COULOMB, *x, 0).state == 2);
+    let slips: Vec<bool> = surfaces().points[..NX * NY].iter().filter_map(of).collect();
+    let share = slips.iter().filter(|slips| **slips).count() as f64 / slips.len() as f64;
+    is(&found, "violating_fraction", 0.5 * share);
+    let metric = &found.document["metrics"]["violating_fraction"];
+    assert!((metric["deviation"].as_f64().unwrap() - 0.5 * share).abs() < 1e-10, "{metric:#}");
+    assert!((metric["where"]["value"].as_f64().unwrap() - share).abs() < 1e-10, "{metric:#}");
+    assert_eq!(metric["where"]["time"], 0.0, "the first of the worst records");
+}
+
+#[test]
+fn a_file_without_the_coefficient_says_that_it_lacks_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let leave = Leave { mu: true, ..Leave::default() };
+    write_with(folder.path(), COULOMB, "penalty", 3, DT, leave, steady(COULOMB));
+    let found = judge(folder.path(), Report::Stricter).unwrap();
+    for name in ["law_error_own", "mu_error", "mu_error_blurred"] {
+        let metric = &found.document["metrics"][name];
+        assert_eq!(metric["value"], Value::Null, "{name}");
+        assert_eq!(metric["note"], "the file has no field mu", "{name}");
+    }
+    is(&found, "law_error", 0.0);
+}
+
+#[test]
+fn scales_that_nobody_states_are_those_of_the_pressure_of_the_last_record() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), COULOMB, "exact", 4, |x, step| {
+        let node = perfect(COULOMB, x, 0);
+        let part = if step < 3 { 1.0 } else { 0.5 };
+        Node { pressure: part * node.pressure, shear: node.shear.map(|c| part * c), ..node }
+    });
+    let case = folder.path().join("case.toml");
+    let stated = std::fs::read_to_string(&case).unwrap();
+    let left: Vec<&str> = stated
+        .lines()
+        .filter(|line| !line.starts_with("peak_pressure") && !line.starts_with("half_length"))
+        .collect();
+    std::fs::write(&case, left.join("\n")).unwrap();
+    let found = judge(folder.path(), Report::Stated).unwrap();
+    for (name, expected) in [("peak_pressure", 0.5 * P0), ("half_length", A), ("half_width", 5e-3)]
+    {
+        let scale = &found.document["scales"][name];
+        assert!(
+            (scale["value"].as_f64().unwrap() / expected - 1.0).abs() < 1e-9,
+            "{name}: {scale}"
+        );
+        assert_eq!(scale["from"], "pressure of the last record");
+    }
+}
+
+#[test]
+fn the_map_shows_the_measures_of_nodes_in_contact_and_nothing_at_others() {
+    let folder = tempfile::tempdir().unwrap();
+    // 10 % above the bound at nodes that slip, 0.5 % of p0 at nodes outside, which is no contact
+    write(folder.path(), COULOMB, "penalty", 2, |x, _| {
+        let mut node = perfect(COULOMB, x, 0);
+        if node.state == 2 {
+            node.shear = node.shear.map(|c| 1.1 * c);
+        } else if node.pressure == 0.0 {
+            (node.pressure, node.gap) = (5e-3 * P0, -0.2 * APPROACH);
+        }
+        node
+    });
+    let (paths, map) = (RunPaths::of(folder.path()).unwrap(), folder.path().join("map.vtkhdf"));
+    let mut basis = Basis::read(&paths).unwrap();
+    let limits = Limits::for_enforcement(basis.enforcement.as_deref());
+    let options = CheckOptions { window: None, limits, report: Report::Stated, map: Some(&map) };
+    check(&paths, &mut basis, &options).unwrap();
+    let file = GridFile::open(&map).unwrap();
+    assert_eq!(file.times().unwrap(), [0.0, DT]);
+    let of = |field: &str| file.read(field, false, 1).unwrap();
+    let [penetration, ratio, error, cone] =
+        ["penetration", "traction_ratio", "law_error", "cone"].map(of);
+    let (speed, violates) = (of("slip_speed"), of("violates"));
+    for (row, x) in surfaces().points.iter().enumerate() {
+        let node = perfect(COULOMB, *x, 0);
+        let near = |found: f64, exact: f64| (found - exact).abs() < 1e-9;
+        if node.pressure == 0.0 {
+            assert!(near(penetration[row], 0.2), "{x:?}");
+            assert!(
+                [ratio[row], error[row], cone[row], speed[row]].iter().all(|v| v.is_nan()),
+                "{x:?}"
+            );
+            assert_eq!(violates[row], 0.0, "{x:?}");
+        } else if node.state == 2 {
+            let expected = [0.0, 0.55, 0.1, 0.1];
+            let found = [penetration[row], ratio[row], error[row], cone[row]];
+            assert!(found.iter().zip(expected).all(|(a, b)| near(*a, b)), "{x:?}: {found:?}");
+            assert_eq!(violates[row], 1.0, "{x:?}");
+        } else {
+            assert!(
+                near(ratio[row], 0.3) && near(cone[row], 0.0) && near(speed[row], 0.0),
+                "{x:?}"
+            );
+            assert!(error[row].is_nan() && violates[row] == 0.0, "{x:?}");
+        }
+    }
+}
+
+#[test]
+fn transits_end_with_the_window_of_the_run_where_its_last_record_lies_within_an_interval_before() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), COULOMB, "exact", 40, steady(COULOMB));
+    let last = 39.0 * DT;
+    // half of the records
+    let transits = 20.0 * DT / (2.0 * A / SPEED);
+    for (end_of_run, end) in [(last + 0.9 * DT, last + 0.9 * DT), (last + 1.1 * DT, last)] {
+        let paths = RunPaths::of(folder.path()).unwrap();
+        let mut basis = Basis::read(&paths).unwrap();
+        basis.window = Some([0.0, end_of_run]);
+        let limits = Limits::for_enforcement(basis.enforcement.as_deref());
+        let window = Some(Span::Transits(transits));
+        let options = CheckOptions { window, limits, report: Report::Stated, map: None };
+        let found = check(&paths, &mut basis, &options).unwrap().result.window;
+        for (found, expected) in found.iter().zip([end - 20.0 * DT, end]) {
+            assert!((found - expected).abs() < 1e-12, "{end_of_run:e}: {found:e} {expected:e}");
+        }
+    }
+}
+
+#[test]
+fn a_record_that_is_read_alone_is_that_of_the_stream() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), FALLING, "exact", 4, |x, step| perfect(FALLING, x, step));
+    let history = ContactHistory::open(&folder.path().join("contact.vtkhdf")).unwrap();
+    let mut index = 0;
+    let streamed = history.stream(0..4, |frame| {
+        assert!(frame.motion.is_some() && frame.gap.is_some() && frame.state.is_some());
+        assert_eq!(format!("{:?}", history.record(index)?), format!("{frame:?}"));
+        index += 1;
+        Ok(())
+    });
+    streamed.unwrap();
+    assert_eq!(index, 4);
 }
