@@ -34,7 +34,8 @@ pub fn other_machines(root: &Path) -> Ended {
         // where the operating system is the same, the crates with instructions of a processor
         let packages = match target.contains("linux") {
             true => &WITH_INSTRUCTIONS[..],
-            false => &["--package=creepage"],
+            // with the features of the whole workspace, so that macros are compiled once
+            false => &["--workspace", "--bin=creepage"],
         };
         let check = [&["check", "--release", "--quiet", "--target", target], packages].concat();
         outcome = cargo(root, &check, &[("RUSTFLAGS", "-D warnings")])?;
