@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::step::{Outcome, cargo, done, target};
+use crate::step::{cargo, done, target};
 
 /// Completions: the shell, and the name under which it looks for them.
 const COMPLETIONS: [(&str, &str); 4] = [
@@ -23,9 +23,8 @@ const TEXTS: [&str; 5] =
 pub fn archive(root: &Path) -> Result<PathBuf, String> {
     let machine = format!("{}-unknown-linux-musl", std::env::consts::ARCH);
     let build = ["build", "--release", "--package", "creepage", "--target", &machine];
-    if cargo(root, &build, &[]) != Outcome::Passed {
-        return Err(format!("the program was not built: `rustup target add {machine}`?"));
-    }
+    cargo(root, &build, &[])
+        .map_err(|problem| format!("{problem}: `rustup target add {machine}`?"))?;
     let name = format!("creepage-{}-{machine}", env!("CARGO_PKG_VERSION"));
     let parent = target(root).join("archive");
     let folder = parent.join(&name);

@@ -9,25 +9,23 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::markdown::{broken, pages, parse};
-use crate::step::{Outcome, copy, files, missing, output, target, without};
+use crate::step::{Ended, Outcome, copy, files, missing, output, target, without};
 
 /// The builder, and its version.
 const MDBOOK: &str = "0.5.4";
 
 /// Builds the book from pages without broken links, and prints where its first page is.
-pub fn step(root: &Path) -> Outcome {
+pub fn step(root: &Path) -> Ended {
     let version = output(Command::new("mdbook").arg("--version")).unwrap_or_default();
     if !version.contains(MDBOOK) {
         let problem = format!("`cargo install mdbook --version {MDBOOK} --locked` is missing");
-        return missing(&problem, "the book");
+        return missing(problem, "the book");
     }
+    without(&broken(root))?;
     let html = target(root).join("book/html");
-    let faults = broken(root);
-    if !faults.is_empty() {
-        return without(faults);
-    }
-    let built = build(root, &html).map(|()| println!("{}", html.join("index.html").display()));
-    without(built.err().map(|error| error.to_string()))
+    build(root, &html).map_err(|error| error.to_string())?;
+    println!("{}", html.join("index.html").display());
+    Ok(Outcome::Passed)
 }
 
 fn build(root: &Path, html: &Path) -> io::Result<()> {

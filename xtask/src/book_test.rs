@@ -16,11 +16,10 @@ use std::env;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use crate::markdown::{pages, parse};
-use crate::step::{Outcome, copy, missing, program, python, target, without};
+use crate::step::{Ended, bash, built, copy, missing, python, search, target, without};
 use crate::{results, structure};
 
 /// Which commands are run, and by what.
@@ -29,9 +28,6 @@ pub struct Options {
     /// Run the long ones, too; this takes many hours
     #[arg(long)]
     long: bool,
-    /// Take this program instead of building it
-    #[arg(long, value_name = "FILE")]
-    program: Option<PathBuf>,
     /// Pages, such as docs/start.md, with those before them whose runs they read [default: all]
     pages: Vec<String>,
 }
@@ -46,7 +42,7 @@ struct Script {
 }
 
 /// Before what is read.
-const READ: &str = r#"set -eo pipefail
+const READ: &str = r#"set +u
 known() { # packages, cases and scripts must be there
     for word; do
         case "$word" in
@@ -72,23 +68,21 @@ done
 "#;
 
 /// The step of `validate`.
-pub fn step(root: &Path) -> Outcome {
+pub fn step(root: &Path) -> Ended {
     test(root, &Options::default())
 }
 
 /// Tests the commands of the documents.
-pub fn test(root: &Path, options: &Options) -> Outcome {
+pub fn test(root: &Path, options: &Options) -> Ended {
     let python = match python(root) {
         Ok(python) => python,
-        Err(problem) => return missing(&problem, "the test of the documents' commands"),
+        Err(problem) => return missing(problem, "the test of the documents' commands"),
     };
-    let faults = scripts(root, options).and_then(|scripts| {
-        let program = program(root, options.program.as_ref())?;
-        let folders = [&program, &python].map(|file| file.with_file_name(""));
-        let shell = Shell::new(root, folders).map_err(|error| error.to_string())?;
-        Ok(scripts.iter().filter_map(|script| shell.test(script).err()).collect())
-    });
-    without(faults.unwrap_or_else(|problem| vec![problem]))
+    let scripts = scripts(root, options)?;
+    let folders = [built(root, "creepage")?, python].map(|file| file.with_file_name(""));
+    let shell = Shell::new(root, folders)?;
+    let faults: Vec<_> = scripts.iter().filter_map(|script| shell.test(script).err()).collect();
+    without(&faults)
 }
 
 /// The commands of the pages: those to be read, which takes no time, and those to be run in the order of the book.
@@ -163,52 +157,43 @@ struct Shell {
 impl Shell {
     /// A copy of the checkout, with the folders of `creepage` and of `python` before all others: the Python package
     /// brings a `creepage` of its own.
-    fn new(root: &Path, [program, python]: [PathBuf; 2]) -> io::Result<Self> {
+    fn new(root: &Path, folders: [PathBuf; 2]) -> Result<Self, String> {
         let scratch = target(root).join("book-test");
+        let tell = |error: io::Error| format!("{}: {error}", scratch.display());
         if scratch.exists() {
-            fs::remove_dir_all(&scratch)?;
+            fs::remove_dir_all(&scratch).map_err(tell)?;
         }
-        copy(root, &scratch)?;
+        copy(root, &scratch).map_err(tell)?;
         for made in results::short_folders(root) {
             let (from, name) = (root.join(&made), made.trim_start_matches("runs/docs/"));
             match from.is_dir() {
-                true => copy(&from, &scratch.join("runs").join(name))?,
+                true => copy(&from, &scratch.join("runs").join(name)).map_err(tell)?,
                 false => eprintln!("warning: there is no {made}: `cargo xtask results` makes it"),
             }
         }
-        let before = env::var_os("PATH").unwrap_or_default();
-        let folders = [program.clone(), python].into_iter().chain(env::split_paths(&before));
-        let search = env::join_paths(folders).map_err(io::Error::other)?;
-        let packages = structure::packages(root).map_err(io::Error::other)?;
+        let [program, _] = folders.clone();
+        let (search, packages) = (search(folders)?, structure::packages(root)?);
         Ok(Self { scratch, search, program, packages })
     }
 
     /// Runs or reads a script; what is wrong with it.
     fn test(&self, script: &Script) -> Result<(), String> {
         let start = Instant::now();
-        let before = match script.exit {
-            // the first command that fails ends it
-            Some(_) => "set -euo pipefail".to_owned(),
-            // other programs than the functions are not found
-            None => format!("PATH={:?}\n{READ}", self.program),
+        let ended = match script.exit {
+            Some(code) => bash(&script.text, &self.scratch, &self.search, &[], code),
+            None => {
+                let chores = env::current_exe().unwrap_or_default();
+                let vars = [("PACKAGES", self.packages.as_ref()), ("XTASK", chores.as_ref())];
+                // other programs than the functions are not found
+                let text = format!("{READ}\nPATH={:?}\n{}", self.program, script.text);
+                bash(&text, &self.scratch, &self.search, &vars, 0)
+            }
         };
-        let mut bash = Command::new("bash");
-        bash.arg("-c").arg(format!("{before}\n{}", script.text));
-        bash.env("PATH", &self.search).env("MPLBACKEND", "agg").env("PACKAGES", &self.packages);
-        bash.env("XTASK", env::current_exe().unwrap_or_default());
-        let output = bash.current_dir(&self.scratch).stdin(Stdio::null()).output();
-        let output = output.map_err(|error| format!("bash: {error}"))?;
         if script.exit.is_some() {
             eprintln!("{:7.1} s  {}", start.elapsed().as_secs_f64(), script.at);
         }
-        let (code, wanted) = (output.status.code().unwrap_or(-1), script.exit.unwrap_or(0));
-        let said = [output.stdout, output.stderr].concat();
-        let said = String::from_utf8_lossy(&said);
-        let (at, text) = (&script.at, script.text.trim_end());
-        if code == wanted {
-            return Ok(());
-        }
-        Err(format!("{at}: exit code {code} instead of {wanted}\n{text}\n{said}"))
+        let Script { at, text, .. } = script;
+        ended.map(drop).map_err(|problem| format!("{at}: {problem}\n{}", text.trim_end()))
     }
 }
 

@@ -13,7 +13,7 @@ mod template;
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::SystemTime;
 
@@ -21,7 +21,7 @@ use self::manifest::{FOLDER, Manifest};
 use self::pages::Tables;
 use self::record::{Found, Record};
 use self::steps::{Runner, after, kernels, sum};
-use crate::step::{self, Outcome, sample, without};
+use crate::step::{Ended, built, python, sample, without};
 
 /// What to do with the tables of the documents.
 #[derive(Debug, Default, clap::Args)]
@@ -43,14 +43,11 @@ pub struct Options {
     /// Without names the long tables instead of the short ones
     #[arg(long, conflicts_with = "names")]
     long: bool,
-    /// Take this program, built from this checkout, instead of building it
-    #[arg(long, value_name = "FILE")]
-    program: Option<PathBuf>,
 }
 
 /// The chore.
-pub fn results(root: &Path, options: &Options) -> Outcome {
-    without(if options.list {
+pub fn results(root: &Path, options: &Options) -> Ended {
+    without(&if options.list {
         list(root)
     } else if options.check {
         pages::check(root)
@@ -62,10 +59,10 @@ pub fn results(root: &Path, options: &Options) -> Outcome {
 }
 
 /// The step of `validate`: documents say what results say, short tables come out again, and ages are told.
-pub fn step(root: &Path) -> Outcome {
+pub fn step(root: &Path) -> Ended {
     let names = sample(root).map(|third| sampled(root, third)).unwrap_or_default();
     let compare = Options { compare: true, names, ..Options::default() };
-    without([pages::check(root), run(root, &compare), list(root)].concat())
+    without(&[pages::check(root), run(root, &compare), list(root)].concat())
 }
 
 /// The short tables that the continuous integration makes: a third of those of verification, and all others, whose runs
@@ -106,7 +103,7 @@ fn run(root: &Path, options: &Options) -> Vec<String> {
         return faults;
     }
     let chosen = tables.manifests.iter().filter(|(name, table)| is_chosen(name, table)).collect();
-    let runner = match runner(root, options, &chosen) {
+    let runner = match runner(root, &chosen) {
         Ok(runner) => runner,
         Err(problem) => return vec![problem],
     };
@@ -132,20 +129,13 @@ fn run(root: &Path, options: &Options) -> Vec<String> {
     faults
 }
 
-/// What runs commands: the program just built, or the one named.
-fn runner<'a>(
-    root: &'a Path,
-    options: &Options,
-    chosen: &BTreeMap<&String, &Manifest>,
-) -> Result<Runner<'a>, String> {
-    let program = step::program(root, options.program.as_ref())?;
+/// What runs the commands of these tables.
+fn runner<'a>(root: &'a Path, chosen: &BTreeMap<&String, &Manifest>) -> Result<Runner<'a>, String> {
+    let program = built(root, "creepage")?;
     let mut steps = chosen.values().flat_map(|manifest| &manifest.steps);
     let needs_python = steps.any(|step| step.command.starts_with("python "));
-    let python = needs_python.then(|| step::python(root)).transpose()?;
-    // a comparison with what was kept would compare results with themselves
-    let since = if options.compare { SystemTime::now() } else { SystemTime::UNIX_EPOCH };
-    let kept = step::target(root).join("results");
-    Runner::new(root, kept, &program, python.as_deref(), since).map_err(|error| error.to_string())
+    let python = needs_python.then(|| python(root)).transpose()?;
+    Runner::new(root, &program, python.as_deref())
 }
 
 /// A record of a table whose commands begin now, without what they will give.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::step::{Outcome, built, execute, output};
+use crate::step::{Ended, Outcome, built, done, output};
 
 /// What is tried.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -17,31 +17,29 @@ pub enum Trial {
 }
 
 /// Builds the program and the trial, and runs the latter with `options`.
-pub fn soak(root: &Path, trial: Trial, options: &[impl AsRef<str>]) -> Outcome {
+pub fn soak(root: &Path, trial: Trial, options: &[impl AsRef<str>]) -> Ended {
     let tool = match trial {
         Trial::Damage => "damage",
         Trial::Kills => "kill-points",
         Trial::KillLoop => "kill-loop",
     };
-    let (Some(program), Some(tool)) = (built(root, "creepage"), built(root, tool)) else {
-        return Outcome::Failed;
-    };
-    let options = options.iter().map(AsRef::as_ref);
-    execute(Command::new(tool).arg("--program").arg(program).args(options).current_dir(root))
+    let mut trial = Command::new(built(root, tool)?);
+    trial.arg("--program").arg(built(root, "creepage")?);
+    done(trial.args(options.iter().map(AsRef::as_ref)).current_dir(root))
 }
 
 /// The same 30 damaged files in every `validate`.
-pub fn sample_of_damage(root: &Path) -> Outcome {
+pub fn sample_of_damage(root: &Path) -> Ended {
     soak(root, Trial::Damage, &["--mutations", "15", "--seed", "1"])
 }
 
 /// The same eight kills of each kind of run in every `validate`.
-pub fn sample_of_kills(root: &Path) -> Outcome {
+pub fn sample_of_kills(root: &Path) -> Ended {
     if output(Command::new("strace").args(["-f", "-o", "/dev/null", "true"])).is_err() {
         eprintln!(
             "warning: there is no strace that may trace; the kills at system calls were skipped"
         );
-        return Outcome::Skipped;
+        return Ok(Outcome::Skipped);
     }
     soak(root, Trial::Kills, &["--points", "8"])
 }

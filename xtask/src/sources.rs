@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::step::{Outcome, cargo, execute, missing, output, python};
+use crate::step::{Ended, Outcome, cargo, done, missing, output, python};
 
 /// The machines that the sources must compile for, besides the one at hand.
 const TARGETS: [&str; 3] =
@@ -14,15 +14,15 @@ const WITH_INSTRUCTIONS: [&str; 3] =
     ["--package=creepage-dynamics", "--package=creepage-halfspace", "--package=creepage-solid"];
 
 /// No known misspelling in sources, documents and cases, but for the words of `_typos.toml`.
-pub fn spelling(root: &Path) -> Outcome {
+pub fn spelling(root: &Path) -> Ended {
     match python(root) {
-        Ok(python) => execute(Command::new(python.with_file_name("typos")).current_dir(root)),
-        Err(problem) => missing(&problem, "the spelling"),
+        Ok(python) => done(Command::new(python.with_file_name("typos")).current_dir(root)),
+        Err(problem) => missing(problem, "the spelling"),
     }
 }
 
 /// The program compiles for other machines, as far as their standard libraries are installed here.
-pub fn other_machines(root: &Path) -> Outcome {
+pub fn other_machines(root: &Path) -> Ended {
     let list = ["target", "list", "--installed"];
     let installed = output(Command::new("rustup").args(list)).unwrap_or_default();
     let mut outcome = Outcome::Skipped;
@@ -34,13 +34,11 @@ pub fn other_machines(root: &Path) -> Outcome {
         // where the operating system is the same, the crates with instructions of a processor
         let packages = match target.contains("linux") {
             true => &WITH_INSTRUCTIONS[..],
-            false => &["--package=creepage"],
+            // with the features of the whole workspace, so that macros are compiled once
+            false => &["--workspace", "--bin=creepage"],
         };
         let check = [&["check", "--release", "--quiet", "--target", target], packages].concat();
-        outcome = cargo(root, &check, &[("RUSTFLAGS", "-D warnings")]);
-        if outcome == Outcome::Failed {
-            break;
-        }
+        outcome = cargo(root, &check, &[("RUSTFLAGS", "-D warnings")])?;
     }
-    outcome
+    Ok(outcome)
 }

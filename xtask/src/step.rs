@@ -1,33 +1,44 @@
 //! A step of the checks: how it ends, and the commands that it runs.
 
 use std::env;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
-/// How a step ended.
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// How a step ended where nothing is wrong.
 pub enum Outcome {
     /// All is well.
     Passed,
-    /// Something is wrong, and has been told.
-    Failed,
     /// This machine lacks what the step needs.
     Skipped,
 }
 
+/// How a step ended, or what is wrong.
+pub type Ended = Result<Outcome, String>;
+
 /// A check of the project, given its root folder.
-pub type Step = fn(&Path) -> Outcome;
+pub type Step = fn(&Path) -> Ended;
 
 /// Runs one step.
-pub fn alone(step: impl FnOnce(&Path) -> Outcome) -> ExitCode {
-    if step(&root()) == Outcome::Passed { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+pub fn alone(step: impl FnOnce(&Path) -> Ended) -> ExitCode {
+    match step(&root()) {
+        Ok(Outcome::Passed) => ExitCode::SUCCESS,
+        Ok(Outcome::Skipped) => ExitCode::FAILURE,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// Makes a file, and says where it is.
 pub fn made(make: impl FnOnce(&Path) -> Result<PathBuf, String>) -> ExitCode {
-    alone(|root| without(make(root).map(|file| println!("{}", file.display())).err()))
+    alone(|root| {
+        println!("{}", make(root)?.display());
+        Ok(Outcome::Passed)
+    })
 }
 
 /// The root folder of the project.
@@ -37,19 +48,18 @@ pub fn root() -> PathBuf {
     Path::new(&home).parent().unwrap_or(Path::new(".")).to_path_buf()
 }
 
-/// Passes without faults, and tells them.
-pub fn without(faults: impl IntoIterator<Item = String>) -> Outcome {
-    let told = faults.into_iter().inspect(|fault| eprintln!("error: {fault}"));
-    if told.count() == 0 { Outcome::Passed } else { Outcome::Failed }
+/// Passes without faults.
+pub fn without(faults: &[String]) -> Ended {
+    if faults.is_empty() { Ok(Outcome::Passed) } else { Err(faults.join("\nerror: ")) }
 }
 
 /// Something is missing on this machine; the continuous integration must have it.
-pub fn missing(problem: &str, what: &str) -> Outcome {
+pub fn missing(problem: String, what: &str) -> Ended {
     if env::var_os("CI").is_some() {
-        return without([problem.to_owned()]);
+        return Err(problem);
     }
     eprintln!("warning: {problem}; {what} was skipped");
-    Outcome::Skipped
+    Ok(Outcome::Skipped)
 }
 
 /// The interpreter of a virtual environment under the target folder with the requirements of
@@ -66,15 +76,11 @@ pub fn python(root: &Path) -> Result<PathBuf, String> {
         return Ok(python);
     }
     let system = if cfg!(windows) { "python" } else { "python3" };
-    if execute(Command::new(system).args(["-m", "venv", "--clear"]).arg(&venv)) != Outcome::Passed {
-        return Err(format!(
-            "`{system} -m venv` failed (on Debian and Ubuntu: apt-get install python3-venv)"
-        ));
-    }
+    done(Command::new(system).args(["-m", "venv", "--clear"]).arg(&venv)).map_err(|problem| {
+        format!("{problem} (on Debian and Ubuntu: apt-get install python3-venv)")
+    })?;
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
-    if execute(Command::new(&python).args(pip).arg(&requirements)) != Outcome::Passed {
-        return Err("pip could not install tests/python/requirements.txt".into());
-    }
+    done(Command::new(&python).args(pip).arg(&requirements))?;
     fs::write(&installed, wanted).map_err(|error| error.to_string())?;
     Ok(python)
 }
@@ -88,17 +94,16 @@ pub fn target(root: &Path) -> PathBuf {
 }
 
 /// Runs cargo to its end.
-pub fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Outcome {
+pub fn cargo(root: &Path, args: &[&str], vars: &[(&str, &str)]) -> Ended {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    execute(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
+    done(Command::new(cargo).args(args).envs(vars.iter().copied()).current_dir(root))
 }
 
 /// A program of the workspace, built with everything that the README's test command builds: another selection of
 /// packages has other features of its dependencies, and would compile most of them again.
-pub fn built(root: &Path, name: &str) -> Option<PathBuf> {
-    let everything = ["test", "--release", "--workspace", "--no-run", "--quiet"];
-    (cargo(root, &everything, &[]) == Outcome::Passed)
-        .then(|| target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
+pub fn built(root: &Path, name: &str) -> Result<PathBuf, String> {
+    cargo(root, &["test", "--release", "--workspace", "--no-run", "--quiet"], &[])?;
+    Ok(target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
 }
 
 /// Which third of long checks the continuous integration makes: 0, 1 or 2, by the last commit. `None` elsewhere, where
@@ -109,21 +114,10 @@ pub fn sample(root: &Path) -> Option<usize> {
     Some(commit.unwrap_or_default().bytes().map(usize::from).sum::<usize>() % 3)
 }
 
-/// The program named on the command line, or just built.
-pub fn program(root: &Path, named: Option<&PathBuf>) -> Result<PathBuf, String> {
-    let program = named.cloned().or_else(|| built(root, "creepage"));
-    program.and_then(|program| program.canonicalize().ok()).ok_or("there is no program".into())
-}
-
 /// Runs a command to its end.
-pub fn execute(command: &mut Command) -> Outcome {
-    without(done(command).err())
-}
-
-/// Runs a command to its end; what is wrong with that.
-pub fn done(command: &mut Command) -> Result<(), String> {
+pub fn done(command: &mut Command) -> Ended {
     match command.status() {
-        Ok(status) if status.success() => Ok(()),
+        Ok(status) if status.success() => Ok(Outcome::Passed),
         Ok(status) => Err(format!("{command:?}: {status}")),
         Err(error) => Err(format!("{command:?}: {error}")),
     }
@@ -137,6 +131,35 @@ pub fn output(command: &mut Command) -> Result<String, String> {
         }
         Ok(output) => Err(format!("{command:?}: {}", output.status)),
         Err(error) => Err(format!("{command:?}: {error}")),
+    }
+}
+
+/// The path on which programs are looked for, `folders` first.
+pub fn search(folders: impl IntoIterator<Item = PathBuf>) -> Result<OsString, String> {
+    let before = env::var_os("PATH").unwrap_or_default();
+    let all = folders.into_iter().chain(env::split_paths(&before));
+    env::join_paths(all).map_err(|error| error.to_string())
+}
+
+/// Runs a script of bash in a folder, with the programs of `search`; gives what it prints if it ends with the code
+/// `wanted`.
+pub fn bash(
+    script: &str,
+    folder: &Path,
+    search: &OsStr,
+    vars: &[(&str, &OsStr)],
+    wanted: i32,
+) -> Result<String, String> {
+    let mut bash = Command::new("bash");
+    // the first command that fails ends it; pictures need no screen
+    bash.args(["-euo", "pipefail", "-c", script]).env("PATH", search).env("MPLBACKEND", "agg");
+    bash.envs(vars.iter().copied()).current_dir(folder).stdin(Stdio::null());
+    let output = bash.output().map_err(|error| format!("bash: {error}"))?;
+    let [printed, told] =
+        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    match output.status.code().unwrap_or(-1) {
+        code if code == wanted => Ok(printed),
+        code => Err(format!("exit code {code} instead of {wanted}\n{printed}{told}")),
     }
 }
 

@@ -6,16 +6,17 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 use crate::step::{
-    Outcome, Step, built, cargo, execute, missing, output, python, root, sample, target, without,
+    Ended, Outcome, Step, built, cargo, done, missing, output, python, root, sample, target,
+    without,
 };
 use crate::{book, book_test, markdown, results, soak, sources, structure, wheel};
 
 /// The steps, cheapest first.
 pub const STEPS: [(&str, Step); 19] = [
     ("format", |root| cargo(root, &["fmt", "--all", "--check"], &[])),
-    ("links", |root| without(markdown::broken(root))),
+    ("links", |root| without(&markdown::broken(root))),
     ("spelling", sources::spelling),
-    ("structure", |root| without(structure::differences(root))),
+    ("structure", |root| without(&structure::differences(root))),
     ("lints", lints),
     ("documentation", documentation),
     ("other machines", sources::other_machines),
@@ -49,9 +50,10 @@ pub fn validate(names: &[String]) -> ExitCode {
         eprintln!("\n== {name}");
         let start = Instant::now();
         let word = match step(root) {
-            Outcome::Passed => "passed",
-            Outcome::Skipped => "skipped",
-            Outcome::Failed => {
+            Ok(Outcome::Passed) => "passed",
+            Ok(Outcome::Skipped) => "skipped",
+            Err(problem) => {
+                eprintln!("error: {problem}");
                 code = ExitCode::FAILURE;
                 "FAILED"
             }
@@ -62,19 +64,19 @@ pub fn validate(names: &[String]) -> ExitCode {
     code
 }
 
-fn lints(root: &Path) -> Outcome {
+fn lints(root: &Path) -> Ended {
     // in the profile of the tests, so that macros and build scripts are compiled once
     let clippy = ["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"];
     cargo(root, &clippy, &[])
 }
 
-fn documentation(root: &Path) -> Outcome {
+fn documentation(root: &Path) -> Ended {
     let doc = ["doc", "--release", "--no-deps", "--workspace"];
     cargo(root, &doc, &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
 /// The README's test command.
-fn tests(root: &Path) -> Outcome {
+fn tests(root: &Path) -> Ended {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
     let mut vars = vec![("CREEPAGE_PYTHON", &*python)];
@@ -85,58 +87,48 @@ fn tests(root: &Path) -> Outcome {
 }
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.
-fn schema(root: &Path) -> Outcome {
-    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
+fn schema(root: &Path) -> Ended {
+    let schema = output(Command::new(built(root, "creepage")?).arg("schema"))?;
     let file = target(root).join("case.schema.json");
-    let written = output(Command::new(program).arg("schema"))
-        .and_then(|schema| fs::write(&file, schema).map_err(|error| error.to_string()));
-    match written {
-        Ok(()) => check_with_python(root, "check_schema.py", &[&file, &root.join("cases")]),
-        Err(problem) => without([problem]),
-    }
+    fs::write(&file, schema).map_err(|error| format!("{}: {error}", file.display()))?;
+    check_with_python(root, "check_schema.py", &[&file, &root.join("cases")])
 }
 
 /// Runs the smallest case and has its files read by the libraries that users read them with.
-fn smoke_run(root: &Path) -> Outcome {
-    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
+fn smoke_run(root: &Path) -> Ended {
+    let mut run = Command::new(built(root, "creepage")?);
     let folder = target(root).join("smoke");
-    let mut run = Command::new(program);
     run.args(["run", "cases/smoke.toml", "--force", "--out"]).arg(&folder).current_dir(root);
-    match execute(&mut run) {
-        Outcome::Passed => check_with_python(root, "check_run.py", &[&folder]),
-        failed => failed,
-    }
+    done(&mut run)?;
+    check_with_python(root, "check_run.py", &[&folder])
 }
 
 /// Has a browser render the report of the smoke run. Machines without one skip this: that pages are
 /// well-formed and ask for no address is tested everywhere.
-fn report_page(root: &Path) -> Outcome {
+fn report_page(root: &Path) -> Ended {
     let browsers = ["chromium", "chromium-browser", "google-chrome"];
     if !browsers.iter().any(|name| Command::new(name).arg("--version").output().is_ok()) {
         eprintln!("warning: there is no Chromium; tests/python/check_page.py was skipped");
-        return Outcome::Skipped;
+        return Ok(Outcome::Skipped);
     }
-    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
     let folder = target(root).join("smoke");
-    match execute(Command::new(program).arg("report").arg(&folder).current_dir(root)) {
-        Outcome::Passed => check_with_python(root, "check_page.py", &[&folder.join("report.html")]),
-        failed => failed,
-    }
+    let mut report = Command::new(built(root, "creepage")?);
+    done(report.arg("report").arg(&folder).current_dir(root))?;
+    check_with_python(root, "check_page.py", &[&folder.join("report.html")])
 }
 
 /// Runs a script of `tests/python` on the program: a plan of `creepage sweep` run by the Dask driver gives the sweep's
 /// own numbers; runs on small file systems of their own fill them up.
-fn with_program(root: &Path, script: &str) -> Outcome {
-    let Some(program) = built(root, "creepage") else { return Outcome::Failed };
-    check_with_python(root, script, &[&program, root])
+fn with_program(root: &Path, script: &str) -> Ended {
+    check_with_python(root, script, &[&built(root, "creepage")?, root])
 }
 
 /// Runs a script of `tests/python`; without Python it is skipped, except in the continuous
 /// integration.
-fn check_with_python(root: &Path, script: &str, arguments: &[&Path]) -> Outcome {
+fn check_with_python(root: &Path, script: &str, arguments: &[&Path]) -> Ended {
     let script = root.join("tests/python").join(script);
     match python(root) {
-        Ok(python) => execute(Command::new(python).arg(script).args(arguments).current_dir(root)),
-        Err(problem) => missing(&problem, &script.display().to_string()),
+        Ok(python) => done(Command::new(python).arg(script).args(arguments).current_dir(root)),
+        Err(problem) => missing(problem, &script.display().to_string()),
     }
 }

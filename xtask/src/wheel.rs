@@ -1,11 +1,10 @@
 //! `cargo xtask wheel`: the wheel of the Python package; its tests, and the notebooks.
 
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::step::{Outcome, done, missing, python, target, without};
+use crate::step::{Ended, done, missing, python, search, target};
 
 /// Options of maturin that link for every Linux with glibc 2.17 or newer.
 const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
@@ -26,23 +25,19 @@ pub fn wheel(root: &Path, portable: bool) -> Result<PathBuf, String> {
 
 /// Builds the wheel, installs it in the virtual environment of the checks, and runs the tests of the
 /// package and the notebooks there.
-pub fn tests(root: &Path) -> Outcome {
+pub fn tests(root: &Path) -> Ended {
     let python = match python(root) {
         Ok(python) => python,
-        Err(problem) => return missing(&problem, "the Python package"),
+        Err(problem) => return missing(problem, "the Python package"),
     };
-    let tested = build(root, &python, &[]).and_then(|wheel| {
-        let install = ["--force-reinstall", "--no-deps"];
-        done(Command::new(&python).args(QUIET).args(install).arg(wheel))?;
-        let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
-        let mut package = Command::new(&python);
-        package.args(pytest).current_dir(root.join("crates/python"));
-        // `creepage.verify` starts another program
-        done(package.env("PATH", path_with(&target(root).join("release"))?))?;
-        let notebooks = ["--nbmake", "notebooks"];
-        done(Command::new(&python).args(pytest).args(notebooks).current_dir(root))
-    });
-    without(tested.err())
+    let install = ["--force-reinstall", "--no-deps"];
+    done(Command::new(&python).args(QUIET).args(install).arg(build(root, &python, &[])?))?;
+    let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
+    let mut package = Command::new(&python);
+    package.args(pytest).current_dir(root.join("crates/python"));
+    // `creepage.verify` starts another program
+    done(package.env("PATH", search([target(root).join("release")])?))?;
+    done(Command::new(&python).args(pytest).args(["--nbmake", "notebooks"]).current_dir(root))
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.
@@ -57,15 +52,8 @@ fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String
     command.args(maturin).arg(root.join("crates/python/Cargo.toml"));
     command.arg("--interpreter").arg(python).arg("--out").arg(&folder).args(options);
     // maturin looks for zig by the first `python3` on the path
-    command.env("PATH", path_with(&python.with_file_name(""))?);
+    command.env("PATH", search([python.with_file_name("")])?);
     done(&mut command)?;
     let wheel = fs::read_dir(&folder).map_err(|error| error.to_string())?.flatten().next();
     wheel.map(|wheel| wheel.path()).ok_or_else(|| format!("{} is empty", folder.display()))
-}
-
-/// The path on which programs are looked for, `folder` first.
-fn path_with(folder: &Path) -> Result<OsString, String> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let folders = [folder.to_owned()].into_iter().chain(std::env::split_paths(&path));
-    std::env::join_paths(folders).map_err(|error| error.to_string())
 }
