@@ -90,3 +90,37 @@ impl NodalNormals {
         scale(1.0 / norm(sum), sum)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::plates::{STEEL, tread};
+    use mesh::Padded;
+
+    #[test]
+    fn nodes_of_a_tread_have_the_normals_of_its_circle_at_its_ends_too() {
+        let (radius, half_angle) = (0.46, 0.02);
+        let (mesh, faces) = tread(radius, half_angle, 8e-3, [10, 4], 2e-3);
+        let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
+        let nodes: Vec<Padded> = trace.gather(&mesh.nodes).into_iter().map(Padded::new).collect();
+        let mut worst = [0.0_f64; 2];
+        for (worst, curvature) in worst.iter_mut().zip([true, false]) {
+            let mut normals = NodalNormals::new(&surface, curvature);
+            for face in 0..surface.faces.len() {
+                for corner in 0..4 {
+                    let [x, _, z] = nodes[surface.faces[face].nodes[corner] as usize].xyz();
+                    let mut weights = [0.0; 4];
+                    weights[corner] = 1.0;
+                    let found = normals.at(&surface, &Positions(&nodes), face as u32, &weights);
+                    let off = [found[0] - x / radius, found[1], found[2] - (z - radius) / radius];
+                    *worst = off.iter().fold(*worst, |worst, c| worst.max(c.abs()));
+                }
+            }
+        }
+        let [circle, facets] = worst;
+        assert!(circle < 1e-12, "{circle:e}");
+        // at the ends of the tread facets lie off by half of the angle of one
+        assert!((facets / (half_angle / 10.0) - 1.0).abs() < 0.1, "{facets:e}");
+    }
+}

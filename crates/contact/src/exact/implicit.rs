@@ -385,3 +385,16 @@ fn largest(m: &Matrix3, [e1, e2]: [Vec3; 2]) -> f64 {
     let b = 0.5 * (dot(e1, times(m, e2)) + dot(e2, times(m, e1)));
     0.5 * (a + d) + libm::hypot(0.5 * (a - d), b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_answer_in_the_plane_of_contact_is_the_larger_eigenvalue_there() {
+        // 2 +- 1 in the plane, at 45 degrees to its axes, whatever there is across it
+        let plane = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(largest(&[[2.0, 1.0, 5.0], [1.0, 2.0, 5.0], [5.0, 5.0, 9.0]], plane), 3.0);
+        assert_eq!(largest(&[[2.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 9.0]], plane), 4.0);
+    }
+}
