@@ -1,7 +1,7 @@
 //! What a check found, from the measures accumulated over the records.
 
 use super::evaluation::{Channel, Evaluation};
-use super::{CheckOptions, Report};
+use super::{Criteria, Report};
 use crate::check::accumulator::{Statistic, Switches};
 use crate::check::basis::{Basis, Bound, SCALES};
 use crate::check::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
@@ -35,7 +35,7 @@ impl Evaluation<'_> {
     pub fn result(
         &self,
         basis: &Basis,
-        options: &CheckOptions<'_>,
+        options: &Criteria<'_>,
         window: &Window,
         beside: Beside,
     ) -> CheckResult {
