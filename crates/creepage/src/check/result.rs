@@ -4,9 +4,9 @@ use crate::check::limits::{Limit, MethodKind};
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::surface::body_name;
-use output::known;
 use output::layout::Pairing;
 use output::summary;
+use output::{Aliased, by_all_names, known};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -33,10 +33,10 @@ pub struct CheckResult {
     /// The kind of method that the limits are for.
     pub limits_for: MethodKind,
     /// The limit of each measure; none where it has none.
-    #[serde(deserialize_with = "known")]
+    #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
     pub limits: BTreeMap<Measure, Option<Limit>>,
     /// The measures.
-    #[serde(deserialize_with = "known")]
+    #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
     pub metrics: BTreeMap<Measure, Metric>,
     /// Which slip velocity a traction is paired with.
     pub pairing: PairingUsed,
@@ -198,7 +198,7 @@ pub struct Place {
     pub time: f64,
     /// The value there; none where it is infinite.
     pub value: Option<f64>,
-    /// The coefficient that the algorithm used there, of `mu_error` and `mu_error_blurred`.
+    /// The coefficient that the algorithm used there, of `mu_error` and `mu_error_uncertain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mu_used: Option<f64>,
     /// The coefficient of the law there.
@@ -237,7 +237,7 @@ pub struct Statistics {
     /// The value of the measure.
     pub value: Option<f64>,
     /// Further statistics.
-    #[serde(flatten, deserialize_with = "known")]
+    #[serde(flatten, serialize_with = "by_all_names", deserialize_with = "known")]
     pub more: BTreeMap<Detail, Option<f64>>,
 }
 
@@ -255,8 +255,9 @@ pub enum Detail {
     P95,
     /// Largest value.
     Max,
-    /// Root mean square where the algorithm lets slip.
-    RmsWhereLetSlip,
+    /// Root mean square where the algorithm's state is slip.
+    #[serde(alias = "rms_where_let_slip")]
+    RmsSlipState,
     /// Energy exchanged in slip (J).
     Energy,
     /// Standard deviation over time of p_f/p_n (dimensionless).
@@ -274,11 +275,32 @@ pub enum Detail {
     /// That of the law there.
     MuLawWorst,
     /// Median of the relative interval in which the law's coefficient is known to lie.
-    BlurMedian,
+    #[serde(alias = "blur_median")]
+    UncertaintyMedian,
     /// Its root mean square.
-    BlurRms,
+    #[serde(alias = "blur_rms")]
+    UncertaintyRms,
     /// 95 % of it is below.
-    BlurP95,
+    #[serde(alias = "blur_p95")]
+    UncertaintyP95,
+}
+
+impl Aliased for Detail {
+    fn aliases(&self) -> &'static [&'static str] {
+        match self {
+            Self::RmsSlipState => &["rms_where_let_slip"],
+            Self::UncertaintyMedian => &["blur_median"],
+            Self::UncertaintyRms => &["blur_rms"],
+            Self::UncertaintyP95 => &["blur_p95"],
+            _ => &[],
+        }
+    }
+}
+
+impl Aliased for Measure {
+    fn aliases(&self) -> &'static [&'static str] {
+        self.definition().aliases
+    }
 }
 
 /// Which slip velocity a traction is paired with in time.
@@ -356,6 +378,8 @@ pub struct LawFollowed {
     /// To round-off.
     pub known: Option<f64>,
     /// To an interval.
+    pub uncertain: Option<f64>,
+    /// The same, by another name.
     pub blurred: Option<f64>,
     /// Not at all.
     pub unknown: Option<f64>,
@@ -551,6 +575,25 @@ mod tests {
         let rms =
             result.metrics[&Measure::Penetration].detail(View::Bar, Pairing::Before, Detail::Rms);
         assert_eq!(rms, Some(2.0));
+    }
+
+    #[test]
+    fn a_measure_reads_by_its_alias_and_stands_in_the_document_by_both_names() {
+        let written = r#"{ "metrics": { "direction_let_slip": { "value": 2.5, "sides": { "bar": {
+            "before": { "value": 2.5, "blur_rms": 2.0 } } } } } }"#;
+        let result: CheckResult = serde_json::from_str(written).unwrap();
+        let metric = &result.metrics[&Measure::DirectionSlipState];
+        let rms = metric.detail(View::Bar, Pairing::Before, Detail::UncertaintyRms);
+        assert_eq!((metric.value, rms), (Some(2.5), Some(2.0)));
+        let document = serde_json::to_value(&result).unwrap();
+        let metrics = &document["metrics"];
+        assert_eq!(metrics["direction_slip_state"], metrics["direction_let_slip"]);
+        let statistics = &metrics["direction_slip_state"]["sides"]["bar"]["before"];
+        assert_eq!(
+            (&statistics["blur_rms"], &statistics["uncertainty_rms"]),
+            (&2.0.into(), &2.0.into())
+        );
+        assert_eq!(serde_json::from_value::<CheckResult>(document).unwrap(), result);
     }
 
     #[test]

@@ -6,8 +6,8 @@ use std::path::Path;
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::result::{CheckResult, SlipQuantity};
-use output::known;
 use output::summary::{Mean, Status, Summary};
+use output::{by_all_names, known};
 use serde::{Deserialize, Serialize};
 
 /// Values of swept keys, by dotted path, as a case file has them.
@@ -178,7 +178,7 @@ pub struct PointHalves {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointCheck {
     /// Of the measures.
-    #[serde(deserialize_with = "known")]
+    #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
     pub metrics: BTreeMap<Measure, MeanValue>,
     /// Of the patch.
     #[serde(deserialize_with = "known")]
