@@ -1,4 +1,5 @@
 use crate::OutputError;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::Error as KeyError;
 use serde::de::{IgnoredAny, IntoDeserializer, MapAccess, Visitor};
 use serde::ser::SerializeMap;
@@ -50,6 +51,12 @@ where
     V: Deserialize<'de>,
 {
     from.deserialize_map(Known(PhantomData))
+}
+
+/// The schema of a map whose keys are words of a type.
+pub fn keyed<K: JsonSchema, V: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
+    let (keys, values) = (generator.subschema_for::<K>(), generator.subschema_for::<V>());
+    json_schema!({ "type": "object", "propertyNames": keys, "additionalProperties": values })
 }
 
 /// A key of a map with more than one name.

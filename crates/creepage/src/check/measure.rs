@@ -1,6 +1,7 @@
 //! The measures of the contact conditions, each declared once: name, unit, statistic, definition, limits.
 
 use crate::check::limits::Limit;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -29,7 +30,7 @@ pub struct Definition {
 macro_rules! measures {
     ($($Measure:ident $name:literal $(alias $alias:literal)? ($units:literal, $statistic:literal, $about:literal, $exact:expr, $penalty:expr))*) => {
         /// A measure of the contact conditions; `docs/checks.md` defines each.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize)]
         pub enum Measure {
             $(#[doc = concat!($about, " (", $units, ", ", $statistic, ")")] #[serde(rename = $name $(, alias = $alias)?)] $Measure,)*
         }

@@ -6,14 +6,15 @@ use crate::check::patch_series::PatchMeasure;
 use crate::check::surface::body_name;
 use output::layout::Pairing;
 use output::summary;
-use output::{Aliased, by_all_names, known};
+use output::{Aliased, by_all_names, keyed, known};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// What a check found; `docs/checks.md` describes it. Numbers in SI units unless an entry says otherwise. What a file of
 /// another version lacks has its default.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CheckResult {
     /// Name of the run's case, else of its folder.
@@ -34,9 +35,11 @@ pub struct CheckResult {
     pub limits_for: MethodKind,
     /// The limit of each measure; none where it has none.
     #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Measure, Option<Limit>>")]
     pub limits: BTreeMap<Measure, Option<Limit>>,
     /// The measures.
     #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Measure, Metric>")]
     pub metrics: BTreeMap<Measure, Metric>,
     /// Which slip velocity a traction is paired with.
     pub pairing: PairingUsed,
@@ -50,6 +53,7 @@ pub struct CheckResult {
     pub tolerances: Tolerances,
     /// Means of the patch.
     #[serde(deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<PatchMeasure, PatchMean>")]
     pub patch: BTreeMap<PatchMeasure, PatchMean>,
     /// Slip that alternates from node to node.
     pub mesh_mode: MeshModeFound,
@@ -60,7 +64,9 @@ pub struct CheckResult {
 }
 
 /// A part of the interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum View {
     /// The nodes of the disk with the slip velocity recorded for them.
@@ -104,7 +110,7 @@ impl fmt::Display for View {
 }
 
 /// A measure of the contact conditions over the window.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Metric {
     /// Its value; none where it could not be measured, or is infinite.
@@ -184,7 +190,7 @@ impl Metric {
 }
 
 /// Where and when a measure is worst.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Place {
     /// The part of the interface.
     pub side: View,
@@ -207,7 +213,7 @@ pub struct Place {
 }
 
 /// The statistics of a measure on all parts of the interface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Sides {
     /// Switches per node and microsecond.
@@ -222,7 +228,7 @@ pub enum Sides {
 }
 
 /// The statistics of a measure on a part of the interface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum OnView {
     /// In either pairing.
@@ -232,17 +238,20 @@ pub enum OnView {
 }
 
 /// A value with further statistics.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Statistics {
     /// The value of the measure.
     pub value: Option<f64>,
     /// Further statistics.
     #[serde(flatten, serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Detail, Option<f64>>")]
     pub more: BTreeMap<Detail, Option<f64>>,
 }
 
 /// A statistic beside the value of a measure, in the unit of the measure unless it says otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Detail {
     /// Weighted mean.
@@ -304,7 +313,7 @@ impl Aliased for Measure {
 }
 
 /// Which slip velocity a traction is paired with in time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PairingUsed {
     /// The pairing that the values are of.
@@ -320,7 +329,7 @@ pub struct PairingUsed {
 }
 
 /// The pairing that the values of a check are of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reported {
     /// With the slip velocity of the step before.
@@ -353,7 +362,7 @@ impl From<Pairing> for Reported {
 }
 
 /// The friction law of a check.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LawUsed {
     /// Its word, of Coulomb's law and of those of the form of Eq. (8).
@@ -372,7 +381,7 @@ pub struct LawUsed {
 }
 
 /// Shares of contact area and time on which the law's coefficient is known.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LawFollowed {
     /// To round-off.
@@ -388,7 +397,7 @@ pub struct LawFollowed {
 }
 
 /// A scale of the measures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ScaleUsed {
     /// Its value.
     pub value: f64,
@@ -401,7 +410,7 @@ pub struct ScaleUsed {
 }
 
 /// Tolerances of the conditions at a node.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Tolerances {
     /// Pressure over p0 above which a node is in contact.
@@ -415,7 +424,7 @@ pub struct Tolerances {
 }
 
 /// A mean of the patch over the window.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PatchMean {
     /// The mean; none where no record has a value.
@@ -436,7 +445,7 @@ pub struct PatchMean {
 }
 
 /// Slip that alternates from node to node, and where it was measured.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MeshModeFound {
     /// What was found.
@@ -447,7 +456,7 @@ pub struct MeshModeFound {
 }
 
 /// Statistics of slip over the slip zone, or why there are none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SlipZoneFound {
     /// Why there are none.
@@ -460,10 +469,11 @@ pub enum SlipZoneFound {
 }
 
 /// Statistics of slip over the slip zone; docs/checks.md defines them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SlipZoneMeasured {
     /// The statistics.
     #[serde(flatten, deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<SlipQuantity, SlipStatistic>")]
     pub statistics: BTreeMap<SlipQuantity, SlipStatistic>,
     /// Rear end of the zone (m).
     #[serde(default)]
@@ -474,7 +484,9 @@ pub struct SlipZoneMeasured {
 }
 
 /// A statistic of slip over the slip zone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum SlipQuantity {
     /// Mean slip speed.
@@ -514,7 +526,7 @@ impl SlipQuantity {
 }
 
 /// The value of a statistic of slip.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SlipStatistic {
     /// Its value; none where the records do not resolve it.
