@@ -394,12 +394,12 @@ class Run:
         options["limits"] = [(name, float(value)) for name, value in (limits or {}).items()]
         document = execute(_creepage.check, options)[0]
         if strict and not document["pass"]:
-            broken = {}
+            broken = {}  # by their definitions, which aliases share
             for name, metric in document["metrics"].items():
-                known = metric["value"] is not None
-                text = f" = {metric['value']} (limit {metric['limit']})" if known else f" ({metric.get('note', 'not known')})"
                 if metric.get("pass") is False:
-                    broken.setdefault(metric["about"], name + text)  # an alias has the same definition
+                    value, note = metric["value"], metric.get("note", "not known")
+                    text = f"{name} ({note})" if value is None else f"{name} = {value} (limit {metric['limit']})"
+                    broken.setdefault(metric["about"], text)
             raise LimitError("beyond a limit: " + ", ".join(broken.values()), run=self)
         return document
 
